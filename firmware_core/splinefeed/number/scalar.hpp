@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+//
+// The numbers a controller can be built with - double, float or Fixed - behind one set of functions. An algorithm
+// written as a template over Scalar uses these, + - * / and comparisons, and nothing else.
+#pragma once
+
+#include "splinefeed/number/fixed.hpp"
+#include "splinefeed/number/floating.hpp"
+
+namespace splinefeed {
+
+template <class S>
+concept Scalar = Floating<S> || std::same_as<S, Fixed>;
+
+/// The largest number of S. For float and double it is far below the accuracy of anything it is compared with.
+template <Scalar S>
+[[nodiscard]] constexpr S largest() noexcept {
+    if constexpr (std::same_as<S, Fixed>) {
+        return Fixed::max();
+    } else {
+        return std::numeric_limits<S>::max();
+    }
+}
+
+// ---- square roots
+
+/// sqrt(x) for x >= 0, correctly rounded: error <= 1/2 ulp. Cost: one instruction, or about ten multiplies and a divide
+/// where the processor has none.
+template <Floating S>
+[[nodiscard]] constexpr S square_root(S x) noexcept {
+    SPLINEFEED_ASSERT(x >= S{0});
+    return detail::hardware_square_root(x);
+}
+
+/// sqrt(x) for x >= 0, correctly rounded: error <= 1/2 ulp; zero for x < 0. Cost: ten multiplies, one 64/32 divide.
+[[nodiscard]] constexpr Fixed square_root(Fixed x) noexcept {
+    SPLINEFEED_ASSERT(x.raw() >= 0);
+    if (x.raw() <= 0) {
+        return Fixed{};
+    }
+    // sqrt(raw / 2^32) = sqrt(raw * 2^32) / 2^32, and the root of 95 bits has 48.
+    const auto raw = static_cast<std::uint64_t>(x.raw());
+    return Fixed::from_raw(static_cast<std::int64_t>(square_root_rounded(Wide{raw >> 32, raw << 32})));
+}
+
+/// 1/sqrt(x) for x > 0: error < 3/2 ulp. Half an ulp of a root just above 1 is a whole one of its reciprocal just below
+/// 1, and the division adds one half.
+template <Floating S>
+[[nodiscard]] constexpr S reciprocal_square_root(S x) noexcept {
+    SPLINEFEED_ASSERT(x > S{0});
+    return S{1} / square_root(x);
+}
+
+/// 1/sqrt(x) for x > 0, correctly rounded: error <= 1/2 ulp. The result is at most 2^16 and never saturates, except
+/// that x <= 0 gives the largest number. Cost: a square root and up to four divides.
+[[nodiscard]] constexpr Fixed reciprocal_square_root(Fixed x) noexcept {
+    SPLINEFEED_ASSERT(x.raw() > 0);
+    if (x.raw() <= 0) {
+        return Fixed::max();
+    }
+    // The result is r = 2^48/sqrt(raw). floor(2r) = floor(sqrt(2^98/raw)) = floor(sqrt(floor(2^98/raw))), and adding
+    // one before halving rounds it.
+    const auto raw = static_cast<std::uint64_t>(x.raw());
+    const std::uint64_t upper = (std::uint64_t{1} << 34) / raw;
+    const std::uint64_t rest = (std::uint64_t{1} << 34) - upper * raw;
+    const std::uint64_t twice = square_root(Wide{upper, divide(Wide{rest, 0U}, raw).quotient});
+    return Fixed::from_raw(static_cast<std::int64_t>((twice + 1U) >> 1));
+}
+
+/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6. With components that are zero or between 2^-50 and 2^50 in
+/// magnitude the error is at most (n+1)/2 ulp, n/2 of it from summing the squares.
+template <Floating S>
+[[nodiscard]] constexpr S norm(const S* v, int n) noexcept {
+    SPLINEFEED_ASSERT(n >= 0 && n <= 6);
+    S sum{0};
+    for (int i = 0; i < n; ++i) {
+        sum += v[i] * v[i];
+    }
+    return square_root(sum);
+}
+
+/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6, |v[i]| < 2^30. The sum of squares is exact and the root rounded
+/// once: error <= 1/2 ulp. A length of 2^31 or more, possible from n = 5 on, gives the largest number. Cost: four
+/// multiplies per component and a square root.
+[[nodiscard]] constexpr Fixed norm(const Fixed* v, int n) noexcept {
+    SPLINEFEED_ASSERT(n >= 0 && n <= 6);
+    Wide sum{};
+    for (int i = 0; i < n; ++i) {
+        const std::uint64_t size = detail::magnitude(v[i].raw());
+        SPLINEFEED_ASSERT((size >> 62) == 0);
+        sum = add(sum, multiply(size, size)); // six squares below 2^124 stay below 2^127
+    }
+    return Fixed::from_raw(detail::with_sign(square_root_rounded(sum), false).raw);
+}
+
+// ---- exact operations and comparisons
+
+/// x * 2^exponent for |exponent| <= 100. Exact unless the result is too small or too large for a normal number.
+template <Floating S>
+[[nodiscard]] constexpr S scale2(S x, int exponent) noexcept {
+    SPLINEFEED_ASSERT(exponent >= -100 && exponent <= 100);
+    return x * detail::power_of_two<S>(exponent);
+}
+
+/// x * 2^exponent rounded to nearest, ties away from zero: error <= 1/2 ulp. Saturates. Any exponent.
+[[nodiscard]] constexpr Fixed scale2(Fixed x, int exponent) noexcept {
+    return Fixed::from_raw(detail::checked_shift(x.raw(), exponent).raw);
+}
+
+/// |x|, exact. Fixed::lowest() has no counterpart and overflows to the largest number.
+template <Scalar S>
+[[nodiscard]] constexpr S absolute(S x) noexcept {
+    return x < S{} ? -x : x;
+}
+
+/// The smaller of two numbers.
+template <Scalar S>
+[[nodiscard]] constexpr S smaller(S a, S b) noexcept {
+    return b < a ? b : a;
+}
+
+/// The larger of two numbers.
+template <Scalar S>
+[[nodiscard]] constexpr S larger(S a, S b) noexcept {
+    return a < b ? b : a;
+}
+
+/// a / b for a >= 0 and b >= 0, or the largest number if b is zero or the quotient does not fit. Error <= 1/2 ulp,
+/// except that a quotient within 1 ulp of the largest number may become it.
+template <Floating S>
+[[nodiscard]] constexpr S quotient_or_max(S a, S b) noexcept {
+    SPLINEFEED_ASSERT(a >= S{0} && b >= S{0});
+    // Not left to infinity: a division that overflows is not a constant expression, and 0/0 would be NaN. For b >= 1
+    // nothing overflows; for b < 1 the product does not, nor does rounding it matter at this size.
+    if (b < S{1} && a >= b * largest<S>()) {
+        return largest<S>();
+    }
+    return a / b;
+}
+
+/// a / b for a >= 0 and b >= 0, or the largest number if b is zero or the quotient does not fit. Error <= 1/2 ulp.
+[[nodiscard]] constexpr Fixed quotient_or_max(Fixed a, Fixed b) noexcept {
+    SPLINEFEED_ASSERT(a.raw() >= 0 && b.raw() >= 0);
+    return Fixed::from_raw(detail::checked_quotient(a.raw(), b.raw()).raw);
+}
+
+// ---- conversions
+
+/// A whole number. Exact; in float from 2^24 on rounded to nearest.
+template <Scalar S>
+[[nodiscard]] constexpr S from_integer(std::int32_t value) noexcept {
+    return static_cast<S>(value);
+}
+
+/// The nearest number of S, for the host: on a target it would pull in double arithmetic. The value must be in the
+/// range of S.
+template <Scalar S>
+[[nodiscard]] constexpr S from_double(double value) noexcept {
+    if constexpr (std::same_as<S, Fixed>) {
+        return Fixed::from_double(value);
+    } else {
+        return static_cast<S>(value);
+    }
+}
+
+/// The value as a double, for the host. Exact; for Fixed from 2^21 on rounded to nearest.
+template <Scalar S>
+[[nodiscard]] constexpr double to_double(S value) noexcept {
+    if constexpr (std::same_as<S, Fixed>) {
+        return value.to_double();
+    } else {
+        return static_cast<double>(value);
+    }
+}
+
+/// The number of S nearest to a constant, computed by the compiler: literal<S>(0.25).
+template <Scalar S>
+[[nodiscard]] consteval S literal(double value) noexcept {
+    return from_double<S>(value);
+}
+
+/// "double", "float" or "fixed".
+template <Scalar S>
+[[nodiscard]] constexpr const char* scalar_name() noexcept {
+    return std::same_as<S, double> ? "double" : std::same_as<S, float> ? "float" : "fixed";
+}
+
+} // namespace splinefeed

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// Unsigned 128 bit integers for the products and quotients of 64 bit numbers. Built from 32x32->64 multiplies and
+// 64/64 divides only, because neither __int128 nor a 64x64->128 multiply exists on the 32 bit targets.
+#pragma once
+
+#include "splinefeed/base/assertion.hpp"
+
+#include <bit>
+#include <compare>
+#include <cstdint>
+
+namespace splinefeed {
+
+/// The number high * 2^64 + low. Plain data; the member order makes the default comparison the numeric one.
+struct Wide {
+    std::uint64_t high = 0;
+    std::uint64_t low = 0;
+
+    friend constexpr bool operator==(const Wide&, const Wide&) noexcept = default;
+    friend constexpr auto operator<=>(const Wide&, const Wide&) noexcept = default;
+};
+
+/// Quotient and remainder of `divide`: numerator = quotient * denominator + remainder, remainder < denominator.
+struct WideQuotient {
+    std::uint64_t quotient = 0;
+    std::uint64_t remainder = 0;
+};
+
+namespace detail {
+
+inline constexpr std::uint64_t low_half = 0xffffffffU;
+
+} // namespace detail
+
+/// a * b, exact. Cost: four 32x32->64 multiplies.
+[[nodiscard]] constexpr Wide multiply(std::uint64_t a, std::uint64_t b) noexcept {
+    const std::uint64_t a0 = a & detail::low_half;
+    const std::uint64_t a1 = a >> 32;
+    const std::uint64_t b0 = b & detail::low_half;
+    const std::uint64_t b1 = b >> 32;
+    // A digit product is at most (2^32-1)^2 = 2^64 - 2^33 + 1, so that two more digits can be added without a carry.
+    const std::uint64_t bottom = a0 * b0;
+    const std::uint64_t middle = a1 * b0 + (bottom >> 32);
+    const std::uint64_t cross = a0 * b1 + (middle & detail::low_half);
+    return {a1 * b1 + (middle >> 32) + (cross >> 32), (cross << 32) | (bottom & detail::low_half)};
+}
+
+/// a + b modulo 2^128.
+[[nodiscard]] constexpr Wide add(Wide a, Wide b) noexcept {
+    const std::uint64_t low = a.low + b.low;
+    return {a.high + b.high + (low < a.low ? 1U : 0U), low};
+}
+
+/// a - b modulo 2^128.
+[[nodiscard]] constexpr Wide subtract(Wide a, Wide b) noexcept {
+    return {a.high - b.high - (a.low < b.low ? 1U : 0U), a.low - b.low};
+}
+
+/// a * 2^count modulo 2^128, 0 <= count; zero from 128 on.
+[[nodiscard]] constexpr Wide shift_left(Wide a, int count) noexcept {
+    SPLINEFEED_ASSERT(count >= 0);
+    if (count <= 0) {
+        return a;
+    }
+    if (count < 64) {
+        return {(a.high << count) | (a.low >> (64 - count)), a.low << count};
+    }
+    return {count < 128 ? a.low << (count - 64) : 0U, 0U};
+}
+
+/// floor(a / 2^count), 0 <= count; zero from 128 on.
+[[nodiscard]] constexpr Wide shift_right(Wide a, int count) noexcept {
+    SPLINEFEED_ASSERT(count >= 0);
+    if (count <= 0) {
+        return a;
+    }
+    if (count < 64) {
+        return {a.high >> count, (a.low >> count) | (a.high << (64 - count))};
+    }
+    return {0U, count < 128 ? a.high >> (count - 64) : 0U};
+}
+
+/// Number of zero bits above the highest one bit: 0 ... 128.
+[[nodiscard]] constexpr int leading_zeros(Wide a) noexcept {
+    return a.high != 0 ? std::countl_zero(a.high) : 64 + std::countl_zero(a.low);
+}
+
+namespace detail {
+
+/// One digit of Knuth's algorithm D: (remainder * 2^32 + digit) / denominator with a normalised denominator
+/// (top bit set) and remainder < denominator. Returns the 32 bit quotient digit, leaves the new remainder.
+constexpr std::uint64_t divide_digit(std::uint64_t& remainder, std::uint64_t digit,
+                                     std::uint64_t denominator) noexcept {
+    const std::uint64_t top = denominator >> 32;
+    const std::uint64_t bottom = denominator & low_half;
+    std::uint64_t quotient = remainder / top;
+    std::uint64_t rest = remainder - quotient * top;
+    // The estimate from the leading digit alone is never too small and, the denominator being normalised, at most 2
+    // too large. `rest` beyond 32 bits means that the estimate is right: the comparison could only be false.
+    while (quotient > low_half || quotient * bottom > ((rest << 32) | digit)) {
+        --quotient;
+        rest += top;
+        if (rest > low_half) {
+            break;
+        }
+    }
+    // The exact result is below 2^64, so that the wrapped intermediate values do not matter.
+    remainder = ((remainder << 32) | digit) - quotient * denominator;
+    return quotient;
+}
+
+} // namespace detail
+
+/// numerator / denominator with remainder. Precondition numerator.high < denominator, which makes the quotient fit in
+/// 64 bits; otherwise all bits of the quotient are set and the remainder is zero. Cost: one 64 bit divide if the
+/// numerator has 64 bits, else two 64/32 divides and four multiplies.
+[[nodiscard]] constexpr WideQuotient divide(Wide numerator, std::uint64_t denominator) noexcept {
+    SPLINEFEED_ASSERT(numerator.high < denominator);
+    if (numerator.high >= denominator) {
+        return {~std::uint64_t{0}, 0U};
+    }
+    if (numerator.high == 0) {
+        const std::uint64_t quotient = numerator.low / denominator;
+        return {quotient, numerator.low - quotient * denominator};
+    }
+    const int shift = std::countl_zero(denominator);
+    const std::uint64_t normalised = denominator << shift;
+    const Wide shifted = shift_left(numerator, shift);
+    std::uint64_t remainder = shifted.high;
+    const std::uint64_t upper = detail::divide_digit(remainder, shifted.low >> 32, normalised);
+    const std::uint64_t lower = detail::divide_digit(remainder, shifted.low & detail::low_half, normalised);
+    return {(upper << 32) | lower, remainder >> shift};
+}
+
+} // namespace splinefeed
