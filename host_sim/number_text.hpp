@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// number_text: a decimal number, whole text or nothing: +1.5, -12, .5, 3e-2; never nan, inf, hexadecimal.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace splinefeed::host {
+
+enum class NumberText { number, not_a_number, not_finite, out_of_range };
+
+/// Reads the whole text into `out`, correctly rounded, whatever the locale.
+[[nodiscard]] inline NumberText read_number(std::string_view text, double& out) noexcept {
+    const char* first = text.data();
+    const char* const last = text.data() + text.size();
+    if (first != last && *first == '+') {
+        ++first;
+        if (first != last && (*first == '+' || *first == '-')) {
+            return NumberText::not_a_number;
+        }
+    }
+    const auto [end, error] = std::from_chars(first, last, out);
+    if (end != last || error == std::errc::invalid_argument) {
+        return NumberText::not_a_number;
+    }
+    if (error != std::errc{}) {
+        return NumberText::out_of_range;
+    }
+    return std::isfinite(out) ? NumberText::number : NumberText::not_finite;
+}
+
+/// What to tell about a text that is no number; the text goes before it.
+[[nodiscard]] constexpr const char* why_no_number(NumberText result) noexcept {
+    switch (result) {
+    case NumberText::not_finite: return "is not finite; every number must be";
+    case NumberText::out_of_range: return "is out of the range of a number";
+    case NumberText::number:
+    case NumberText::not_a_number: break;
+    }
+    return "is not a number; write it like -12.5 or 3e-2";
+}
+
+} // namespace splinefeed::host

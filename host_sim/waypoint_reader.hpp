@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// WaypointReader: reads a waypoint file row by row, as the bytes come.
+#pragma once
+
+#include "splinefeed/s1_curve/waypoint.hpp"
+
+#include <array>
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// One row of a waypoint file, in mm and mm/s.
+struct WaypointRow {
+    PerAxis<double> position{}; ///< axes without a column stay 0
+    double feed_mm_s = 0.0;     ///< 0: the machine's
+    Corner corner = Corner::automatic;
+    std::uint64_t line = 0;
+};
+
+/// Constant memory; never waits for more than the end of the current line. Every method throws InputError.
+///
+///     x,y,feed        <- a header names the columns, in any order and case, or
+///     0,0,50          <- without one they are x,y[,z[,a,b,c]]
+///     # a comment; blank lines are skipped
+class WaypointReader {
+public:
+    static constexpr std::size_t longest_line = 4096; ///< bytes
+
+    /// Reads up to the first row.
+    /// @param file  the name for messages
+    /// @param axes  the machine's axes, each one of x,y,z,a,b,c
+    WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes);
+
+    /// Reads the next row; false at the end of the file.
+    bool next(WaypointRow& out);
+
+    /// Which of the axes the file has columns for, in the order of the axes.
+    [[nodiscard]] const std::vector<std::string>& axes_in_file() const noexcept { return axes_in_file_; }
+    [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
+
+private:
+    static constexpr int feed_column = -1;
+    static constexpr int corner_column = -2;
+
+    bool fill();
+    bool next_line(std::string_view& line);
+    bool next_content(std::string_view& line);
+    void read_header(std::string_view line);
+    void assume_columns(std::string_view line);
+    [[nodiscard]] bool is_header(std::string_view line) const;
+    void parse(std::string_view line, WaypointRow& row) const;
+    void parse_field(std::string_view field, int column, WaypointRow& row) const;
+    void check_move(const WaypointRow& row) const;
+    [[nodiscard]] std::string column_name(int column) const;
+    [[nodiscard]] int axis_index(std::string_view name) const;
+    [[noreturn]] void fail(std::string_view text) const;
+
+    std::streambuf* source_;
+    std::string file_;
+    std::vector<std::string> axes_;
+    std::vector<std::string> axes_in_file_;
+    std::vector<int> columns_; // axis index, feed_column or corner_column
+    std::vector<char> buffer_;
+    std::size_t begin_ = 0;
+    std::size_t end_ = 0;
+    std::uint64_t line_ = 0;
+    std::uint64_t rows_ = 0;
+    WaypointRow last_{};
+    bool pending_ = false; // the first row, read by the constructor
+    bool ended_ = false;
+};
+
+} // namespace splinefeed::host
