@@ -5,6 +5,8 @@
 
 #include "random_operands.hpp"
 
+#include <type_traits>
+
 using namespace splinefeed;
 using namespace splinefeed_test;
 

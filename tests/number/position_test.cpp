@@ -5,6 +5,9 @@
 
 #include "random_operands.hpp"
 
+#include <algorithm>
+#include <concepts>
+
 using namespace splinefeed;
 using namespace splinefeed_test;
 
@@ -117,8 +120,11 @@ TEMPLATE_TEST_CASE("displacements by float and double are rounded once", "[numbe
             }
         }
     }
-    REQUIRE(displaced(Position{-1}, Limits::infinity(), 0).raw == highest - 1);
-    REQUIRE(displaced(Position{}, -Limits::infinity(), 0).raw == lowest);
+    for (const int unit : {-60, 0, 60}) {
+        REQUIRE(displaced(Position{-1}, Limits::infinity(), unit).raw == highest - 1);
+        REQUIRE(displaced(Position{}, -Limits::infinity(), unit).raw == lowest);
+        REQUIRE(displaced(Position{}, Limits::quiet_NaN(), unit).raw == highest);
+    }
 }
 
 TEST_CASE("displacements by Fixed are rounded shifts", "[number][position]") {

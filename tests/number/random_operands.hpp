@@ -45,9 +45,7 @@ public:
         return value;
     }
 
-    std::int64_t signed64() {
-        return static_cast<std::int64_t>(unsigned64()) >> (generator_() & 1U);
-    }
+    std::int64_t signed64() { return static_cast<std::int64_t>(unsigned64()) >> (generator_() & 1U); }
 
     /// Both signs, at most `bits` bits.
     std::int64_t signed_below(int bits) {
@@ -67,9 +65,7 @@ public:
         return (generator_() & 1U) != 0 ? -size : size;
     }
 
-    std::uint64_t bits() {
-        return generator_();
-    }
+    std::uint64_t bits() { return generator_(); }
 
 private:
     std::mt19937_64 generator_{seed};

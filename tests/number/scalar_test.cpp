@@ -5,6 +5,7 @@
 
 #include "random_operands.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>

@@ -54,8 +54,7 @@ public:
     constexpr Fixed() noexcept = default;
 
     /// A whole number, exact for every argument.
-    constexpr explicit Fixed(std::int32_t value) noexcept : raw_{value * (std::int64_t{1} << 32)} {
-    }
+    constexpr explicit Fixed(std::int32_t value) noexcept : raw_{value * (std::int64_t{1} << 32)} {}
 
     /// Fixed(1.5) would silently be 1; from_double says what is meant.
     explicit Fixed(std::floating_point auto) = delete;
@@ -66,14 +65,10 @@ public:
         return result;
     }
 
-    [[nodiscard]] constexpr std::int64_t raw() const noexcept {
-        return raw_;
-    }
+    [[nodiscard]] constexpr std::int64_t raw() const noexcept { return raw_; }
 
     /// 2^31 - 2^-32.
-    [[nodiscard]] static constexpr Fixed max() noexcept {
-        return from_raw(std::numeric_limits<std::int64_t>::max());
-    }
+    [[nodiscard]] static constexpr Fixed max() noexcept { return from_raw(std::numeric_limits<std::int64_t>::max()); }
 
     /// -2^31. It has no positive counterpart: its negation overflows.
     [[nodiscard]] static constexpr Fixed lowest() noexcept {
@@ -81,9 +76,7 @@ public:
     }
 
     /// 2^-32, the distance of neighbouring numbers.
-    [[nodiscard]] static constexpr Fixed resolution() noexcept {
-        return from_raw(1);
-    }
+    [[nodiscard]] static constexpr Fixed resolution() noexcept { return from_raw(1); }
 
     /// Whether the value is in the range of Fixed; false for NaN.
     [[nodiscard]] static constexpr bool representable(double value) noexcept {
@@ -108,13 +101,9 @@ public:
         return static_cast<double>(raw_) * (1.0 / 4294967296.0);
     }
 
-    [[nodiscard]] constexpr Fixed operator+() const noexcept {
-        return *this;
-    }
+    [[nodiscard]] constexpr Fixed operator+() const noexcept { return *this; }
 
-    [[nodiscard]] constexpr Fixed operator-() const noexcept {
-        return asserted(detail::checked_difference(0, raw_));
-    }
+    [[nodiscard]] constexpr Fixed operator-() const noexcept { return asserted(detail::checked_difference(0, raw_)); }
 
     [[nodiscard]] friend constexpr Fixed operator+(Fixed a, Fixed b) noexcept {
         return asserted(detail::checked_sum(a.raw_, b.raw_));
@@ -134,21 +123,13 @@ public:
         return asserted(detail::checked_quotient(a.raw_, b.raw_));
     }
 
-    constexpr Fixed& operator+=(Fixed other) noexcept {
-        return *this = *this + other;
-    }
+    constexpr Fixed& operator+=(Fixed other) noexcept { return *this = *this + other; }
 
-    constexpr Fixed& operator-=(Fixed other) noexcept {
-        return *this = *this - other;
-    }
+    constexpr Fixed& operator-=(Fixed other) noexcept { return *this = *this - other; }
 
-    constexpr Fixed& operator*=(Fixed other) noexcept {
-        return *this = *this * other;
-    }
+    constexpr Fixed& operator*=(Fixed other) noexcept { return *this = *this * other; }
 
-    constexpr Fixed& operator/=(Fixed other) noexcept {
-        return *this = *this / other;
-    }
+    constexpr Fixed& operator/=(Fixed other) noexcept { return *this = *this / other; }
 
     friend constexpr bool operator==(const Fixed&, const Fixed&) noexcept = default;
     friend constexpr auto operator<=>(const Fixed&, const Fixed&) noexcept = default;

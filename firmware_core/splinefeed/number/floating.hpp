@@ -60,13 +60,12 @@ template <Floating S>
     return std::bit_cast<S>(static_cast<Bits>(static_cast<Bits>(exponent + Layout::bias) << Layout::fraction_bits));
 }
 
-/// value * 2^exponent rounded to the nearest integer, ties away from zero; an infinity or NaN does not fit.
+/// value * 2^exponent rounded to the nearest integer, ties away from zero. For exponent >= -64 an infinity or NaN does
+/// not fit: their bits, read as a number, are 2^128 at least.
 template <Floating S>
 [[nodiscard]] constexpr Checked checked_integer(S value, int exponent) noexcept {
+    SPLINEFEED_ASSERT(exponent >= -64);
     const Decomposed parts = decompose(value);
-    if (!parts.finite) [[unlikely]] {
-        return saturated(parts.negative);
-    }
     return with_sign(shift_rounded(parts.significand, parts.exponent + exponent), parts.negative);
 }
 

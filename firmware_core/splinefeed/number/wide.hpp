@@ -97,8 +97,9 @@ constexpr std::uint64_t divide_digit(std::uint64_t& remainder, std::uint64_t dig
     std::uint64_t quotient = remainder / top;
     std::uint64_t rest = remainder - quotient * top;
     // The estimate from the leading digit alone is never too small and, the denominator being normalised, at most 2
-    // too large. `rest` beyond 32 bits means that the estimate is right: the comparison could only be false.
-    while (quotient > low_half || quotient * bottom > ((rest << 32) | digit)) {
+    // too large: 2^32 + 1 at most, so that the product below fits, (2^32+1) (2^32-1) < 2^64. `rest` beyond 32 bits
+    // means that the estimate is right: the comparison could only be false.
+    while (quotient * bottom > ((rest << 32) | digit)) {
         --quotient;
         rest += top;
         if (rest > low_half) {

@@ -32,7 +32,7 @@ inline constexpr std::array<std::uint8_t, 192> reciprocal_root_table = make_reci
 /// floor(sqrt(n)) for a normalised n >= 2^62, a root of exactly 32 bits. Cost: seven multiplies, no division.
 ///
 /// With x = n / 2^64 in [1/4, 1): y0 from the table is 1/sqrt(x) to a relative 2^-7.7, one Newton step makes that y1
-/// with 2^-14.6, one third order step on s1 = x y1 makes the root with 2^-39, far less than its last bit of 2^-32.
+/// with 2^-14.6, one third order step on s1 = x y1 makes the root with 2^-38, far less than its last bit of 2^-32.
 constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
     // Both residuals h = 1 - x y^2 are below 1/2 and computed modulo 1: the leading bits of the product, which would
     // need a wider word, are known to cancel.
@@ -41,22 +41,16 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
     // y1 = y0 + y0 h0 / 2 in Q16: y0 is Q8 with 9 bits, h0 >> 10 is Q22 with 17 bits.
     const std::int32_t step = (static_cast<std::int32_t>(y0) * (h0 >> 10)) >> 15;
     const auto y1 = static_cast<std::uint64_t>((static_cast<std::int32_t>(y0) << 8) + step);
-    const std::uint64_t s1 = (n >> 18) * y1;                                                           // Q62
-    const auto h1 = static_cast<std::int64_t>((std::uint64_t{1} << 63) - (s1 >> 15) * y1);             // Q63
-    // 1/sqrt(1 - h) = 1 + h/2 + 3 h^2/8 + ... ; what is left out, 5 h^3/16 with |h| < 2^-13.6, is below 2^-42, so that
-    // truncating two terms of s to 2^-40 is the larger error.
-    const std::int64_t h = h1 >> 23;                                                                   // Q40
-    const std::int64_t c = (h >> 1) + ((3 * h * h) >> 43);                                             // Q40
-    const std::int64_t s = static_cast<std::int64_t>(s1 >> 22) + ((static_cast<std::int64_t>(s1 >> 30) * c) >> 32);
-    std::uint64_t root = static_cast<std::uint64_t>(s) >> 8;
-    root = root > low_half ? low_half : root;
-    // The integer part can still be one off on either side of an integer; the exact square decides.
-    if (root * root > n) {
-        --root;
-    } else if (n - root * root > 2 * root) {
-        ++root;
-    }
-    return root;
+    const std::uint64_t s1 = (n >> 18) * y1;                                               // Q62
+    const auto h1 = static_cast<std::int64_t>((std::uint64_t{1} << 63) - (s1 >> 15) * y1); // Q63
+    // 1/sqrt(1 - h) = 1 + h/2 + 3 h^2/8 + ... ; what is left out, 5 h^3/16 with |h| < 2^-13.6, is below 2^-42. It makes
+    // s too large if h < 0; taking one unit of 2^-40 off makes s too small always, as the truncations do.
+    const std::int64_t h = h1 >> 23;                       // Q40
+    const std::int64_t c = (h >> 1) + ((3 * h * h) >> 43); // Q40
+    const std::int64_t s = static_cast<std::int64_t>(s1 >> 22) + ((static_cast<std::int64_t>(s1 >> 30) * c) >> 32) - 1;
+    // The integer part is right or, just above an integer, one too small; the exact square decides.
+    const std::uint64_t root = static_cast<std::uint64_t>(s) >> 8;
+    return root + (n - root * root > 2 * root ? 1U : 0U);
 }
 
 } // namespace detail
