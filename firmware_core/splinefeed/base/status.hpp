@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// How the core reports bad data: a Status where nothing is returned, a Result<T> where something is.
+// Programmers' errors are assertions (assertion.hpp); after construction the hot path cannot fail.
+#pragma once
+
+#include "splinefeed/base/assertion.hpp"
+
+#include <cstdint>
+#include <utility>
+
+namespace splinefeed {
+
+/// What was wrong with the data. `describe` gives the sentence.
+enum class Error : std::uint8_t {
+    none,
+    axes_out_of_range,
+    position_out_of_range,
+    move_too_long,
+    counts_out_of_range,
+    feed_out_of_range,
+    velocity_out_of_range,
+    acceleration_out_of_range,
+    jerk_not_supported,
+    centripetal_out_of_range,
+    chord_error_out_of_range,
+    sample_period_out_of_range,
+    period_too_short,
+    steps_out_of_range,
+    corner_angle_out_of_range,
+    tension_out_of_range,
+    tangent_out_of_range,
+    too_few_waypoints,
+    degree_out_of_range,
+    gap_in_curve,
+    window_too_small,
+};
+
+/// One sentence: what is wrong and what would be right.
+[[nodiscard]] const char* describe(Error error) noexcept;
+
+/// Success, or the reason of a refusal.
+class [[nodiscard]] Status {
+public:
+    constexpr Status() noexcept = default;
+    constexpr Status(Error error) noexcept : error_(error) {} // NOLINT(google-explicit-constructor): `return Error::x;`
+    [[nodiscard]] constexpr bool ok() const noexcept { return error_ == Error::none; }
+    [[nodiscard]] constexpr Error error() const noexcept { return error_; }
+
+private:
+    Error error_ = Error::none;
+};
+
+/// A value or the reason why there is none. Members are named as in std::expected, which C++20 lacks.
+template <class T>
+class [[nodiscard]] Result {
+public:
+    constexpr Result(T value) noexcept : value_(std::move(value)) {} // NOLINT(google-explicit-constructor)
+    constexpr Result(Error error) noexcept : error_(error) {}        // NOLINT(google-explicit-constructor)
+    [[nodiscard]] constexpr bool has_value() const noexcept { return error_ == Error::none; }
+    [[nodiscard]] constexpr Error error() const noexcept { return error_; }
+    /// @pre has_value()
+    [[nodiscard]] constexpr const T& value() const noexcept {
+        SPLINEFEED_ASSERT(has_value());
+        return value_;
+    }
+    constexpr const T& operator*() const noexcept { return value(); }
+    constexpr const T* operator->() const noexcept { return &value(); }
+
+private:
+    T value_{};
+    Error error_ = Error::none;
+};
+
+/// What a stage answers when it is asked for its next item.
+enum class Pull : std::uint8_t {
+    item,     ///< one was delivered
+    starved,  ///< none now: push more waypoints, or finish
+    finished, ///< none ever again
+};
+
+} // namespace splinefeed

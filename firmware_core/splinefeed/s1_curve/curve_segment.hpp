@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// CurveSegment: the canonical piece of every curve, a polynomial Bezier segment.
+//
+// Control points are offsets from an exact integer origin, in units of 2^unit_log2 mm chosen so that the largest offset
+// lies in [2^15, 2^16). Fixed therefore carries 47 bits below the size of the segment whatever that size is (a plain
+// Q31.32 in mm would leave 26 bits for the curvature of a 0.2 mm segment), and float its full 24.
+#pragma once
+
+#include "splinefeed/s1_curve/waypoint.hpp"
+
+namespace splinefeed {
+
+/// Chords and spline offsets are computed in units of 2^-12 mm: 131 m of range and 6e-14 mm of resolution in Fixed.
+inline constexpr int chord_unit_log2 = -12;
+
+template <Scalar S>
+struct CurveSegment {
+    int axes = 0;
+    int degree = 0;    ///< 1 to max_degree
+    int unit_log2 = 0; ///< control is in units of 2^unit_log2 mm
+    PerAxis<Position> origin{};
+    PerAxis<Position> end{};             ///< the exact target; meaningful where the machine stops at the end
+    PerAxis<PerDegree<S>> control{};     ///< control[axis][i], offset of Bezier point i from origin
+    S feed_mm_s{};                       ///< programmed feed; 0: the machine's
+    bool stop_at_end = false;            ///< the feed is zero at the end (a corner)
+    std::uint32_t waypoint = 0;          ///< index of the waypoint (or segment of a file) it leads to
+
+    /// Takes offsets in chord units (2^-12 mm) into `control`, choosing the unit. Cost: one pass.
+    /// @pre axes, degree, origin are set; |offset| < 2^30 chord units
+    void assign(const PerAxis<PerDegree<S>>& offsets) noexcept;
+
+    /// Bezier point i of an axis in mm; for files, on the host.
+    [[nodiscard]] double control_mm(int axis, int i) const noexcept {
+        const auto k = static_cast<unsigned>(axis);
+        return to_mm(origin[k]) + scale2(to_double(control[k][static_cast<unsigned>(i)]), unit_log2);
+    }
+};
+
+} // namespace splinefeed

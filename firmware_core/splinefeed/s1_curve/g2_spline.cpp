@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+//
+// Control point d_i is the blossom f(t_{i-1}, t_i, t_{i+1}) of the cubic pieces around knot i; at the clamped ends of a
+// run t_{a-1} = t_a, so d_a is the first inner Bezier point. With spans h_i = t_{i+1} - t_i (0 beyond the run):
+//
+//   before knot i:  f(t_{i-1}, t_i, t_i)   = lambda d_{i-1} + (1 - lambda) d_i,  lambda = h_i / (h_{i-2} + h_{i-1} + h_i)
+//   after knot i:   f(t_i, t_i, t_{i+1})   = (1 - mu) d_i + mu d_{i+1},          mu = h_{i-1} / (h_{i-1} + h_i + h_{i+1})
+//   at knot i:      f(t_i, t_i, t_i) = P_i = (1 - omega) before + omega after,   omega = h_{i-1} / (h_{i-1} + h_i)
+//
+// The last line, read as an equation for the d, is the interpolation condition: a tridiagonal, totally positive system.
+// Written in the offsets delta_i = d_i - P_i it holds differences of waypoints only, a = (1-omega) lambda, c = omega mu:
+//
+//   a delta_{i-1} + (1 - a - c) delta_i + c delta_{i+1} = a (P_i - P_{i-1}) - c (P_{i+1} - P_i)
+//
+// so the result does not move with the origin and single precision suffices far from it.
+// Natural start (b0 - 2 b1 + b2 = 0): (1 + f) delta_a - f delta_{a+1} = f e_a, f = h_a / (h_a + h_{a+1}); the end likewise.
+//
+// Streaming: rows are eliminated once, in order (delta_i = rho_i - gamma_i delta_{i+1}). A control point is committed by
+// back-substitution from the newest row, closed there by delta_{R+1} = delta_R; the influence of that guess falls by
+// 0.268 per knot for even spacing and by at least 1/2 for any. Row i+1 never depends on what was committed, so the miss
+// does not accumulate.
+#include "splinefeed/s1_curve/g2_spline.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
+    const auto axes_u = static_cast<unsigned>(this->axes());
+    const S one = from_integer<S>(1);
+    if (!this->decided(i)) {
+        return false;
+    }
+    Row& here = row(i);
+    const Knot<S>& knot = this->knot(i);
+    if (i > first_ && knot.breaks) { // the end of the run
+        const Row& before = row(i - 1);
+        const Knot<S>& knot_before = this->knot(i - 1);
+        const S outer = i - 1 > first_ ? this->knot(i - 2).span : S{};
+        const S g = knot_before.span / (knot_before.span + outer);
+        const bool given = tangents_.has_end && this->finished_ && i + 1 == this->known_;
+        const S inverse = one / (one + g + g * before.gamma);
+        for (unsigned k = 0; k < axes_u; ++k) {
+            here.rho[k] = given ? -tangents_.end[k] * knot_before.length * literal<S>(1.0 / 3.0)
+                                : (g * before.rho[k] - g * knot_before.chord[k]) * inverse;
+        }
+        here.gamma = here.lambda = here.mu = here.omega = S{};
+        return true;
+    }
+    if (!this->decided(i + 1)) {
+        return false;
+    }
+    const S after = knot.span;
+    const S outer_after = this->knot(i + 1).breaks ? S{} : this->knot(i + 1).span;
+    if (i == first_) {
+        const S f = after / (after + outer_after);
+        const S weight = f / (one + f);
+        const bool given = tangents_.has_start && i == 0;
+        for (unsigned k = 0; k < axes_u; ++k) {
+            here.rho[k] =
+                given ? tangents_.start[k] * knot.length * literal<S>(1.0 / 3.0) : weight * knot.chord[k];
+        }
+        here.gamma = given ? S{} : -weight;
+        here.lambda = here.mu = here.omega = S{};
+        return true;
+    }
+    const Knot<S>& knot_before = this->knot(i - 1);
+    const S before = knot_before.span;
+    const S outer_before = i - 1 > first_ ? this->knot(i - 2).span : S{};
+    here.lambda = after / (outer_before + before + after);
+    here.mu = before / (before + after + outer_after);
+    here.omega = before / (before + after);
+    const S a = (one - here.omega) * here.lambda;
+    const S c = here.omega * here.mu;
+    const Row& previous = row(i - 1);
+    const S inverse = one / (one - a - c - a * previous.gamma);
+    here.gamma = c * inverse;
+    for (unsigned k = 0; k < axes_u; ++k) {
+        here.rho[k] = (a * (knot_before.chord[k] - previous.rho[k]) - c * knot.chord[k]) * inverse;
+    }
+    return true;
+}
+
+// Commits the offset of control point i from the newest eliminated row.
+template <Scalar S>
+void G2Spline<S>::commit(std::uint64_t i) noexcept {
+    const auto axes_u = static_cast<unsigned>(this->axes());
+    const std::uint64_t newest = rows_end_ - 1;
+    const bool run_ended = newest > first_ && this->knot(newest).breaks;
+    const S closing = run_ended ? S{} : from_integer<S>(1) / (from_integer<S>(1) + row(newest).gamma);
+    Row& target = row(i);
+    for (unsigned k = 0; k < axes_u; ++k) {
+        S delta = run_ended ? row(newest).rho[k] : row(newest).rho[k] * closing;
+        for (std::uint64_t j = newest; j > i; --j) {
+            delta = row(j - 1).rho[k] - row(j - 1).gamma * delta;
+        }
+        target.delta[k] = delta;
+    }
+    close_seam(i);
+}
+
+// A closed curve meets itself exactly: the three offsets around the seam are kept when they are first committed and used
+// again when the path comes back to them.
+template <Scalar S>
+void G2Spline<S>::close_seam(std::uint64_t i) noexcept {
+    const auto role = [this](std::uint64_t j) { return this->knot(j).role; };
+    for (std::uint64_t slot = 0; slot < 3; ++slot) { // i is the knot before (0), at (1), after (2) the seam
+        const std::uint64_t seam = i + 1 - slot;
+        if (seam == 0 || seam > i + 1 || seam < first_ || seam + 1 >= this->known_) {
+            continue;
+        }
+        const bool opens = seam > first_ && role(seam - 1) == Role::lead_in && role(seam) == Role::path;
+        const bool closes = role(seam) == Role::path && role(seam + 1) == Role::lead_out;
+        if (closes && seam_known_) {
+            row(i).delta = seam_[slot];
+        } else if (opens && !this->knot(seam).breaks) {
+            seam_[slot] = row(i).delta;
+            seam_known_ = slot == 2;
+        }
+    }
+}
+
+template <Scalar S>
+void G2Spline<S>::emit(std::uint64_t i, CurveSegment<S>& out) noexcept {
+    this->describe_segment(i, 3, out);
+    const Row& from = row(i);
+    const Row& to = row(i + 1);
+    const Knot<S>& knot = this->knot(i);
+    const Knot<S>& knot_to = this->knot(i + 1);
+    PerAxis<PerDegree<S>> offsets{};
+    for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
+        const S end = knot.chord[k]; // P_{i+1} seen from P_i
+        const S next = end + to.delta[k];
+        const S step = next - from.delta[k]; // d_{i+1} - d_i
+        offsets[k][0] = joint_[k];
+        offsets[k][1] = from.delta[k] + from.mu * step;
+        offsets[k][2] = next - to.lambda * step;
+        if (knot_to.breaks) {
+            joint_[k] = S{};
+        } else {
+            const S beyond = knot_to.chord[k] + row(i + 2).delta[k] - to.delta[k]; // d_{i+2} - d_{i+1}
+            const S after = to.delta[k] + to.mu * beyond;
+            const S before = to.delta[k] - to.lambda * step;
+            joint_[k] = before + to.omega * (after - before);
+        }
+        offsets[k][3] = end + joint_[k];
+    }
+    out.assign(offsets);
+}
+
+template <Scalar S>
+Pull G2Spline<S>::next(CurveSegment<S>& out) noexcept {
+    for (;;) {
+        const std::uint64_t i = next_;
+        if (i + 1 >= this->known_) {
+            return this->finished_ ? Pull::finished : Pull::starved;
+        }
+        // Row i + 15 needs knot i + 17: 16 waypoints past the end of segment i.
+        const auto ended = [this] { return rows_end_ > first_ + 1 && this->knot(rows_end_ - 1).breaks; };
+        while (!ended() && rows_end_ < i + look_ahead && eliminate_row(rows_end_)) {
+            ++rows_end_;
+        }
+        if (!ended() && rows_end_ < i + look_ahead) {
+            return Pull::starved;
+        }
+        while (committed_ <= i + 2 && committed_ < rows_end_) {
+            commit(committed_++);
+        }
+        emit(i, out);
+        const bool wanted = this->travelled(i);
+        next_ = i + 1;
+        this->oldest_ = i > 1 ? i - 1 : 0;
+        if (this->knot(i + 1).breaks) {
+            first_ = rows_end_ = committed_ = i + 1;
+        }
+        if (wanted) {
+            return Pull::item;
+        }
+    }
+}
+
+template class G2Spline<double>;
+template class G2Spline<float>;
+template class G2Spline<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s1_curve/polyline.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+Pull Polyline<S>::next(CurveSegment<S>& out) noexcept {
+    for (;;) {
+        const std::uint64_t i = next_;
+        if (i + 1 >= this->known_) {
+            return this->finished_ ? Pull::finished : Pull::starved;
+        }
+        if (!this->decided(i + 1)) {
+            return Pull::starved;
+        }
+        next_ = this->oldest_ = i + 1;
+        if (this->travelled(i)) {
+            this->describe_segment(i, 1, out);
+            // A break that is no turn (a forced corner apart) costs nothing: the arc-length stage stops only where the
+            // direction jumps, so the flag is left to the user's own corners.
+            out.stop_at_end = this->knot(i + 1).corner == Corner::forced;
+            PerAxis<PerDegree<S>> offsets{};
+            for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
+                offsets[k][1] = this->knot(i).chord[k];
+            }
+            out.assign(offsets);
+            return Pull::item;
+        }
+    }
+}
+
+template class Polyline<double>;
+template class Polyline<float>;
+template class Polyline<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Polyline: straight lines through the waypoints, a full stop at every corner (collinear points are passed).
+#pragma once
+
+#include "splinefeed/s1_curve/waypoint_curve.hpp"
+
+namespace splinefeed {
+
+/// Class C0; interpolates; local. Cost per waypoint: constant, no look-ahead beyond the next point.
+template <Scalar S>
+class Polyline final : public WaypointCurve<S> {
+public:
+    explicit Polyline(const CurveOptions<S>& options) noexcept : WaypointCurve<S>(options) {}
+    Pull next(CurveSegment<S>& out) noexcept override;
+
+private:
+    std::uint64_t next_ = 0;
+};
+
+} // namespace splinefeed

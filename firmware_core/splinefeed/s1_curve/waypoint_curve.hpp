@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// WaypointCurve: what all streaming curve methods share: the ring of recent waypoints ("knots") with their chords,
+// merging of coincident points, and the decision where the curve is broken into smooth runs.
+#pragma once
+
+#include "splinefeed/s1_curve/curve_source.hpp"
+
+#include <cstdint>
+
+namespace splinefeed {
+
+/// Spacing of the curve parameter between waypoints: 1, |chord| or sqrt(|chord|).
+enum class Parameterization : std::uint8_t { uniform, chordal, centripetal };
+
+/// What the shared part of the streaming methods needs to know.
+template <Scalar S>
+struct CurveOptions {
+    int axes = 3;
+    Parameterization parameterization = Parameterization::chordal;
+    S corner_cosine = literal<S>(0.5); ///< cos(corner angle): a sharper turn breaks the curve; default 60 degrees
+};
+
+/// cos of a corner angle in degrees, 0 to 180, for CurveOptions; host and compile-time use.
+[[nodiscard]] constexpr double corner_cosine(double degrees) noexcept {
+    // Taylor's series about 90 degrees, where the argument stays below pi/2: 12 terms leave 1e-16.
+    const double x = (90.0 - degrees) * 3.14159265358979323846 / 180.0;
+    double term = x;
+    double sum = x;
+    for (int n = 1; n <= 12; ++n) {
+        term *= -x * x / ((2.0 * n) * (2.0 * n + 1.0));
+        sum += term;
+    }
+    return sum;
+}
+
+/// A waypoint in the ring. `chord`, `length`, `span` lead to the next knot, in chord units (2^-12 mm).
+template <Scalar S>
+struct Knot {
+    PerAxis<Position> position{};
+    PerAxis<S> chord{};
+    S length{};
+    S span{}; ///< interval of the curve parameter
+    S feed_mm_s{};
+    Corner corner = Corner::automatic;
+    Role role = Role::path;
+    bool breaks = false; ///< a smooth run ends here and the next begins
+    std::uint32_t waypoint = 0;
+};
+
+/// Base of the streaming methods. Push while there is room, drain with next().
+/// Memory: the ring. Cost of push: constant.
+template <Scalar S>
+class WaypointCurve : public CurveSource<S> {
+public:
+    /// Whether push would be taken. next() makes room.
+    [[nodiscard]] bool has_room() const noexcept { return known_ - oldest_ < capacity; }
+
+    /// Takes the next waypoint. One within 0.1 um of its predecessor on every axis is merged into it.
+    /// @pre has_room() and not finished
+    Status push(const Waypoint<S>& waypoint, Role role = Role::path) noexcept;
+
+    /// No more waypoints will come. Refused when there was no move at all.
+    Status finish() noexcept;
+
+protected:
+    static constexpr std::uint64_t capacity = 32; ///< knots in the ring: 16 of look-ahead, the run's tail, and slack
+
+    explicit WaypointCurve(const CurveOptions<S>& options) noexcept : options_(options) {}
+    ~WaypointCurve() = default;
+
+    [[nodiscard]] Knot<S>& knot(std::uint64_t i) noexcept { return ring_[i % capacity]; }
+    [[nodiscard]] const Knot<S>& knot(std::uint64_t i) const noexcept { return ring_[i % capacity]; }
+    /// Whether `breaks` of knot i is final.
+    [[nodiscard]] bool decided(std::uint64_t i) const noexcept { return i + 1 < known_ || (finished_ && i < known_); }
+    /// Whether segment i -> i+1 is travelled (not lead-in, not lead-out).
+    [[nodiscard]] bool travelled(std::uint64_t i) const noexcept {
+        return knot(i).role != Role::lead_in && knot(i + 1).role != Role::lead_out;
+    }
+    /// Fills all of a segment i -> i+1 but the control points.
+    void describe_segment(std::uint64_t i, int degree, CurveSegment<S>& out) const noexcept;
+    /// One-sided parameter spans at the ends of a run are 0 (a clamped end).
+    [[nodiscard]] int axes() const noexcept { return options_.axes; }
+
+    CurveOptions<S> options_;
+    std::array<Knot<S>, capacity> ring_{};
+    std::uint64_t known_ = 0;  ///< knots pushed so far
+    std::uint64_t oldest_ = 0; ///< first knot that is still needed
+    std::uint32_t pushed_ = 0;
+    bool finished_ = false;
+
+private:
+    void decide_corner(std::uint64_t i) noexcept;
+    [[nodiscard]] S span_of(S length) const noexcept;
+};
+
+} // namespace splinefeed

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s2_arc_length/cell.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+S Cell<S>::parameter_at(S x) const noexcept {
+    S w = inverse[5];
+    for (unsigned i = 5; i-- > 0;) {
+        w = w * x + inverse[i];
+    }
+    return w * x;
+}
+
+template <Scalar S>
+void Cell<S>::position_at(S x, PerAxis<Position>& out) const noexcept {
+    const S w = parameter_at(x);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        S offset = power[k][static_cast<unsigned>(degree)];
+        for (int i = degree - 1; i >= 0; --i) {
+            offset = offset * w + power[k][static_cast<unsigned>(i)];
+        }
+        out[k] = displaced(origin[k], offset, unit_log2);
+    }
+}
+
+template struct Cell<double>;
+template struct Cell<float>;
+template struct Cell<Fixed>;
+
+} // namespace splinefeed

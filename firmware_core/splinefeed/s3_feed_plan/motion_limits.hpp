@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// MotionLimits: what the machine can do, checked once, in the scalar of the pipeline.
+#pragma once
+
+#include "splinefeed/base/capacity.hpp"
+#include "splinefeed/base/status.hpp"
+#include "splinefeed/number/scalar.hpp"
+#include "splinefeed/s2_arc_length/arc_length.hpp"
+
+#include <cstdint>
+
+namespace splinefeed {
+
+/// One axis as the machine file states it.
+struct AxisSettings {
+    double max_velocity_mm_s = 100.0;
+    double max_acceleration_mm_s2 = 1000.0;
+    double max_jerk_mm_s3 = 0.0; ///< 0: acceleration-limited. Its place; refused until the plan supports it.
+    double steps_per_mm = 1000.0;
+};
+
+/// A machine as its file states it. Zero means "no such limit" for the optional ones.
+struct MachineSettings {
+    int axes = 3;
+    PerAxis<AxisSettings> axis{};
+    double max_feed_mm_s = 100.0;
+    double centripetal_mm_s2 = 0.0;
+    double chord_error_mm = 0.0;
+    int sample_period_us = 1000;
+};
+
+/// One tick of a feed segment's duration is 1/8 us.
+inline constexpr int ticks_per_us = 8;
+
+/// The checked limits. A plain aggregate: a microcontroller can build it at compile time.
+template <Scalar S>
+struct MotionLimits {
+    int axes = 0;
+    PerAxis<S> velocity_mm_s{};
+    PerAxis<S> acceleration_mm_s2{};
+    PerAxis<std::uint64_t> steps_per_mm_q32{}; ///< counts per mm, 32 fraction bits
+    S feed_mm_s{};
+    S centripetal_mm_s2{};         ///< 0: none
+    S chord_mm_s2{};               ///< 8 e / T^2, to be divided by the curvature; 0: none
+    S segments_per_s{};            ///< feed segments a second
+    std::uint32_t segment_ticks = 0; ///< duration of a feed segment
+    int segments_per_sample = 1;   ///< feed segments per sample period
+    Refinement<S> refinement{};
+
+    /// Checks every number (Error names the first that is out of range) and derives the rest.
+    [[nodiscard]] static constexpr Result<MotionLimits> make(const MachineSettings& settings) noexcept;
+};
+
+namespace detail {
+
+/// Relative resolution of the curve parameter within a cell, with what the polynomials add to it.
+template <Scalar S>
+inline constexpr double parameter_error = 4.7e-10; // 2 ulp of Q31.32; double takes the same cells, to stay comparable
+template <>
+inline constexpr double parameter_error<float> = 2.4e-7; // 4 x 2^-24
+
+/// The part of every limit that planning leaves to relative rounding.
+template <Scalar S>
+inline constexpr double usable_margin = 2e-6;
+template <>
+inline constexpr double usable_margin<float> = 1e-3;
+
+/// How much of an acceleration limit rounding may use up before cells are made shorter.
+template <Scalar S>
+inline constexpr double rounding_share = 1e-5;
+template <>
+inline constexpr double rounding_share<float> = 2e-3;
+
+/// Rounding of a position, e, becomes the acceleration 4 e / T^2 in the second difference of control points.
+constexpr double acceleration_noise(double error_mm, double segment_s) noexcept {
+    return 4.0 * error_mm / (segment_s * segment_s);
+}
+
+/// Longest cell [mm]: its parameter resolves `error` of it, which must stay below `share` of the limit.
+constexpr double longest_cell_mm(double error, double share, double acceleration, double segment_s) noexcept {
+    const double length = share * acceleration * segment_s * segment_s / (4.0 * error);
+    return length < 0.0625 ? 0.0625 : length > 16.0 ? 16.0 : length;
+}
+
+/// Feed segments per sample period (1, 2, 4 or 8) that keep the smoothing of the path, T^2 |A| / 6, below 0.35 um.
+constexpr int segments_per_sample(double period_s, double acceleration_sq) noexcept {
+    int n = 1;
+    while (n < 8) {
+        const double t2 = period_s * period_s / (n * n);
+        if (t2 * t2 * acceleration_sq <= 36.0 * 0.35e-3 * 0.35e-3) { // squared, to avoid the root
+            break;
+        }
+        n *= 2;
+    }
+    return n;
+}
+
+/// Rounding of a direction at a joint, which is no corner.
+template <Scalar S>
+inline constexpr double direction_noise = 2e-9;
+template <>
+inline constexpr double direction_noise<float> = 2e-6;
+
+/// Chord error e at the sample period T: v^2 <= 8 e / (kappa T^2), capped to what Fixed holds (no limit in practice).
+constexpr double chord_limit(double error_mm, double period_s) noexcept {
+    const double limit = 8.0 * error_mm / (period_s * period_s);
+    return limit < 1e9 ? limit : 1e9;
+}
+
+constexpr bool within(double x, double low, double high) noexcept {
+    return x >= low && x <= high; // false for NaN
+}
+
+} // namespace detail
+
+template <Scalar S>
+constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& settings) noexcept {
+    if (settings.axes < 1 || settings.axes > max_axes) {
+        return Error::axes_out_of_range;
+    }
+    if (!detail::within(settings.max_feed_mm_s, 0.001, 10000.0)) {
+        return Error::feed_out_of_range;
+    }
+    if (settings.centripetal_mm_s2 != 0.0 && !detail::within(settings.centripetal_mm_s2, 0.1, 1e6)) {
+        return Error::centripetal_out_of_range;
+    }
+    if (settings.chord_error_mm != 0.0 && !detail::within(settings.chord_error_mm, 1e-6, 1.0)) {
+        return Error::chord_error_out_of_range;
+    }
+    if (settings.sample_period_us < 50 || settings.sample_period_us > 100000) {
+        return Error::sample_period_out_of_range;
+    }
+    MotionLimits limits;
+    limits.axes = settings.axes;
+    double acceleration_sq = 0.0;
+    double softest = 1e9;
+    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+        const AxisSettings& axis = settings.axis[k];
+        if (!detail::within(axis.max_velocity_mm_s, 0.001, 10000.0)) {
+            return Error::velocity_out_of_range;
+        }
+        if (!detail::within(axis.max_acceleration_mm_s2, 0.1, 1e6)) {
+            return Error::acceleration_out_of_range;
+        }
+        if (axis.max_jerk_mm_s3 != 0.0) {
+            return Error::jerk_not_supported;
+        }
+        if (!detail::within(axis.steps_per_mm, 0.001, 1e6)) {
+            return Error::steps_out_of_range;
+        }
+        acceleration_sq += axis.max_acceleration_mm_s2 * axis.max_acceleration_mm_s2;
+        softest = axis.max_acceleration_mm_s2 < softest ? axis.max_acceleration_mm_s2 : softest;
+    }
+    const double period_s = settings.sample_period_us * 1e-6;
+    const int n = detail::segments_per_sample(period_s, acceleration_sq);
+    const double segment_s = period_s / n;
+    const double longest =
+        detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest, segment_s);
+    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+        const AxisSettings& axis = settings.axis[k];
+        // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30).
+        const double error_mm = longest * detail::parameter_error<S> + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
+        const double noise = detail::acceleration_noise(error_mm, segment_s);
+        if (noise > 0.25 * axis.max_acceleration_mm_s2) {
+            return Error::period_too_short;
+        }
+        limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * (1.0 - detail::usable_margin<S>));
+        limits.acceleration_mm_s2[k] =
+            from_double<S>(axis.max_acceleration_mm_s2 * (1.0 - detail::usable_margin<S>) - noise);
+        limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
+    }
+    constexpr double usable = 1.0 - detail::usable_margin<S>;
+    limits.feed_mm_s = from_double<S>(settings.max_feed_mm_s * usable);
+    limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
+    limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, period_s));
+    limits.segments_per_s = from_double<S>(n / period_s);
+    limits.segment_ticks = static_cast<std::uint32_t>(settings.sample_period_us * ticks_per_us / n);
+    limits.segments_per_sample = n;
+    Refinement<S>& refinement = limits.refinement;
+    refinement.longest_mm = from_double<S>(longest);
+    refinement.max_feed_mm_s = limits.feed_mm_s;
+    // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
+    refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
+    // A jump of direction d asks for the acceleration v d / T: tolerated below 2e-5 of the limit, plus rounding.
+    refinement.direction_jump = from_double<S>(2e-5 * softest * segment_s / settings.max_feed_mm_s) +
+                                from_double<S>(detail::direction_noise<S>);
+    return limits;
+}
+
+} // namespace splinefeed
