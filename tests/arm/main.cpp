@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// The whole pipeline on a microcontroller: plans a small path and prints a hash over every integer of every feed segment.
+// The same source on the host must print the same hash.
+#include "platform.hpp"
+#include "splinefeed/s1_curve/g2_spline.hpp"
+#include "splinefeed/trajectory.hpp"
+
+#include <array>
+#include <cstdint>
+#include <new>
+#include <type_traits>
+
+using namespace splinefeed;
+
+namespace {
+
+using Real = PIPELINE_SCALAR;
+
+struct Point {
+    std::int32_t x_um;
+    std::int32_t y_um;
+    std::int32_t z_um;
+};
+
+// A loop with tight and wide bends, a corner, a lift of the tool, and two points 3 um apart.
+constexpr Point path[] = {
+    {0, 0, 0},           {10000, 2000, 0},      {19000, 9000, -500},   {22000, 20000, -1000}, {18000, 29000, -1000},
+    {9000, 33000, -800}, {1000, 30000, -400},   {-3000, 22000, 0},     {-2000, 13000, 0},     {4000, 9000, 0},
+    {9500, 11000, 0},    {9503, 11000, 0},      {12000, 15000, 2000},  {12000, 15000, 9000},  {30000, 15000, 9000},
+    {41000, 14000, 7000}, {47000, 20000, 3000}, {44000, 27000, 1000},  {36000, 26000, 500},   {30000, 20000, 0},
+};
+
+constexpr MachineSettings machine = [] {
+    MachineSettings settings;
+    settings.axes = 3;
+    settings.axis[0].max_acceleration_mm_s2 = 1200.0;
+    settings.axis[2].max_velocity_mm_s = 40.0;
+    settings.axis[2].max_acceleration_mm_s2 = 500.0;
+    settings.axis[2].steps_per_mm = 400.0;
+    settings.centripetal_mm_s2 = 800.0;
+    return settings;
+}();
+// At compile time: no arithmetic in double remains for the target.
+constexpr Result<MotionLimits<Real>> limits = MotionLimits<Real>::make(machine);
+static_assert(limits.has_value());
+
+/// An object of static storage that is built in main: its bytes are counted, no constructor runs before main.
+template <class T>
+class Static {
+public:
+    template <class... Arguments>
+    T& build(Arguments&&... arguments) {
+        return *::new (static_cast<void*>(bytes_)) T(static_cast<Arguments&&>(arguments)...);
+    }
+
+private:
+    alignas(T) unsigned char bytes_[sizeof(T)];
+};
+
+Static<G2Spline<Real>> curve_storage;
+Static<Trajectory<Real>> trajectory_storage;
+Static<std::array<PlannedCell<Real>, FeedPlan<Real>::smallest_window>> window_storage;
+FeedSegment segment;
+
+/// FNV-1a, 64 bits, over the bytes of integers in little-endian order.
+class Hash {
+public:
+    void add(std::uint64_t value) {
+        for (int i = 0; i < 8; ++i) {
+            state_ = (state_ ^ (value & 0xffU)) * 0x100000001b3U;
+            value >>= 8;
+        }
+    }
+    void add(const FeedSegment& item) {
+        add(item.index);
+        add(item.duration_ticks);
+        add(item.waypoint);
+        for (const auto* values : {&item.start, &item.end, &item.start_velocity, &item.end_velocity}) {
+            for (const std::int64_t value : *values) {
+                add(static_cast<std::uint64_t>(value));
+            }
+        }
+    }
+    [[nodiscard]] std::uint64_t value() const { return state_; }
+
+private:
+    std::uint64_t state_ = 0xcbf29ce484222325U;
+};
+
+void write_line(const char* name, std::uint64_t value) {
+    constexpr char digits[] = "0123456789abcdef";
+    char text[] = " 0x0000000000000000\n";
+    for (unsigned i = 18; i > 2; --i) {
+        text[i] = digits[value & 0xfU];
+        value >>= 4;
+    }
+    write_text(name);
+    write_text(text);
+}
+
+constexpr std::int64_t units(std::int32_t um) {
+    return um * (std::int64_t{1} << Position::fraction_bits) / 1000;
+}
+
+Waypoint<Real> waypoint(const Point& point) {
+    Waypoint<Real> out;
+    out.position[0].raw = units(point.x_um);
+    out.position[1].raw = units(point.y_um);
+    out.position[2].raw = units(point.z_um);
+    return out;
+}
+
+} // namespace
+
+int main() {
+    auto& curve = curve_storage.build(CurveOptions<Real>{});
+    auto& window = window_storage.build();
+    auto& trajectory = trajectory_storage.build(curve, *limits, window);
+    write_line("bytes: curve      ", sizeof curve);
+    write_line("bytes: arc length ", sizeof(ArcLength<Real>));
+    write_line("bytes: feed plan  ", sizeof(FeedPlan<Real>));
+    write_line("bytes: its window ", sizeof window);
+    write_line("bytes: stream     ", sizeof(SegmentStream<Real>));
+
+    Hash hash;
+    std::uint64_t segments = 0;
+    std::size_t pushed = 0;
+    while (trajectory.state() != Pull::finished) {
+        if (trajectory.next(segment)) {
+            hash.add(segment);
+            ++segments;
+        } else if (trajectory.state() == Pull::starved) {
+            while (pushed < std::size(path) && curve.has_room()) {
+                if (!curve.push(waypoint(path[pushed++])).ok()) {
+                    return 1;
+                }
+            }
+            if (pushed == std::size(path) && !curve.finish().ok()) {
+                return 1;
+            }
+        }
+    }
+    write_line("segments          ", segments);
+    write_line("hash              ", hash.value());
+    return 0;
+}
