@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/input_error.hpp"
+#include "input_error.hpp"
 
 #include <fmt/format.h>
 
@@ -23,15 +23,15 @@ std::string printable(std::string_view text) {
     return out;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     const bool cut = text.size() > longest;
     return "'" + printable(text.substr(0, longest)) + (cut ? "...'" : "'");
 }
 
 InputError::InputError(std::string_view file, std::uint64_t line, std::string_view text)
-    : std::runtime_error(printable(file.empty()  ? std::string(text)
-                                   : line == 0 ? fmt::format("{}: {}", file, text)
-                                               : fmt::format("{}:{}: {}", file, line, text))) {}
+    : std::runtime_error(printable(file.empty() ? std::string(text)
+                                   : line == 0  ? fmt::format("{}: {}", file, text)
+                                                : fmt::format("{}:{}: {}", file, line, text))) {}
 
 } // namespace splinefeed::host

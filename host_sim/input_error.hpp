@@ -13,7 +13,7 @@ namespace splinefeed::host {
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// printable, in single quotes, shortened to what helps to find it.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// "FILE:LINE: what is wrong, what would be right". Without a line (0) or a file (empty) that part is left out.
 struct InputError : std::runtime_error {

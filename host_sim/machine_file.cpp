@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/machine_file.hpp"
+#include "machine_file.hpp"
 
-#include "host_sim/input_error.hpp"
-#include "host_sim/nearest_name.hpp"
-#include "host_sim/text_file.hpp"
+#include "input_error.hpp"
+#include "nearest_name.hpp"
+#include "text_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,12 +62,13 @@ private:
         throw InputError(file_, node.source().begin.line, what);
     }
 
-    void require_known(const toml::table& table, std::initializer_list<std::string_view> known, std::string_view where) const {
+    void require_known(const toml::table& table, std::initializer_list<std::string_view> known,
+                       std::string_view where) const {
         for (const auto& [key, value] : table) {
             const std::string_view name = key.str();
             if (std::find(known.begin(), known.end(), name) == known.end()) {
                 throw InputError(file_, key.source().begin.line,
-                                 fmt::format("unknown key {}{}{}", quoted(name), where,
+                                 fmt::format("unknown key {}{}{}", in_quotes(name), where,
                                              suggestion(name, {known.begin(), known.size()})));
             }
         }
@@ -92,7 +93,8 @@ private:
     [[nodiscard]] double number(const toml::node& node, std::string_view key, const Range& range) const {
         const double value = number(node, key);
         if (value < range.low || value > range.high) {
-            fail(node, fmt::format("{} is {}; it must lie between {} and {} {}", key, value, range.low, range.high, range.unit));
+            fail(node, fmt::format("{} is {}; it must lie between {} and {} {}", key, value, range.low, range.high,
+                                   range.unit));
         }
         return value;
     }
@@ -101,8 +103,8 @@ private:
                                   std::string_view where) const {
         const toml::node* node = table.get(key);
         if (node == nullptr) {
-            fail(table, fmt::format("{} has no {}; it must be a number between {} and {} {}", where, key, range.low, range.high,
-                                    range.unit));
+            fail(table, fmt::format("{} has no {}; it must be a number between {} and {} {}", where, key, range.low,
+                                    range.high, range.unit));
         }
         return number(*node, key, range);
     }
@@ -151,7 +153,8 @@ private:
 
     void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
         require_known(table,
-                      {"name", "travel_mm", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_jerk_mm_s3", "steps_per_mm", "drive"},
+                      {"name", "travel_mm", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_jerk_mm_s3",
+                       "steps_per_mm", "drive"},
                       " in [[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
@@ -159,7 +162,7 @@ private:
         }
         const std::string letter = text(*name, "name");
         if (letter.size() != 1 || axis_letters.find(letter) == std::string_view::npos) {
-            fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", quoted(letter)));
+            fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter)));
         }
         for (std::size_t j = 0; j < k; ++j) {
             if (machine.axis_name[j] == letter) {
@@ -193,7 +196,8 @@ private:
             fail(node, "travel_mm must lie within +-1048576 mm");
         }
         if (!(travel.low < travel.high)) {
-            fail(node, fmt::format("travel_mm is [{}, {}]; the second number must be the larger one", travel.low, travel.high));
+            fail(node, fmt::format("travel_mm is [{}, {}]; the second number must be the larger one", travel.low,
+                                   travel.high));
         }
         if (std::fmax(-travel.low, travel.high) * steps_per_mm > most_counts) {
             fail(node, "travel_mm times steps_per_mm must stay within +-2147483647 counts");
@@ -223,7 +227,8 @@ MachineDescription default_machine() {
     MachineDescription machine;
     machine.settings.axes = 3;
     for (unsigned k = 0; k < 3; ++k) {
-        machine.settings.axis[k] = {.max_velocity_mm_s = 100.0, .max_acceleration_mm_s2 = 1000.0, .steps_per_mm = 320.0};
+        machine.settings.axis[k] = {
+            .max_velocity_mm_s = 100.0, .max_acceleration_mm_s2 = 1000.0, .steps_per_mm = 320.0};
         machine.axis_name[k] = std::string(axis_letters.substr(k, 1));
     }
     return machine;

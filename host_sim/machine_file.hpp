@@ -2,7 +2,7 @@
 // machine_file: reads a Machine .toml.
 #pragma once
 
-#include "host_sim/machine_description.hpp"
+#include "machine_description.hpp"
 
 #include <string>
 #include <string_view>

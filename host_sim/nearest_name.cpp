@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/nearest_name.hpp"
+#include "nearest_name.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/text_file.hpp"
+#include "text_file.hpp"
 
-#include "host_sim/input_error.hpp"
+#include "input_error.hpp"
 
 #include <array>
 #include <cerrno>

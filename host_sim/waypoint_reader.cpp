@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/waypoint_reader.hpp"
+#include "waypoint_reader.hpp"
 
-#include "host_sim/input_error.hpp"
-#include "host_sim/nearest_name.hpp"
-#include "host_sim/number_text.hpp"
+#include "input_error.hpp"
+#include "nearest_name.hpp"
+#include "number_text.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -135,7 +135,8 @@ bool WaypointReader::next_line(std::string_view& line) {
         const std::size_t length = end_ - begin_;
         const char* const start = buffer_.data() + begin_;
         const void* const found = length > searched ? std::memchr(start + searched, '\n', length - searched) : nullptr;
-        const std::size_t size = found != nullptr ? static_cast<std::size_t>(static_cast<const char*>(found) - start) : length;
+        const std::size_t size =
+            found != nullptr ? static_cast<std::size_t>(static_cast<const char*>(found) - start) : length;
         if (size > longest_line) {
             ++line_;
             fail(fmt::format("the line is longer than {} bytes; write one waypoint a line", longest_line));
@@ -197,7 +198,9 @@ int WaypointReader::axis_index(std::string_view name) const {
 }
 
 std::string WaypointReader::column_name(int column) const {
-    return column == feed_column ? "feed" : column == corner_column ? "corner" : axes_[static_cast<std::size_t>(column)];
+    return column == feed_column     ? "feed"
+           : column == corner_column ? "corner"
+                                     : axes_[static_cast<std::size_t>(column)];
 }
 
 void WaypointReader::read_header(std::string_view line) {
@@ -215,7 +218,7 @@ void WaypointReader::read_header(std::string_view line) {
                                  fmt::join(axes_, ", ")));
             }
             const std::string_view near = nearest_name(name, known);
-            fail(fmt::format("unknown column {}{}; a waypoint file has {}", quoted(field),
+            fail(fmt::format("unknown column {}{}; a waypoint file has {}", in_quotes(field),
                              near.empty() ? "" : fmt::format(", did you mean '{}'?", near), listed(known)));
         }
         if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) {
@@ -237,17 +240,19 @@ void WaypointReader::assume_columns(std::string_view line) {
     if (count < fewest || count > most) {
         double ignored = 0.0;
         if (count == 1 && read_number(line, ignored) == NumberText::not_a_number) {
-            fail(fmt::format("{} is no waypoint; write the coordinates with commas between them, like 10,5,0", quoted(line)));
+            fail(fmt::format("{} is no waypoint; write the coordinates with commas between them, like 10,5,0",
+                             in_quotes(line)));
         }
-        fail(fmt::format("there are {} columns and no header; without one there must be {} to {}: {}", count, fewest, most,
-                         fmt::join(axes_, ",")));
+        fail(fmt::format("there are {} columns and no header; without one there must be {} to {}: {}", count, fewest,
+                         most, fmt::join(axes_, ",")));
     }
     for (std::size_t i = 0; i < count; ++i) {
         const int column = axis_index(all_axes.substr(i, 1));
         if (column < 0) {
-            fail(fmt::format("without a header the columns are x,y,z,a,b,c, but the machine has no axis {}; name the columns "
-                             "in a header row",
-                             all_axes[i]));
+            fail(fmt::format(
+                "without a header the columns are x,y,z,a,b,c, but the machine has no axis {}; name the columns "
+                "in a header row",
+                all_axes[i]));
         }
         columns_.push_back(column);
     }
@@ -265,14 +270,16 @@ void WaypointReader::parse(std::string_view line, WaypointRow& row) const {
         parse_field(field, column, row);
     }
     if (more) {
-        fail(fmt::format("there are {} columns; there must be {}, as in the rows above", count_fields(line), columns_.size()));
+        fail(fmt::format("there are {} columns; there must be {}, as in the rows above", count_fields(line),
+                         columns_.size()));
     }
 }
 
 void WaypointReader::parse_field(std::string_view field, int column, WaypointRow& row) const {
     if (column == corner_column) {
         if (field != "0" && field != "1" && !field.empty()) {
-            fail(fmt::format("corner is {}; it must be 1 (a corner), 0 (none) or empty (the corner angle decides)", quoted(field)));
+            fail(fmt::format("corner is {}; it must be 1 (a corner), 0 (none) or empty (the corner angle decides)",
+                             in_quotes(field)));
         }
         row.corner = field.empty() ? Corner::automatic : field == "1" ? Corner::forced : Corner::forbidden;
         return;
@@ -284,20 +291,23 @@ void WaypointReader::parse_field(std::string_view field, int column, WaypointRow
     const NumberText result = read_number(field, value);
     if (result != NumberText::number) {
         if (const std::string name = lower(field); name == "feed" || name == "corner" || axis_index(name) >= 0) {
-            fail(fmt::format("{} is a name where a number must be; only the first row can be a header", quoted(field)));
+            fail(fmt::format("{} is a name where a number must be; only the first row can be a header",
+                             in_quotes(field)));
         }
-        fail(fmt::format("{} {} {}", column_name(column), field.empty() ? "is empty and" : quoted(field), why_no_number(result)));
+        fail(fmt::format("{} {} {}", column_name(column), field.empty() ? "is empty and" : in_quotes(field),
+                         why_no_number(result)));
     }
     if (column == feed_column) {
         if (value < slowest_feed || value > fastest_feed) {
-            fail(fmt::format("feed {} is out of range; it must lie between {} and {} mm/s", quoted(field), slowest_feed,
-                             fastest_feed));
+            fail(fmt::format("feed {} is out of range; it must lie between {} and {} mm/s", in_quotes(field),
+                             slowest_feed, fastest_feed));
         }
         row.feed_mm_s = value;
         return;
     }
     if (!position_representable(value)) {
-        fail(fmt::format("{} {} is out of range; a position must lie within +-1048576 mm", column_name(column), quoted(field)));
+        fail(fmt::format("{} {} is out of range; a position must lie within +-1048576 mm", column_name(column),
+                         in_quotes(field)));
     }
     row.position[static_cast<unsigned>(column)] = value;
 }

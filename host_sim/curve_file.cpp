@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "curve_file.hpp"
+
+#include "input_error.hpp"
+#include "nearest_name.hpp"
+#include "number_text.hpp"
+#include "text_file.hpp"
+
+#include "splinefeed/number/position.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace splinefeed::host {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double longest_mm = 65536.0;
+constexpr std::array<std::string_view, 2> methods{"bezier", "catmull_rom"};
+
+/// Reads one document into one CurveFile.
+class Parser {
+public:
+    Parser(const json& root, const std::string& file) : root_(root), file_(file) {}
+
+    [[nodiscard]] CurveFile parse() {
+        if (!root_.is_object()) {
+            fail("the document must be an object, like {\"segments\": [{\"control_points\": [[0, 0], [10, 5]]}]}");
+        }
+        if (root_.contains("method")) {
+            description();
+        } else if (root_.contains("segments")) {
+            curve_.method = "bezier";
+            segments(root_);
+        } else {
+            fail("there is neither \"segments\" (a curve) nor \"method\" with \"input\" (a description of one)");
+        }
+        return std::move(curve_);
+    }
+
+private:
+    [[noreturn]] void fail(std::string_view what) const { throw InputError(file_, 0, what); }
+
+    void description() {
+        const json& method = root_["method"];
+        curve_.method = method.is_string() ? method.get<std::string>() : "";
+        if (std::find(methods.begin(), methods.end(), curve_.method) == methods.end()) {
+            fail(fmt::format("\"method\" {} is not available; in a curve file there are {}", in_quotes(curve_.method),
+                             listed(methods)));
+        }
+        const auto input = root_.find("input");
+        if (input == root_.end() || !input->is_object()) {
+            fail("there must be an object \"input\" beside \"method\"");
+        }
+        if (curve_.method == "bezier") {
+            segments(*input);
+        } else {
+            waypoints(*input);
+        }
+    }
+
+    void read_closed(const json& object) {
+        const auto closed = object.find("closed");
+        if (closed != object.end()) {
+            if (!closed->is_boolean()) {
+                fail("\"closed\" must be true or false");
+            }
+            curve_.closed = closed->get<bool>();
+        }
+    }
+
+    void segments(const json& object) {
+        read_closed(object);
+        const auto list = object.find("segments");
+        if (list == object.end() || !list->is_array() || list->empty()) {
+            fail("\"segments\" must be an array of at least one segment");
+        }
+        for (const json& segment : *list) {
+            add_segment(segment, fmt::format("segment {}", curve_.segments.size() + 1));
+        }
+        if (curve_.closed) {
+            require_joint(curve_.points() - 1, 0, "the curve is closed, but its first segment");
+        }
+        const auto first = curve_.numbers.begin();
+        bool moves = false;
+        for (std::size_t i = 1; i < curve_.points() && !moves; ++i) {
+            moves = !std::equal(first, first + curve_.axes, first + static_cast<std::ptrdiff_t>(i) * curve_.axes);
+        }
+        if (!moves) {
+            fail("all control points are the same; a path needs a move");
+        }
+    }
+
+    void add_segment(const json& segment, const std::string& name) {
+        const auto points = segment.is_object() ? segment.find("control_points") : segment.end();
+        if (!segment.is_object() || points == segment.end() || !points->is_array()) {
+            fail(fmt::format("{} must be an object with an array \"control_points\"", name));
+        }
+        const std::size_t count = points->size();
+        if (count < 2 || count > static_cast<std::size_t>(max_degree) + 1) {
+            fail(fmt::format("{} has {} control points; it must have 2 to {} (degree 1 to {})", name, count,
+                             max_degree + 1, max_degree));
+        }
+        if (const auto degree = segment.find("degree"); degree != segment.end()) {
+            if (!degree->is_number_integer() || degree->get<std::int64_t>() != static_cast<std::int64_t>(count) - 1) {
+                fail(fmt::format("{} has \"degree\" {}; with {} control points it must be {}", name,
+                                 printable(degree->dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40)),
+                                 count, count - 1));
+            }
+        }
+        const CurveFile::Segment added{curve_.segments.empty() ? 0 : curve_.points(), static_cast<int>(count) - 1};
+        for (std::size_t i = 0; i < count; ++i) {
+            add_point((*points)[i], fmt::format("{}, control point {}", name, i + 1));
+            require_near(added.first_point, added.first_point + i, name);
+        }
+        if (added.first_point > 0) {
+            require_joint(added.first_point - 1, added.first_point, name);
+        }
+        curve_.segments.push_back(added);
+    }
+
+    void waypoints(const json& object) {
+        read_closed(object);
+        if (const auto tension = object.find("tension"); tension != object.end()) {
+            curve_.tension = number(*tension, "\"tension\"");
+            if (curve_.tension < 0.0 || curve_.tension > 10.0) {
+                fail(fmt::format("\"tension\" is {}; it must lie between 0 and 10", curve_.tension));
+            }
+        }
+        const auto points = object.find("points");
+        if (points == object.end() || !points->is_array() || points->size() < 2) {
+            fail("\"points\" must be an array of at least two points");
+        }
+        for (const json& point : *points) {
+            const std::size_t index = curve_.axes == 0 ? 0 : curve_.points();
+            const std::string name = fmt::format("point {}", index + 1);
+            add_point(point, name);
+            if (index > 0) {
+                require_near(index - 1, index, name);
+            }
+        }
+    }
+
+    [[nodiscard]] double number(const json& value, const std::string& name) const {
+        double result = 0.0;
+        if (value.is_number()) {
+            result = value.get<double>();
+        } else if (value.is_string()) {
+            const auto& text = value.get_ref<const std::string&>();
+            if (const NumberText read = read_number(text, result); read != NumberText::number) {
+                fail(fmt::format("{}: {} {}", name, in_quotes(text), why_no_number(read)));
+            }
+        } else {
+            fail(fmt::format("{} must be a number, or one as a text in quotes", name));
+        }
+        if (!std::isfinite(result)) {
+            fail(fmt::format("{} must be finite", name));
+        }
+        return result;
+    }
+
+    void add_point(const json& point, const std::string& name) {
+        const std::size_t size = point.is_array() ? point.size() : 0;
+        if (size < 1 || size > static_cast<std::size_t>(max_axes)) {
+            fail(fmt::format("{} must be an array of one to {} numbers", name, max_axes));
+        }
+        if (curve_.axes == 0) {
+            curve_.axes = static_cast<int>(size);
+        }
+        if (size != static_cast<std::size_t>(curve_.axes)) {
+            fail(fmt::format("{} has {} numbers; it must have {}, like those before it", name, size, curve_.axes));
+        }
+        for (const json& value : point) {
+            const double mm = number(value, name);
+            if (!position_representable(mm)) {
+                fail(fmt::format("{} has the coordinate {}; a position must lie within +-1048576 mm", name, mm));
+            }
+            curve_.numbers.push_back(mm);
+        }
+    }
+
+    void require_near(std::size_t from, std::size_t to, const std::string& name) const {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(curve_.axes); ++k) {
+            if (std::fabs(curve_.at(to, k) - curve_.at(from, k)) > longest_mm) {
+                fail(fmt::format("{} is longer than {} mm; cut it into shorter ones", name, longest_mm));
+            }
+        }
+    }
+
+    void require_joint(std::size_t end, std::size_t start, std::string_view name) const {
+        double gap_sq = 0.0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(curve_.axes); ++k) {
+            const double d = curve_.at(start, k) - curve_.at(end, k);
+            gap_sq += d * d;
+        }
+        if (gap_sq > CurveFile::largest_gap_mm * CurveFile::largest_gap_mm) {
+            fail(fmt::format("{} starts {:.9g} mm from the end of the one before it; they must meet within {} mm", name,
+                             std::sqrt(gap_sq), CurveFile::largest_gap_mm));
+        }
+    }
+
+    const json& root_;
+    const std::string& file_;
+    CurveFile curve_;
+};
+
+} // namespace
+
+CurveFile parse_curve(std::string_view text, const std::string& file) {
+    try {
+        return Parser(json::parse(text), file).parse();
+    } catch (const json::parse_error& error) {
+        const std::size_t at = std::min<std::size_t>(error.byte == 0 ? 0 : error.byte - 1, text.size());
+        const auto line = static_cast<std::uint64_t>(
+            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+        std::string_view why = error.what();
+        why.remove_prefix(
+            std::min(why.size(), why.rfind("; last read") == std::string_view::npos ? 0 : why.find("while")));
+        throw InputError(file, line, fmt::format("not JSON: {}", why));
+    } catch (const json::out_of_range&) { // a number beyond the range of double
+        throw InputError(file, 0, "a number is out of range; coordinates must lie within +-1048576 mm");
+    }
+}
+
+CurveFile read_curve_file(const std::string& path) {
+    constexpr std::size_t largest = std::size_t{1} << 30;
+    return parse_curve(read_text_file(path, largest), path);
+}
+
+} // namespace splinefeed::host
