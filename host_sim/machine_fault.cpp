@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "machine_fault.hpp"
+
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+const char* fault_name(FaultKind kind) noexcept {
+    switch (kind) {
+    case FaultKind::chain: return "chain";
+    case FaultKind::duration: return "duration";
+    case FaultKind::velocity: return "velocity";
+    case FaultKind::acceleration: return "acceleration";
+    case FaultKind::jerk: return "jerk";
+    case FaultKind::feed: return "feed";
+    case FaultKind::travel: return "travel";
+    case FaultKind::underrun: return "underrun";
+    case FaultKind::trace: return "trace";
+    }
+    return "unknown";
+}
+
+std::string describe(const Fault& fault) {
+    const std::string where = fault.axis.empty() ? "path" : "axis " + fault.axis;
+    std::string what;
+    switch (fault.kind) {
+    case FaultKind::chain:
+        what = fmt::format("{}: a segment does not start where the last one ended: {} is off by {:.6g} {}", where,
+                           fault.unit == std::string_view("mm") ? "position" : "velocity", fault.value, fault.unit);
+        break;
+    case FaultKind::duration: what = "a segment lasts no time"; break;
+    case FaultKind::velocity:
+    case FaultKind::acceleration:
+    case FaultKind::jerk:
+    case FaultKind::feed:
+        what = fmt::format("{}: {} {:.9g} {} is above the limit of {:.9g} {}", where, fault_name(fault.kind), fault.value,
+                           fault.unit, fault.limit, fault.unit);
+        break;
+    case FaultKind::travel:
+        what = fmt::format("{}: position {:.9g} mm is {} the travel limit of {:.9g} mm", where, fault.value,
+                           fault.value < fault.limit ? "below" : "above", fault.limit);
+        break;
+    case FaultKind::underrun:
+        what = fmt::format("the segments ran out while the machine moved at {:.6g} mm/s", fault.value);
+        break;
+    case FaultKind::trace: what = "the trace could not be written"; break;
+    }
+    return fmt::format("{}, at t = {:.6f} s near waypoint {}", what, fault.time_s, fault.waypoint);
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+//
+// Tolerance. A control point of the stream is a position rounded to 2^-fraction_bits mm, then to a multiple of 6 units: it
+// is off by at most
+//
+//   e = 2^-(fraction_bits + 1) mm + 3 units.
+//
+// Velocity, acceleration and jerk of the segment are its first, second, third differences over T, T^2, T^3, hence off by
+// at most e / T (the average of two first differences), 4 e / T^2 and 8 e / T^3. For 1000 counts per mm, e is 1.4 pm, and
+// 4 e / T^2 at 1 ms is 6e-9 of 1000 mm/s^2. The further 1e-6 is for the rounding of the curve itself.
+#include "simulated_machine.hpp"
+
+#include "segment_cubic.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double tolerance = 1e-6;
+constexpr unsigned no_axis = static_cast<unsigned>(max_axes);
+
+bool is_linear(const std::string& name) { return name == "x" || name == "y" || name == "z"; }
+
+} // namespace
+
+struct SimulatedMachine::Motion {
+    const FeedSegment* segment;
+    double start_s;
+    double duration_s;
+    PerAxis<SegmentCubic> cubic;
+    PerAxis<double> jump;         // of acceleration at the start, as jerk over one segment
+    PerAxis<bool> axis_suspicious; // some limit of the axis is violated somewhere
+    bool suspicious;
+    double power;         // v . a at the last tick
+};
+
+SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segments_per_sample, const Options& options)
+    : name_(machine.axis_name), options_(options), axes_(static_cast<unsigned>(machine.settings.axes)),
+      segments_per_sample_(segments_per_sample), queue_(static_cast<std::size_t>(options.queue)) {
+    assert(machine.settings.axes >= 1 && machine.settings.axes <= max_axes && segments_per_sample >= 1);
+    assert(options.queue >= 1 && options.ticks_per_segment >= 1 && options.ticks_per_segment <= 1024);
+    const bool any_linear = std::any_of(name_.begin(), name_.begin() + axes_, is_linear);
+    double path_noise_sq = 0.0;
+    for (unsigned k = 0; k < axes_; ++k) {
+        const AxisSettings& settings = machine.settings.axis[k];
+        Axis& axis = axis_[k];
+        axis.units_per_mm = static_cast<double>(units_per_count) * settings.steps_per_mm;
+        const double e = std::ldexp(1.0, -(Position::fraction_bits + 1)) + 3.0 / axis.units_per_mm;
+        const auto with_tolerance = [](double limit, double noise) { return Limit{limit, limit * (1.0 + tolerance), noise}; };
+        axis.velocity = with_tolerance(settings.max_velocity_mm_s, e);
+        axis.acceleration = with_tolerance(settings.max_acceleration_mm_s2, 4.0 * e);
+        axis.jerk = with_tolerance(settings.max_jerk_mm_s3, 8.0 * e);
+        axis.travel = machine.travel[k];
+        if (axis.travel) {
+            const double slack = tolerance * (axis.travel->high - axis.travel->low) + e;
+            axis.lowest = axis.travel->low - slack;
+            axis.highest = axis.travel->high + slack;
+        }
+        axis.on_path = !any_linear || is_linear(name_[k]);
+        path_noise_sq += axis.on_path ? e * e : 0.0;
+    }
+    feed_ = {machine.settings.max_feed_mm_s, machine.settings.max_feed_mm_s * (1.0 + tolerance), std::sqrt(path_noise_sq)};
+}
+
+// ---- the port
+
+int SimulatedMachine::do_room() const noexcept { return static_cast<int>(queue_.size() - queued_); }
+
+bool SimulatedMachine::do_submit(const FeedSegment& segment) noexcept {
+    if (fault_ || halted_ || queued_ == queue_.size()) {
+        return false;
+    }
+    queue_[(head_ + queued_) % queue_.size()] = segment;
+    ++queued_;
+    return true;
+}
+
+hal::PortState SimulatedMachine::do_poll() noexcept {
+    if (!fault_ && !halted_) {
+        if (queued_ > 0) {
+            const FeedSegment& segment = queue_[head_];
+            try {
+                execute(segment);
+            } catch (...) {
+                trace_failure_ = std::current_exception();
+                fail(FaultKind::trace, no_axis, cycle_time_s(), 0.0, 0.0, "", segment.waypoint);
+            }
+            head_ = (head_ + 1) % queue_.size();
+            --queued_;
+        } else if (moving()) {
+            fail(FaultKind::underrun, no_axis, cycle_time_s(), path_speed(), 0.0, "mm/s", waypoint_);
+        }
+    }
+    const hal::PortPhase phase = fault_                    ? hal::PortPhase::fault
+                                 : halted_                 ? hal::PortPhase::halted
+                                 : queued_ > 0 || moving() ? hal::PortPhase::running
+                                                           : hal::PortPhase::idle;
+    return {phase, executed_};
+}
+
+void SimulatedMachine::do_halt() noexcept {
+    queued_ = 0;
+    halted_ = true;
+}
+
+void SimulatedMachine::finish() {
+    if (trace_failure_) {
+        std::rethrow_exception(trace_failure_);
+    }
+    if (!fault_ && untraced_ > 0) {
+        trace_row();
+    }
+}
+
+// ---- execution
+
+bool SimulatedMachine::moving() const noexcept {
+    return std::any_of(velocity_.begin(), velocity_.begin() + axes_, [](std::int64_t v) { return v != 0; });
+}
+
+double SimulatedMachine::path_speed() const noexcept {
+    double speed_sq = 0.0;
+    for (unsigned k = 0; k < axes_; ++k) {
+        const double v = static_cast<double>(velocity_[k]) / (axis_[k].units_per_mm * seconds(duration_ticks_));
+        speed_sq += axis_[k].on_path ? v * v : 0.0;
+    }
+    return std::sqrt(speed_sq);
+}
+
+PerAxis<double> SimulatedMachine::position_mm() const noexcept {
+    PerAxis<double> position{};
+    for (unsigned k = 0; k < axes_; ++k) {
+        // Three roundings of 2^-53: below 4e-16 of the position.
+        position[k] = static_cast<double>(position_[k]) / axis_[k].units_per_mm;
+    }
+    return position;
+}
+
+void SimulatedMachine::trace_row() {
+    untraced_ = 0;
+    if (options_.trace != nullptr) {
+        options_.trace->row(cycle_time_s(), position_mm(), path_speed());
+    }
+}
+
+// Always false, for `return fail(...)`.
+bool SimulatedMachine::fail(FaultKind kind, unsigned axis, double time_s, double value, double limit, const char* unit,
+                            std::uint32_t waypoint) {
+    fault_ = Fault{kind, axis == no_axis ? std::string{} : name_[axis], time_s, value, limit, unit, waypoint};
+    return false;
+}
+
+// The chain in position and velocity. Velocities of segments of different duration are compared as fractions.
+bool SimulatedMachine::accept(const FeedSegment& segment) {
+    const double now = cycle_time_s();
+    if (segment.duration_ticks == 0) {
+        return fail(FaultKind::duration, no_axis, now, 0.0, 0.0, "s", segment.waypoint);
+    }
+    for (unsigned k = 0; k < axes_; ++k) {
+        const double units_per_mm = axis_[k].units_per_mm;
+        if (started_ && segment.start[k] != position_[k]) {
+            const double gap = static_cast<double>(static_cast<Wide128>(segment.start[k]) - position_[k]) / units_per_mm;
+            return fail(FaultKind::chain, k, now, gap, 0.0, "mm", segment.waypoint);
+        }
+        const Wide128 gap = static_cast<Wide128>(segment.start_velocity[k]) * duration_ticks_ -
+                           static_cast<Wide128>(velocity_[k]) * segment.duration_ticks;
+        if (gap != 0) {
+            const double mm_s = static_cast<double>(gap) / (units_per_mm * seconds(segment.duration_ticks) * duration_ticks_);
+            return fail(FaultKind::chain, k, now, mm_s, 0.0, "mm/s", segment.waypoint);
+        }
+    }
+    return true;
+}
+
+bool SimulatedMachine::execute(const FeedSegment& segment) {
+    if (!accept(segment)) {
+        return false;
+    }
+    waypoint_ = segment.waypoint;
+    Motion motion; // NOLINT: survey() fills it
+    motion.segment = &segment;
+    motion.start_s = cycle_time_s();
+    motion.duration_s = seconds(segment.duration_ticks);
+    if (!started_) {
+        for (unsigned k = 0; k < axes_; ++k) {
+            position_[k] = segment.start[k];
+            counts_[k] = nearest_count(position_[k]);
+            acceleration_[k] = 0.0;
+        }
+        started_ = true;
+        trace_row();
+    }
+    survey(motion);
+    for (int j = 0; j <= options_.ticks_per_segment; ++j) {
+        if (!tick(motion, j)) {
+            return false;
+        }
+    }
+    for (unsigned k = 0; k < axes_; ++k) {
+        velocity_[k] = segment.end_velocity[k];
+        acceleration_[k] = motion.cubic[k].acceleration(1.0);
+    }
+    duration_ticks_ = segment.duration_ticks;
+    elapsed_ticks_ += segment.duration_ticks;
+    ++executed_;
+    if (++untraced_ == segments_per_sample_) {
+        trace_row();
+    }
+    return true;
+}
+
+// Coefficients, and the extremes over the whole segment in closed form.
+void SimulatedMachine::survey(Motion& motion) noexcept {
+    const FeedSegment& segment = *motion.segment;
+    const double duration = motion.duration_s;
+    motion.suspicious = false;
+    motion.power = 0.0;
+    for (unsigned k = 0; k < axes_; ++k) {
+        const Axis& axis = axis_[k];
+        SegmentCubic& cubic = motion.cubic[k];
+        cubic = SegmentCubic(segment, k, axis.units_per_mm, duration);
+        double velocity = std::max(std::fabs(cubic.velocity(0.0)), std::fabs(cubic.velocity(1.0)));
+        if (cubic.peak_u() >= 0.0) {
+            velocity = std::max(velocity, std::fabs(cubic.velocity(cubic.peak_u())));
+        }
+        const double start = cubic.acceleration(0.0);
+        const double acceleration = std::max(std::fabs(start), std::fabs(cubic.acceleration(1.0)));
+        // Where acceleration jumps, the sampled jerk is the jump over a segment; a stream that chains in C2 has none.
+        motion.jump[k] = (start - acceleration_[k]) / duration;
+        const bool jerk_limited = axis.jerk.limit > 0.0;
+        const double jerk = jerk_limited ? std::max(std::fabs(cubic.jerk()), std::fabs(motion.jump[k])) : 0.0;
+
+        LimitUse& use = use_[k];
+        use.velocity = std::max(use.velocity, velocity / axis.velocity.limit);
+        use.acceleration = std::max(use.acceleration, acceleration / axis.acceleration.limit);
+        use.jerk = jerk_limited ? std::max(use.jerk, jerk / axis.jerk.limit) : 0.0;
+        const double square = duration * duration;
+        motion.axis_suspicious[k] = velocity > axis.velocity.most + axis.velocity.noise / duration ||
+                           acceleration > axis.acceleration.most + axis.acceleration.noise / square ||
+                           (jerk_limited && jerk > axis.jerk.most + axis.jerk.noise / (square * duration));
+        motion.suspicious = motion.suspicious || motion.axis_suspicious[k];
+    }
+}
+
+// From tick j-1 to tick j: checks, then moves.
+bool SimulatedMachine::tick(Motion& motion, int j) {
+    if (options_.enforce && motion.suspicious && !check_axes(motion, j)) {
+        return false;
+    }
+    if (!check_path(motion, j)) {
+        return false;
+    }
+    const int n = options_.ticks_per_segment;
+    const double u = static_cast<double>(j) / n;
+    PerAxis<std::int64_t> next; // NOLINT: written before it is read
+    for (unsigned k = 0; k < axes_; ++k) {
+        next[k] = motion.segment->start[k] + motion.cubic[k].travelled(j, n);
+        if (options_.enforce && axis_[k].travel && !check_travel(motion, k, next[k], u)) {
+            return false;
+        }
+    }
+    for (unsigned k = 0; k < axes_; ++k) {
+        const std::int64_t count = nearest_count(next[k]);
+        pulses_[k] += static_cast<std::uint64_t>(std::abs(count - counts_[k]));
+        counts_[k] = count;
+        position_[k] = next[k];
+    }
+    return true;
+}
+
+// Finds the first violation of an axis limit in (tick j-1, tick j]; only called where there is one in the segment.
+bool SimulatedMachine::check_axes(const Motion& motion, int j) {
+    const double n = options_.ticks_per_segment;
+    const double u = j / n;
+    const double t = motion.duration_s;
+    const double now = motion.start_s + t * u;
+    const std::uint32_t waypoint = motion.segment->waypoint;
+    for (unsigned k = 0; k < axes_; ++k) {
+        const Axis& axis = axis_[k];
+        const SegmentCubic& cubic = motion.cubic[k];
+        if (!motion.axis_suspicious[k]) {
+            continue;
+        }
+        const double jerk = std::max(std::fabs(cubic.jerk()), std::fabs(motion.jump[k]));
+        if (axis.jerk.limit > 0.0 && jerk > axis.jerk.most + axis.jerk.noise / (t * t * t)) {
+            return fail(FaultKind::jerk, k, now, jerk, axis.jerk.limit, "mm/s3", waypoint);
+        }
+        const double acceleration = std::fabs(cubic.acceleration(u));
+        if (acceleration > axis.acceleration.most + axis.acceleration.noise / (t * t)) {
+            return fail(FaultKind::acceleration, k, now, acceleration, axis.acceleration.limit, "mm/s2", waypoint);
+        }
+        const double most = axis.velocity.most + axis.velocity.noise / t;
+        const bool peaked = cubic.peak_u() > u - 1.0 / n && cubic.peak_u() <= u;
+        const double peak = peaked ? std::fabs(cubic.velocity(cubic.peak_u())) : 0.0;
+        if (peak > most) {
+            const double time = motion.start_s + t * cubic.peak_u();
+            return fail(FaultKind::velocity, k, time, peak, axis.velocity.limit, "mm/s", waypoint);
+        }
+        const double velocity = std::fabs(cubic.velocity(u));
+        if (velocity > most) {
+            return fail(FaultKind::velocity, k, now, velocity, axis.velocity.limit, "mm/s", waypoint);
+        }
+    }
+    return true;
+}
+
+// Path speed at tick j, and at its peak since tick j-1: where v . a changes from + to -, found by one secant step. Near
+// its peak the speed is flat: what the step misses is of fourth order in the tick.
+bool SimulatedMachine::check_path(Motion& motion, int j) {
+    const auto measure = [&](double u, double& power) {
+        double speed_sq = 0.0;
+        power = 0.0;
+        for (unsigned k = 0; k < axes_; ++k) {
+            if (axis_[k].on_path) {
+                const double v = motion.cubic[k].velocity(u);
+                speed_sq += v * v;
+                power += v * motion.cubic[k].acceleration(u);
+            }
+        }
+        return std::sqrt(speed_sq);
+    };
+    const double n = options_.ticks_per_segment;
+    double u = j / n;
+    double power = 0.0;
+    double speed = measure(u, power);
+    if (j > 0 && motion.power > 0.0 && power < 0.0) {
+        const double peak_u = u + (motion.power / (motion.power - power) - 1.0) / n;
+        double ignored = 0.0;
+        const double peak = measure(peak_u, ignored);
+        if (peak > speed) {
+            speed = peak;
+            u = peak_u;
+        }
+    }
+    motion.power = power;
+    max_path_speed_ = std::max(max_path_speed_, speed);
+    if (options_.enforce && speed > feed_.most + feed_.noise / motion.duration_s) {
+        return fail(FaultKind::feed, no_axis, motion.start_s + motion.duration_s * u, speed, feed_.limit, "mm/s",
+                    motion.segment->waypoint);
+    }
+    return true;
+}
+
+bool SimulatedMachine::check_travel(const Motion& motion, unsigned k, std::int64_t position, double u) {
+    const Axis& axis = axis_[k];
+    const double mm = static_cast<double>(position) / axis.units_per_mm;
+    if (mm >= axis.lowest && mm <= axis.highest) {
+        return true;
+    }
+    const double limit = mm < axis.lowest ? axis.travel->low : axis.travel->high;
+    return fail(FaultKind::travel, k, motion.start_s + motion.duration_s * u, mm, limit, "mm", motion.segment->waypoint);
+}
+
+} // namespace splinefeed::host
