@@ -27,9 +27,9 @@ template <class S>
 void check_displaced(std::int64_t origin, S offset, int unit_log2) {
     std::int64_t step = 0;
     if constexpr (std::same_as<S, Fixed>) {
-        step = rounded_offset(static_cast<long double>(offset.raw()), unit_log2);
+        step = rounded_offset(static_cast<long double>(offset.raw()), unit_log2 + 40 - 32);
     } else {
-        step = rounded_offset(static_cast<long double>(offset), unit_log2 + 32);
+        step = rounded_offset(static_cast<long double>(offset), unit_log2 + 40);
     }
     if (displaced(Position{origin}, offset, unit_log2).raw != clamped(static_cast<Int128>(origin) + step)) {
         FAIL_SAMPLE(origin, to_double(offset), unit_log2, step);
@@ -49,20 +49,21 @@ TEST_CASE("Fixed distances are rounded shifts", "[number][position]") {
         const std::int64_t to = random.signed_below(62);
         const int unit = random.between(-60, 60);
         const Int128 difference = static_cast<Int128>(to) - from;
-        const std::int64_t expected = unit > 0 ? clamped(rounded_quotient(difference, Uint128{1} << unit))
-                                               : clamped(difference * (Int128{1} << std::min(-unit, 60)));
+        const int right = unit + 40 - 32;
+        const std::int64_t expected = right > 0 ? clamped(rounded_quotient(difference, Uint128{1} << right))
+                                                : clamped(difference * (Int128{1} << std::min(-right, 60)));
         if (distance<Fixed>(Position{from}, Position{to}, unit).raw() != expected) {
             FAIL_SAMPLE(from, to, unit);
         }
     }
-    REQUIRE(distance<Fixed>(Position{1}, Position{4}, 1) == Fixed::from_raw(2));
-    REQUIRE(distance<Fixed>(Position{4}, Position{1}, 1) == Fixed::from_raw(-2));
+    REQUIRE(distance<Fixed>(Position{1}, Position{4}, -7) == Fixed::from_raw(2));
+    REQUIRE(distance<Fixed>(Position{4}, Position{1}, -7) == Fixed::from_raw(-2));
 }
 
 TEMPLATE_TEST_CASE("float and double distances are the nearest numbers", "[number][position]", float, double) {
     const auto check = [](std::int64_t from, std::int64_t to, int unit) {
         // A long double has 64 bits: the difference is exact, and the cast is the only rounding.
-        const auto exact = std::ldexp(static_cast<long double>(to - from), -32 - unit);
+        const auto exact = std::ldexp(static_cast<long double>(to - from), -40 - unit);
         if (distance<TestType>(Position{from}, Position{to}, unit) != static_cast<TestType>(exact)) {
             FAIL_SAMPLE(from, to, unit, distance<TestType>(Position{from}, Position{to}, unit));
         }
@@ -109,8 +110,8 @@ TEMPLATE_TEST_CASE("displacements by float and double are rounded once", "[numbe
         check_displaced(random.signed64(), static_cast<TestType>(random.real(-90, 90)), random.between(-60, 60));
     }
     for (int k = -2000; k <= 2000; ++k) {
-        check_displaced(k, static_cast<TestType>(k) * TestType{0x1p-34}, 0); // quarters: every second one a tie
-        check_displaced(k, static_cast<TestType>(k) * TestType{0x1p-20}, -14);
+        check_displaced(k, static_cast<TestType>(k) * TestType{0x1p-42}, 0); // quarters: every second one a tie
+        check_displaced(k, static_cast<TestType>(k) * TestType{0x1p-28}, -14);
     }
     for (const TestType sign : {TestType{-1}, TestType{1}}) {
         for (const TestType size : {TestType{0}, Limits::denorm_min(), Limits::min(), Limits::max(), TestType{0x1p31},
@@ -140,7 +141,7 @@ TEMPLATE_TEST_CASE("a displacement undoes a distance", "[number][position]", flo
     for (int i = 0; i < samples / 2; ++i) {
         const Position from{random.signed_below(52)};
         const Position to{from.raw + random.signed_below(24)};
-        const int unit = random.between(-7, 0);
+        const int unit = random.between(-15, -8);
         if (displaced(from, distance<TestType>(from, to, unit), unit) != to) {
             FAIL_SAMPLE(from.raw, to.raw, unit);
         }
@@ -173,25 +174,25 @@ TEST_CASE("scaled positions are rounded to nearest or saturate", "[number][posit
     }
     // 80 steps per mm: 1.5 steps are 2, in both directions
     const Position p = position_from_mm(1.5 / 80.0);
-    REQUIRE(scaled(position_from_mm(0.25), std::uint64_t{80} << 32, 64) == 20);
-    REQUIRE(scaled(Position{std::int64_t{3} << 31}, std::uint64_t{1} << 32, 64) == 2);
-    REQUIRE(scaled(Position{-(std::int64_t{3} << 31)}, std::uint64_t{1} << 32, 64) == -2);
-    REQUIRE(scaled(p, std::uint64_t{80} << 32, 64) == 2);
+    REQUIRE(scaled(position_from_mm(0.25), std::uint64_t{80} << 32, 72) == 20);
+    REQUIRE(scaled(Position{std::int64_t{3} << 39}, std::uint64_t{1} << 32, 72) == 2);
+    REQUIRE(scaled(Position{-(std::int64_t{3} << 39)}, std::uint64_t{1} << 32, 72) == -2);
+    REQUIRE(scaled(p, std::uint64_t{80} << 32, 72) == 2);
 }
 
 TEST_CASE("positions and millimetres", "[number][position]") {
-    REQUIRE(position_from_mm(1.0).raw == std::int64_t{1} << 32);
-    REQUIRE(to_mm(Position{-(std::int64_t{5} << 30)}) == -1.25);
-    REQUIRE(position_from_mm(0x1p-33).raw == 1);
-    REQUIRE(position_from_mm(-0x1p-33).raw == -1);
+    REQUIRE(position_from_mm(1.0).raw == std::int64_t{1} << 40);
+    REQUIRE(to_mm(Position{-(std::int64_t{5} << 38)}) == -1.25);
+    REQUIRE(position_from_mm(0x1p-41).raw == 1);
+    REQUIRE(position_from_mm(-0x1p-41).raw == -1);
     Operands random;
     for (int i = 0; i < samples; ++i) {
         const Position position{random.signed_below(52)};
         if (position_from_mm(to_mm(position)) != position) {
             FAIL_SAMPLE(position.raw);
         }
-        const double mm = random.real(-40, 19);
-        if (std::fabs(to_mm(position_from_mm(mm)) - mm) > 0x1p-33) {
+        const double mm = random.real(-48, 19);
+        if (std::fabs(to_mm(position_from_mm(mm)) - mm) > 0x1p-41) {
             FAIL_SAMPLE(mm);
         }
     }

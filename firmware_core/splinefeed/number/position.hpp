@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Positions of an axis as integers of 2^-32 mm. They are the same integers whatever Scalar the controller computes
+// Positions of an axis as integers of 2^-40 mm. They are the same integers whatever Scalar the controller computes
 // with, so that a difference of two positions does not depend on where on the axis they are, and sums never drift.
 #pragma once
 
@@ -8,19 +8,14 @@
 
 namespace splinefeed {
 
-/// A position in units of 2^-32 mm, about 0.23 pm. Machine coordinates have |position| <= 2^20 mm (1 km).
+/// A position in units of 2^-40 mm, about 1e-12 mm. Machine coordinates have |position| <= 2^20 mm (1 km).
 struct Position {
+    static constexpr int fraction_bits = 40;
     std::int64_t raw = 0;
 
     friend constexpr bool operator==(const Position&, const Position&) noexcept = default;
     friend constexpr auto operator<=>(const Position&, const Position&) noexcept = default;
 };
-
-namespace detail {
-
-inline constexpr int position_fraction_bits = 32;
-
-} // namespace detail
 
 /// to - from in units of 2^unit_log2 mm, |unit_log2| <= 60. The difference is exact and the result rounded to nearest
 /// once: error <= 1/2 ulp of S. Ties go away from zero in Fixed and to even in float and double; Fixed saturates.
@@ -30,14 +25,14 @@ template <Scalar S>
     const detail::Checked difference = detail::checked_difference(to.raw, from.raw);
     SPLINEFEED_ASSERT(difference.fits);
     if constexpr (std::same_as<S, Fixed>) {
-        static_assert(detail::fixed_fraction_bits == detail::position_fraction_bits);
-        return scale2(Fixed::from_raw(difference.raw), -unit_log2);
+        return Fixed::from_raw(
+            detail::checked_shift(difference.raw, detail::fixed_fraction_bits - Position::fraction_bits - unit_log2).raw);
     } else {
-        return detail::from_integer_scaled<S>(difference.raw, -unit_log2 - detail::position_fraction_bits);
+        return detail::from_integer_scaled<S>(difference.raw, -unit_log2 - Position::fraction_bits);
     }
 }
 
-/// origin + offset * 2^unit_log2 mm, |unit_log2| <= 60, the offset rounded to the nearest 2^-32 mm, ties away from
+/// origin + offset * 2^unit_log2 mm, |unit_log2| <= 60, the offset rounded to the nearest 2^-40 mm, ties away from
 /// zero. A position that does not fit in 64 bits, or an offset that is not finite, gives the limit on its side; such a
 /// position is far outside of every machine.
 template <Scalar S>
@@ -45,15 +40,15 @@ template <Scalar S>
     SPLINEFEED_ASSERT(unit_log2 >= -60 && unit_log2 <= 60);
     detail::Checked step;
     if constexpr (std::same_as<S, Fixed>) {
-        step = detail::checked_shift(offset.raw(), unit_log2);
+        step = detail::checked_shift(offset.raw(), unit_log2 + Position::fraction_bits - detail::fixed_fraction_bits);
     } else {
-        step = detail::checked_integer(offset, unit_log2 + detail::position_fraction_bits);
+        step = detail::checked_integer(offset, unit_log2 + Position::fraction_bits);
     }
     return {detail::checked_sum(origin.raw, step.raw).raw};
 }
 
 /// round(position * factor / 2^shift), ties away from zero, 0 <= shift <= 127; saturates. With the factor in steps per
-/// mm as Q32.32 and shift = 64 the result is in steps. Cost: four 32x32->64 multiplies.
+/// mm as Q32.32 and shift = 72 the result is in steps. Cost: four 32x32->64 multiplies.
 [[nodiscard]] constexpr std::int64_t scaled(Position position, std::uint64_t factor_q32, int shift) noexcept {
     SPLINEFEED_ASSERT(shift >= 0 && shift <= 127);
     Wide product = multiply(detail::magnitude(position.raw), factor_q32);
@@ -78,7 +73,7 @@ template <Scalar S>
 
 /// The coordinate in mm, for the host: exact for |position| < 2^21 mm, beyond that rounded to nearest.
 [[nodiscard]] constexpr double to_mm(Position position) noexcept {
-    return detail::from_integer_scaled<double>(position.raw, -detail::position_fraction_bits);
+    return detail::from_integer_scaled<double>(position.raw, -Position::fraction_bits);
 }
 
 } // namespace splinefeed
