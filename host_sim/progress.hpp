@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Progress: a line on a terminal that says how far a run is.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace splinefeed::host {
+
+struct ProgressOptions {
+    bool quiet = false;
+    std::optional<std::uint64_t> waypoints; ///< how many there will be, where that is known
+    int descriptor = 2;                     ///< standard error
+};
+
+/// Shows waypoints read, seconds of motion planned and their rate, redrawn at most ten times a second, and erases the line
+/// at the end. Where the descriptor is no terminal it writes nothing at all.
+/// Cost of update(): a look at the clock every 64th time, nothing else between redraws.
+class Progress {
+public:
+    using Options = ProgressOptions;
+
+    explicit Progress(const Options& options = {});
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    ~Progress() { finish(); }
+
+    void update(std::uint64_t waypoints, double motion_s) {
+        if (shown_ && (calls_++ & 63U) == 0U) {
+            redraw(waypoints, motion_s);
+        }
+    }
+    /// Erases the line; nothing is drawn afterwards.
+    void finish() noexcept;
+
+    /// The line's text, 79 characters at most.
+    [[nodiscard]] static std::string text(std::uint64_t waypoints, std::optional<std::uint64_t> all, double motion_s,
+                                          double wall_s);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void redraw(std::uint64_t waypoints, double motion_s);
+
+    std::optional<std::uint64_t> waypoints_;
+    int descriptor_;
+    bool shown_;
+    bool drawn_ = false;
+    std::uint64_t calls_ = 0;
+    Clock::time_point start_;
+    Clock::time_point next_;
+};
+
+} // namespace splinefeed::host

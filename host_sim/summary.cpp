@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "summary.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+namespace splinefeed::host {
+
+namespace {
+
+// A use above this is worth a sentence: the tolerance of the simulated machine.
+constexpr double over_limit = 1.0 + 1e-6;
+
+using Lines = std::back_insert_iterator<std::string>;
+
+void row(Lines out, std::string_view label, const std::string& value, std::string_view unit) {
+    fmt::format_to(out, "{:<22}{:>14}{}{}\n", label, value, unit.empty() ? "" : " ", unit);
+}
+
+// Lengths of a millionth of a millimetre are of interest and so are kilometres.
+std::string fine(double value) { return fmt::format("{:.3g}", value); }
+
+std::string percent(double use) { return fmt::format("{:.2f} %", use * 100.0); }
+
+std::string plural(std::uint64_t n, std::string_view thing) { return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s"); }
+
+void write_limit_use(Lines out, const Summary& summary) {
+    const auto& uses = summary.limit_use;
+    const bool any_jerk = std::any_of(uses.begin(), uses.end(), [](const Summary::AxisUse& use) { return use.jerk.has_value(); });
+    fmt::format_to(out, "\n{:<22}{:>14}{:>14}{}\n", "limits used", "velocity", "acceleration", any_jerk ? "          jerk" : "");
+    for (const Summary::AxisUse& use : uses) {
+        fmt::format_to(out, "{:<22}{:>14}{:>14}", "  axis " + use.axis, percent(use.velocity), percent(use.acceleration));
+        if (any_jerk) {
+            fmt::format_to(out, "{:>14}", use.jerk ? percent(*use.jerk) : "no limit");
+        }
+        fmt::format_to(out, "\n");
+    }
+}
+
+void write_use_sentence(Lines out, const std::string& axis, std::string_view limit, double use) {
+    if (use > over_limit) {
+        fmt::format_to(out, "Axis {} is above its {} limit: {:.7g} of it.\n", axis, limit, use);
+    }
+}
+
+void write_sentences(Lines out, const Summary& summary) {
+    if (summary.stopped) {
+        fmt::format_to(out, "The run was stopped before the end of the program.\n");
+    }
+    for (const Summary::AxisUse& use : summary.limit_use) {
+        write_use_sentence(out, use.axis, "velocity", use.velocity);
+        write_use_sentence(out, use.axis, "acceleration", use.acceleration);
+        write_use_sentence(out, use.axis, "jerk", use.jerk.value_or(0.0));
+    }
+    if (summary.window_limited > 0) {
+        fmt::format_to(out, "The planning window was too short {}: a longer one may be faster.\n",
+                       plural(summary.window_limited, "time"));
+    }
+    if (summary.stops > 0) {
+        fmt::format_to(out, "The machine stops at {} on the way, where the path turns sharply.\n", plural(summary.stops, "corner"));
+    }
+}
+
+} // namespace
+
+std::string to_json(const Summary& summary) {
+    using Json = nlohmann::ordered_json;
+    Json velocity = Json::object();
+    Json acceleration = Json::object();
+    Json jerk = Json::object();
+    for (const Summary::AxisUse& use : summary.limit_use) {
+        velocity[use.axis] = use.velocity;
+        acceleration[use.axis] = use.acceleration;
+        if (use.jerk) {
+            jerk[use.axis] = *use.jerk;
+        }
+    }
+    Json json;
+    json["cycle_time_s"] = summary.cycle_time_s;
+    json["length_mm"] = summary.length_mm;
+    json["waypoints"] = summary.waypoints;
+    json["curve_segments"] = summary.curve_segments;
+    json["feed_segments"] = summary.feed_segments;
+    json["scalar"] = summary.scalar;
+    json["curve"] = summary.curve;
+    json["max_speed_mm_s"] = summary.max_speed_mm_s;
+    json["limit_use"]["velocity"] = velocity;
+    json["limit_use"]["acceleration"] = acceleration;
+    json["limit_use"]["jerk"] = jerk;
+    json["waypoint_error_mm"] = summary.waypoint_error_mm;
+    json["optimum_time_s"] = summary.optimum_time_s ? Json(*summary.optimum_time_s) : Json(nullptr);
+    json["planning_time_s"] = summary.planning_time_s;
+    json["memory_bytes"]["curve"] = summary.memory_bytes.curve;
+    json["memory_bytes"]["feed_plan"] = summary.memory_bytes.feed_plan;
+    json["memory_bytes"]["stream"] = summary.memory_bytes.stream;
+    json["stopped"] = summary.stopped;
+    json["window_limited"] = summary.window_limited;
+    json["stops"] = summary.stops;
+    json["smoothing_bound_mm"] = summary.smoothing_bound_mm;
+    json["peak_rss_bytes"] = summary.peak_rss_bytes;
+    return json.dump(2) + "\n";
+}
+
+std::string to_text(const Summary& summary) {
+    std::string text;
+    const Lines out(text);
+    row(out, "cycle time", fmt::format("{:.6f}", summary.cycle_time_s), "s");
+    if (summary.optimum_time_s) {
+        const double over = (summary.cycle_time_s / *summary.optimum_time_s - 1.0) * 100.0;
+        row(out, "least possible time", fmt::format("{:.6f}", *summary.optimum_time_s),
+            *summary.optimum_time_s > 0.0 ? fmt::format("s ({:+.2f} % taken)", over) : "s");
+    }
+    row(out, "path length", fmt::format("{:.6f}", summary.length_mm), "mm");
+    row(out, "largest speed", fmt::format("{:.6f}", summary.max_speed_mm_s), "mm/s");
+    row(out, "waypoint error", fine(summary.waypoint_error_mm), "mm at most");
+    row(out, "smoothing error", fine(summary.smoothing_bound_mm), "mm at most");
+    row(out, "waypoints", std::to_string(summary.waypoints), "");
+    row(out, "curve segments", std::to_string(summary.curve_segments), summary.curve);
+    row(out, "feed segments", std::to_string(summary.feed_segments), summary.scalar);
+    row(out, "planning time", fmt::format("{:.3f}", summary.planning_time_s), "s");
+    const Summary::MemoryBytes& memory = summary.memory_bytes;
+    row(out, "planner's memory", std::to_string(memory.curve + memory.feed_plan + memory.stream),
+        fmt::format("bytes (curve {}, feed plan {}, stream {})", memory.curve, memory.feed_plan, memory.stream));
+    if (summary.peak_rss_bytes > 0) {
+        row(out, "memory of the process", fmt::format("{:.1f}", static_cast<double>(summary.peak_rss_bytes) / 1048576.0), "MiB");
+    }
+    if (!summary.limit_use.empty()) {
+        write_limit_use(out, summary);
+    }
+    std::string sentences;
+    write_sentences(Lines(sentences), summary);
+    if (!sentences.empty()) {
+        text += '\n';
+        text += sentences;
+    }
+    return text;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// WaypointError: how far the curve passes from the waypoints that it was made from.
+#pragma once
+
+#include "splinefeed/s1_curve/curve_segment.hpp"
+
+#include <cstdint>
+#include <deque>
+
+namespace splinefeed::host {
+
+/// Takes waypoints and curve segments as they come, each in order, waypoints ahead of the segments that lead to them.
+/// A waypoint is measured against the nearest points of the segments around it: those that lead to it and the first
+/// after it. One to which no segment leads was merged with its predecessor and is measured where that one is.
+/// Memory: the waypoints that no segment has reached yet (the look-ahead of the curve). Cost: about 1 us a segment.
+class WaypointError {
+public:
+    /// Index as in CurveSegment::waypoint, increasing.
+    void waypoint(std::uint32_t index, const PerAxis<Position>& position);
+
+    template <Scalar S>
+    void segment(const CurveSegment<S>& segment);
+
+    /// Largest distance of the waypoints that the curve has reached. 0 without waypoints.
+    [[nodiscard]] double largest_mm() const noexcept;
+
+private:
+    struct Pending {
+        std::uint32_t index;
+        PerAxis<Position> position;
+        double merged_mm; ///< farthest of the waypoints that were merged into this one
+    };
+    /// A segment in double: offsets from `origin` in mm.
+    struct Piece {
+        int axes = 0;
+        int degree = 0;
+        PerAxis<Position> origin{};
+        PerAxis<PerDegree<double>> offset{};
+
+        [[nodiscard]] double distance_mm(const PerAxis<Position>& position) const noexcept;
+    };
+
+    void advance(const Piece& piece, std::uint32_t waypoint);
+
+    std::deque<Pending> pending_;
+    Piece last_{};
+    std::uint32_t last_waypoint_ = 0;
+    bool any_segment_ = false;
+    double largest_mm_ = 0.0;
+};
+
+} // namespace splinefeed::host
