@@ -26,7 +26,7 @@ std::string printable(std::string_view text) {
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     const bool cut = text.size() > longest;
-    return "'" + printable(text.substr(0, longest)) + (cut ? "...'" : "'");
+    return fmt::format("'{}{}'", printable(text.substr(0, longest)), cut ? "..." : "");
 }
 
 InputError::InputError(std::string_view file, std::uint64_t line, std::string_view text)

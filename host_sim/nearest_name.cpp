@@ -2,6 +2,7 @@
 #include "nearest_name.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <vector>
 
 namespace splinefeed::host {
@@ -69,7 +70,7 @@ std::string listed(std::span<const std::string_view> names) {
 
 std::string suggestion(std::string_view name, std::span<const std::string_view> known) {
     const std::string_view best = nearest_name(name, known);
-    return best.empty() ? "; known are " + listed(known) : "; did you mean '" + std::string(best) + "'?";
+    return best.empty() ? fmt::format("; known are {}", listed(known)) : fmt::format("; did you mean '{}'?", best);
 }
 
 } // namespace splinefeed::host

@@ -61,7 +61,7 @@ void WaypointReader::fail(std::string_view text) const {
     throw InputError(file_, line_, text);
 }
 
-WaypointReader::WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes)
+WaypointReader::WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes, bool drop_absent_axes)
     : source_(input.rdbuf()), file_(std::move(file)), axes_(std::move(axes)), buffer_(std::size_t{1} << 16) {
     std::string_view line;
     if (!next_content(line)) {
@@ -75,10 +75,8 @@ WaypointReader::WaypointReader(std::istream& input, std::string file, std::vecto
     } else {
         assume_columns(line);
     }
-    for (const std::string& axis : axes_) {
-        if (std::find(columns_.begin(), columns_.end(), axis_index(axis)) != columns_.end()) {
-            axes_in_file_.push_back(axis);
-        }
+    if (drop_absent_axes) {
+        this->drop_absent_axes();
     }
     last_.line = line_;
     parse(line, last_);
@@ -256,6 +254,20 @@ void WaypointReader::assume_columns(std::string_view line) {
         }
         columns_.push_back(column);
     }
+}
+
+void WaypointReader::drop_absent_axes() {
+    std::vector<std::string> present;
+    std::vector<int> columns = columns_;
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+        const auto found = std::find(columns_.begin(), columns_.end(), static_cast<int>(k));
+        if (found != columns_.end()) {
+            columns[static_cast<std::size_t>(found - columns_.begin())] = static_cast<int>(present.size());
+            present.push_back(axes_[k]);
+        }
+    }
+    axes_ = std::move(present);
+    columns_ = std::move(columns);
 }
 
 void WaypointReader::parse(std::string_view line, WaypointRow& row) const {

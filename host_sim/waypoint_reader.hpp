@@ -33,13 +33,14 @@ public:
     /// Reads up to the first row.
     /// @param file  the name for messages
     /// @param axes  the machine's axes, each one of x,y,z,a,b,c
-    WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes);
+    /// @param drop_absent_axes  positions have only the axes that the file has columns for: see axes()
+    WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes, bool drop_absent_axes = false);
 
     /// Reads the next row; false at the end of the file.
     bool next(WaypointRow& out);
 
-    /// Which of the axes the file has columns for, in the order of the axes.
-    [[nodiscard]] const std::vector<std::string>& axes_in_file() const noexcept { return axes_in_file_; }
+    /// The names of the coordinates of a row's position.
+    [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
     [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
 
 private:
@@ -51,6 +52,7 @@ private:
     bool next_content(std::string_view& line);
     void read_header(std::string_view line);
     void assume_columns(std::string_view line);
+    void drop_absent_axes();
     [[nodiscard]] bool is_header(std::string_view line) const;
     void parse(std::string_view line, WaypointRow& row) const;
     void parse_field(std::string_view field, int column, WaypointRow& row) const;
@@ -62,7 +64,6 @@ private:
     std::streambuf* source_;
     std::string file_;
     std::vector<std::string> axes_;
-    std::vector<std::string> axes_in_file_;
     std::vector<int> columns_; // axis index, feed_column or corner_column
     std::vector<char> buffer_;
     std::size_t begin_ = 0;

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "command_line.hpp"
+
+#include "input_error.hpp"
+#include "nearest_name.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+#ifndef SPLINEFEED_VERSION
+#define SPLINEFEED_VERSION "unknown"
+#endif
+
+constexpr const char* exit_statuses =
+    "Exit status: 0 done; 1 the machine did not finish, and where it stands; 2 bad input or usage, told in one line.";
+
+/// What was typed, before it is checked.
+struct Typed {
+    std::string target = "sim";
+    std::string scalar = "fixed";
+    std::string format;
+    std::string summary;
+    std::string window = "1024";
+};
+
+std::string joined(std::initializer_list<std::string_view> names) {
+    return listed({names.begin(), names.size()});
+}
+
+[[noreturn]] void refuse_value(std::string_view option, std::string_view value, std::initializer_list<std::string_view> known) {
+    throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(value), joined(known)));
+}
+
+void add_input(CLI::App& app, Job& job, Typed& typed) {
+    app.add_option("FILE", job.input, "waypoints (.csv) or a curve (.json); - reads standard input")->required();
+    app.add_option("--format", typed.format, "csv or json: what the input is (default: what its name says; of standard input csv)");
+}
+
+void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
+    CurveArguments& curve = job.curve;
+    const std::string group = "Curve";
+    app.add_option("--curve", curve.method, "g2, catmull-rom or polyline (default g2)")->group(group);
+    app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")->group(group);
+    app.add_option("--parameterization", curve.parameterization,
+                   "uniform, chordal or centripetal (default: g2 chordal, catmull-rom centripetal)")
+        ->group(group);
+    app.add_option("--tension", curve.tension, "of catmull-rom, 0 to 10 (default 0.5)")->group(group);
+    app.add_option("--corner-angle", curve.corner_angle,
+                   "a sharper turn, in degrees, is a corner: the machine stops there (default 60; 180: none is)")
+        ->group(group);
+    app.add_option("--start-tangent", curve.start_tangent, "X,Y,Z: direction at the start, of g2, in units of the first chord")
+        ->group(group);
+    app.add_option("--end-tangent", curve.end_tangent, "X,Y,Z: direction at the end, of g2, in units of the last chord")
+        ->group(group);
+    app.add_option("--scalar", typed.scalar, "fixed, float or double: what it is computed in (default fixed, as on a microcontroller)")
+        ->group(group);
+}
+
+void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
+    app.add_option("-m,--machine", job.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
+    if (executes) {
+        app.add_option("--target", typed.target, "sim: the simulated machine in this process (default sim)");
+    }
+    app.add_option("--window", typed.window, "cells that the feed plan looks ahead, 16 to 1000000 (default 1024)");
+    const std::string group = "Outputs (- is standard output)";
+    app.add_option("--trace", job.trace, "T.csv: positions and speed at every sample period")->group(group);
+    app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);
+    app.add_option("--curve-out", job.curve_out, "C.json: the curve as Bezier segments")->group(group);
+    app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
+    app.add_flag("--quiet", job.quiet, "no progress on standard error")->group(group);
+}
+
+/// The options of an app by their long names, as they are typed.
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+        for (const std::string& name : option->get_snames()) {
+            names.push_back("-" + name);
+        }
+    }
+    return names;
+}
+
+// What CLI11 did not know: an option, or one word too many.
+void refuse_extras(const CLI::App& app, const Job& job) {
+    for (const std::string& word : app.remaining()) {
+        if (word.size() > 1 && word.front() == '-') {
+            const std::vector<std::string> names = option_names(app);
+            const std::vector<std::string_view> known(names.begin(), names.end());
+            const std::string_view near = nearest_name(word.substr(0, word.find('=')), known);
+            throw UsageError(fmt::format("'{}' has no option {}; {}", app.get_name(), in_quotes(word),
+                                         near.empty() ? fmt::format("see splinefeed {} --help", app.get_name())
+                                                      : fmt::format("did you mean '{}'?", near)));
+        }
+        throw UsageError(fmt::format("there is one input, {}; {} is one word too many", in_quotes(job.input), in_quotes(word)));
+    }
+}
+
+void take_format(Job& job, const std::string& format) {
+    const std::size_t dot = job.input.rfind('.');
+    const std::string suffix = job.input == "-" ? ".csv" : dot == std::string::npos ? "" : job.input.substr(dot);
+    const std::string kind = format.empty() ? suffix.substr(suffix.empty() ? 0 : 1) : format;
+    if (kind == "csv") {
+        job.format = InputFormat::csv;
+    } else if (kind == "json") {
+        job.format = InputFormat::json;
+    } else if (!format.empty()) {
+        refuse_value("--format", format, {"csv", "json"});
+    } else {
+        throw UsageError(fmt::format("{}: the name does not say what it is; name a .csv or .json file, or add --format csv|json",
+                                     in_quotes(job.input)));
+    }
+}
+
+void take_scalar(Job& job, const std::string& scalar) {
+    if (scalar == "fixed") {
+        job.scalar = ScalarKind::fixed;
+    } else if (scalar == "float") {
+        job.scalar = ScalarKind::single;
+    } else if (scalar == "double") {
+        job.scalar = ScalarKind::dual;
+    } else {
+        refuse_value("--scalar", scalar, {"fixed", "float", "double"});
+    }
+}
+
+void take_window(Job& job, const std::string& text) {
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, job.window_cells);
+    if (end != last || error != std::errc{} || job.window_cells < 16 || job.window_cells > 1000000) {
+        throw UsageError(fmt::format("--window {}: it must be a whole number from 16 to 1000000", in_quotes(text)));
+    }
+}
+
+// One output at most goes to standard output, and no two to one file.
+void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
+    const std::array<std::pair<const char*, const std::string*>, 3> files{
+        {{"--trace", &job.trace}, {"--segments", &job.segments}, {"--curve-out", &job.curve_out}}};
+    const char* on_stdout = nullptr;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto& [option, path] = files[i];
+        const CLI::Option* const given = app.get_option_no_throw(option);
+        if (given != nullptr && given->count() > 0 && path->empty()) {
+            throw UsageError(fmt::format("{} needs the name of a file, or - for standard output", option));
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!path->empty() && *path == *files[j].second) {
+                throw UsageError(fmt::format("{} and {} both go to {}; give each its own", files[j].first, option,
+                                             *path == "-" ? "standard output" : in_quotes(*path)));
+            }
+        }
+        on_stdout = *path == "-" ? option : on_stdout;
+    }
+    if (!summary.empty() && summary != "text" && summary != "json") {
+        refuse_value("--summary", summary, {"text", "json"});
+    }
+    if (!summary.empty() && on_stdout != nullptr) {
+        throw UsageError(fmt::format("{} - and --summary both go to standard output; write one to a file", on_stdout));
+    }
+    job.summary = on_stdout != nullptr ? SummaryKind::none : summary == "json" ? SummaryKind::json : SummaryKind::text;
+}
+
+void describe_commands(CLI::App& app, Job& job, Typed& typed) {
+    CLI::App* const run = app.add_subcommand("run", "Plan a path and execute it");
+    add_input(*run, job, typed);
+    add_machine_options(*run, job, typed, true);
+    add_curve_options(*run, job, typed);
+    run->footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
+    CLI::App* const plan = app.add_subcommand("plan", "Plan a path, execute nothing");
+    add_input(*plan, job, typed);
+    add_machine_options(*plan, job, typed, false);
+    add_curve_options(*plan, job, typed);
+    plan->footer(std::string("Example: splinefeed plan part.csv --curve catmull-rom --summary json\n") + exit_statuses);
+    CLI::App* const curve = app.add_subcommand("curve", "Print the curve through the points as Bezier segments");
+    add_input(*curve, job, typed);
+    add_curve_options(*curve, job, typed);
+    curve->add_option("-o,--curve-out", job.curve_out, "C.json (default: standard output)");
+    curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
+    for (CLI::App* const command : {run, plan, curve}) {
+        command->allow_extras();
+        command->set_help_flag("--help", "print this");
+    }
+}
+
+} // namespace
+
+std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
+    constexpr std::array<std::string_view, 3> commands{"run", "plan", "curve"};
+    Job job;
+    Typed typed;
+    CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
+    app.set_help_flag("--help", "print this, or what a command takes: splinefeed run --help");
+    app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
+    app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
+    app.require_subcommand(0, 1);
+    app.allow_extras();
+    describe_commands(app, job, typed);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        const auto chosen = app.get_subcommands();
+        return Answer{chosen.empty() ? app.help() : chosen.front()->help("splinefeed")};
+    } catch (const CLI::CallForVersion& version) {
+        return Answer{std::string(version.what()) + "\n"};
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(fmt::format("{}; see splinefeed --help", error.what()));
+    }
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty()) {
+        const std::vector<std::string> words = app.remaining();
+        if (words.empty()) {
+            throw UsageError("there is no command; it must be one of " + listed(commands) + "; see splinefeed --help");
+        }
+        throw UsageError(fmt::format("there is no {} {}{}", words.front().front() == '-' ? "option" : "command",
+                                     in_quotes(words.front()), suggestion(words.front(), commands)));
+    }
+    const CLI::App& command = *chosen.front();
+    refuse_extras(command, job);
+    if (job.input.empty()) {
+        throw UsageError("the input has no name; give a .csv or .json file, or - for standard input");
+    }
+    job.command = command.get_name() == "run" ? Command::run : command.get_name() == "plan" ? Command::plan : Command::curve;
+    if (typed.target != "sim") {
+        throw UsageError(fmt::format("--target {}: there is no such target; available is sim, the simulated machine",
+                                     in_quotes(typed.target)));
+    }
+    take_format(job, typed.format);
+    take_scalar(job, typed.scalar);
+    take_window(job, typed.window);
+    take_outputs(job, command, typed.summary);
+    if (job.command == Command::curve && job.curve_out.empty()) {
+        job.curve_out = "-";
+    }
+    if (job.format == InputFormat::csv) {
+        static_cast<void>(choose_curve(job.curve));
+    }
+    return job;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// CurveFeeder: the curve that the user chose, and the waypoints on their way into it.
+#pragma once
+
+#include "bezier_source.hpp"
+#include "path_input.hpp"
+
+#include "splinefeed/s1_curve/catmull_rom.hpp"
+#include "splinefeed/s1_curve/g2_spline.hpp"
+#include "splinefeed/s1_curve/polyline.hpp"
+
+#include <variant>
+
+namespace splinefeed::host {
+
+/// Owns the curve. more() pushes one waypoint at a time, so that nothing is read before the curve needs it.
+/// A closed curve has to be read whole: it goes in as the 16 points before the seam, the path with its first point at both
+/// ends, and the 16 points after the seam.
+template <Scalar S>
+class CurveFeeder {
+public:
+    /// Throws UsageError where an end tangent does not fit the axes. `input` must outlive it.
+    explicit CurveFeeder(PathInput& input);
+    CurveFeeder(const CurveFeeder&) = delete;
+    CurveFeeder& operator=(const CurveFeeder&) = delete;
+
+    [[nodiscard]] CurveSource<S>& source() noexcept { return *source_; }
+
+    /// What became of a waypoint that was pushed.
+    struct Pushed {
+        std::uint32_t index = 0; ///< as CurveSegment::waypoint counts
+        PerAxis<Position> position{};
+        bool on_path = false; ///< false: lead-in or lead-out
+    };
+    /// Pushes the next waypoint, or finishes; false when there was none. Throws InputError; the curve then ends with the
+    /// waypoints before. @pre the curve is starved
+    bool more(Pushed& pushed);
+
+    /// Waypoints of the input so far.
+    [[nodiscard]] std::uint64_t rows() const noexcept { return rows_read_; }
+    /// Index of the waypoint in the input, from 0, for an index as CurveSegment::waypoint counts.
+    [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept;
+    /// Line of the waypoint in its file; 0: unknown.
+    [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept;
+    /// Memory of the curve stage.
+    [[nodiscard]] std::size_t bytes() const noexcept;
+
+private:
+    static constexpr std::size_t lead = 16; ///< waypoints beyond the seam that shape a closed curve
+    static constexpr std::size_t remembered = 1024; ///< lines
+
+    template <class Curve, class... Arguments>
+    void build(const Arguments&... arguments);
+    void read_all();
+    bool next_row(WaypointRow& row, Role& role);
+    void finish();
+
+    std::variant<std::monostate, G2Spline<S>, CatmullRom<S>, Polyline<S>, BezierSource<S>> curve_;
+    CurveSource<S>* source_ = nullptr;
+    WaypointCurve<S>* waypoints_ = nullptr; // null: Bezier segments
+    PathInput* input_;
+    std::unique_ptr<WaypointRows> input_rows_;
+    std::vector<WaypointRow> all_;     // closed: the whole input
+    std::vector<std::uint64_t> lines_; // of row i at i % remembered
+    std::uint64_t rows_read_ = 0;
+    std::uint32_t pushed_ = 0;
+    bool finished_ = false;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "motion.hpp"
+
+#include "input_error.hpp"
+#include "progress.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <sys/resource.h>
+
+namespace splinefeed::host {
+
+template <Scalar S>
+Motion<S>::Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits, PathInput& input,
+                  const PathLimits& path_limits, Outputs& outputs)
+    : job_(&job), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs), feeder_(input),
+      tee_(feeder_, input.name(), {.limits = &path_limits, .writer = outputs.curve(), .error = &error_}),
+      window_(job.window_cells), trajectory_(tee_, limits, window_),
+      machine_(description, limits.segments_per_sample,
+               {.enforce = job.command == Command::run, .trace = outputs.trace()}) {}
+
+template <Scalar S>
+std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
+    Progress progress({.quiet = job_->quiet, .waypoints = waypoints});
+    FeedSegment segment;
+    for (;;) {
+        if (pull(segment)) {
+            if (segments_ == 0 && tee_.failure()) {
+                std::rethrow_exception(tee_.failure());
+            }
+            if (!execute(segment)) {
+                break;
+            }
+            progress.update(feeder_.rows(), machine_.cycle_time_s());
+        } else if (trajectory_.state() == Pull::finished) {
+            break;
+        } else {
+            read();
+        }
+    }
+    if (tee_.failure()) {
+        keep_failure(tee_.failure());
+    }
+    machine_.finish();
+    if (const auto& fault = machine_.fault()) {
+        stopped_ = describe(*fault);
+    }
+    return stopped_.empty() ? stopped_ : stopped_ + where();
+}
+
+template <Scalar S>
+bool Motion<S>::pull(FeedSegment& segment) {
+    const Clock::time_point start = Clock::now();
+    const bool item = trajectory_.next(segment);
+    planning_ += Clock::now() - start;
+    return item;
+}
+
+// Gives the curve one more waypoint, or tells it that there are none.
+template <Scalar S>
+void Motion<S>::read() {
+    if (read_all_) {
+        throw std::logic_error("the curve asks for waypoints after its end");
+    }
+    try {
+        typename CurveFeeder<S>::Pushed pushed;
+        read_all_ = !feeder_.more(pushed);
+        if (!read_all_ && pushed.on_path) {
+            error_.waypoint(pushed.index, pushed.position);
+        }
+    } catch (const InputError&) {
+        read_all_ = true; // the curve ends with the waypoints before
+        keep_failure(std::current_exception());
+    }
+}
+
+template <Scalar S>
+bool Motion<S>::execute(const FeedSegment& segment) {
+    if (SegmentWriter* const writer = outputs_->segments()) {
+        writer->segment(segment);
+    }
+    ++segments_;
+    bool rest = true;
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        rest = rest && segment.end_velocity[k] == 0;
+    }
+    rests_ += rest ? 1U : 0U;
+    // The machine executes one segment a poll, in virtual time: it is never behind.
+    return machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
+}
+
+// Before the first move what is wrong is thrown; after it, it is why the machine stopped.
+template <Scalar S>
+void Motion<S>::keep_failure(const std::exception_ptr& failure) {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const InputError& error) {
+        if (segments_ == 0) {
+            throw;
+        }
+        stopped_ = error.what();
+    }
+}
+
+template <Scalar S>
+std::string Motion<S>::where() const {
+    std::string text = "; the machine stands at";
+    const PerAxis<double> position = machine_.position_mm();
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        text += fmt::format(" {}={:.6f}", description_->axis_name[k], position[k]);
+    }
+    return text + fmt::format(" mm, {:.6f} s after its start", machine_.cycle_time_s());
+}
+
+template <Scalar S>
+Summary Motion<S>::summary() const {
+    Summary summary;
+    summary.cycle_time_s = machine_.cycle_time_s();
+    summary.length_mm = to_mm(Position{trajectory_.arc_length().travelled_raw()});
+    summary.waypoints = feeder_.rows();
+    summary.curve_segments = tee_.segments();
+    summary.feed_segments = segments_;
+    summary.scalar = scalar_name<S>();
+    summary.curve = method_name(input_->choice().method);
+    summary.max_speed_mm_s = machine_.max_path_speed_mm_s();
+    double acceleration_sq = 0.0;
+    for (int k = 0; k < limits_->axes; ++k) {
+        const LimitUse& use = machine_.use(k);
+        const AxisSettings& axis = description_->settings.axis[static_cast<unsigned>(k)];
+        const bool has_jerk = axis.max_jerk_mm_s3 > 0.0;
+        summary.limit_use.push_back({description_->axis_name[static_cast<unsigned>(k)], use.velocity, use.acceleration,
+                                     has_jerk ? std::optional(use.jerk) : std::nullopt});
+        acceleration_sq += axis.max_acceleration_mm_s2 * axis.max_acceleration_mm_s2;
+    }
+    summary.waypoint_error_mm = error_.largest_mm();
+    summary.planning_time_s = std::chrono::duration<double>(planning_).count();
+    summary.memory_bytes = {feeder_.bytes(),
+                            sizeof(ArcLength<S>) + sizeof(FeedPlan<S>) + window_.size() * sizeof(PlannedCell<S>),
+                            sizeof(SegmentStream<S>)};
+    summary.stopped = !stopped_.empty();
+    summary.window_limited = trajectory_.feed_plan().window_limited();
+    summary.stops = rests_ > 0 ? rests_ - 1 : 0;
+    const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);
+    summary.smoothing_bound_mm = duration_s * duration_s * std::sqrt(acceleration_sq) / 6.0;
+    rusage usage{};
+    if (getrusage(RUSAGE_SELF, &usage) == 0) {
+        summary.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
+    }
+    return summary;
+}
+
+template class Motion<double>;
+template class Motion<float>;
+template class Motion<Fixed>;
+
+} // namespace splinefeed::host

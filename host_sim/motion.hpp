@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Motion: the curve's way through the planner into the machine, and what is measured on it.
+#pragma once
+
+#include "outputs.hpp"
+#include "path_tee.hpp"
+#include "summary.hpp"
+
+#include "splinefeed/trajectory.hpp"
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// One run. A waypoint is read only when the planner is out of segments.
+template <Scalar S>
+class Motion {
+public:
+    /// All arguments must outlive it.
+    Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits, PathInput& input,
+           const PathLimits& path_limits, Outputs& outputs);
+    Motion(const Motion&) = delete;
+    Motion& operator=(const Motion&) = delete;
+
+    /// Runs to the end. Empty: done; else why the machine stopped before, and where it stands. Throws what was wrong with
+    /// the input if nothing has moved yet, and OutputError.
+    /// @param waypoints  how many there are, where that is known
+    [[nodiscard]] std::string run(std::optional<std::uint64_t> waypoints);
+
+    [[nodiscard]] Summary summary() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    bool pull(FeedSegment& segment);
+    void read();
+    bool execute(const FeedSegment& segment);
+    void keep_failure(const std::exception_ptr& failure);
+    [[nodiscard]] std::string where() const;
+
+    const Job* job_;
+    const MachineDescription* description_;
+    const MotionLimits<S>* limits_;
+    PathInput* input_;
+    Outputs* outputs_;
+    WaypointError error_;
+    CurveFeeder<S> feeder_;
+    PathTee<S> tee_;
+    std::vector<PlannedCell<S>> window_;
+    Trajectory<S> trajectory_;
+    SimulatedMachine machine_;
+    Clock::duration planning_{};
+    std::string stopped_;        // why, if it was before the end
+    std::uint64_t segments_ = 0;
+    std::uint64_t rests_ = 0; // instants at which all axes stood still
+    bool read_all_ = false;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "outputs.hpp"
+
+namespace splinefeed::host {
+
+Outputs::Outputs(const Job& job, std::string_view method, bool closed) {
+    if (!job.curve_out.empty()) {
+        curve_.emplace(curve_file_.emplace(job.curve_out), method, closed);
+    }
+}
+
+Outputs::Outputs(const Job& job, std::string_view method, bool closed, const MachineDescription& machine)
+    : Outputs(job, method, closed) {
+    if (!job.trace.empty()) {
+        trace_.emplace(trace_file_.emplace(job.trace), machine);
+    }
+    if (!job.segments.empty()) {
+        segments_.emplace(segments_file_.emplace(job.segments), machine);
+    }
+}
+
+void Outputs::commit() {
+    if (curve_) {
+        curve_->finish();
+    }
+    for (std::optional<OutputFile>* file : {&curve_file_, &trace_file_, &segments_file_}) {
+        if (*file) {
+            (*file)->commit();
+        }
+    }
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Outputs: the files of one run, opened together and put in their places together.
+#pragma once
+
+#include "curve_writer.hpp"
+#include "job.hpp"
+#include "output_file.hpp"
+#include "segment_writer.hpp"
+#include "trace_writer.hpp"
+
+#include <optional>
+#include <string_view>
+
+namespace splinefeed::host {
+
+/// Each one is there where the job names it. Without commit() nothing is left behind.
+class Outputs {
+public:
+    /// Opens the curve alone. Throws OutputError, as every method does.
+    Outputs(const Job& job, std::string_view method, bool closed);
+    /// Opens what the job names.
+    Outputs(const Job& job, std::string_view method, bool closed, const MachineDescription& machine);
+
+    [[nodiscard]] TraceWriter* trace() noexcept { return trace_ ? &*trace_ : nullptr; }
+    [[nodiscard]] SegmentWriter* segments() noexcept { return segments_ ? &*segments_ : nullptr; }
+    [[nodiscard]] CurveWriter* curve() noexcept { return curve_ ? &*curve_ : nullptr; }
+
+    /// Completes the files and puts them in place. @pre the writers have got everything
+    void commit();
+
+private:
+    std::optional<OutputFile> trace_file_;
+    std::optional<OutputFile> segments_file_;
+    std::optional<OutputFile> curve_file_;
+    std::optional<TraceWriter> trace_;
+    std::optional<SegmentWriter> segments_;
+    std::optional<CurveWriter> curve_;
+};
+
+} // namespace splinefeed::host

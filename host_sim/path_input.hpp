@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// PathInput: what the path is made of: rows of waypoints, from a file, a pipe or a description, or Bezier segments.
+#pragma once
+
+#include "curve_choice.hpp"
+#include "curve_file.hpp"
+#include "job.hpp"
+#include "waypoint_reader.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// Waypoints in order. Throws InputError where one is wrong.
+class WaypointRows {
+public:
+    virtual ~WaypointRows() = default;
+    /// False when there are no more.
+    virtual bool next(WaypointRow& out) = 0;
+};
+
+class PathInput {
+public:
+    /// Opens the input and reads as far as its axes are known. Throws InputError and UsageError.
+    /// @param machine_axes  names; empty: the path has the axes that the input has
+    PathInput(const Job& job, const std::vector<std::string>& machine_axes);
+
+    [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
+    [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
+    /// Bezier segments to be executed as they stand; null: there are waypoints.
+    [[nodiscard]] const CurveFile* segments() const noexcept { return file_.segments.empty() ? nullptr : &file_; }
+    /// Whether rows() can be called again: the input is no pipe.
+    [[nodiscard]] bool repeatable() const noexcept { return repeatable_; }
+    /// The waypoints, from the first; once only where the input is not repeatable. @pre segments() is null
+    [[nodiscard]] std::unique_ptr<WaypointRows> rows();
+    /// Name for messages.
+    [[nodiscard]] const std::string& name() const noexcept { return name_; }
+
+private:
+    void open_description(const Job& job, const std::vector<std::string>& machine_axes);
+
+    std::string name_;
+    std::string path_; // what is opened: /dev/stdin for a file that is standard input
+    CurveChoice choice_;
+    CurveFile file_;
+    std::vector<std::string> machine_axes_;
+    std::vector<std::string> axes_;
+    std::unique_ptr<WaypointRows> opened_;
+    bool table_ = true;
+    bool repeatable_ = true;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "runner.hpp"
+
+#include "input_error.hpp"
+#include "machine_file.hpp"
+#include "motion.hpp"
+#include "outputs.hpp"
+#include "path_tee.hpp"
+#include "summary.hpp"
+
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+/// The whole curve, to those who look at it; nothing moves. Returns the number of waypoints.
+template <Scalar S>
+std::uint64_t draw(PathInput& input, const PathObservers& observers) {
+    CurveFeeder<S> feeder(input);
+    PathTee<S> tee(feeder, input.name(), observers);
+    CurveSegment<S> segment;
+    for (Pull pull = Pull::starved; pull != Pull::finished; pull = tee.next(segment)) {
+        typename CurveFeeder<S>::Pushed ignored;
+        if (pull == Pull::starved) {
+            static_cast<void>(feeder.more(ignored));
+        }
+    }
+    if (tee.failure()) {
+        std::rethrow_exception(tee.failure());
+    }
+    return feeder.rows();
+}
+
+template <Scalar S>
+int draw_curve(const Job& job) {
+    PathInput input(job, {});
+    if (input.repeatable()) {
+        static_cast<void>(draw<S>(input, {}));
+    }
+    Outputs outputs(job, method_name(input.choice().method), input.choice().closed);
+    static_cast<void>(draw<S>(input, {.writer = outputs.curve()}));
+    outputs.commit();
+    return 0;
+}
+
+void print(const Summary& summary, SummaryKind kind) {
+    if (kind == SummaryKind::none) {
+        return;
+    }
+    const std::string text = kind == SummaryKind::json ? to_json(summary) : to_text(summary);
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw OutputError("standard output: the summary cannot be written; keep its reader running to the end");
+    }
+}
+
+template <Scalar S>
+int move_machine(const Job& job) {
+    const MachineDescription machine = job.machine.empty() ? default_machine() : read_machine_file(job.machine);
+    const auto limits = MotionLimits<S>::make(machine.settings);
+    if (!limits.has_value()) {
+        throw InputError(machine.file, 0, describe(limits.error()));
+    }
+    const auto axes = static_cast<std::size_t>(machine.settings.axes);
+    PathInput input(job, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+    const PathLimits path_limits(machine);
+    std::optional<std::uint64_t> waypoints;
+    if (input.repeatable()) {
+        waypoints = draw<S>(input, {.limits = &path_limits});
+    }
+    Outputs outputs(job, method_name(input.choice().method), input.choice().closed, machine);
+    Motion<S> motion(job, machine, *limits, input, path_limits, outputs);
+    const std::string stopped = motion.run(waypoints);
+    outputs.commit();
+    print(motion.summary(), job.summary);
+    if (stopped.empty()) {
+        return 0;
+    }
+    fmt::print(stderr, "splinefeed: {}\n", printable(stopped));
+    return 1;
+}
+
+template <Scalar S>
+int run_with(const Job& job) {
+    return job.command == Command::curve ? draw_curve<S>(job) : move_machine<S>(job);
+}
+
+} // namespace
+
+int run(const Job& job) {
+    switch (job.scalar) {
+    case ScalarKind::fixed: return run_with<Fixed>(job);
+    case ScalarKind::single: return run_with<float>(job);
+    case ScalarKind::dual: return run_with<double>(job);
+    }
+    return 1;
+}
+
+} // namespace splinefeed::host
