@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/output_file.hpp"
+
+#include "support/catch.hpp"
+#include "temporary_folder.hpp"
+
+#include <csignal>
+#include <functional>
+
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+using Entries = std::vector<std::string>;
+
+const std::string megabyte(std::size_t{1} << 20, 'm');
+
+// Runs `body` in a process of its own; the status as of waitpid.
+int in_child(const std::function<void()>& body) {
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        try {
+            body();
+        } catch (...) {
+            _exit(1);
+        }
+        _exit(0);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    return status;
+}
+
+std::string message_of(const std::function<void()>& body) {
+    try {
+        body();
+    } catch (const OutputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+void write(const std::string& path, const std::string& text) {
+    OutputFile file(path);
+    file.append(text);
+    file.commit();
+}
+
+} // namespace
+
+TEST_CASE("an output file appears whole, at commit") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("out.csv");
+    {
+        OutputFile file(path);
+        file.append("one,");
+        file.format("{:.2f}\n", 2.0);
+        for (int i = 0; i < 3; ++i) {
+            file.append(megabyte);
+        }
+        CHECK_FALSE(std::filesystem::exists(path));
+        file.commit();
+        CHECK(contents(path) == "one,2.00\n" + megabyte + megabyte + megabyte);
+    }
+    CHECK(folder.entries() == Entries{"out.csv"});
+    CHECK(contents(path).size() == 9 + 3 * megabyte.size());
+}
+
+TEST_CASE("an empty output is an empty file") {
+    const TemporaryFolder folder;
+    OutputFile(folder.file("empty")).commit();
+    CHECK(folder.entries() == Entries{"empty"});
+}
+
+TEST_CASE("without commit nothing is left, and an existing file stays") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("out.csv");
+    write(path, "before");
+    SECTION("end of scope") {
+        OutputFile file(path);
+        file.append(megabyte);
+        CHECK(contents(path) == "before");
+    }
+    SECTION("exception") {
+        const auto broken = [&] {
+            OutputFile file(path);
+            file.append(megabyte);
+            throw std::runtime_error("in the middle");
+        };
+        CHECK_THROWS_AS(broken(), std::runtime_error);
+    }
+    SECTION("exception, new file") {
+        const auto broken = [&] {
+            OutputFile file(folder.file("new.csv"));
+            file.append(megabyte);
+            throw std::runtime_error("in the middle");
+        };
+        CHECK_THROWS_AS(broken(), std::runtime_error);
+    }
+    CHECK(folder.entries() == Entries{"out.csv"});
+    CHECK(contents(path) == "before");
+}
+
+TEST_CASE("a killed process leaves no target") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("out.csv");
+    const int status = in_child([&] {
+        OutputFile file(path);
+        file.append(megabyte);
+        raise(SIGKILL);
+    });
+    CHECK(WIFSIGNALED(status));
+    CHECK_FALSE(std::filesystem::exists(path));
+}
+
+TEST_CASE("commit replaces a file and keeps its mode; the umask narrows that of a new one") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("out.csv");
+    const auto mode_of = [](const std::string& name) {
+        struct stat status {};
+        REQUIRE(stat(name.c_str(), &status) == 0);
+        return status.st_mode & 07777;
+    };
+    const mode_t before = umask(027);
+    write(path, "before");
+    umask(before);
+    CHECK(mode_of(path) == 0640);
+    REQUIRE(chmod(path.c_str(), 0604) == 0);
+    write(path, "after");
+    CHECK(contents(path) == "after");
+    CHECK(mode_of(path) == 0604);
+    CHECK(folder.entries() == Entries{"out.csv"});
+}
+
+TEST_CASE("a symbolic link stays one") {
+    const TemporaryFolder folder;
+    write(folder.file("real"), "before");
+    std::filesystem::create_symlink("real", folder.file("link"));
+    write(folder.file("link"), "after");
+    CHECK(std::filesystem::is_symlink(folder.file("link")));
+    CHECK(contents(folder.file("real")) == "after");
+}
+
+TEST_CASE("two outputs of one name do not mix") {
+    const TemporaryFolder folder;
+    OutputFile first(folder.file("out"));
+    OutputFile second(folder.file("out"));
+    first.append(megabyte);
+    second.append("second");
+    first.commit();
+    second.commit();
+    CHECK(contents(folder.file("out")) == "second");
+    CHECK(folder.entries() == Entries{"out"});
+}
+
+TEST_CASE("devices are written to, not replaced") {
+    write("/dev/null", megabyte);
+    CHECK(std::filesystem::is_character_file("/dev/null"));
+    CHECK(message_of([] { write("/dev/full", "x"); }).find("/dev/full: cannot write: No space left") == 0);
+    CHECK(message_of([] { write("/dev/full", megabyte); }).find("make room") != std::string::npos);
+    CHECK(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_CASE("what cannot be created is refused at once, in one line") {
+    const TemporaryFolder folder;
+    const std::string missing = folder.file("missing/out.csv");
+    const std::string message = message_of([&] { OutputFile file(missing); });
+    CHECK(message.find(missing + ": cannot create: No such file or directory; ") == 0);
+    CHECK(message.find('\n') == std::string::npos);
+    CHECK(message_of([&] { OutputFile file(folder.file("")); }).find("not a directory") != std::string::npos);
+    CHECK(message_of([&] { OutputFile file(folder.file("new/")); }).find("not a directory") != std::string::npos);
+    CHECK_THROWS_AS(OutputFile(""), OutputError);
+    CHECK(folder.entries().empty());
+}
+
+TEST_CASE("a dash is standard output") {
+    const auto captured = [](bool commit) {
+        const TemporaryFolder folder;
+        const std::string path = folder.file("stdout");
+        const int status = in_child([&] {
+            if (std::freopen(path.c_str(), "w", stdout) == nullptr) {
+                _exit(1);
+            }
+            OutputFile file("-");
+            file.append("to the terminal\n");
+            if (commit) {
+                file.commit();
+            }
+        });
+        CHECK(status == 0);
+        CHECK(folder.entries() == Entries{"stdout"});
+        return contents(path);
+    };
+    CHECK(captured(true) == "to the terminal\n");
+    CHECK(captured(false).empty());
+    CHECK_FALSE(std::filesystem::exists("-"));
+}
