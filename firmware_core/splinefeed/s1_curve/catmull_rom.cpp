@@ -26,7 +26,6 @@ PerAxis<S> CatmullRom<S>::slope(std::uint64_t i, bool from_before, bool from_aft
 
 template <Scalar S>
 Pull CatmullRom<S>::next(CurveSegment<S>& out) noexcept {
-    const S third = literal<S>(1.0 / 3.0);
     for (;;) {
         const std::uint64_t i = next_;
         if (i + 1 >= this->known_) {
@@ -43,7 +42,7 @@ Pull CatmullRom<S>::next(CurveSegment<S>& out) noexcept {
             const Knot<S>& to = this->knot(i + 1);
             const PerAxis<S> start = slope(i, !from.breaks, true);
             const PerAxis<S> end = slope(i + 1, true, !to.breaks);
-            const S reach = from.span * third;
+            const S reach = from.span / from_integer<S>(3);
             PerAxis<PerDegree<S>> offsets{};
             for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
                 offsets[k][1] = start[k] * reach;

@@ -40,7 +40,7 @@ bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
         const bool given = tangents_.has_end && this->finished_ && i + 1 == this->known_;
         const S inverse = one / (one + g + g * before.gamma);
         for (unsigned k = 0; k < axes_u; ++k) {
-            here.rho[k] = given ? -tangents_.end[k] * knot_before.length * literal<S>(1.0 / 3.0)
+            here.rho[k] = given ? -tangents_.end[k] * knot_before.length / from_integer<S>(3)
                                 : (g * before.rho[k] - g * knot_before.chord[k]) * inverse;
         }
         here.gamma = here.lambda = here.mu = here.omega = S{};
@@ -57,7 +57,7 @@ bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
         const bool given = tangents_.has_start && i == 0;
         for (unsigned k = 0; k < axes_u; ++k) {
             here.rho[k] =
-                given ? tangents_.start[k] * knot.length * literal<S>(1.0 / 3.0) : weight * knot.chord[k];
+                given ? tangents_.start[k] * knot.length / from_integer<S>(3) : weight * knot.chord[k];
         }
         here.gamma = given ? S{} : -weight;
         here.lambda = here.mu = here.omega = S{};

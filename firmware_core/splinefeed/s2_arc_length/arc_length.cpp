@@ -99,7 +99,8 @@ auto ArcLength<S>::judge(const Piece& piece, Measure& m) const noexcept -> Verdi
     }
     const S ends = m.sigma[0] + m.sigma[2];
     const S bend = m.slope[0] - m.slope[2];
-    m.length = literal<S>(7.0 / 30.0) * ends + literal<S>(16.0 / 30.0) * m.sigma[1] + literal<S>(1.0 / 60.0) * bend;
+    // Divided, not multiplied by rounded constants: their error would be the same in every cell and add up.
+    m.length = (from_integer<S>(7) * ends + from_integer<S>(16) * m.sigma[1] + half(bend)) / from_integer<S>(30);
     m.length_mm = scale2(m.length, current().unit_log2);
     if (m.length_mm > refinement_.longest_mm) {
         return Verdict::coarse;
@@ -111,8 +112,9 @@ auto ArcLength<S>::judge(const Piece& piece, Measure& m) const noexcept -> Verdi
     if ((coarse && (stops || piece.level < 3)) || (stops && piece.level < 3)) {
         return Verdict::coarse;
     }
+    // Rounding of the control points is no reason to halve: halving would make it larger in proportion.
     const S low_order = half(ends) + literal<S>(1.0 / 12.0) * bend;
-    if (absolute(m.length - low_order) > refinement_.metric_error * m.length) {
+    if (absolute(m.length - low_order) > refinement_.metric_error * m.length + control_noise<S>) {
         return Verdict::coarse;
     }
     S turn{};
@@ -131,7 +133,7 @@ auto ArcLength<S>::judge(const Piece& piece, Measure& m) const noexcept -> Verdi
     for (unsigned k = 0; k < axes_u; ++k) {
         const S change = absolute(m.second[2][k] - m.second[0][k]) * m.length_mm;
         const S second = absolute(m.second[2][k] - m.second[1][k] - (m.second[1][k] - m.second[0][k])) * m.length_mm;
-        // Rounding of the control points, as seen by second / sigma, is no reason to halve: halving would add to it.
+        // As seen by second / sigma, here too.
         if (change * slowest > refinement_.curvature_change * slowest + control_noise<S> ||
             second * slowest > refinement_.curvature_bend * slowest + control_noise<S>) {
             return Verdict::coarse;
