@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A user's program: plans a straight move of 10 mm and says where it ends.
+#include "splinefeed/hal/motion_port.hpp"
+#include "splinefeed/s1_curve/g2_spline.hpp"
+#include "splinefeed/trajectory.hpp"
+
+#include <array>
+#include <cstdio>
+
+using namespace splinefeed;
+
+int main() {
+    const auto limits = MotionLimits<Fixed>::make(MachineSettings{});
+    G2Spline<Fixed> curve(CurveOptions<Fixed>{});
+    static std::array<PlannedCell<Fixed>, 64> window;
+    Trajectory<Fixed> trajectory(curve, *limits, window);
+
+    Waypoint<Fixed> waypoint;
+    if (!curve.push(waypoint).ok()) {
+        return 1;
+    }
+    waypoint.position[0] = position_from_mm(10.0);
+    if (!curve.push(waypoint).ok() || !curve.finish().ok()) {
+        return 1;
+    }
+    FeedSegment segment;
+    while (trajectory.next(segment)) {
+    }
+    const hal::PortState port;
+    std::printf("%s after %lld counts\n", port.phase == hal::PortPhase::idle ? "idle" : "busy",
+                static_cast<long long>(segment.end[0] / units_per_count));
+    return 0;
+}

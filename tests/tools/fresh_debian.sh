@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# ./run and ./check on a system that has nothing but git: a Debian root made by debootstrap from this machine's mirror.
+#   tests/tools/fresh_debian.sh [SUITE]      as root; about 20 minutes and 4 GB
+#   tests/tools/fresh_debian.sh --if-long    as a part of ./check --long
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+if [[ ${1-} == --if-long ]]; then
+    if [[ ${SPLINEFEED_LONG:-0} != 1 ]]; then skip "takes 20 minutes: ./check --long"; fi
+    shift
+fi
+if [[ -e /fresh_debian ]]; then skip "this is the fresh system itself"; fi
+if ((EUID != 0)); then skip "needs root"; fi
+need debootstrap git
+suite=${1:-bookworm}
+mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
+if [[ -z $mirror ]]; then skip "no Debian mirror is configured"; fi
+
+root=$(mktemp -d)
+mount_points=(proc sys dev)
+clean_up() {
+    for point in "${mount_points[@]}"; do umount --recursive --lazy "$root/$point" || true; done
+    rm -rf --one-file-system "$root"
+}
+debootstrap --variant=minbase --include=git,ca-certificates "$suite" "$root" "$mirror"
+for point in "${mount_points[@]}"; do
+    mount --rbind "/$point" "$root/$point"
+    mount --make-rslave "$root/$point"
+done
+trap clean_up EXIT
+
+# How this machine reaches its mirror: proxy settings of apt and of the environment, certificates, names.
+cp --recursive --no-clobber /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
+cp /etc/resolv.conf /etc/hosts "$root/etc/"
+touch "$root/fresh_debian"
+
+git clone --quiet . "$root/splinefeed"
+for job in run check; do
+    echo "== ./$job"
+    time chroot "$root" env --unset=SPLINEFEED_LONG LC_ALL=C /splinefeed/$job
+done

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The first C++ example of README.md compiles and runs as it stands there: readme_example.sh BUILD_DIRECTORY.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+build=$1
+out=$build/readme_example
+mkdir -p "$out"
+example=$out/example.cpp
+if [[ -f README.md ]]; then
+    awk '/^```/ { if (inside) exit; inside = ($0 ~ /^```cpp/); next } inside' README.md >"$example"
+else
+    : >"$example"
+fi
+if [[ ! -s $example ]]; then skip "README.md has no C++ example"; fi
+
+cat >"$out/CMakeLists.txt" <<'PROJECT'
+cmake_minimum_required(VERSION 3.22)
+project(readme_example LANGUAGES CXX)
+find_package(splinefeed CONFIG REQUIRED)
+add_executable(example example.cpp)
+target_link_libraries(example PRIVATE splinefeed::core splinefeed::hal)
+target_compile_options(example PRIVATE -Wall -Wextra -Werror)
+PROJECT
+cmake --install "$build" --prefix "$out/prefix" >/dev/null
+cmake -S "$out" -B "$out/build" -DCMAKE_PREFIX_PATH="$PWD/$out/prefix"
+cmake --build "$out/build"
+"$out/build/example" | head -20
