@@ -13,7 +13,7 @@ namespace splinefeed::host {
 namespace {
 
 constexpr std::chrono::milliseconds redraw_period{100};
-constexpr std::size_t bar_width = 20;
+constexpr std::size_t bar_width = 12;
 constexpr std::size_t line_width = 79;
 
 // Progress is a courtesy: what a terminal does not take is dropped.
@@ -40,10 +40,10 @@ std::string Progress::text(std::uint64_t waypoints, std::optional<std::uint64_t>
     } else {
         line = fmt::format("{} waypoints", waypoints);
     }
-    line += fmt::format("  {:.1f} s of motion", motion_s);
     if (wall_s > 0.0) {
-        line += fmt::format("  {:.0f} waypoints/s", static_cast<double>(waypoints) / wall_s);
+        line += fmt::format(" ({:.0f}/s)", static_cast<double>(waypoints) / wall_s);
     }
+    line += fmt::format(", {:.1f} s planned", motion_s);
     if (line.size() > line_width) {
         line.resize(line_width);
     }

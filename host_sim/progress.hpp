@@ -11,8 +11,8 @@ namespace splinefeed::host {
 
 struct ProgressOptions {
     bool quiet = false;
-    std::optional<std::uint64_t> waypoints; ///< how many there will be, where that is known
-    int descriptor = 2;                     ///< standard error
+    std::optional<std::uint64_t> waypoints = std::nullopt; ///< how many there will be, where that is known
+    int descriptor = 2;                                        ///< standard error
 };
 
 /// Shows waypoints read, seconds of motion planned and their rate, redrawn at most ten times a second, and erases the line

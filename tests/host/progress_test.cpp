@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/progress.hpp"
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+using namespace splinefeed::host;
+
+namespace {
+
+// A terminal whose output can be read.
+class Terminal {
+public:
+    Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
+        if (master_ >= 0 && grantpt(master_) == 0 && unlockpt(master_) == 0) {
+            slave_ = open(ptsname(master_), O_RDWR | O_NOCTTY);
+        }
+    }
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
+    ~Terminal() {
+        close(slave_);
+        close(master_);
+    }
+    [[nodiscard]] int descriptor() const { return slave_; }
+    [[nodiscard]] std::string shown() const {
+        std::string text(65536, '\0');
+        const ssize_t n = read(master_, text.data(), text.size());
+        text.resize(n > 0 ? static_cast<std::size_t>(n) : 0U);
+        return text;
+    }
+
+private:
+    int master_;
+    int slave_ = -1;
+};
+
+const std::string erase = "\r\x1b[K";
+
+void work(Progress& progress, std::chrono::milliseconds time) {
+    const auto end = std::chrono::steady_clock::now() + time;
+    for (std::uint64_t i = 0; std::chrono::steady_clock::now() < end; ++i) {
+        progress.update(i, 1.5);
+    }
+}
+
+} // namespace
+
+TEST_CASE("on a terminal the line is redrawn at most ten times a second and erased at the end") {
+    const Terminal terminal;
+    if (terminal.descriptor() < 0) {
+        WARN("SKIPPED: no pseudo terminal can be opened");
+        return;
+    }
+    std::string shown;
+    {
+        Progress progress({.descriptor = terminal.descriptor()});
+        work(progress, std::chrono::milliseconds(350));
+        shown = terminal.shown();
+        const auto redraws = std::count(shown.begin(), shown.end(), '\r');
+        CHECK(redraws >= 1);
+        CHECK(redraws <= 3);
+        CHECK(shown.find("/s), 1.5 s planned") != std::string::npos);
+        CHECK(shown.find('\n') == std::string::npos);
+    }
+    CHECK(terminal.shown() == erase);
+}
+
+TEST_CASE("a run too short to draw leaves no trace") {
+    const Terminal terminal;
+    if (terminal.descriptor() < 0) {
+        WARN("SKIPPED: no pseudo terminal can be opened");
+        return;
+    }
+    {
+        Progress progress({.descriptor = terminal.descriptor()});
+        progress.update(1, 1.0);
+    }
+    CHECK(terminal.shown().empty());
+}
+
+TEST_CASE("after finish nothing is drawn") {
+    const Terminal terminal;
+    if (terminal.descriptor() < 0) {
+        WARN("SKIPPED: no pseudo terminal can be opened");
+        return;
+    }
+    Progress progress({.descriptor = terminal.descriptor()});
+    work(progress, std::chrono::milliseconds(150));
+    progress.finish();
+    static_cast<void>(terminal.shown());
+    work(progress, std::chrono::milliseconds(150));
+    progress.finish();
+    CHECK(terminal.shown().empty());
+}
+
+TEST_CASE("quiet is quiet") {
+    const Terminal terminal;
+    {
+        Progress progress({.quiet = true, .descriptor = terminal.descriptor()});
+        work(progress, std::chrono::milliseconds(150));
+    }
+    CHECK(terminal.shown().empty());
+}
+
+TEST_CASE("what is no terminal gets nothing") {
+    int ends[2] = {-1, -1};
+    REQUIRE(pipe(ends) == 0);
+    {
+        Progress progress({.descriptor = ends[1]});
+        work(progress, std::chrono::milliseconds(150));
+    }
+    close(ends[1]);
+    char byte = 0;
+    CHECK(read(ends[0], &byte, 1) == 0);
+    close(ends[0]);
+}
+
+TEST_CASE("the line says how far it is") {
+    CHECK(Progress::text(50, 200, 1.25, 2.0) == "[###.........]  25 %  50 of 200 waypoints (25/s), 1.2 s planned");
+    CHECK(Progress::text(50, std::nullopt, 10.0, 0.0) == "50 waypoints, 10.0 s planned");
+    CHECK(Progress::text(7, 5, 0.0, 0.0).find("[############] 100 %") == 0);
+    CHECK(Progress::text(0, 0, 0.0, 0.0) == "0 waypoints, 0.0 s planned");
+    CHECK(Progress::text(1000000000000U, 1000000000000U, 1e9, 1e-3).size() <= 79);
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/summary.hpp"
+
+#include "support/catch.hpp"
+
+#include <nlohmann/json.hpp>
+
+using namespace splinefeed::host;
+
+namespace {
+
+Summary sample() {
+    Summary summary;
+    summary.cycle_time_s = 12.3456789;
+    summary.length_mm = 1234.5;
+    summary.waypoints = 1000;
+    summary.curve_segments = 999;
+    summary.feed_segments = 12346;
+    summary.scalar = "fixed";
+    summary.curve = "g2";
+    summary.max_speed_mm_s = 99.99;
+    summary.limit_use = {{"x", 0.5, 0.999998, 0.25}, {"c", 0.125, 0.75, std::nullopt}};
+    summary.waypoint_error_mm = 3.25e-4;
+    summary.optimum_time_s = 12.0;
+    summary.planning_time_s = 0.5;
+    summary.memory_bytes = {1000, 200, 30};
+    summary.smoothing_bound_mm = 2.9e-4;
+    summary.peak_rss_bytes = 3 * 1048576;
+    return summary;
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+} // namespace
+
+TEST_CASE("the JSON summary has the keys of the contract, in order") {
+    const nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_json(sample()));
+    std::vector<std::string> keys;
+    for (const auto& item : json.items()) {
+        keys.push_back(item.key());
+    }
+    CHECK(keys == std::vector<std::string>{"cycle_time_s", "length_mm", "waypoints", "curve_segments", "feed_segments", "scalar",
+                                           "curve", "max_speed_mm_s", "limit_use", "waypoint_error_mm", "optimum_time_s",
+                                           "planning_time_s", "memory_bytes", "stopped", "window_limited", "stops",
+                                           "smoothing_bound_mm", "peak_rss_bytes"});
+    CHECK(json["cycle_time_s"] == 12.3456789);
+    CHECK(json["feed_segments"] == 12346);
+    CHECK(json["scalar"] == "fixed");
+    CHECK(json["curve"] == "g2");
+    CHECK(json["limit_use"] == nlohmann::ordered_json::parse(R"({"velocity": {"x": 0.5, "c": 0.125},
+        "acceleration": {"x": 0.999998, "c": 0.75}, "jerk": {"x": 0.25}})"));
+    CHECK(json["waypoint_error_mm"] == 3.25e-4);
+    CHECK(json["optimum_time_s"] == 12.0);
+    CHECK(json["memory_bytes"] == nlohmann::ordered_json::parse(R"({"curve": 1000, "feed_plan": 200, "stream": 30})"));
+    CHECK(json["stopped"] == false);
+    CHECK(json["peak_rss_bytes"] == 3145728);
+    CHECK(to_json(sample()).back() == '\n');
+}
+
+TEST_CASE("what is absent is null or empty in JSON") {
+    Summary summary = sample();
+    summary.optimum_time_s.reset();
+    summary.limit_use.clear();
+    summary.stopped = true;
+    const auto json = nlohmann::json::parse(to_json(summary));
+    CHECK(json["optimum_time_s"].is_null());
+    CHECK(json["limit_use"] == nlohmann::json::parse(R"({"velocity": {}, "acceleration": {}, "jerk": {}})"));
+    CHECK(json["stopped"] == true);
+}
+
+TEST_CASE("the text is a table with units") {
+    const std::string text = to_text(sample());
+    CHECK(contains(text, "cycle time                 12.345679 s\n"));
+    CHECK(contains(text, "least possible time        12.000000 s (+2.88 % taken)\n"));
+    CHECK(contains(text, "waypoint error              0.000325 mm at most\n"));
+    CHECK(contains(text, "curve segments                   999 g2\n"));
+    CHECK(contains(text, "planner's memory                1230 bytes (curve 1000, feed plan 200, stream 30)\n"));
+    CHECK(contains(text, "memory of the process            3.0 MiB\n"));
+    CHECK(contains(text, "limits used                 velocity  acceleration          jerk\n"));
+    CHECK(contains(text, "  axis x                     50.00 %      100.00 %       25.00 %\n"));
+    CHECK(contains(text, "  axis c                     12.50 %       75.00 %      no limit\n"));
+    CHECK_FALSE(contains(text, ".\n")); // nothing unusual, no sentence
+    CHECK(text.back() == '\n');
+}
+
+TEST_CASE("columns and rows without content are left out") {
+    Summary summary = sample();
+    summary.limit_use[0].jerk.reset();
+    summary.optimum_time_s.reset();
+    summary.peak_rss_bytes = 0;
+    const std::string text = to_text(summary);
+    CHECK_FALSE(contains(text, "jerk"));
+    CHECK_FALSE(contains(text, "least possible"));
+    CHECK_FALSE(contains(text, "memory of the process"));
+}
+
+TEST_CASE("the unusual gets a sentence") {
+    Summary summary = sample();
+    summary.stopped = true;
+    summary.window_limited = 1;
+    summary.stops = 3;
+    summary.limit_use[1].acceleration = 1.5;
+    const std::string text = to_text(summary);
+    CHECK(contains(text, "\n\nThe run was stopped before the end of the program.\n"));
+    CHECK(contains(text, "Axis c is above its acceleration limit: 1.5 of it.\n"));
+    CHECK(contains(text, "too short 1 time:"));
+    CHECK(contains(text, "stops at 3 corners"));
+}
