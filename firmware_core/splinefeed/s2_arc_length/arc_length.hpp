@@ -4,6 +4,7 @@
 
 #include "splinefeed/s1_curve/curve_source.hpp"
 #include "splinefeed/s2_arc_length/cell.hpp"
+#include "splinefeed/s2_arc_length/piece.hpp"
 
 namespace splinefeed {
 
@@ -21,10 +22,14 @@ struct Refinement {
     S metric_ratio = literal<S>(1.487);      ///< largest ratio of two |dr/dw| within a cell
     /// largest relative difference of a 4th and a 6th order length; float cannot tell less
     S metric_error = literal<S>(std::same_as<S, float> ? 1.13e-5 : 1.13e-6);
+    /// largest relative error of the inverse's slope in the middle of a cell: a bound of the feed fluctuation
+    S inverse_error = literal<S>(std::same_as<S, float> ? 3.1e-5 : 3.1e-6);
 };
 
-/// Stage 2. Memory: two segments and a stack of pieces. Cost per cell: three evaluations with two derivatives, no loop
-/// over anything that grows with the program.
+/// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its direction and
+/// curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the pieces shrink
+/// until what is left is nothing, and that is passed as its chord.
+/// Memory: two segments and a stack of pieces. Cost per cell: three evaluations with two derivatives.
 template <Scalar S>
 class ArcLength {
 public:
@@ -39,33 +44,29 @@ public:
     [[nodiscard]] std::uint32_t segments() const noexcept { return segments_; }
 
 private:
-    static constexpr int deepest = 22; ///< halvings of a segment; below, a piece is its own chord
+    static constexpr int deepest = 22; ///< halvings of a segment; then a piece is taken as it is
 
-    struct Piece {
-        PerAxis<PerDegree<S>> control{};
-        int level = 0;
-        bool at_start = false; ///< touches the start of its segment
-        bool at_end = false;
-    };
     enum class Verdict : std::uint8_t { fine, coarse, cusp };
-    struct Measure; // derivatives and lengths of a piece at w = 0, 1/2, 1
 
     Pull load() noexcept;
     [[nodiscard]] bool jumps(const CurveSegment<S>& before, const CurveSegment<S>& after) const noexcept;
-    void measure(const Piece& piece, Measure& m) noexcept;
-    [[nodiscard]] Verdict judge(const Piece& piece, Measure& m) const noexcept;
-    void fill(const Piece& piece, const Measure& m, Cell<S>& out) noexcept;
-    void fill_chord(const Piece& piece, Cell<S>& out) noexcept;
-    void fill_common(const Piece& piece, int degree, Cell<S>& out) noexcept;
+    [[nodiscard]] bool vanishes(const Piece<S>& piece) const noexcept;
+    Verdict judge(const Piece<S>& piece) noexcept;
+    [[nodiscard]] bool too_long(const Piece<S>& piece) const noexcept;
+    [[nodiscard]] bool bends_too_much() const noexcept;
+    void split() noexcept;
+    void fill(const Piece<S>& piece, Cell<S>& out) noexcept;
+    void fill_chord(const Piece<S>& piece, Cell<S>& out) noexcept;
+    void fill_common(const Piece<S>& piece, int degree, Cell<S>& out) noexcept;
+    [[nodiscard]] Piece<S>& top() noexcept { return stack_[static_cast<unsigned>(depth_ - 1)]; }
     [[nodiscard]] CurveSegment<S>& current() noexcept { return slots_[current_]; }
     [[nodiscard]] const CurveSegment<S>& current() const noexcept { return slots_[current_]; }
 
     CurveSource<S>* source_;
     Refinement<S> refinement_;
     std::array<CurveSegment<S>, 2> slots_{};
-    std::array<Piece, deepest + 2> stack_{};
-    PerAxis<PerDegree<S>> left_{};  // the halves of the piece that is being measured
-    PerAxis<PerDegree<S>> right_{};
+    std::array<Piece<S>, deepest + 2> stack_{};
+    PieceMeasure<S> m_{}; // of the piece that is being judged
     Position travelled_{};
     S grade_mm_{};
     std::uint32_t segments_ = 0;

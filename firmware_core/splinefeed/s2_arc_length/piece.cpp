@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// With sigma = |dr/dw| and its derivative at w = 0, 1/2, 1 the length is
+//
+//   L = (7 sigma_0 + 16 sigma_m + 7 sigma_1) / 30 + (sigma_0' - sigma_1') / 60       (error of order 7 in the step)
+//
+// the integral of the quartic through sigma at three points and sigma' at the ends. These are values that the bounds need
+// anyway; Gauss-Legendre would ask for four more evaluations. The end-point rule (sigma_0 + sigma_1)/2 +
+// (sigma_0' - sigma_1')/12, of order 5, tells how good it is.
+//
+// Inverse w(x), x = s / L: the quintic through dw/dx = L / sigma and d2w/dx2 = -(sigma'/sigma) (L / sigma)^2 at both ends,
+// plus c (x (1 - x))^3 so that it also passes through w = 1/2 where the length of the first half says it is. Its slope there
+// was not used and tells how good the inverse is.
+#include "splinefeed/s2_arc_length/piece.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+template <Scalar S>
+S half(S x) noexcept {
+    return scale2(x, -1);
+}
+
+template <Scalar S>
+S times(int factor, S x) noexcept {
+    return from_integer<S>(factor) * x;
+}
+
+} // namespace
+
+template <Scalar S>
+void PieceMeasure<S>::differentiate(const Piece<S>& piece, int degree, int axes) noexcept {
+    const auto n = static_cast<unsigned>(degree);
+    const S factor = from_integer<S>(degree);
+    const S factor2 = from_integer<S>(degree * (degree - 1));
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        const PerDegree<S>& b = piece.control[k];
+        first[0][k] = (b[1] - b[0]) * factor;
+        first[2][k] = (b[n] - b[n - 1]) * factor;
+        second[0][k] = second[1][k] = second[2][k] = S{};
+        if (n > 1) {
+            second[0][k] = (b[2] - b[1] - (b[1] - b[0])) * factor2;
+            second[2][k] = (b[n] - b[n - 1] - (b[n - 1] - b[n - 2])) * factor2;
+        }
+        PerDegree<S>& row = right[k]; // a row of the triangle; its last entries become the right half
+        for (unsigned i = 0; i <= n; ++i) {
+            row[i] = b[i];
+        }
+        left[k][0] = row[0];
+        for (unsigned step = 1; step <= n; ++step) {
+            if (step + 1 == n) {
+                second[1][k] = (row[2] - row[1] - (row[1] - row[0])) * factor2;
+            }
+            if (step == n) {
+                first[1][k] = (row[1] - row[0]) * factor;
+            }
+            for (unsigned i = 0; i + step <= n; ++i) {
+                row[i] = half(row[i] + row[i + 1]);
+            }
+            left[k][step] = row[0];
+        }
+    }
+    for (unsigned p = 0; p < points; ++p) {
+        sigma[p] = norm(first[p].data(), axes);
+    }
+    slowest = smaller(sigma[0], smaller(sigma[1], sigma[2]));
+    fastest = larger(sigma[0], larger(sigma[1], sigma[2]));
+}
+
+template <Scalar S>
+void PieceMeasure<S>::measure_length(int axes, int unit_log2) noexcept {
+    for (unsigned p = 0; p < points; ++p) {
+        slope[p] = S{};
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            first[p][k] = first[p][k] / sigma[p];
+            slope[p] += first[p][k] * second[p][k];
+        }
+    }
+    const S ends = sigma[0] + sigma[2];
+    const S bend = slope[0] - slope[2];
+    // Divided, not multiplied by rounded constants: their error would be the same in every cell and add up.
+    length = (times(7, ends) + times(16, sigma[1]) + half(bend)) / from_integer<S>(30);
+    low_order_length = half(ends) + bend / from_integer<S>(12);
+    length_mm = scale2(length, unit_log2);
+}
+
+template <Scalar S>
+void PieceMeasure<S>::invert() noexcept {
+    const S one = from_integer<S>(1);
+    const S g0 = length / sigma[0];
+    const S g1 = length / sigma[2];
+    const S h0 = -half(slope[0] / sigma[0] * g0 * g0);
+    const S h1 = -half(slope[2] / sigma[2] * g1 * g1);
+    const S a3 = from_integer<S>(10) - times(6, g0) - times(4, g1) - times(3, h0) + h1;
+    const S a4 = from_integer<S>(-15) + times(8, g0) + times(7, g1) + times(3, h0) - times(2, h1);
+    const S a5 = from_integer<S>(6) - times(3, g0) - times(3, g1) - h0 + h1;
+    // The first half of the quartic's integral: L/2 + 5/32 (sigma_0 - sigma_1) + (sigma_0' + sigma_1') / 64.
+    const S x = half(one) + (scale2(times(5, sigma[0] - sigma[2]), -5) + scale2(slope[0] + slope[2], -6)) / length;
+    const S hump = x * (one - x);
+    const S w = x * (g0 + x * (h0 + x * (a3 + x * (a4 + x * a5))));
+    const S c = (half(one) - w) / (hump * hump * hump);
+    inverse = {g0, h0, a3 + c, a4 - times(3, c), a5 + times(3, c), -c};
+    S derivative{};
+    for (unsigned i = 6; i-- > 0;) {
+        derivative = derivative * x + times(static_cast<int>(i) + 1, inverse[i]);
+    }
+    middle_slope = derivative;
+}
+
+// d2q/ds2 = (r'' - q' (q' r'')) / sigma^2. In Fixed the quotients are scaled so that neither long nor short pieces lose
+// bits: first by 2^6 (r'' stays below 2^25), then by the unit, between the two divisions.
+template <Scalar S>
+void PieceMeasure<S>::measure_curvature(int axes, int unit_log2) noexcept {
+    for (unsigned p = 0; p < points; ++p) {
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            const S normal = scale2(second[p][k] - first[p][k] * slope[p], 6) / sigma[p];
+            const S magnitude = quotient_or_max(scale2(absolute(normal), -6 - unit_log2), sigma[p]);
+            second[p][k] = normal < S{} ? -magnitude : magnitude;
+        }
+    }
+}
+
+// The largest of three samples plus a quarter of their second difference: twice what a parabola can exceed them by.
+template <Scalar S>
+S PieceMeasure<S>::bound(const std::array<PerAxis<S>, points>& f, unsigned axis) noexcept {
+    const S second_difference = absolute(f[2][axis] - f[1][axis] - (f[1][axis] - f[0][axis]));
+    return larger(absolute(f[0][axis]), larger(absolute(f[1][axis]), absolute(f[2][axis]))) +
+           scale2(second_difference, -2);
+}
+
+template struct PieceMeasure<double>;
+template struct PieceMeasure<float>;
+template struct PieceMeasure<Fixed>;
+
+} // namespace splinefeed

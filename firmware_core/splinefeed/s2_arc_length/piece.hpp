@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Piece: a part of a Bezier segment on its way to becoming a cell, and what is measured of it at w = 0, 1/2 and 1.
+#pragma once
+
+#include "splinefeed/s1_curve/curve_segment.hpp"
+
+namespace splinefeed {
+
+/// Part of a segment, in the segment's units and from its origin.
+template <Scalar S>
+struct Piece {
+    PerAxis<PerDegree<S>> control{};
+    int level = 0;         ///< halvings of the segment
+    bool at_start = false; ///< touches the start of its segment
+    bool at_end = false;
+};
+
+/// Derivatives, length and inverse of a piece. The members are filled in this order, each from those before it.
+/// Derivation: piece.cpp. Cost: one de Casteljau triangle, three roots, 3 + 3 + 3 divisions per axis count.
+template <Scalar S>
+struct PieceMeasure {
+    static constexpr int points = 3; // w = 0, 1/2, 1
+
+    PerAxis<PerDegree<S>> left{}; ///< the halves, by de Casteljau at 1/2
+    PerAxis<PerDegree<S>> right{};
+    std::array<PerAxis<S>, points> first{};  ///< dr/dw; after measure_length: dq/ds
+    std::array<PerAxis<S>, points> second{}; ///< d2r/dw2; after measure_curvature: d2q/ds2 [1/mm]
+    std::array<S, points> sigma{};           ///< |dr/dw|
+    std::array<S, points> slope{};           ///< dsigma/dw
+    S slowest{};                             ///< smallest sigma
+    S fastest{};                             ///< largest sigma
+    S length{};                              ///< in units of the segment
+    S low_order_length{};                    ///< the same by a rule two orders lower
+    S length_mm{};
+    std::array<S, 6> inverse{}; ///< w = sum inverse[i] x^(i+1), x = fraction of the length
+    S middle_slope{};           ///< dw/dx of the inverse at w = 1/2; times sigma/length it should be 1
+
+    /// Halves the piece and takes dr/dw, d2r/dw2 and sigma.
+    void differentiate(const Piece<S>& piece, int degree, int axes) noexcept;
+    /// @pre slowest > 0
+    void measure_length(int axes, int unit_log2) noexcept;
+    void invert() noexcept;
+    void measure_curvature(int axes, int unit_log2) noexcept;
+    /// Largest magnitude over the piece of a function known at its three points.
+    [[nodiscard]] static S bound(const std::array<PerAxis<S>, points>& f, unsigned axis) noexcept;
+};
+
+} // namespace splinefeed
