@@ -70,7 +70,7 @@ std::vector<long double> integrated(const std::vector<long double>& acceleration
 // From rest to `velocity`, and to rest again, at this acceleration at most.
 Motion there(double velocity, double acceleration, unsigned axis = 0) {
     const int n = static_cast<int>(std::ceil(velocity / (acceleration * period_s)));
-    const long double a = velocity / (n * static_cast<long double>(period_s));
+    const long double a = static_cast<long double>(velocity) / (n * 1e-3L);
     std::vector<long double> list;
     repeat(list, n, a);
     repeat(list, 10, 0.0L);
@@ -194,8 +194,8 @@ TEST_CASE("each limit is kept to 1e-5 and forgiven to 1e-9") {
             repeat(list, 3, 0.0L);
             return motion_of(integrated(list), axis);
         };
-        CHECK(fault_of(machine, ramp(20000.0L * over)) == "jerk");
-        CHECK(fault_of(machine, ramp(20000.0L * hardly_over)) == "none");
+        CHECK(fault_of(machine, ramp(20000.0L * static_cast<long double>(over))) == "jerk");
+        CHECK(fault_of(machine, ramp(20000.0L * static_cast<long double>(hardly_over))) == "none");
         CHECK(fault_of(machine, there(50.0, 30.0, axis)) == "jerk"); // the step of 30 mm/s^2 in a millisecond
         SimulatedMachine measured(machine, 1);
         run(measured, ramp(10000.0L));
@@ -448,7 +448,7 @@ TEST_CASE("the check does not depend on the number of ticks") {
     std::vector<long double> samples{0.0L};
     std::uniform_real_distribution<double> step(-0.02, 0.02);
     for (int i = 0; i < 300; ++i) {
-        samples.push_back(samples.back() + step(random));
+        samples.push_back(samples.back() + static_cast<long double>(step(random)));
     }
     SimulatedMachine coarse(machine_of({"x"}), 1, {.enforce = false, .ticks_per_segment = 1});
     SimulatedMachine fine(machine_of({"x"}), 1, {.enforce = false, .ticks_per_segment = 100});
