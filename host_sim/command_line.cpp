@@ -23,6 +23,7 @@ constexpr const char* exit_statuses =
 
 /// What was typed, before it is checked.
 struct Typed {
+    std::optional<std::string> machine;
     std::string target = "sim";
     std::string scalar = "fixed";
     std::string format;
@@ -34,20 +35,24 @@ std::string joined(std::initializer_list<std::string_view> names) {
     return listed({names.begin(), names.size()});
 }
 
-[[noreturn]] void refuse_value(std::string_view option, std::string_view value, std::initializer_list<std::string_view> known) {
+[[noreturn]] void refuse_value(std::string_view option, std::string_view value,
+                               std::initializer_list<std::string_view> known) {
     throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(value), joined(known)));
 }
 
 void add_input(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("FILE", job.input, "waypoints (.csv) or a curve (.json); - reads standard input")->required();
-    app.add_option("--format", typed.format, "csv or json: what the input is (default: what its name says; of standard input csv)");
+    app.add_option("--format", typed.format,
+                   "csv or json: what the input is (default: what its name says; of standard input csv)");
 }
 
 void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     CurveArguments& curve = job.curve;
     const std::string group = "Curve";
     app.add_option("--curve", curve.method, "g2, catmull-rom or polyline (default g2)")->group(group);
-    app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")->group(group);
+    app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
+        ->group(group)
+        ->disable_flag_override();
     app.add_option("--parameterization", curve.parameterization,
                    "uniform, chordal or centripetal (default: g2 chordal, catmull-rom centripetal)")
         ->group(group);
@@ -55,16 +60,18 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("--corner-angle", curve.corner_angle,
                    "a sharper turn, in degrees, is a corner: the machine stops there (default 60; 180: none is)")
         ->group(group);
-    app.add_option("--start-tangent", curve.start_tangent, "X,Y,Z: direction at the start, of g2, in units of the first chord")
+    app.add_option("--start-tangent", curve.start_tangent,
+                   "X,Y,Z: direction at the start, of g2, in units of the first chord")
         ->group(group);
     app.add_option("--end-tangent", curve.end_tangent, "X,Y,Z: direction at the end, of g2, in units of the last chord")
         ->group(group);
-    app.add_option("--scalar", typed.scalar, "fixed, float or double: what it is computed in (default fixed, as on a microcontroller)")
+    app.add_option("--scalar", typed.scalar,
+                   "fixed, float or double: what it is computed in (default fixed, as on a microcontroller)")
         ->group(group);
 }
 
 void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
-    app.add_option("-m,--machine", job.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
+    app.add_option("-m,--machine", typed.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
     if (executes) {
         app.add_option("--target", typed.target, "sim: the simulated machine in this process (default sim)");
     }
@@ -74,7 +81,7 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);
     app.add_option("--curve-out", job.curve_out, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
-    app.add_flag("--quiet", job.quiet, "no progress on standard error")->group(group);
+    app.add_flag("--quiet", job.quiet, "no progress on standard error")->group(group)->disable_flag_override();
 }
 
 /// The options of an app by their long names, as they are typed.
@@ -102,8 +109,28 @@ void refuse_extras(const CLI::App& app, const Job& job) {
                                          near.empty() ? fmt::format("see splinefeed {} --help", app.get_name())
                                                       : fmt::format("did you mean '{}'?", near)));
         }
-        throw UsageError(fmt::format("there is one input, {}; {} is one word too many", in_quotes(job.input), in_quotes(word)));
+        throw UsageError(
+            fmt::format("there is one input, {}; {} is one word too many", in_quotes(job.input), in_quotes(word)));
     }
+}
+
+// CLI11's errors name the option first: "--trace: 1 required TEXT missing".
+std::string explained(const CLI::ParseError& error) {
+    const std::string_view text = error.what();
+    const std::string_view option = text.substr(0, text.find(':'));
+    if (text.find("missing") != std::string_view::npos) {
+        return fmt::format("{} needs a value; see splinefeed --help", option);
+    }
+    if (text.find("At Most 1") != std::string_view::npos) {
+        return fmt::format("{} is given more than once; give it once", option);
+    }
+    if (text.find("flag override") != std::string_view::npos) {
+        return fmt::format("--{} takes no value; leave it out", text.substr(0, text.find(' ')));
+    }
+    if (text.find("FILE is required") != std::string_view::npos) {
+        return "there is no input; name a .csv or .json file, or - for standard input";
+    }
+    return fmt::format("{}; see splinefeed --help", text);
 }
 
 void take_format(Job& job, const std::string& format) {
@@ -117,8 +144,9 @@ void take_format(Job& job, const std::string& format) {
     } else if (!format.empty()) {
         refuse_value("--format", format, {"csv", "json"});
     } else {
-        throw UsageError(fmt::format("{}: the name does not say what it is; name a .csv or .json file, or add --format csv|json",
-                                     in_quotes(job.input)));
+        throw UsageError(
+            fmt::format("{}: the name does not say what it is; name a .csv or .json file, or add --format csv|json",
+                        in_quotes(job.input)));
     }
 }
 
@@ -187,6 +215,9 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     curve->add_option("-o,--curve-out", job.curve_out, "C.json (default: standard output)");
     curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
     for (CLI::App* const command : {run, plan, curve}) {
+        for (CLI::Option* const option : command->get_options()) {
+            option->type_name(""); // the descriptions say what a value may be
+        }
         command->allow_extras();
         command->set_help_flag("--help", "print this");
     }
@@ -213,7 +244,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     } catch (const CLI::CallForVersion& version) {
         return Answer{std::string(version.what()) + "\n"};
     } catch (const CLI::ParseError& error) {
-        throw UsageError(fmt::format("{}; see splinefeed --help", error.what()));
+        throw UsageError(explained(error));
     }
     const auto chosen = app.get_subcommands();
     if (chosen.empty()) {
@@ -221,15 +252,25 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         if (words.empty()) {
             throw UsageError("there is no command; it must be one of " + listed(commands) + "; see splinefeed --help");
         }
-        throw UsageError(fmt::format("there is no {} {}{}", words.front().front() == '-' ? "option" : "command",
-                                     in_quotes(words.front()), suggestion(words.front(), commands)));
+        if (words.front().substr(0, 1) == "-") {
+            throw UsageError(fmt::format("there is no option {}; before a command there are --help and --version",
+                                         in_quotes(words.front())));
+        }
+        throw UsageError(
+            fmt::format("there is no command {}{}", in_quotes(words.front()), suggestion(words.front(), commands)));
     }
     const CLI::App& command = *chosen.front();
     refuse_extras(command, job);
     if (job.input.empty()) {
         throw UsageError("the input has no name; give a .csv or .json file, or - for standard input");
     }
-    job.command = command.get_name() == "run" ? Command::run : command.get_name() == "plan" ? Command::plan : Command::curve;
+    job.machine = typed.machine.value_or("");
+    if (typed.machine && job.machine.empty()) {
+        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
+    }
+    job.command = command.get_name() == "run"    ? Command::run
+                  : command.get_name() == "plan" ? Command::plan
+                                                 : Command::curve;
     if (typed.target != "sim") {
         throw UsageError(fmt::format("--target {}: there is no such target; available is sim, the simulated machine",
                                      in_quotes(typed.target)));

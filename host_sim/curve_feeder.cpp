@@ -18,8 +18,9 @@ void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerA
         return;
     }
     if (given->components > axes) {
-        throw UsageError(fmt::format("an end tangent has {} components, but the path has {} axes; give one for each axis",
-                                     given->components, axes));
+        throw UsageError(
+            fmt::format("an end tangent has {} components, but the path has {} axes; give one for each axis",
+                        given->components, axes));
     }
     has = true;
     for (unsigned k = 0; k < static_cast<unsigned>(given->components); ++k) {

@@ -14,8 +14,8 @@
 namespace splinefeed::host {
 
 /// Owns the curve. more() pushes one waypoint at a time, so that nothing is read before the curve needs it.
-/// A closed curve has to be read whole: it goes in as the 16 points before the seam, the path with its first point at both
-/// ends, and the 16 points after the seam.
+/// A closed curve has to be read whole: it goes in as the 16 points before the seam, the path with its first point at
+/// both ends, and the 16 points after the seam.
 template <Scalar S>
 class CurveFeeder {
 public:
@@ -32,8 +32,8 @@ public:
         PerAxis<Position> position{};
         bool on_path = false; ///< false: lead-in or lead-out
     };
-    /// Pushes the next waypoint, or finishes; false when there was none. Throws InputError; the curve then ends with the
-    /// waypoints before. @pre the curve is starved
+    /// Pushes the next waypoint, or finishes; false when there was none. Throws InputError; the curve then ends with
+    /// the waypoints before. @pre the curve is starved
     bool more(Pushed& pushed);
 
     /// Waypoints of the input so far.
@@ -46,7 +46,7 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept;
 
 private:
-    static constexpr std::size_t lead = 16; ///< waypoints beyond the seam that shape a closed curve
+    static constexpr std::size_t lead = 16;         ///< waypoints beyond the seam that shape a closed curve
     static constexpr std::size_t remembered = 1024; ///< lines
 
     template <class Curve, class... Arguments>

@@ -16,13 +16,13 @@ enum class SummaryKind { none, text, json };
 
 struct Job {
     Command command = Command::run;
-    std::string input;                      ///< a path, or "-"
+    std::string input; ///< a path, or "-"
     InputFormat format = InputFormat::csv;
-    std::string machine;                    ///< empty: the default machine
+    std::string machine; ///< empty: the default machine
     CurveArguments curve;
     ScalarKind scalar = ScalarKind::fixed;
     std::size_t window_cells = 1024;
-    std::string trace;                      ///< empty: no such output; "-": standard output
+    std::string trace; ///< empty: no such output; "-": standard output
     std::string segments;
     std::string curve_out;
     SummaryKind summary = SummaryKind::text;

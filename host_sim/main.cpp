@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     using namespace splinefeed::host;
     constexpr int not_finished = 1;
     constexpr int bad_input = 2;
-    std::ios::sync_with_stdio(false);             // a pipe is read in blocks of what has arrived
+    std::ios::sync_with_stdio(false);                 // a pipe is read in blocks of what has arrived
     static_cast<void>(std::signal(SIGPIPE, SIG_IGN)); // an output whose reader has gone is an error like any other
     try {
         const auto parsed = parse_command_line(argc, argv);

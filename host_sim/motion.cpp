@@ -12,8 +12,8 @@
 namespace splinefeed::host {
 
 template <Scalar S>
-Motion<S>::Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits, PathInput& input,
-                  const PathLimits& path_limits, Outputs& outputs)
+Motion<S>::Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits,
+                  PathInput& input, const PathLimits& path_limits, Outputs& outputs)
     : job_(&job), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs), feeder_(input),
       tee_(feeder_, input.name(), {.limits = &path_limits, .writer = outputs.curve(), .error = &error_}),
       window_(job.window_cells), trajectory_(tee_, limits, window_),

@@ -24,8 +24,8 @@ public:
     Motion(const Motion&) = delete;
     Motion& operator=(const Motion&) = delete;
 
-    /// Runs to the end. Empty: done; else why the machine stopped before, and where it stands. Throws what was wrong with
-    /// the input if nothing has moved yet, and OutputError.
+    /// Runs to the end. Empty: done; else why the machine stopped before, and where it stands. Throws what was wrong
+    /// with the input if nothing has moved yet, and OutputError.
     /// @param waypoints  how many there are, where that is known
     [[nodiscard]] std::string run(std::optional<std::uint64_t> waypoints);
 
@@ -52,7 +52,7 @@ private:
     Trajectory<S> trajectory_;
     SimulatedMachine machine_;
     Clock::duration planning_{};
-    std::string stopped_;        // why, if it was before the end
+    std::string stopped_; // why, if it was before the end
     std::uint64_t segments_ = 0;
     std::uint64_t rests_ = 0; // instants at which all axes stood still
     bool read_all_ = false;

@@ -45,11 +45,11 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
     if (name.empty() || name.size() > longest_name) {
         return best;
     }
-    std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1;
+    // One or two letters are near to everything: nothing but the case may differ.
+    std::size_t fewest = name.size() < 3 ? 1 : std::max<std::size_t>(2, name.size() / 3) + 1;
     for (const std::string_view candidate : known) {
         const std::size_t count = edits(name, candidate);
-        // A name of one or two letters is near to everything: there nearly all of it has to fit.
-        if (count < fewest && count < std::max(name.size(), candidate.size())) {
+        if (count < fewest && count < std::min(name.size(), candidate.size())) {
             fewest = count;
             best = candidate;
         }

@@ -9,7 +9,8 @@
 namespace splinefeed::host {
 
 /// The known name with the fewest edits (insert, delete, replace, swap of neighbours; case is free), or an empty one
-/// where nothing comes close: more than a third of the name, at least two edits. Cost: the product of the lengths.
+/// where nothing comes close: more than a third of the name and more than two edits, or any in a name of one or two
+/// letters. Cost: the product of the lengths.
 [[nodiscard]] std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
 /// "a, b, c"

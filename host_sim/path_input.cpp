@@ -66,7 +66,8 @@ private:
 
 } // namespace
 
-PathInput::PathInput(const Job& job, const std::vector<std::string>& machine_axes) : name_(job.input), path_(job.input) {
+PathInput::PathInput(const Job& job, const std::vector<std::string>& machine_axes)
+    : name_(job.input), path_(job.input) {
     if (job.format == InputFormat::json) {
         open_description(job, machine_axes);
         return;
@@ -97,8 +98,9 @@ void PathInput::open_description(const Job& job, const std::vector<std::string>&
     axes_ = machine_axes.empty() ? std::vector<std::string>(every_axis.begin(), every_axis.begin() + file_.axes)
                                  : machine_axes;
     if (count > axes_.size()) {
-        throw InputError(name_, 0, fmt::format("the points have {} coordinates; the machine has {} axes: {}", count, axes_.size(),
-                                               fmt::join(axes_, ", ")));
+        throw InputError(name_, 0,
+                         fmt::format("the points have {} coordinates; the machine has {} axes: {}", count, axes_.size(),
+                                     fmt::join(axes_, ", ")));
     }
 }
 

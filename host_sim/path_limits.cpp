@@ -12,7 +12,7 @@ namespace {
 constexpr double tolerance_mm = 1e-6;
 constexpr double most_counts = 2147483647.0;
 constexpr double slack_mm = 1e-9; // rounding of points up to 2^20 mm
-constexpr int deepest = 24; // halvings; a hull is 4^-24 of its segment's wide then
+constexpr int deepest = 24;       // halvings; a hull is 4^-24 of its segment's wide then
 
 using Points = PerDegree<double>;
 
@@ -36,7 +36,8 @@ void survey(const Points& points, unsigned degree, Extent limits, int depth, Ext
     take(points[degree]);
     const Extent most = hull(points, degree);
     // Nothing below adds to what is known.
-    if (most.high <= std::max(limits.high, found.high) + slack_mm && most.low >= std::min(limits.low, found.low) - slack_mm) {
+    if (most.high <= std::max(limits.high, found.high) + slack_mm &&
+        most.low >= std::min(limits.low, found.low) - slack_mm) {
         return;
     }
     if (depth == deepest) {
@@ -82,10 +83,12 @@ std::optional<std::string> PathLimits::violation(const CurveSegment<S>& segment)
         }
         const double value = found.low < limits.low ? found.low : found.high;
         if (axis.travel) {
-            return fmt::format("axis {} goes to {:.6f} mm; its travel_mm is [{}, {}]", axis.name, value, axis.low, axis.high);
+            return fmt::format("axis {} goes to {:.6f} mm; its travel_mm is [{}, {}]", axis.name, value, axis.low,
+                               axis.high);
         }
-        return fmt::format("axis {} goes to {:.6f} mm; with its steps_per_mm it must stay within +-{:.6f} mm, 2147483647 counts",
-                           axis.name, value, axis.high);
+        return fmt::format(
+            "axis {} goes to {:.6f} mm; with its steps_per_mm it must stay within +-{:.6f} mm, 2147483647 counts",
+            axis.name, value, axis.high);
     }
     return std::nullopt;
 }

@@ -31,7 +31,8 @@ void PathTee<S>::look(CurveSegment<S>& segment) {
     if (observers_.limits != nullptr) {
         if (const auto violation = observers_.limits->violation(segment)) {
             const std::uint64_t line = feeder_->line_of_row(row);
-            throw InputError(*file_, line, line > 0 ? *violation : fmt::format("on the way to point {}: {}", row + 1, *violation));
+            throw InputError(*file_, line,
+                             line > 0 ? *violation : fmt::format("on the way to point {}: {}", row + 1, *violation));
         }
     }
     if (observers_.error != nullptr) {

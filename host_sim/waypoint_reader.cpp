@@ -282,7 +282,7 @@ void WaypointReader::parse(std::string_view line, WaypointRow& row) const {
         parse_field(field, column, row);
     }
     if (more) {
-        fail(fmt::format("there are {} columns; there must be {}, as in the rows above", count_fields(line),
+        fail(fmt::format("values: {}; there must be {}, one for each column", count_fields(line),
                          columns_.size()));
     }
 }

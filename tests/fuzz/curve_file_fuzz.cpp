@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Any bytes as a curve file: segments that chain, from each scalar, or one line that says what is wrong.
+#include "host_sim/bezier_source.hpp"
+#include "host_sim/curve_file.hpp"
+#include "host_sim/input_error.hpp"
+
+#include <cstdlib>
+#include <string_view>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+template <Scalar S>
+void require_chain(const CurveFile& file) {
+    BezierSource<S> source(file, file.axes);
+    CurveSegment<S> segment;
+    PerAxis<Position> here{};
+    bool first = true;
+    while (source.next(segment) == Pull::item) {
+        for (unsigned k = 0; k < static_cast<unsigned>(file.axes); ++k) {
+            if (!first && segment.origin[k] != here[k]) {
+                std::abort();
+            }
+        }
+        here = segment.end;
+        first = false;
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        const CurveFile file = parse_curve({reinterpret_cast<const char*>(data), size}, "fuzz.json");
+        if (!file.segments.empty()) {
+            require_chain<double>(file);
+            require_chain<float>(file);
+            require_chain<Fixed>(file);
+        }
+    } catch (const InputError& error) {
+        if (std::string_view(error.what()).find('\n') != std::string_view::npos) {
+            std::abort();
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/curve_choice.hpp"
+
+#include "host_sim/input_error.hpp"
+#include "support/catch.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+std::string refusal(const CurveArguments& arguments) {
+    try {
+        static_cast<void>(choose_curve(arguments));
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+} // namespace
+
+TEST_CASE("Curve options have defaults that depend on the method") {
+    const CurveChoice usual = choose_curve({});
+    CHECK(usual.method == Method::g2);
+    CHECK(usual.parameterization == Parameterization::chordal);
+    CHECK(usual.corner_angle_deg == 60.0);
+    CurveArguments rom;
+    rom.method = "catmull-rom";
+    CHECK(choose_curve(rom).parameterization == Parameterization::centripetal);
+    CHECK(choose_curve(rom).tension == 0.5);
+    CHECK(method_name(Method::bezier) == "bezier");
+    CHECK(method_name(choose_curve(rom).method) == "catmull-rom");
+}
+
+TEST_CASE("Curve options are read") {
+    CurveArguments arguments;
+    arguments.parameterization = "uniform";
+    arguments.corner_angle = "45";
+    arguments.start_tangent = "1,-2.5";
+    const CurveChoice choice = choose_curve(arguments);
+    CHECK(choice.parameterization == Parameterization::uniform);
+    CHECK(choice.corner_angle_deg == 45.0);
+    REQUIRE(choice.start_tangent);
+    CHECK(choice.start_tangent->components == 2);
+    CHECK(choice.start_tangent->value[1] == -2.5);
+    CHECK(first_option(arguments) == "--parameterization");
+    CHECK(first_option({}).empty());
+}
+
+TEST_CASE("A wrong curve option is refused in one line") {
+    const auto g2 = [](auto set) {
+        CurveArguments arguments;
+        set(arguments);
+        return refusal(arguments);
+    };
+    using A = CurveArguments;
+    const auto contains = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+    CHECK(contains(g2([](A& a) { a.method = "spline"; }), "g2, catmull-rom, polyline"));
+    CHECK(contains(g2([](A& a) { a.method = "bezier"; }), "curve file"));
+    CHECK(contains(g2([](A& a) { a.tension = "1"; }), "--curve g2 has no option --tension"));
+    CHECK(contains(g2([](A& a) { a.method = "polyline", a.corner_angle = "1"; }), "has no option"));
+    CHECK(contains(g2([](A& a) { a.method = "polyline", a.parameterization = "uniform"; }), "has no option"));
+    CHECK(contains(g2([](A& a) { a.method = "catmull-rom", a.end_tangent = "1,0"; }), "has no option"));
+    CHECK(contains(g2([](A& a) { a.method = "catmull-rom", a.tension = "-1"; }), "between 0 and 10"));
+    CHECK(contains(g2([](A& a) { a.method = "catmull-rom", a.tension = "x"; }), "not a number"));
+    CHECK(contains(g2([](A& a) { a.parameterization = "chord"; }), "uniform, chordal, centripetal"));
+    CHECK(contains(g2([](A& a) { a.corner_angle = "181"; }), "between 0 and 180"));
+    CHECK(contains(g2([](A& a) { a.corner_angle = "nan"; }), "not finite"));
+    CHECK(contains(g2([](A& a) { a.start_tangent = "0,0"; }), "no direction"));
+    CHECK(contains(g2([](A& a) { a.start_tangent = "1,"; }), "not a number"));
+    CHECK(contains(g2([](A& a) { a.start_tangent = "1,101"; }), "between -100 and 100"));
+    CHECK(contains(g2([](A& a) { a.start_tangent = "1,1,1,1,1,1,1"; }), "more than 6"));
+    CHECK(contains(g2([](A& a) { a.end_tangent = "1,0", a.closed = true; }), "exclude"));
+}

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/machine_file.hpp"
+
+#include "host_sim/input_error.hpp"
+#include "support/catch.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+const std::string good = "name = 'router'\n"                                        // 1
+                         "sample_period_us = 500\n"                                 // 2
+                         "[path]\n"                                                 // 3
+                         "max_feed_mm_s = 80\n"                                     // 4
+                         "centripetal_mm_s2 = 2000\n"                               // 5
+                         "chord_error_mm = 0.001\n"                                 // 6
+                         "[[axis]]\n"                                               // 7
+                         "name = 'x'\n"                                             // 8
+                         "travel_mm = [-10, 310.5]\n"                               // 9
+                         "max_velocity_mm_s = 100\n"                                // 10
+                         "max_acceleration_mm_s2 = 1e3\n"                           // 11
+                         "steps_per_mm = 320\n"                                     // 12
+                         "drive = 'modbus-tcp://127.0.0.1:1502?unit=1'\n"           // 13
+                         "[[axis]]\n"                                               // 14
+                         "name = 'a'\n"                                             // 15
+                         "max_velocity_mm_s = 50\n"                                 // 16
+                         "max_acceleration_mm_s2 = 500\n"                           // 17
+                         "steps_per_mm = 12.5\n";                                   // 18
+
+std::string with(const std::string& old_text, const std::string& new_text) {
+    std::string text = good;
+    return text.replace(text.find(old_text), old_text.size(), new_text);
+}
+
+std::string refusal(const std::string& text) {
+    try {
+        static_cast<void>(parse_machine(text, "m.toml"));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+} // namespace
+
+TEST_CASE("A machine file is read") {
+    const MachineDescription machine = parse_machine(good, "m.toml");
+    CHECK(machine.file == "m.toml");
+    CHECK(machine.name == "router");
+    CHECK(machine.settings.axes == 2);
+    CHECK(machine.settings.sample_period_us == 500);
+    CHECK(machine.settings.max_feed_mm_s == 80.0);
+    CHECK(machine.settings.centripetal_mm_s2 == 2000.0);
+    CHECK(machine.settings.chord_error_mm == 0.001);
+    CHECK(machine.axis_name[1] == "a");
+    CHECK(machine.settings.axis[0].max_acceleration_mm_s2 == 1000.0);
+    CHECK(machine.settings.axis[1].steps_per_mm == 12.5);
+    REQUIRE(machine.travel[0]);
+    CHECK(machine.travel[0]->high == 310.5);
+    CHECK_FALSE(machine.travel[1]);
+    CHECK(parse_machine(with("sample_period_us = 500\n", ""), "m.toml").settings.sample_period_us == 1000);
+}
+
+TEST_CASE("The default machine is one that the planner takes") {
+    const MachineDescription machine = default_machine();
+    CHECK(machine.settings.axes == 3);
+    CHECK(machine.axis_name[2] == "z");
+    CHECK(MotionLimits<Fixed>::make(machine.settings).has_value());
+}
+
+TEST_CASE("Every malformed machine file is refused in one line that names the place") {
+    struct Case {
+        std::string text;
+        std::string start;
+        std::string part;
+    };
+    std::string seven;
+    for (const char* name : {"x", "y", "z", "a", "b", "c", "x"}) {
+        seven += std::string("[[axis]]\nname='") + name + "'\nmax_velocity_mm_s=1\nmax_acceleration_mm_s2=1\nsteps_per_mm=1\n";
+    }
+    const std::vector<Case> cases{
+        {"", "m.toml: ", "[path]"},
+        {"[path]\nmax_feed_mm_s = 1\n", "m.toml: ", "[[axis]]"},
+        {"x = \n", "m.toml:1: ", ""},
+        {"name = 'a'\nname = 'b'\n", "m.toml:2: ", ""},
+        {with("name = 'router'", "name = 7"), "m.toml:1: ", "text"},
+        {with("name = 'router'", "nmae = 'router'"), "m.toml:1: ", "did you mean 'name'"},
+        {with("= 500", "= 49"), "m.toml:2: ", "50 to 100000"},
+        {with("= 500", "= 100001"), "m.toml:2: ", "50 to 100000"},
+        {with("= 500", "= 500.0"), "m.toml:2: ", "whole number"},
+        {with("= 80", "= 'fast'"), "m.toml:4: ", "finite number"},
+        {with("= 80", "= nan"), "m.toml:4: ", "finite number"},
+        {with("= 80", "= inf"), "m.toml:4: ", "finite number"},
+        {with("= 80", "= 0"), "m.toml:4: ", "between"},
+        {with("= 80", "= true"), "m.toml:4: ", "finite number"},
+        {with("max_feed_mm_s = 80\n", ""), "m.toml:3: ", "max_feed_mm_s"},
+        {with("max_feed_mm_s = 80", "max_fed_mm_s = 80"), "m.toml:4: ", "did you mean 'max_feed_mm_s'"},
+        {with("= 2000", "= -1"), "m.toml:5: ", "between"},
+        {with("= 0.001", "= 2"), "m.toml:6: ", "between"},
+        {with("[path]", "[paht]"), "m.toml:3: ", "did you mean 'path'"},
+        {"path = 3\n", "m.toml:1: ", "table"},
+        {"axis = 3\n[path]\nmax_feed_mm_s = 1\n", "m.toml:1: ", "[[axis]]"},
+        {"axis = [3]\n[path]\nmax_feed_mm_s = 1\n", "m.toml:1: ", "[[axis]]"},
+        {"axis = []\n[path]\nmax_feed_mm_s = 1\n", "m.toml:1: ", "one to six"},
+        {"[path]\nmax_feed_mm_s = 1\n" + seven, "m.toml:33: ", "7 axes"},
+        {with("name = 'x'\n", ""), "m.toml:7: ", "no name"},
+        {with("name = 'x'", "name = 'w'"), "m.toml:8: ", "one of x, y, z, a, b, c"},
+        {with("name = 'x'", "name = 1"), "m.toml:8: ", "text"},
+        {with("name = 'a'", "name = 'x'"), "m.toml:15: ", "two axes 'x'"},
+        {with("[-10, 310.5]", "[310.5, -10]"), "m.toml:9: ", "larger"},
+        {with("[-10, 310.5]", "[1, 1]"), "m.toml:9: ", "larger"},
+        {with("[-10, 310.5]", "[1]"), "m.toml:9: ", "two numbers"},
+        {with("[-10, 310.5]", "7"), "m.toml:9: ", "two numbers"},
+        {with("[-10, 310.5]", "['a', 7]"), "m.toml:9: ", "finite number"},
+        {with("[-10, 310.5]", "[0, 2000000]"), "m.toml:9: ", "1048576"},
+        {with("steps_per_mm = 320", "steps_per_mm = 1e7"), "m.toml:12: ", "between"},
+        {with("[-10, 310.5]\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1e3\nsteps_per_mm = 320",
+              "[0, 100000]\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1e3\nsteps_per_mm = 1e6"),
+         "m.toml:9: ", "counts"},
+        {with("= 100\n", "= 0\n"), "m.toml:10: ", "between"},
+        {with("max_velocity_mm_s = 50\n", ""), "m.toml:14: ", "axis a has no max_velocity_mm_s"},
+        {with("max_velocity_mm_s = 50", "max_velocity = 50"), "m.toml:16: ", "unknown key"},
+        {with("steps_per_mm = 12.5", "steps_per_mm = 12.5\nmax_jerk_mm_s3 = 1"), "m.toml:19: ", "max_jerk_mm_s3"},
+        {with("drive = 'modbus-tcp://127.0.0.1:1502?unit=1'", "drive = 1"), "m.toml:13: ", "text"},
+    };
+    for (const Case& c : cases) {
+        const std::string told = refusal(c.text);
+        CAPTURE(c.text, told);
+        CHECK(told.compare(0, c.start.size(), c.start) == 0);
+        CHECK(told.find(c.part) != std::string::npos);
+        CHECK(told.find('\n') == std::string::npos);
+    }
+}

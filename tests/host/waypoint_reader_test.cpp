@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/waypoint_reader.hpp"
+
+#include "host_sim/input_error.hpp"
+#include "support/catch.hpp"
+
+#include <sstream>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+const std::vector<std::string> xyz{"x", "y", "z"};
+
+std::vector<WaypointRow> read(const std::string& text, const std::vector<std::string>& axes = xyz) {
+    std::istringstream input(text);
+    WaypointReader reader(input, "w.csv", axes);
+    std::vector<WaypointRow> rows;
+    WaypointRow row;
+    while (reader.next(row)) {
+        rows.push_back(row);
+    }
+    CHECK(reader.rows() == rows.size());
+    return rows;
+}
+
+std::string refusal(const std::string& text, const std::vector<std::string>& axes = xyz) {
+    try {
+        static_cast<void>(read(text, axes));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+bool starts_with(const std::string& text, const std::string& start) {
+    return text.compare(0, start.size(), start) == 0;
+}
+
+/// Delivers one character at a time, as a slow pipe does, and counts them.
+class Drip final : public std::streambuf {
+public:
+    explicit Drip(std::string text) : text_(std::move(text)) {}
+    [[nodiscard]] std::size_t delivered() const { return next_; }
+
+private:
+    int_type underflow() override {
+        if (next_ == text_.size()) {
+            return traits_type::eof();
+        }
+        current_ = text_[next_++];
+        setg(&current_, &current_, &current_ + 1);
+        return traits_type::to_int_type(current_);
+    }
+
+    std::string text_;
+    std::size_t next_ = 0;
+    char current_ = 0;
+};
+
+} // namespace
+
+TEST_CASE("Waypoints without a header are x,y and the rest") {
+    const auto rows = read("1,2\n3,4\n");
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0].position[0] == 1.0);
+    CHECK(rows[1].position[1] == 4.0);
+    CHECK(rows[1].position[2] == 0.0);
+    CHECK(rows[1].line == 2);
+    CHECK(read("1,2,3\n4,5,6")[1].position[2] == 6.0);
+    CHECK(read("1,2,3,4,5,6\n7,8,9,1,2,3", {"x", "y", "z", "a", "b", "c"})[1].position[5] == 3.0);
+    CHECK(read("1\n2\n", {"x"}).size() == 2);
+}
+
+TEST_CASE("A header names the columns in any order and case") {
+    const auto rows = read("# drawing 7\n\n Feed , Y,corner,X\n 50, 1 , 1, +2.5\n,-1e1,,3\n10,0,0,4\n");
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[0].position[0] == 2.5);
+    CHECK(rows[0].position[1] == 1.0);
+    CHECK(rows[0].feed_mm_s == 50.0);
+    CHECK(rows[0].corner == Corner::forced);
+    CHECK(rows[1].feed_mm_s == 0.0);
+    CHECK(rows[1].position[1] == -10.0);
+    CHECK(rows[1].corner == Corner::automatic);
+    CHECK(rows[2].corner == Corner::forbidden);
+    CHECK(rows[2].line == 6);
+}
+
+TEST_CASE("What editors do to a file does not matter") {
+    const auto rows = read("\xef\xbb\xbfx,y\r\n\r\n# comment\r\n  1.5 ,\t2\r\n   # another\n3,4");
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0].position[0] == 1.5);
+    CHECK(rows[1].position[1] == 4.0);
+}
+
+TEST_CASE("Numbers are read exactly") {
+    const auto rows = read("0.1,-65000\n1e-3,-.5\n123456.789012345678,+7.\n");
+    CHECK(rows[0].position[0] == 0.1);
+    CHECK(rows[0].position[1] == -1048576.0);
+    CHECK(rows[1].position[1] == -0.5);
+}
+
+TEST_CASE("Only the axes of the file are kept where no machine says which there are") {
+    std::istringstream input("c,feed,y\n1,2,3\n4,5,6\n");
+    WaypointReader reader(input, "w.csv", {"x", "y", "z", "a", "b", "c"}, true);
+    CHECK(reader.axes() == std::vector<std::string>{"y", "c"});
+    WaypointRow row;
+    REQUIRE(reader.next(row));
+    CHECK(row.position[0] == 3.0);
+    CHECK(row.position[1] == 1.0);
+    CHECK(row.feed_mm_s == 2.0);
+}
+
+TEST_CASE("A row is there as soon as its line has ended") {
+    const std::string text = "x,y\n1,2\n3,4\n5,6\n";
+    Drip drip(text);
+    std::istream input(&drip);
+    WaypointReader reader(input, "-", xyz);
+    WaypointRow row;
+    for (std::size_t i = 0; i < 3; ++i) {
+        REQUIRE(reader.next(row));
+        CHECK(drip.delivered() == 8 + 4 * i);
+    }
+    CHECK_FALSE(reader.next(row));
+}
+
+TEST_CASE("Every malformed waypoint file is refused in one line that names the place") {
+    const std::string long_line(5000, '1');
+    struct Case {
+        std::string text;
+        std::string start;
+        std::string part;
+    };
+    const std::vector<Case> cases{
+        {"", "w.csv: ", "no waypoint"},
+        {"# nothing\n\n", "w.csv: ", "no waypoint"},
+        {"x,y\n", "w.csv: ", "no waypoint"},
+        {"1,2\n", "w.csv:1: ", "single waypoint"},
+        {"1,2\n3\n", "w.csv:2: ", "values: 1; there must be 2"},
+        {"1,2\n3,4,5\n", "w.csv:2: ", "values: 3; there must be 2"},
+        {"1,2\n3,\n", "w.csv:2: ", "y is empty"},
+        {"1\n2\n", "w.csv:1: ", "2 to 3"},
+        {"1 2 3\n4 5 6\n", "w.csv:1: ", "commas"},
+        {"1;2\n", "w.csv:1: ", "commas"},
+        {"1,2,3,4\n", "w.csv:1: ", "4 columns and no header"},
+        {"1,2\n3,4x\n", "w.csv:2: ", "'4x' is not a number"},
+        {"1,2\n3,0x10\n", "w.csv:2: ", "not a number"},
+        {"1,2\n3,+-4\n", "w.csv:2: ", "not a number"},
+        {"1,2\n3,1e\n", "w.csv:2: ", "not a number"},
+        {"1,2\nnan,1\n", "w.csv:2: ", "not finite"},
+        {"nan,1\n", "w.csv:1: ", "not finite"},
+        {"1,2\n3,-inf\n", "w.csv:2: ", "not finite"},
+        {"1,2\n3,1e999\n", "w.csv:2: ", "out of the range"},
+        {"1,2\n1048577,2\n", "w.csv:2: ", "+-1048576"},
+        {"1,2\n1,70000\n", "w.csv:2: ", "65536"},
+        {"x,y,q\n1,2,3\n", "w.csv:1: ", "unknown column 'q'"},
+        {"x,y,fed\n1,2,3\n", "w.csv:1: ", "did you mean 'feed'"},
+        {"x,y,a\n1,2,3\n", "w.csv:1: ", "no such axis"},
+        {"x,y,X\n1,2,3\n", "w.csv:1: ", "two columns x"},
+        {"x,,y\n1,2,3\n", "w.csv:1: ", "unknown column ''"},
+        {"feed\n1\n", "w.csv:1: ", "no column of an axis"},
+        {"x,y,feed\n1,2,0\n", "w.csv:2: ", "feed '0' is out of range"},
+        {"x,y,feed\n1,2,-1\n", "w.csv:2: ", "between 0.001 and 10000"},
+        {"x,y,feed\n1,2,10001\n", "w.csv:2: ", "between 0.001 and 10000"},
+        {"x,y,corner\n1,2,2\n", "w.csv:2: ", "corner is '2'"},
+        {"x,y,corner\n1,2,yes\n", "w.csv:2: ", "corner is 'yes'"},
+        {"x,y\n1,2\nx,y\n3,4\n", "w.csv:3: ", "only the first row"},
+        {"1,2\n" + long_line + "\n", "w.csv:2: ", "longer than 4096"},
+        {"1,2\n#" + long_line, "w.csv:2: ", "longer than 4096"},
+        {std::string("1,2\n3,\0004\n", 9), "w.csv:2: ", "NUL"},
+        {"1,2\n3,4\033[31m\n", "w.csv:2: ", "\\x1b"},
+    };
+    for (const Case& c : cases) {
+        const std::string told = refusal(c.text);
+        CAPTURE(c.text, told);
+        CHECK(starts_with(told, c.start));
+        CHECK(told.find(c.part) != std::string::npos);
+        CHECK(told.find('\n') == std::string::npos);
+    }
+    CHECK(refusal("1,2,3\n", {"x", "y", "a"}).find("no axis z") != std::string::npos);
+}
