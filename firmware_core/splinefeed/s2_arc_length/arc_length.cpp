@@ -195,8 +195,8 @@ Pull ArcLength<S>::load() noexcept {
     stop_after_ = current().stop_at_end || !has_ahead_ || jumps(current(), ahead);
     const S feed = current().feed_mm_s > S{} ? smaller(current().feed_mm_s, refinement_.max_feed_mm_s)
                                              : refinement_.max_feed_mm_s;
-    // Not below 0.1 um: from there the time to start is nothing.
-    grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(1e-4));
+    // Not below 2 nm, which still resolves in Fixed.
+    grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));
     stack_[0].control = current().control;
     stack_[0].level = 0;
     stack_[0].at_start = stack_[0].at_end = true;

@@ -34,7 +34,7 @@ FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::
 template <Scalar S>
 void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
-    const S feed = cell.feed_mm_s > S{} ? smaller(cell.feed_mm_s, limits_.feed_mm_s) : limits_.feed_mm_s;
+    const S feed = cell.feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.feed_mm_s), limits_.feed_mm_s) : limits_.feed_mm_s;
     S speed = feed;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         if (cell.tangent_max[k] * speed > limits_.velocity_mm_s[k]) {

@@ -39,13 +39,20 @@ struct MotionLimits {
     PerAxis<S> velocity_mm_s{};
     PerAxis<S> acceleration_mm_s2{};
     PerAxis<std::uint64_t> steps_per_mm_q32{}; ///< counts per mm, 32 fraction bits
-    S feed_mm_s{};
+    S feed_mm_s{};                 ///< what planning may use of max_feed_mm_s
+    S usable{};                    ///< the part of a limit that planning may use, but for the noise of positions
+    S feed_noise_mm_s{};
     S centripetal_mm_s2{};         ///< 0: none
     S chord_mm_s2{};               ///< 8 e / T^2, to be divided by the curvature; 0: none
     S segments_per_s{};            ///< feed segments a second
     std::uint32_t segment_ticks = 0; ///< duration of a feed segment
     int segments_per_sample = 1;   ///< feed segments per sample period
     Refinement<S> refinement{};
+
+    /// What planning may use of a programmed feed; at least half of it.
+    [[nodiscard]] constexpr S usable_feed(S feed) const noexcept {
+        return larger(feed * usable - feed_noise_mm_s, scale2(feed, -1));
+    }
 
     /// Checks every number (Error names the first that is out of range) and derives the rest.
     [[nodiscard]] static constexpr Result<MotionLimits> make(const MachineSettings& settings) noexcept;
@@ -61,7 +68,7 @@ inline constexpr double parameter_error<float> = 2.4e-7; // 4 x 2^-24
 
 /// The part of every limit that planning leaves to relative rounding.
 template <Scalar S>
-inline constexpr double usable_margin = 2e-6;
+inline constexpr double usable_margin = 6e-6; // twice the feed fluctuation that arc length tolerates
 template <>
 inline constexpr double usable_margin<float> = 1e-3;
 
@@ -74,6 +81,11 @@ inline constexpr double rounding_share<float> = 2e-3;
 /// Rounding of a position, e, becomes the acceleration 4 e / T^2 in the second difference of control points.
 constexpr double acceleration_noise(double error_mm, double segment_s) noexcept {
     return 4.0 * error_mm / (segment_s * segment_s);
+}
+
+/// And the speed 2 e / T in the first difference.
+constexpr double speed_noise(double error_mm, double segment_s) noexcept {
+    return 2.0 * error_mm / segment_s;
 }
 
 /// Longest cell [mm]: its parameter resolves `error` of it, which must stay below `share` of the limit.
@@ -154,6 +166,8 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     const double period_s = settings.sample_period_us * 1e-6;
     const int n = detail::segments_per_sample(period_s, acceleration_sq);
     const double segment_s = period_s / n;
+    constexpr double usable = 1.0 - detail::usable_margin<S>;
+    double feed_noise = 0.0;
     const double longest =
         detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest, segment_s);
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
@@ -164,13 +178,19 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         if (noise > 0.25 * axis.max_acceleration_mm_s2) {
             return Error::period_too_short;
         }
-        limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * (1.0 - detail::usable_margin<S>));
+        const double speed_noise = detail::speed_noise(error_mm, segment_s);
+        if (speed_noise > 0.25 * axis.max_velocity_mm_s || speed_noise > 0.25 * settings.max_feed_mm_s) {
+            return Error::period_too_short;
+        }
+        feed_noise += speed_noise;
+        limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * usable - speed_noise);
         limits.acceleration_mm_s2[k] =
-            from_double<S>(axis.max_acceleration_mm_s2 * (1.0 - detail::usable_margin<S>) - noise);
+            from_double<S>(axis.max_acceleration_mm_s2 * usable - noise);
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
-    constexpr double usable = 1.0 - detail::usable_margin<S>;
-    limits.feed_mm_s = from_double<S>(settings.max_feed_mm_s * usable);
+    limits.usable = from_double<S>(usable);
+    limits.feed_noise_mm_s = from_double<S>(feed_noise);
+    limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
     limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
     limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, period_s));
     limits.segments_per_s = from_double<S>(n / period_s);
