@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+//
+// CatmullRom against the reference vectors of the paper's original curve, and against its formula in long double.
+#include "splinefeed/s1_curve/catmull_rom.hpp"
+
+#include "support/curve_harness.hpp"
+
+#if __has_include(<nlohmann/json.hpp>)
+#include <nlohmann/json.hpp>
+#define SPLINEFEED_HAS_JSON
+#endif
+
+#include <fstream>
+
+using namespace splinefeed;
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr Parameterization parameterizations[] = {Parameterization::uniform, Parameterization::chordal,
+                                                  Parameterization::centripetal};
+
+/// The cubic between two waypoints; chords and spans before and after it only where the run goes on.
+Cubic direct(const std::vector<Vec>& chords, const std::vector<Real>& h, std::size_t i, bool before, bool after,
+             Real m) {
+    // Derivative of the parabola through three points at the middle one, times 2 m.
+    const auto middle = [&](std::size_t j) {
+        const Vec in = (1.0L / h[j - 1]) * chords[j - 1];
+        const Vec out = (1.0L / h[j]) * chords[j];
+        return (2.0L * m / (h[j - 1] + h[j])) * (h[j] * in + h[j - 1] * out);
+    };
+    const Vec end = (m / h[i]) * chords[i]; // doubled end point
+    const Vec start_slope = before ? middle(i) : end;
+    const Vec end_slope = after ? middle(i + 1) : end;
+    return {Vec{}, (h[i] / 3.0L) * start_slope, chords[i] - (h[i] / 3.0L) * end_slope, chords[i]};
+}
+
+/// Slopes chord / span are rounded where they are formed, and multiplied by a span: in Fixed u * span in chord units,
+/// relative to the point itself in floating point. About a dozen roundings, of numbers up to 2 m + 1 times the chords;
+/// the chord before or after counts by the ratio of its span.
+template <Scalar S>
+Real bound(const std::vector<Vec>& chords, const std::vector<Real>& h, std::size_t i, Real m, bool uniform) {
+    Real longest = size(chords[i]);
+    for (const std::size_t j : {i > 0 ? i - 1 : i, i + 1 < chords.size() ? i + 1 : i}) {
+        longest = std::max(longest, size(chords[j]) * std::max(1.0L, uniform ? 1.0L : h[i] / (h[i] + h[j])));
+    }
+    // the largest span in chord units: 4096 if uniform, else the chord (its root is less, for chords above 1/4 um)
+    const Real span = uniform ? 4096.0L : longest * 4096.0L;
+    const Real fixed = std::same_as<S, Fixed> ? 0x1p-45L * 4.0L * (2.0L * m + 1.0L) * span : 0.0L;
+    return 12.0L * (2.0L * m + 1.0L) * rounding<S>(longest) + fixed;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("catmull-rom: the formula, three parameterizations", "[curve][catmull_rom]", double, float, Fixed) {
+    using S = TestType;
+    RandomPath random(path_seed + 30);
+    CAPTURE(path_seed);
+    for (const Shape shape : all_shapes) {
+        for (const Parameterization how : parameterizations) {
+            for (const double m : {0.0, 0.25, 0.5, 1.0, 3.0}) {
+                const int count = 2 + random.below(40);
+                const Path path = random.make(shape, 1 + random.below(6), count);
+                auto feeds = feeds_of<S>(path);
+                std::vector<bool> breaks;
+                for (auto& feed : feeds) {
+                    breaks.push_back(breaks.empty() || static_cast<int>(breaks.size()) + 1 == count ||
+                                     random.below(6) == 0);
+                    feed.point.corner = breaks.back() ? Corner::forced : Corner::forbidden;
+                }
+                CatmullRom<S> curve({path.axes, how, literal<S>(0.5)}, from_double<S>(m));
+                const auto segments = run_curve<S>(curve, feeds);
+                const auto chords = chords_of(path);
+                const auto h = spans_of(chords, how);
+                REQUIRE(segments.size() == chords.size());
+                for (std::size_t i = 0; i < chords.size(); ++i) {
+                    const Cubic cubic = direct(chords, h, i, !breaks[i], !breaks[i + 1], static_cast<Real>(m));
+                    CAPTURE(static_cast<int>(shape), static_cast<int>(how), m, count, i);
+                    REQUIRE(segments[i].degree == 3);
+                    REQUIRE(segments[i].stop_at_end == breaks[i + 1]);
+                    const Real allowed = bound<S>(chords, h, i, static_cast<Real>(m), how == Parameterization::uniform);
+                    for (int p = 0; p <= 3; ++p) {
+                        const Real error = distance_of(bezier(segments[i], p), cubic[static_cast<unsigned>(p)]);
+                        REQUIRE(static_cast<double>(error) <= static_cast<double>(allowed));
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("catmull-rom: tension 0 is the polygon", "[curve][catmull_rom]", double, float, Fixed) {
+    using S = TestType;
+    CatmullRom<S> curve({2, Parameterization::centripetal, literal<S>(0.5)}, S{});
+    const auto segments = run_curve<S>(curve, feeds_of<S>(path_of(2, {0, 0, 1, 0, 2, 0.5, 3, 0})));
+    REQUIRE(segments.size() == 3);
+    for (const auto& segment : segments) {
+        for (unsigned k = 0; k < 2; ++k) {
+            REQUIRE(segment.control[k][0] == S{});
+            REQUIRE(segment.control[k][1] == S{});
+            REQUIRE(segment.control[k][2] == segment.control[k][3]);
+        }
+    }
+}
+
+#ifdef SPLINEFEED_HAS_JSON
+TEMPLATE_TEST_CASE("catmull-rom: reference vectors", "[curve][catmull_rom][golden]", double, float, Fixed) {
+    using S = TestType;
+    std::ifstream file(SPLINEFEED_SOURCE_DIR "/tests/golden/004_catmull_rom.json");
+    REQUIRE(file.good());
+    const auto golden = nlohmann::json::parse(file);
+    const auto number = [](const nlohmann::json& text) {
+        return std::stod(text.template get<std::string>());
+    };
+    int compared = 0;
+    for (const auto& test : golden.at("cases")) {
+        const auto& input = test.at("input");
+        const std::string id = test.at("id").template get<std::string>();
+        CAPTURE(id);
+        const bool closed = input.at("closed").template get<bool>();
+        Path path;
+        std::vector<double> mm;
+        for (const auto& point : input.at("points")) {
+            path.axes = static_cast<int>(point.size());
+            for (const auto& x : point) {
+                mm.push_back(number(x));
+            }
+        }
+        path = path_of(path.axes, mm);
+        auto points = waypoints_of<S>(path);
+        for (auto& point : points) {
+            point.corner = Corner::forbidden;
+        }
+        std::vector<Feed<S>> feeds;
+        if (closed) {
+            feeds = closed_feeds(points);
+        } else {
+            for (const auto& point : points) {
+                feeds.push_back({point, Role::path});
+            }
+        }
+        const double tension = number(input.at("tension"));
+        CatmullRom<S> curve({path.axes, Parameterization::uniform, literal<S>(0.5)}, from_double<S>(tension));
+        const auto segments = run_curve<S>(curve, feeds);
+        const auto& expected = test.at("expected").at("segments");
+        REQUIRE(segments.size() == expected.size());
+        // The case's own tolerance in double. The inputs lie on the 2^-40 mm grid only if they are short binary
+        // fractions: half a step of it is added. The others: a dozen roundings of (2 m + 1) times the scale, and in
+        // Fixed slopes rounded to 2^-33, times a span of 4096 chord units.
+        const double scale = number(test.at("scale"));
+        const double grid = 0x1p-41 * (2.0 * tension + 1.0);
+        const auto rounded = static_cast<double>(12.0L * rounding<S>(static_cast<Real>(scale)));
+        const double tolerance =
+            std::same_as<S, double>
+                ? number(test.at("tol_rel")) * scale + grid
+                : (2.0 * tension + 1.0) * (rounded + (std::same_as<S, Fixed> ? 4.0 * 0x1p-33 : 0.0)) + grid;
+        for (std::size_t s = 0; s < segments.size(); ++s) {
+            for (int p = 0; p <= 3; ++p) {
+                for (int k = 0; k < path.axes; ++k) {
+                    const double e =
+                        number(expected[s].at("control")[static_cast<unsigned>(p)][static_cast<unsigned>(k)]);
+                    REQUIRE(std::fabs(segments[s].control_mm(k, p) - e) <= tolerance);
+                    ++compared;
+                }
+            }
+        }
+    }
+    REQUIRE(compared > 200);
+}
+#endif
