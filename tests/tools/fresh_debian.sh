@@ -13,6 +13,7 @@ if [[ -e /fresh_debian ]]; then skip "this is the fresh system itself"; fi
 if ((EUID != 0)); then skip "needs root"; fi
 need debootstrap git
 suite=${1:-bookworm}
+# shellcheck disable=SC2016 # $(REPO_URI) is for apt to expand
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)
 if [[ -z $mirror ]]; then skip "no Debian mirror is configured"; fi
 
