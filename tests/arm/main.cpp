@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole pipeline on a microcontroller: plans a small path and prints a hash over every integer of every feed segment.
-// The same source on the host must print the same hash.
+// The whole pipeline on a microcontroller: plans a small path and prints a hash over every integer of every feed
+// segment. The same source on the host must print the same hash.
 #include "platform.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/trajectory.hpp"
@@ -24,10 +24,26 @@ struct Point {
 
 // A loop with tight and wide bends, a corner, a lift of the tool, and two points 3 um apart.
 constexpr Point path[] = {
-    {0, 0, 0},           {10000, 2000, 0},      {19000, 9000, -500},   {22000, 20000, -1000}, {18000, 29000, -1000},
-    {9000, 33000, -800}, {1000, 30000, -400},   {-3000, 22000, 0},     {-2000, 13000, 0},     {4000, 9000, 0},
-    {9500, 11000, 0},    {9503, 11000, 0},      {12000, 15000, 2000},  {12000, 15000, 9000},  {30000, 15000, 9000},
-    {41000, 14000, 7000}, {47000, 20000, 3000}, {44000, 27000, 1000},  {36000, 26000, 500},   {30000, 20000, 0},
+    {0, 0, 0},
+    {10000, 2000, 0},
+    {19000, 9000, -500},
+    {22000, 20000, -1000},
+    {18000, 29000, -1000},
+    {9000, 33000, -800},
+    {1000, 30000, -400},
+    {-3000, 22000, 0},
+    {-2000, 13000, 0},
+    {4000, 9000, 0},
+    {9500, 11000, 0},
+    {9503, 11000, 0},
+    {12000, 15000, 2000},
+    {12000, 15000, 9000},
+    {30000, 15000, 9000},
+    {41000, 14000, 7000},
+    {47000, 20000, 3000},
+    {44000, 27000, 1000},
+    {36000, 26000, 500},
+    {30000, 20000, 0},
 };
 
 constexpr MachineSettings machine = [] {

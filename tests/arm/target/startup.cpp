@@ -54,7 +54,8 @@ void report_stack() {
 
 [[noreturn]] void on_reset() {
 #ifdef __ARM_FP
-    *reinterpret_cast<volatile std::uint32_t*>(0xe000ed88) |= 0xfU << 20; // CPACR: full access to the coprocessors 10, 11
+    *reinterpret_cast<volatile std::uint32_t*>(0xe000ed88) |= 0xfU
+                                                              << 20; // CPACR: full access to the coprocessors 10, 11
     __asm__ volatile("dsb\n isb" ::: "memory");
 #endif
     for (std::uint32_t* word = data_start; word != data_end; ++word) {
@@ -81,8 +82,8 @@ struct VectorTable {
 [[gnu::used, gnu::section(".vectors")]] const VectorTable vector_table = {
     stack_top,
     on_reset,
-    {on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault,
-     on_fault, on_fault},
+    {on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault,
+     on_fault, on_fault, on_fault},
 };
 
 } // namespace
