@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 using namespace splinefeed::host;
@@ -30,10 +31,18 @@ public:
         close(master_);
     }
     [[nodiscard]] int descriptor() const { return slave_; }
+    // All that was written; it may arrive late.
     [[nodiscard]] std::string shown() const {
-        std::string text(65536, '\0');
-        const ssize_t n = read(master_, text.data(), text.size());
-        text.resize(n > 0 ? static_cast<std::size_t>(n) : 0U);
+        std::string text;
+        pollfd readable{master_, POLLIN, 0};
+        while (poll(&readable, 1, 200) == 1) {
+            char part[4096];
+            const ssize_t n = read(master_, part, sizeof part);
+            if (n <= 0) {
+                break;
+            }
+            text.append(part, static_cast<std::size_t>(n));
+        }
         return text;
     }
 

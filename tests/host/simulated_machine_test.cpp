@@ -243,6 +243,22 @@ TEST_CASE("velocity between ticks and between segment ends is seen") {
     CHECK(slow.fault()->value == Approx(100.0 * over));
 }
 
+TEST_CASE("acceleration is seen at the start and at the end of a segment") {
+    // D = 10 mm in 1 s, m1 = 7.5 mm/s: 45 mm/s^2 at the start, -30 at the end
+    const FeedSegment early = stroke(10.0, 8000000, units(7.5));
+    MachineDescription machine = machine_of({"x"});
+    machine.settings.axis[0].max_acceleration_mm_s2 = 45.0 / over;
+    CHECK(fault_of(machine, {early}) == "acceleration");
+    SimulatedMachine measured(machine_of({"x"}), 1);
+    static_cast<void>(measured.submit(early));
+    measured.poll();
+    CHECK(measured.use(0).acceleration == Approx(0.045).epsilon(1e-9));
+    SimulatedMachine late(machine_of({"x"}), 1);
+    static_cast<void>(late.submit(stroke(10.0, 8000000, units(30.0))));
+    late.poll();
+    CHECK(late.use(0).acceleration == Approx(0.06).epsilon(1e-9)); // -6 D + 4 m1 = 60, at the start 6 D - 2 m1 = 0
+}
+
 TEST_CASE("path speed between ticks is seen") {
     // m1 = 0.75 D: the peak is 1.35 D/T at u = 0.6
     const FeedSegment segment = stroke(1000.0 / 15.0, 8000000, units(50.0));
@@ -369,10 +385,14 @@ TEST_CASE("the first of several violations is the one reported") {
     CHECK(machine.fault()->kind == FaultKind::feed);
     CHECK(machine.fault()->axis.empty());
     CHECK(describe(*machine.fault()).find("path: feed 60.") == 0);
+    CHECK(machine.fault()->time_s == Approx(0.12).margin(0.005));
 }
 
 TEST_CASE("without enforcement the use of the limits is measured and nothing stops") {
-    SimulatedMachine machine(machine_of({"x"}), 1, {.enforce = false});
+    MachineDescription description = machine_of({"x"});
+    description.settings.max_feed_mm_s = 50.0;
+    description.travel[0] = Travel{0.0, 1.0};
+    SimulatedMachine machine(description, 1, {.enforce = false});
     CHECK(run(machine, there(150.0, 3000.0)) == PortPhase::idle);
     CHECK_FALSE(machine.fault());
     CHECK(machine.use(0).velocity == Approx(1.5));
@@ -388,6 +408,7 @@ TEST_CASE("running dry in motion is a fault, at rest it is not") {
     CHECK(run(machine, motion) == PortPhase::fault);
     CHECK(machine.fault()->kind == FaultKind::underrun);
     CHECK(machine.fault()->value == Approx(50.0));
+    CHECK(machine.fault()->waypoint == motion.back().waypoint);
 }
 
 TEST_CASE("halt drops what is queued") {
