@@ -4,6 +4,7 @@
 #include "input_error.hpp"
 #include "nearest_name.hpp"
 #include "text_file.hpp"
+#include "toml_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -211,6 +212,7 @@ private:
 } // namespace
 
 MachineDescription parse_machine(std::string_view text, const std::string& file) {
+    require_plain_toml(text, file);
     try {
         return Checker(file).machine(toml::parse(text, file));
     } catch (const toml::parse_error& error) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any waypoints, options and machine: the simulated machine keeps every limit, the segments chain exactly, the motion ends
-// at rest on the last waypoint, and it takes no longer than its length and its stops explain.
+// Any waypoints, options and machine: the simulated machine keeps every limit, the segments chain exactly, the motion
+// ends at rest on the last waypoint, and it takes no longer than its length and its stops explain.
 #include "host_sim/machine_file.hpp"
 #include "host_sim/simulated_machine.hpp"
 

@@ -32,7 +32,8 @@ TEST_CASE("A curve file holds Bezier segments") {
     CHECK(file.segments[1].degree == 3);
     CHECK(file.segments[1].first_point == 2);
     CHECK(file.at(4, 1) == -1.5);
-    CHECK(parse_curve(R"({"method": "bezier", "input": {"segments": [{"control_points": [[0], [1]]}]}})", "c.json").axes == 1);
+    CHECK(parse_curve(R"({"method": "bezier", "input": {"segments": [{"control_points": [[0], [1]]}]}})", "c.json")
+              .axes == 1);
 }
 
 TEST_CASE("A description names a method and its points") {
@@ -47,9 +48,15 @@ TEST_CASE("A description names a method and its points") {
 }
 
 TEST_CASE("Every malformed curve file is refused in one line") {
-    const auto segments = [](const std::string& list) { return R"({"segments": [)" + list + "]}"; };
-    const auto points = [&](const std::string& list) { return segments(R"({"control_points": [)" + list + "]}"); };
-    const auto rom = [](const std::string& input) { return R"({"method": "catmull_rom", "input": {)" + input + "}}"; };
+    const auto segments = [](const std::string& list) {
+        return R"({"segments": [)" + list + "]}";
+    };
+    const auto points = [&](const std::string& list) {
+        return segments(R"({"control_points": [)" + list + "]}");
+    };
+    const auto rom = [](const std::string& input) {
+        return R"({"method": "catmull_rom", "input": {)" + input + "}}";
+    };
     struct Case {
         std::string text;
         std::string start;
@@ -79,7 +86,8 @@ TEST_CASE("Every malformed curve file is refused in one line") {
         {points("[1, 2], [1, 2]"), "c.json: ", "same"},
         {segments(R"({"degree": 2, "control_points": [[0], [1]]})"), "c.json: ", "must be 1"},
         {segments(R"({"degree": "x", "control_points": [[0], [1]]})"), "c.json: ", "must be 1"},
-        {segments(R"({"control_points": [[0], [1]]}, {"control_points": [[1.00001], [2]]})"), "c.json: ", "segment 2 starts"},
+        {segments(R"({"control_points": [[0], [1]]}, {"control_points": [[1.00001], [2]]})"),
+         "c.json: ", "segment 2 starts"},
         {R"({"closed": 1, "segments": [{"control_points": [[0], [1]]}]})", "c.json: ", "true or false"},
         {R"({"closed": true, "segments": [{"control_points": [[0], [1]]}]})", "c.json: ", "closed"},
         {R"({"method": "ferguson", "input": {}})", "c.json: ", "bezier, catmull_rom"},

@@ -9,24 +9,24 @@ using namespace splinefeed::host;
 
 namespace {
 
-const std::string good = "name = 'router'\n"                                        // 1
-                         "sample_period_us = 500\n"                                 // 2
-                         "[path]\n"                                                 // 3
-                         "max_feed_mm_s = 80\n"                                     // 4
-                         "centripetal_mm_s2 = 2000\n"                               // 5
-                         "chord_error_mm = 0.001\n"                                 // 6
-                         "[[axis]]\n"                                               // 7
-                         "name = 'x'\n"                                             // 8
-                         "travel_mm = [-10, 310.5]\n"                               // 9
-                         "max_velocity_mm_s = 100\n"                                // 10
-                         "max_acceleration_mm_s2 = 1e3\n"                           // 11
-                         "steps_per_mm = 320\n"                                     // 12
-                         "drive = 'modbus-tcp://127.0.0.1:1502?unit=1'\n"           // 13
-                         "[[axis]]\n"                                               // 14
-                         "name = 'a'\n"                                             // 15
-                         "max_velocity_mm_s = 50\n"                                 // 16
-                         "max_acceleration_mm_s2 = 500\n"                           // 17
-                         "steps_per_mm = 12.5\n";                                   // 18
+const std::string good = "name = 'router'\n"                              // 1
+                         "sample_period_us = 500\n"                       // 2
+                         "[path]\n"                                       // 3
+                         "max_feed_mm_s = 80\n"                           // 4
+                         "centripetal_mm_s2 = 2000\n"                     // 5
+                         "chord_error_mm = 0.001\n"                       // 6
+                         "[[axis]]\n"                                     // 7
+                         "name = 'x'\n"                                   // 8
+                         "travel_mm = [-10, 310.5]\n"                     // 9
+                         "max_velocity_mm_s = 100\n"                      // 10
+                         "max_acceleration_mm_s2 = 1e3\n"                 // 11
+                         "steps_per_mm = 320\n"                           // 12
+                         "drive = 'modbus-tcp://127.0.0.1:1502?unit=1'\n" // 13
+                         "[[axis]]\n"                                     // 14
+                         "name = 'a'\n"                                   // 15
+                         "max_velocity_mm_s = 50\n"                       // 16
+                         "max_acceleration_mm_s2 = 500\n"                 // 17
+                         "steps_per_mm = 12.5\n";                         // 18
 
 std::string with(const std::string& old_text, const std::string& new_text) {
     std::string text = good;
@@ -59,6 +59,8 @@ TEST_CASE("A machine file is read") {
     REQUIRE(machine.travel[0]);
     CHECK(machine.travel[0]->high == 310.5);
     CHECK_FALSE(machine.travel[1]);
+    CHECK(parse_machine(with("'router'", "'fr\xc3\xa4se'"), "m.toml").name == "fr\xc3\xa4se");
+    CHECK(parse_machine(with("'router'", "\"\"\"\n[ \\\" ]\"\"\" # \xc3\xa4"), "m.toml").name == "[ \" ]");
     CHECK(parse_machine(with("sample_period_us = 500\n", ""), "m.toml").settings.sample_period_us == 1000);
 }
 
@@ -77,7 +79,8 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
     };
     std::string seven;
     for (const char* name : {"x", "y", "z", "a", "b", "c", "x"}) {
-        seven += std::string("[[axis]]\nname='") + name + "'\nmax_velocity_mm_s=1\nmax_acceleration_mm_s2=1\nsteps_per_mm=1\n";
+        seven += std::string("[[axis]]\nname='") + name +
+                 "'\nmax_velocity_mm_s=1\nmax_acceleration_mm_s2=1\nsteps_per_mm=1\n";
     }
     const std::vector<Case> cases{
         {"", "m.toml: ", "[path]"},
@@ -99,6 +102,11 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("= 2000", "= -1"), "m.toml:5: ", "between"},
         {with("= 0.001", "= 2"), "m.toml:6: ", "between"},
         {with("[path]", "[paht]"), "m.toml:3: ", "did you mean 'path'"},
+        {"[\x07]\n", "m.toml:1: ", "name of a table"},
+        {"a = 1\n [ [ .b ] ]\n", "m.toml:2: ", "name of a table"},
+        {"[", "m.toml:1: ", "name of a table"},
+        {"# \xc3\xa4\nn\xc3\xa4me = 1\n", "m.toml:2: ", "beyond ASCII"},
+        {"a = 1x'\xc3\xa4'\n", "m.toml:1: ", "beyond ASCII"},
         {"path = 3\n", "m.toml:1: ", "table"},
         {"axis = 3\n[path]\nmax_feed_mm_s = 1\n", "m.toml:1: ", "[[axis]]"},
         {"axis = [3]\n[path]\nmax_feed_mm_s = 1\n", "m.toml:1: ", "[[axis]]"},

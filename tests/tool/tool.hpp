@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Tool: calls the built program `splinefeed` and takes what it says.
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace splinefeed::test {
+
+/// What became of a call.
+struct Call {
+    int status = -1;
+    std::string output;
+    std::string error;
+};
+
+/// A folder of its own to work in; removed at the end.
+class Tool {
+public:
+    Tool() {
+        std::string name = (std::filesystem::temp_directory_path() / "splinefeed-tool-XXXXXX").string();
+        folder_ = mkdtemp(name.data());
+    }
+    Tool(const Tool&) = delete;
+    Tool& operator=(const Tool&) = delete;
+    ~Tool() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+
+    /// Runs `splinefeed ARGUMENTS` in the folder; the shell reads the arguments.
+    [[nodiscard]] Call operator()(const std::string& arguments) const {
+        return shell("'" SPLINEFEED_TOOL "' " + arguments);
+    }
+
+    [[nodiscard]] Call shell(const std::string& command) const {
+        const std::string all = "cd '" + folder_.string() + "' && { " + command + " ; } >.out 2>.err";
+        const int status = std::system(all.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
+    }
+
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
+
+    [[nodiscard]] std::string read(const std::string& name) const {
+        std::ifstream file(folder_ / name, std::ios::binary);
+        std::ostringstream text;
+        text << file.rdbuf();
+        return text.str();
+    }
+
+    /// Whether a call left anything behind but what was there: files named in `known` and those of this class.
+    [[nodiscard]] bool holds_only(const std::string& known) const {
+        for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+            const std::string name = entry.path().filename().string();
+            if (name != ".out" && name != ".err" && (" " + known + " ").find(" " + name + " ") == std::string::npos) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+} // namespace splinefeed::test

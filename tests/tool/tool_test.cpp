@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "tool.hpp"
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <vector>
+
+using splinefeed::test::Call;
+using splinefeed::test::Tool;
+
+namespace {
+
+const std::string square = "x,y,z\n0,0,0\n100,0,0\n100,100,0\n0,100,0\n0,0,0\n";
+const std::string machine =
+    "[path]\nmax_feed_mm_s = 100\n"
+    "[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n"
+    "travel_mm = [0, 100]\n"
+    "[[axis]]\nname = 'y'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n"
+    "[[axis]]\nname = 'z'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n";
+
+std::size_t lines(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("A run writes its outputs and says what it did") {
+    const Tool tool;
+    tool.write("square.csv", square);
+    tool.write("machine.toml", machine);
+    for (const std::string scalar : {"fixed", "float", "double"}) {
+        for (const std::string curve : {"g2", "catmull-rom", "polyline"}) {
+            const Call call = tool("run square.csv -m machine.toml --scalar " + scalar + " --curve " + curve +
+                                   " --trace t.csv --segments s.csv --curve-out c.json --summary json");
+            CAPTURE(scalar, curve, call.error);
+            CHECK(call.status == 0);
+            CHECK(call.error.empty());
+            CHECK(contains(call.output, "\"stopped\": false"));
+            CHECK(contains(call.output, "\"waypoints\": 5"));
+            CHECK(tool.read("t.csv").substr(0, 14) == "t,x,y,z,speed\n");
+            CHECK(lines(tool.read("t.csv")) > 4000);
+            CHECK(contains(tool.read("s.csv"), "index,duration_ticks,x_start"));
+            CHECK(contains(tool.read("c.json"), "\"segments\""));
+        }
+    }
+    // A plan moves nothing, but is the same.
+    const std::string trace = tool.read("t.csv");
+    CHECK(tool("plan square.csv -m machine.toml --scalar double --curve polyline --trace p.csv").status == 0);
+    CHECK(tool.read("p.csv") == trace);
+}
+
+TEST_CASE("What curve prints can be run") {
+    const Tool tool;
+    tool.write("path.csv", "0,0\n10,5\n20,0\n30,5\n");
+    const Call printed = tool("curve path.csv");
+    CHECK(printed.status == 0);
+    CHECK(contains(printed.output, "\"curve\": \"g2\""));
+    CHECK(tool("curve path.csv -o path.json").output.empty());
+    CHECK(tool.read("path.json") == printed.output);
+    CHECK(tool("run path.json --summary json").status == 0);
+    CHECK(tool("curve path.csv --closed -o closed.json").status == 0);
+    CHECK(tool("run closed.json").status == 0);
+    CHECK(contains(tool.read("closed.json"), "\"closed\": true"));
+    tool.write("rom.json",
+               R"({"method": "catmull_rom", "input": {"tension": "0.5", "points": [[0, 0], [1, 1], [2, 0]]}})");
+    CHECK(contains(tool("curve rom.json").output, "\"curve\": \"catmull-rom\""));
+}
+
+TEST_CASE("Help and version are answers") {
+    const Tool tool;
+    for (const std::string arguments : {"--help", "run --help", "plan --help", "curve --help", "--version"}) {
+        const Call call = tool(arguments);
+        CAPTURE(arguments);
+        CHECK(call.status == 0);
+        CHECK(call.error.empty());
+        CHECK(contains(call.output, "splinefeed"));
+    }
+    CHECK(contains(tool("run --help").output, "Example"));
+}
+
+TEST_CASE("Every wrong command line gets one line and status 2, and nothing is written") {
+    const Tool tool;
+    tool.write("p.csv", square);
+    tool.write("c.json", R"({"segments": [{"control_points": [[0, 0], [10, 5]]}]})");
+    struct Case {
+        std::string arguments;
+        std::string part;
+    };
+    const std::vector<Case> cases{
+        {"", "run, plan, curve"},
+        {"rnu p.csv", "did you mean 'run'"},
+        {"--quite", "--help"},
+        {"run", "no input"},
+        {"run ''", "no name"},
+        {"run p.csv q.csv", "one word too many"},
+        {"run p.csv --tarce t.csv", "did you mean '--trace'"},
+        {"run p.csv -q", "no option '-q'"},
+        {"run p.csv --trace", "needs a value"},
+        {"run p.csv --trace ''", "needs the name"},
+        {"run p.csv --trace a --trace b", "once"},
+        {"run p.csv --trace - --segments -", "both go to standard output"},
+        {"run p.csv --trace a --curve-out a", "both go to 'a'"},
+        {"run p.csv --trace - --summary json", "both go to standard output"},
+        {"run p.csv --summary yaml", "text, json"},
+        {"run p.csv --scalar half", "fixed, float, double"},
+        {"run p.csv --format ngc", "csv, json"},
+        {"run p.ngc", ".csv or .json"},
+        {"run p", ".csv or .json"},
+        {"run p.csv --target gpio:///dev/gpiochip0", "available is sim"},
+        {"plan p.csv --target sim", "no option"},
+        {"run p.csv --window 15", "16 to 1000000"},
+        {"run p.csv --window many", "16 to 1000000"},
+        {"run p.csv --curve bspline", "g2, catmull-rom, polyline"},
+        {"run p.csv --tension 1", "no option --tension"},
+        {"run p.csv --closed=2", "no value"},
+        {"run p.csv --start-tangent 1,0,0,0", "axes"},
+        {"run c.json --curve g2", "leave the option out"},
+        {"run p.csv -m nothing.toml", "nothing.toml: cannot be opened"},
+        {"run p.csv -m p.csv", "p.csv:1: "},
+        {"run nothing.csv", "nothing.csv: cannot be opened"},
+        {"run . --format csv", "cannot be read"},
+        {"run p.csv --trace nowhere/t.csv", "nowhere/t.csv"},
+        {"curve p.csv --trace t.csv", "no option"},
+        {"drive", "run, plan, curve"},
+    };
+    for (const Case& c : cases) {
+        const Call call = tool(c.arguments);
+        CAPTURE(c.arguments, call.error);
+        CHECK(call.status == 2);
+        CHECK(call.output.empty());
+        CHECK(lines(call.error) == 1);
+        CHECK(contains(call.error, c.part));
+        CHECK(tool.holds_only("p.csv c.json"));
+    }
+}
+
+TEST_CASE("Bad input gets one line and status 2, and nothing is written") {
+    const Tool tool;
+    tool.write("machine.toml", machine);
+    const std::string outputs = " -m machine.toml --trace t.csv --segments s.csv --curve-out c.json";
+    std::string late = "x,y\n";
+    for (int i = 0; i < 50000; ++i) {
+        late += std::to_string(i % 100) + "," + std::to_string(i % 7) + "\n";
+    }
+    struct Case {
+        std::string text;
+        std::string part;
+    };
+    const std::vector<Case> cases{
+        {"", "p.csv: "},
+        {"1,2\n", "p.csv:1: "},
+        {"1,2\n1,2\n", "different waypoints"},
+        {"1,2\n3,x\n", "p.csv:2: "},
+        {late + "1,nan\n", "p.csv:50002: "},
+        {"0,0\n50,5\n101,0\n", "p.csv:3: axis x goes to 101.000000 mm; its travel_mm is [0, 100]"},
+    };
+    for (const Case& c : cases) {
+        tool.write("p.csv", c.text);
+        for (const std::string command : {"run", "plan"}) {
+            const Call call = tool(command + " p.csv" + outputs);
+            CAPTURE(command, c.part, call.error);
+            CHECK(call.status == 2);
+            CHECK(call.output.empty());
+            CHECK(lines(call.error) == 1);
+            CHECK(contains(call.error, c.part));
+            CHECK(tool.holds_only("p.csv machine.toml"));
+        }
+    }
+}
+
+TEST_CASE("A pipe moves the machine before it ends") {
+    const Tool tool;
+    // The writer waits for the first feed segments before it sends the rest.
+    const Call call =
+        tool.shell("mkfifo in && { '" SPLINEFEED_TOOL "' run in --format csv --segments - --quiet > s.csv & } && "
+                   "tool=$! && exec 3>in && "
+                   "awk 'BEGIN { for (i = 0; i < 20000; ++i) print i * 0.05 \",\" (i % 2) * 0.01 }' >&3 && "
+                   "for i in $(seq 100); do [ $(wc -l < s.csv) -gt 100 ] && break; sleep 0.1; done && "
+                   "moved=$(wc -l < s.csv) && "
+                   "kill -0 $tool && echo 1001,0 >&3 && exec 3>&- && wait $tool && [ $moved -gt 100 ]");
+    CAPTURE(call.error);
+    CHECK(call.status == 0);
+}
+
+TEST_CASE("What is wrong in a pipe after the first move ends in a controlled stop") {
+    const Tool tool;
+    tool.write("machine.toml", machine);
+    // 12000 waypoints are more than the window of the feed plan holds.
+    const std::string rows = "awk 'BEGIN { for (i = 0; i < 12000; ++i) print i * 0.008 \",\" 0; ";
+    for (const auto& [last, part] : {std::pair{"print \"1,nan\" }'", "-:12001: y 'nan'"},
+                                     std::pair{"print \"150,1\"; print \"0,1\" }'", "-:12001: axis x goes to"}}) {
+        const Call call =
+            tool.shell(rows + last + " | '" SPLINEFEED_TOOL "' run - -m machine.toml --trace t.csv --summary json");
+        CAPTURE(last, call.error);
+        CHECK(call.status == 1);
+        CHECK(lines(call.error) == 1);
+        CHECK(contains(call.error, part));
+        CHECK(contains(call.error, "the machine stands at x=95.9"));
+        CHECK(contains(call.output, "\"stopped\": true"));
+        CHECK(lines(tool.read("t.csv")) > 900);
+    }
+}
