@@ -140,7 +140,7 @@ TEMPLATE_TEST_CASE("catmull-rom: reference vectors", "[curve][catmull_rom][golde
             }
         }
         const double tension = number(input.at("tension"));
-        CatmullRom<S> curve({path.axes, Parameterization::uniform, literal<S>(0.5)}, from_double<S>(tension));
+        CatmullRom<S> curve({path.axes, Parameterization::uniform, literal<S>(0.5), 65536}, from_double<S>(tension));
         const auto segments = run_curve<S>(curve, feeds);
         const auto& expected = test.at("expected").at("segments");
         REQUIRE(segments.size() == expected.size());

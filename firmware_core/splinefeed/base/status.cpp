@@ -8,7 +8,7 @@ const char* describe(Error error) noexcept {
     case Error::none: return "no error";
     case Error::axes_out_of_range: return "a machine has one to six axes";
     case Error::position_out_of_range: return "a position must be a finite number within +-1048576 mm";
-    case Error::move_too_long: return "two successive waypoints must be at most 65536 mm apart";
+    case Error::move_too_long: return "two successive waypoints must be at most 65536 mm apart, in float 512 mm";
     case Error::counts_out_of_range: return "position times steps_per_mm must stay within +-2147483647 counts";
     case Error::feed_out_of_range: return "a feed must lie between 0.001 and 10000 mm/s";
     case Error::velocity_out_of_range: return "max_velocity_mm_s must lie between 0.001 and 10000";

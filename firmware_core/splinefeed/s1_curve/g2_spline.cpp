@@ -69,10 +69,13 @@ bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
     here.lambda = after / (outer_before + before + after);
     here.mu = before / (before + after + outer_after);
     here.omega = before / (before + after);
-    const S a = (one - here.omega) * here.lambda;
+    const S others = after / (before + after); // 1 - omega, with all its bits where spans differ a lot
+    const S a = others * here.lambda;
+    const S b = others * ((outer_before + before) / (outer_before + before + after)) +
+                here.omega * ((after + outer_after) / (before + after + outer_after));
     const S c = here.omega * here.mu;
     const Row& previous = row(i - 1);
-    const S inverse = one / (one - a - c - a * previous.gamma);
+    const S inverse = one / (b - a * previous.gamma);
     here.gamma = c * inverse;
     for (unsigned k = 0; k < axes_u; ++k) {
         here.rho[k] = (a * (knot_before.chord[k] - previous.rho[k]) - c * knot.chord[k]) * inverse;
@@ -105,7 +108,8 @@ void G2Spline<S>::close_seam(std::uint64_t i) noexcept {
     const auto role = [this](std::uint64_t j) { return this->knot(j).role; };
     for (std::uint64_t slot = 0; slot < 3; ++slot) { // i is the knot before (0), at (1), after (2) the seam
         const std::uint64_t seam = i + 1 - slot;
-        if (seam == 0 || seam > i + 1 || seam < first_ || seam + 1 >= this->known_) {
+        const bool beyond_run = slot == 0 && i > first_ && this->knot(i).breaks;
+        if (seam == 0 || seam < first_ || beyond_run || seam + 1 >= this->known_) {
             continue;
         }
         const bool opens = seam > first_ && role(seam - 1) == Role::lead_in && role(seam) == Role::path;

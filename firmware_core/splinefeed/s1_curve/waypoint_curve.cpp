@@ -7,8 +7,6 @@ namespace {
 
 // 0.1 um in units of 2^-40 mm: nearer waypoints are one. The time of a move of that size still resolves in Fixed.
 constexpr std::int64_t merge_raw = (std::int64_t{1} << Position::fraction_bits) / 10000;
-// 2^16 mm: the longest move. Control points may then overshoot fourfold within Fixed's range of chord units.
-constexpr std::int64_t longest_raw = std::int64_t{1} << (Position::fraction_bits + 16);
 // 2^20 mm: positions beyond are refused where they enter.
 constexpr std::int64_t farthest_raw = std::int64_t{1} << (Position::fraction_bits + 20);
 
@@ -28,6 +26,7 @@ template <Scalar S>
 Status WaypointCurve<S>::push(const Waypoint<S>& waypoint, Role role) noexcept {
     SPLINEFEED_ASSERT(has_room() && !finished_);
     const auto axes_u = static_cast<unsigned>(axes());
+    const std::int64_t longest_raw = std::int64_t{options_.longest_move_mm} << Position::fraction_bits;
     for (unsigned k = 0; k < axes_u; ++k) {
         const std::int64_t raw = waypoint.position[k].raw;
         if (raw > farthest_raw || raw < -farthest_raw) {
@@ -61,10 +60,10 @@ Status WaypointCurve<S>::push(const Waypoint<S>& waypoint, Role role) noexcept {
         last.length = norm(last.chord.data(), axes());
         last.span = span_of(last.length);
         if (known_ > 1) {
-            // Spans of neighbours are kept within 2^16 of each other: beyond, the weights of the spline would lose all
+            // Spans of neighbours are kept within 2^22 of each other: beyond, the pivots of the spline would lose all
             // their bits in Fixed. Any positive spans give a G2 interpolant, so this changes no guarantee.
             const S before = knot(known_ - 2).span;
-            last.span = smaller(larger(last.span, scale2(before, -16)), scale2(before, 16));
+            last.span = smaller(larger(last.span, scale2(before, -22)), scale2(before, 22));
             decide_corner(known_ - 1);
         } else {
             last.breaks = true;

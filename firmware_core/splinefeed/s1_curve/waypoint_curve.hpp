@@ -18,6 +18,9 @@ struct CurveOptions {
     int axes = 3;
     Parameterization parameterization = Parameterization::chordal;
     S corner_cosine = literal<S>(0.5); ///< cos(corner angle): a sharper turn breaks the curve; default 60 degrees
+    /// Longest move that push takes, at most 65536. Motion along a longer one would feel float's 24 bits in the
+    /// acceleration (docs/numbers.md); who wants the geometry alone may raise it.
+    std::int32_t longest_move_mm = std::same_as<S, float> ? 512 : 65536;
 };
 
 /// cos of a corner angle in degrees, 0 to 180, for CurveOptions; host and compile-time use.

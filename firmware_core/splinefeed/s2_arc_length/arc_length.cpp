@@ -12,11 +12,24 @@ constexpr S control_noise = literal<S>(1e-8);
 template <>
 constexpr float control_noise<float> = 48.0F * 65536.0F / 16777216.0F;
 
-// A segment is 2^15 units long. A tangent below this is a cusp, a polygon below it is nothing.
+// A segment is 2^15 units long. A tangent below this is a cusp, a polygon below it is nothing: 2^-30 of the segment.
 template <Scalar S>
-constexpr S nothing = literal<S>(1.0 / 256.0);
+constexpr S nothing = literal<S>(1.0 / 16384.0);
 template <>
 constexpr float nothing<float> = 4.0F;
+
+// Half an ulp of a control point, as it enters a difference of two.
+template <Scalar S>
+constexpr S point_noise = literal<S>(2.4e-10);
+template <>
+constexpr float point_noise<float> = 1.0F / 256.0F;
+
+// Below this a halving adds more rounding than it removes error: the piece is taken as it is. (Fixed and double get there
+// at the deepest level.)
+template <Scalar S>
+constexpr S finest = literal<S>(1.0 / 128.0);
+template <>
+constexpr float finest<float> = 16.0F;
 
 } // namespace
 
@@ -32,18 +45,35 @@ bool ArcLength<S>::vanishes(const Piece<S>& piece) const noexcept {
     return true;
 }
 
-// The speed changes near joints, most of all near stops: cells there are a fraction of the braking distance, which halving
-// grades geometrically. Where nothing stops three halvings do, lest a slow feed cut every segment into crumbs. Between
-// two stops there are at least eight cells: room to start and to brake even in the shortest move.
+// Within the braking distance of a stop (7.3 grades) a cell is at most a grade or a third of its distance to the stop.
+template <Scalar S>
+bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
+    const auto n = static_cast<unsigned>(current().degree);
+    const auto distance_mm = [&](unsigned of_piece, unsigned of_segment) {
+        PerAxis<S> gap{};
+        for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+            gap[k] = piece.control[k][of_piece] - current().control[k][of_segment];
+        }
+        return scale2(norm(gap.data(), current().axes), current().unit_log2);
+    };
+    const auto coarse = [&](S gap) {
+        return gap < literal<S>(9.1) * grade_mm_ && m_.length_mm > gap / from_integer<S>(3);
+    };
+    return (stop_before_ && coarse(distance_mm(0, 0))) || (stop_after_ && coarse(distance_mm(n, n)));
+}
+
+// The speed changes near joints, most of all near stops. Halving grades cells geometrically away from a stop. Where
+// nothing stops three halvings do, lest a slow feed cut every segment into crumbs. Between two stops there are at least
+// eight cells: room to start and to brake even in the shortest move.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
-    if (m_.length_mm > refinement_.longest_mm) {
+    if (m_.length_mm > refinement_.longest_mm || (stop_before_ && stop_after_ && piece.level < 3)) {
         return true;
     }
-    if ((piece.at_start && stop_before_) || (piece.at_end && stop_after_)) {
-        return piece.level < 3 || m_.length_mm > grade_mm_;
+    if (!(m_.length_mm > grade_mm_)) {
+        return false;
     }
-    return (piece.at_start || piece.at_end) && piece.level < 3 && m_.length_mm > grade_mm_;
+    return ((piece.at_start || piece.at_end) && piece.level < 3) || near_stop(piece);
 }
 
 template <Scalar S>
@@ -66,8 +96,8 @@ bool ArcLength<S>::bends_too_much() const noexcept {
 template <Scalar S>
 auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     const int axes = current().axes;
-    const bool last = piece.level == deepest; // then nothing is refused any more
     m_.differentiate(piece, current().degree, axes);
+    const bool last = piece.level == deepest || m_.fastest < finest<S>; // then nothing is refused any more
     if (m_.slowest < nothing<S> || m_.fastest > m_.slowest * refinement_.metric_ratio) {
         return vanishes(piece) || last ? Verdict::cusp : Verdict::coarse;
     }
@@ -102,7 +132,9 @@ void ArcLength<S>::fill_common(const Piece<S>& piece, int degree, Cell<S>& out) 
     out.unit_log2 = segment.unit_log2;
     out.feed_mm_s = segment.feed_mm_s;
     out.waypoint = segment.waypoint;
+    out.stop_before = after_cusp_;
     out.stop_at_end = piece.at_end && stop_after_;
+    out.direction_noise = S{};
     out.end = segment.end;
     for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
         // The origin moves to the start of the cell, so that offsets stay as small as the cell.
@@ -117,6 +149,9 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const auto n = static_cast<unsigned>(current().degree);
     fill_common(piece, current().degree, out);
     out.length_mm = m_.length_mm;
+    const S error = (absolute(m_.middle_slope * m_.sigma[1] - m_.length) + absolute(m_.length - m_.low_order_length)) / m_.length;
+    const S ripple = quotient_or_max(from_integer<S>(10) * error, m_.length_mm);
+    const S noise = quotient_or_max(control_noise<S> / m_.slowest, m_.length_mm);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S> difference = piece.control[k];
         S binomial = from_integer<S>(1);
@@ -129,9 +164,13 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
             out.power[k][i] = binomial * difference[i];
         }
         out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<S>(1));
-        out.curvature_max[k] = PieceMeasure<S>::bound(m_.second, k);
+        // An error e of the inverse's slope is an acceleration of up to 10 e / L along the tangent; rounding of the
+        // control points bends the curve.
+        out.curvature_max[k] = smaller(PieceMeasure<S>::bound(m_.second, k) + out.tangent_max[k] * ripple + noise,
+                                       from_integer<S>(PieceMeasure<S>::sharpest));
     }
     out.inverse = m_.inverse;
+    out.direction_noise = from_integer<S>(current().degree) * point_noise<S> / m_.slowest;
 }
 
 // What is left of a cusp: its chord.
@@ -146,7 +185,7 @@ void ArcLength<S>::fill_chord(const Piece<S>& piece, Cell<S>& out) noexcept {
         out.power[k][1] = chord[k];
         out.tangent_max[k] = from_integer<S>(1);
         // Worse than any curvature that the feed could use: the machine all but stops here.
-        out.curvature_max[k] = from_integer<S>(1 << 24);
+        out.curvature_max[k] = from_integer<S>(PieceMeasure<S>::sharpest);
     }
     out.length_mm = larger(scale2(norm(chord.data(), current().axes), current().unit_log2), literal<S>(1e-8)); // not zero, so that time passes
     out.inverse = {from_integer<S>(1), S{}, S{}, S{}, S{}, S{}};
@@ -229,23 +268,37 @@ Pull ArcLength<S>::next(Cell<S>& out) noexcept {
         }
     }
     Verdict verdict = judge(top());
-    while (verdict == Verdict::coarse) {
-        split();
+    while (verdict != Verdict::fine) {
+        const Piece<S>& piece = top();
+        if (verdict == Verdict::coarse) {
+            split();
+        } else if (piece.at_start || piece.at_end) {
+            fill_chord(piece, out); // the end of a segment that starts or ends with a vanishing tangent
+            break;
+        } else {
+            after_cusp_ = true;
+            --depth_;
+        }
         verdict = judge(top());
     }
     if (verdict == Verdict::fine) {
         fill(top(), out);
-    } else {
-        fill_chord(top(), out);
     }
-    --depth_;
     travelled_ = displaced(travelled_, out.length_mm, 0);
+    leave();
+    return Pull::item;
+}
+
+// Takes the piece that was delivered off the stack, and the segment if it was the last.
+template <Scalar S>
+void ArcLength<S>::leave() noexcept {
+    --depth_;
+    after_cusp_ = false;
     if (depth_ == 0) {
         stop_before_ = stop_after_;
         current_ = 1 - current_;
         has_current_ = false;
     }
-    return Pull::item;
 }
 
 template class ArcLength<double>;

@@ -28,7 +28,7 @@ struct Refinement {
 
 /// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its direction and
 /// curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the pieces shrink
-/// until what is left is nothing, and that is passed as its chord.
+/// until what is left is nothing: that is left out, and the machine stops there.
 /// Memory: two segments and a stack of pieces. Cost per cell: three evaluations with two derivatives.
 template <Scalar S>
 class ArcLength {
@@ -54,7 +54,9 @@ private:
     Verdict judge(const Piece<S>& piece) noexcept;
     [[nodiscard]] bool too_long(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool bends_too_much() const noexcept;
+    [[nodiscard]] bool near_stop(const Piece<S>& piece) const noexcept;
     void split() noexcept;
+    void leave() noexcept;
     void fill(const Piece<S>& piece, Cell<S>& out) noexcept;
     void fill_chord(const Piece<S>& piece, Cell<S>& out) noexcept;
     void fill_common(const Piece<S>& piece, int degree, Cell<S>& out) noexcept;
@@ -74,6 +76,7 @@ private:
     int depth_ = 0; // pieces on the stack
     bool has_current_ = false;
     bool has_ahead_ = false;
+    bool after_cusp_ = false; // the piece before was a cusp, and was left out
     bool stop_before_ = true;
     bool stop_after_ = true;
 };

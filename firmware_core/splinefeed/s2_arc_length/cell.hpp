@@ -24,6 +24,8 @@ struct Cell {
     PerAxis<S> tangent_max{};        ///< bound of |dq/ds| over the cell, at most 1
     PerAxis<S> curvature_max{};      ///< bound of |d2q/ds2| over the cell [1/mm]
     S feed_mm_s{};                   ///< programmed feed; 0: the machine's
+    S direction_noise{};             ///< rounding of the direction and speed at its ends, relative
+    bool stop_before = false;        ///< a cusp lies before it: the cell before has to end at rest
     bool stop_at_end = false;
     std::uint32_t waypoint = 0;
 

@@ -115,7 +115,8 @@ void PieceMeasure<S>::measure_curvature(int axes, int unit_log2) noexcept {
     for (unsigned p = 0; p < points; ++p) {
         for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
             const S normal = scale2(second[p][k] - first[p][k] * slope[p], 6) / sigma[p];
-            const S magnitude = quotient_or_max(scale2(absolute(normal), -6 - unit_log2), sigma[p]);
+            const S magnitude =
+                smaller(quotient_or_max(scale2(absolute(normal), -6 - unit_log2), sigma[p]), from_integer<S>(sharpest));
             second[p][k] = normal < S{} ? -magnitude : magnitude;
         }
     }

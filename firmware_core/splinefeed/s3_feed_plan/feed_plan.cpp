@@ -41,6 +41,9 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
             speed = limits_.velocity_mm_s[k] / cell.tangent_max[k];
         }
     }
+    if (cell.direction_noise * speed > limits_.jump_mm_s) {
+        speed = limits_.jump_mm_s / cell.direction_noise;
+    }
     S cap = speed * speed;
     const S twice = cell.length_mm + cell.length_mm;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
@@ -125,6 +128,11 @@ Pull FeedPlan<S>::prepare() noexcept {
         }
         if (pull == Pull::item) {
             bound(slot);
+            if (slot.cell.stop_before && size_ > 0) { // the newest cell is never committed before its successor is known
+                Cell<S>& before = at(size_ - 1).cell;
+                before.stop_at_end = true;
+                before.end = slot.cell.origin;
+            }
             ++size_;
         }
         ended = pull == Pull::finished;

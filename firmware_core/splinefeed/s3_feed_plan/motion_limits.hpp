@@ -42,6 +42,7 @@ struct MotionLimits {
     S feed_mm_s{};                 ///< what planning may use of max_feed_mm_s
     S usable{};                    ///< the part of a limit that planning may use, but for the noise of positions
     S feed_noise_mm_s{};
+    S jump_mm_s{};                 ///< largest jump of the speed that rounding may cause at a joint of cells
     S centripetal_mm_s2{};         ///< 0: none
     S chord_mm_s2{};               ///< 8 e / T^2, to be divided by the curvature; 0: none
     S segments_per_s{};            ///< feed segments a second
@@ -88,9 +89,12 @@ constexpr double speed_noise(double error_mm, double segment_s) noexcept {
     return 2.0 * error_mm / segment_s;
 }
 
-/// Longest cell [mm]: its parameter resolves `error` of it, which must stay below `share` of the limit.
-constexpr double longest_cell_mm(double error, double share, double acceleration, double segment_s) noexcept {
-    const double length = share * acceleration * segment_s * segment_s / (4.0 * error);
+/// Longest cell [mm]: its parameter resolves `error` of it, which must stay below `share` of the acceleration and ten
+/// times that of the feed.
+constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double segment_s) noexcept {
+    const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
+    const double by_feed = 10.0 * share * feed * segment_s / (2.0 * error);
+    const double length = by_acceleration < by_feed ? by_acceleration : by_feed;
     return length < 0.0625 ? 0.0625 : length > 16.0 ? 16.0 : length;
 }
 
@@ -169,7 +173,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     constexpr double usable = 1.0 - detail::usable_margin<S>;
     double feed_noise = 0.0;
     const double longest =
-        detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest, segment_s);
+        detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest, settings.max_feed_mm_s, segment_s);
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
         const AxisSettings& axis = settings.axis[k];
         // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30).
@@ -184,13 +188,15 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         }
         feed_noise += speed_noise;
         limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * usable - speed_noise);
+        // Jumps of the speed that are tolerated at joints are accelerations, too.
         limits.acceleration_mm_s2[k] =
-            from_double<S>(axis.max_acceleration_mm_s2 * usable - noise);
+            from_double<S>(axis.max_acceleration_mm_s2 * usable - noise - 2.0 * detail::rounding_share<S> * softest);
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
     limits.usable = from_double<S>(usable);
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
+    limits.jump_mm_s = from_double<S>(detail::rounding_share<S> * softest * segment_s);
     limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
     limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, period_s));
     limits.segments_per_s = from_double<S>(n / period_s);
