@@ -9,4 +9,7 @@ function(splinefeed_options target)
     if(SPLINEFEED_WERROR)
         target_compile_options(${target} PRIVATE -Werror)
     endif()
+    if(CMAKE_SYSTEM_NAME STREQUAL Generic)
+        target_compile_options(${target} PRIVATE -fcallgraph-info=su,da) # for the bound of the stack: tests/arm/stack.awk
+    endif()
 endfunction()

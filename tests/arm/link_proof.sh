@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The pipeline on one microcontroller: links without a library, holds nothing forbidden, fits, and plans what the host
-# plans: link_proof.sh CPU BUILD_DIRECTORY_OF_THE_HOST.
+# plans, on a stack that cannot overflow: link_proof.sh CPU BUILD_DIRECTORY_OF_THE_HOST.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
 cpu=$1
@@ -37,6 +37,17 @@ for image in "$build"/bin/pipeline_*.elf; do
     echo "$output"
     if ! diff <(grep -E '^(segments|hash)' <<<"$output") <("$host/bin/$program" | grep -E '^(segments|hash)'); then
         echo "the host plans another motion"
+        exit 1
+    fi
+    scalar=Fixed
+    if [[ $program == *float ]]; then scalar=float; fi
+    bound=$(find "$build/firmware_core" "$build"/tests/arm/CMakeFiles/{"$program",pipeline_platform}.dir -name '*.ci' \
+        -exec awk -v scalar=$scalar -f tests/arm/stack.awk {} +)
+    echo "$bound"
+    bytes=$(sed -n 's/^stack bound \([0-9]*\) .*/\1/p' <<<"$bound")
+    room=$(sed -n 's/^stack used .* of \([0-9]*\) .*/\1/p' <<<"$output")
+    if ((bytes > room)); then
+        echo "the stack could overflow"
         exit 1
     fi
 done

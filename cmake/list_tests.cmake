@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+# cmake -DPROGRAM= -DPREFIX= -DFILE= -P list_tests.cmake: writes one ctest entry per Catch2 test case of PROGRAM into FILE.
+# Catch2's own catch_discover_tests loses tests whose names hold brackets or semicolons.
+execute_process(COMMAND ${PROGRAM} --list-test-names-only OUTPUT_VARIABLE names RESULT_VARIABLE status ERROR_QUIET)
+if(names STREQUAL "") # Catch2 3
+    execute_process(COMMAND ${PROGRAM} --list-tests --verbosity quiet OUTPUT_VARIABLE names)
+endif()
+# What would split or join the elements of a list becomes control characters for a while.
+string(ASCII 1 2 3 controls)
+string(SUBSTRING "${controls}" 0 1 open)
+string(SUBSTRING "${controls}" 1 1 close)
+string(SUBSTRING "${controls}" 2 1 semicolon)
+string(REPLACE "[" "${open}" names "${names}")
+string(REPLACE "]" "${close}" names "${names}")
+string(REPLACE ";" "${semicolon}" names "${names}")
+string(REPLACE "\n" ";" names "${names}")
+
+set(script "")
+foreach(name IN LISTS names)
+    if(name STREQUAL "")
+        continue()
+    endif()
+    string(REPLACE "\\" "\\\\" pattern "${name}")
+    string(REPLACE "," "\\," pattern "${pattern}")
+    string(REPLACE "${open}" "\\[" pattern "${pattern}")
+    foreach(text name pattern)
+        string(REPLACE "${open}" "[" ${text} "${${text}}")
+        string(REPLACE "${close}" "]" ${text} "${${text}}")
+        string(REPLACE "${semicolon}" ";" ${text} "${${text}}")
+    endforeach()
+    # Where a test cannot run it prints "SKIPPED: reason" and returns (Catch2 3: SKIP("reason")).
+    string(APPEND script "add_test([==[${PREFIX}/${name}]==] [==[${PROGRAM}]==] [==[${pattern}]==])\n"
+                         "set_tests_properties([==[${PREFIX}/${name}]==] PROPERTIES TIMEOUT 600 "
+                         "SKIP_REGULAR_EXPRESSION [==[SKIPPED: ]==])\n")
+endforeach()
+file(WRITE ${FILE} "${script}")

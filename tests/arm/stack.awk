@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+# The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -f stack.awk
+# FILE.ci... Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
+
+BEGIN {
+    # libgcc, measured in its disassembly (the largest, Cortex-M0) and rounded up; each with all that it calls.
+    library["__aeabi_ldivmod"] = library["__aeabi_uldivmod"] = 104
+    library["__aeabi_uidivmod"] = library["__aeabi_uidiv"] = library["__aeabi_idiv"] = 16
+    library["__aeabi_lmul"] = 32
+    library["__clzdi2"] = 16
+    library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
+    root = "_ZN12_GLOBAL__N_18on_resetEv"
+    # The one virtual call: the arc length asks the curve, which is a G2Spline here.
+    curve = scalar == "float" ? "_ZN10splinefeed8G2SplineIfE4nextERNS_12CurveSegmentIfEE" \
+                              : "_ZN10splinefeed8G2SplineINS_5FixedEE4nextERNS_12CurveSegmentIS1_EE"
+}
+
+function quoted(line, key) {
+    line = substr(line, index(line, key ": \"") + length(key) + 3)
+    line = substr(line, 1, index(line, "\"") - 1)
+    sub(/^.*:/, "", line)     # local functions: FILE:NAME
+    sub(/EC1E/, "EC2E", line) # a complete object's constructor is its base object's here
+    return line
+}
+
+/^node: / && match($0, /[0-9]+ bytes \([a-z,]*\)/) {
+    name = quoted($0, "title")
+    frame[name] = substr($0, RSTART) + 0
+    variable[name] = $0 !~ /bytes \(static\)/ && $0 !~ /bytes \(dynamic,bounded\)/
+}
+/^edge: / {
+    from = quoted($0, "sourcename")
+    to = quoted($0, "targetname")
+    if (to == "__indirect_call" && from ~ /ArcLength/) { to = curve }
+    if (!((from, to) in known)) {
+        known[from, to] = 1
+        calls[from] = calls[from] to "\n"
+    }
+}
+
+function fail(reason) {
+    print "stack: " reason
+    failed = 1
+    exit 1
+}
+
+# The deepest stack of a function and all it calls; `way` is how the deepest call goes on.
+function depth(name, targets, count, i, d, deepest) {
+    if (name in total) { return total[name] }
+    if (name in library) { return library[name] }
+    if (!(name in frame)) { fail("no bound for a call of " name) }
+    if (variable[name]) { fail("frame of variable size in " name) }
+    if (active[name]) { fail("recursion through " name) }
+    active[name] = 1
+    deepest = 0
+    count = split(calls[name], targets, "\n")
+    for (i = 1; i < count; ++i) {
+        d = depth(targets[i])
+        if (d > deepest) {
+            deepest = d
+            way[name] = targets[i]
+        }
+    }
+    active[name] = 0
+    return total[name] = frame[name] + deepest
+}
+
+END {
+    if (failed) { exit 1 }
+    print "stack bound " depth(root) " bytes:"
+    for (name = root; name != ""; name = way[name]) {
+        printf "  %5d %s\n", (name in frame) ? frame[name] : library[name], name
+    }
+}
