@@ -10,7 +10,7 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double same_point_mm = 1e-6; // as the core merges waypoints
+constexpr double same_point_mm = 1e-4; // as the core merges waypoints
 
 template <Scalar S>
 void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerAxis<S>& out) {

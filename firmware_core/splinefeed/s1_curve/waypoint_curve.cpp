@@ -60,10 +60,6 @@ Status WaypointCurve<S>::push(const Waypoint<S>& waypoint, Role role) noexcept {
         last.length = norm(last.chord.data(), axes());
         last.span = span_of(last.length);
         if (known_ > 1) {
-            // Spans of neighbours are kept within 2^22 of each other: beyond, the pivots of the spline would lose all
-            // their bits in Fixed. Any positive spans give a G2 interpolant, so this changes no guarantee.
-            const S before = knot(known_ - 2).span;
-            last.span = smaller(larger(last.span, scale2(before, -22)), scale2(before, 22));
             decide_corner(known_ - 1);
         } else {
             last.breaks = true;
@@ -93,15 +89,21 @@ Status WaypointCurve<S>::finish() noexcept {
     return {};
 }
 
-// Turn angle between the chords at knot i against the corner angle; the file's corner column overrides it.
+// Turn angle between the chords at knot i against the corner angle; the file's corner column overrides it. A move a million
+// times longer than its neighbour is a corner in any case: the pivots of a spline over both would have no bits left in
+// Fixed, and the short one is out of sight of the long one.
 template <Scalar S>
 void WaypointCurve<S>::decide_corner(std::uint64_t i) noexcept {
     Knot<S>& here = knot(i);
+    const Knot<S>& before = knot(i - 1);
+    if (here.length < scale2(before.length, -20) || before.length < scale2(here.length, -20)) {
+        here.breaks = true;
+        return;
+    }
     if (here.corner != Corner::automatic) {
         here.breaks = here.corner == Corner::forced;
         return;
     }
-    const Knot<S>& before = knot(i - 1);
     S cosine{};
     for (unsigned k = 0; k < static_cast<unsigned>(axes()); ++k) {
         cosine += (before.chord[k] / before.length) * (here.chord[k] / here.length);
