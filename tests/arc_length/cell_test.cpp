@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// A cell evaluates its two polynomials as stated, with rounding errors only.
+#include "support/catch.hpp"
+#include "support/cell_reference.hpp"
+
+using namespace splinefeed_test;
+
+namespace {
+
+/// Random coefficients: offsets within 2^16 units, and an inverse near the identity.
+template <class S>
+Cell<S> random_cell(Random& random) {
+    Cell<S> cell;
+    cell.axes = random.integer(1, max_axes);
+    cell.degree = random.integer(1, max_degree);
+    cell.unit_log2 = random.integer(-25, 0);
+    cell.length_mm = from_integer<S>(1);
+    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        cell.origin[k] = position_from_mm(random.between(-1e5, 1e5));
+        for (unsigned i = 0; i <= static_cast<unsigned>(cell.degree); ++i) {
+            cell.power[k][i] = from_double<S>(random.between(-1.0, 1.0) * (i == 0 ? 0.5 : 6000.0));
+        }
+    }
+    double left = 1.0;
+    for (unsigned i = 1; i < 6; ++i) {
+        const double c = random.between(-0.1, 0.1);
+        cell.inverse[i] = from_double<S>(c);
+        left -= c;
+    }
+    cell.inverse[0] = from_double<S>(left);
+    return cell;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("the parameter is the polynomial w = sum inverse[i] x^(i+1)", "[arc_length][cell]", double, float,
+                   Fixed) {
+    Random random(31);
+    for (int i = 0; i < 2000; ++i) {
+        const Cell<TestType> cell = random_cell<TestType>(random);
+        const TestType x = from_double<TestType>(random.between(0.0, 1.0));
+        Real slope = 0.0L;
+        const Real w = inverse_at(cell, exact(x), slope);
+        // Six products and five sums of numbers below 1.5
+        REQUIRE(std::fabs(exact(cell.parameter_at(x)) - w) <= 12.0L * rounding<TestType>());
+        REQUIRE(cell.parameter_at(TestType{}) == TestType{});
+    }
+}
+
+TEMPLATE_TEST_CASE("positions are the offset polynomial at w from the origin", "[arc_length][cell]", double, float,
+                   Fixed) {
+    Random random(32);
+    for (int i = 0; i < 2000; ++i) {
+        const Cell<TestType> cell = random_cell<TestType>(random);
+        const TestType x = from_double<TestType>(random.between(0.0, 1.0));
+        PerAxis<Position> position{};
+        cell.position_at(x, position);
+        const Jet jet = evaluate(cell, exact(cell.parameter_at(x)));
+        for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+            // Per step of Horner's rule a product and a sum below 6000 (degree + 1); Fixed rounds absolutely.
+            const Real size = std::same_as<TestType, Fixed> ? 1.0L : 6000.0L * (cell.degree + 1);
+            const Real units = 2.0L * cell.degree * size * rounding<TestType>();
+            const Real miss = exact_mm(position[k]) - exact_mm(cell.origin[k]) - jet.r[k];
+            REQUIRE(std::fabs(miss) <= std::ldexp(units, cell.unit_log2) + 0x1p-41L);
+        }
+    }
+}

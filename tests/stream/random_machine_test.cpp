@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+//
+// Random machines on random paths: whatever the limits, what is emitted keeps them, ends exactly, and ends at all.
+#include "support/catch.hpp"
+#include "support/stream_reference.hpp"
+
+using namespace splinefeed_test;
+
+namespace {
+
+/// A generous bound of the number of segments: from rest to rest between every two points with the weakest axis alone,
+/// and at every stop two segments and a part.
+double most_seconds(const MachineSettings& machine, double length, double stops, double slowest_feed) {
+    double acceleration = 1e9;
+    double speed = std::min(machine.max_feed_mm_s, slowest_feed);
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+        acceleration = std::min(acceleration, machine.axis[k].max_acceleration_mm_s2);
+        speed = std::min(speed, machine.axis[k].max_velocity_mm_s);
+    }
+    return length / speed + stops * (2.0 * speed / acceleration + 3.0 * machine.sample_period_us * 1e-6) +
+           stops * 2.0 * std::sqrt(length / stops / acceleration);
+}
+
+struct Run {
+    MachineSettings machine;
+    Program program;
+};
+
+Run random_run(Random& random) {
+    const int axes = random.integer(1, max_axes);
+    Run run{random_machine(random, axes), random_program(random, axes)};
+    return run;
+}
+
+template <class S>
+void check_run(std::uint64_t seed, Used& worst) {
+    Random random(seed);
+    const Run run = random_run(random);
+    if (!MotionLimits<S>::make(run.machine).has_value()) {
+        return;
+    }
+    CAPTURE(seed, scalar_name<S>());
+    const Stream stream = stream_of<S>(run.program, run.machine, random.chance(0.5) ? 16 : 512);
+    REQUIRE_FALSE(stream.endless);
+    Used used;
+    const std::string broken = check_stream(stream.segments, run.machine, used);
+    REQUIRE(broken.empty());
+    CAPTURE(static_cast<double>(used.acceleration), static_cast<double>(used.velocity), static_cast<double>(used.feed));
+    if constexpr (!std::same_as<S, float>) {
+        CHECK(used.acceleration <= 1.0L);
+        CHECK(used.velocity <= 1.0L);
+        CHECK(used.feed <= 1.0L);
+    }
+    worst.acceleration = std::max(worst.acceleration, used.acceleration);
+    worst.velocity = std::max(worst.velocity, used.velocity);
+    worst.feed = std::max(worst.feed, used.feed);
+    const std::vector<Point>& points = run.program.points;
+    for (unsigned k = 0; k < static_cast<unsigned>(run.program.axes); ++k) {
+        REQUIRE(stream.segments.front().start[k] == target_units(points.front().mm[k], run.machine.axis[k]));
+        REQUIRE(stream.segments.back().end[k] == target_units(points.back().mm[k], run.machine.axis[k]));
+    }
+    double chords = 0.0;
+    double slowest = 1e9;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        double square = 0.0;
+        for (unsigned k = 0; k < static_cast<unsigned>(run.program.axes); ++k) {
+            const double move = points[i].mm[k] - points[i - 1].mm[k];
+            square += move * move;
+        }
+        chords += std::sqrt(square);
+        slowest = std::min(slowest, points[i].feed_mm_s > 0.0 ? points[i].feed_mm_s : 1e9);
+    }
+    const double segment_s = stream.segments[0].duration_ticks / 8e6;
+    // A spline is longer than its chords, and curvature slows down further: five times the crudest estimate
+    const double most = 5.0 * most_seconds(run.machine, chords, static_cast<double>(points.size()), slowest);
+    CHECK(static_cast<double>(stream.segments.size()) * segment_s <= most);
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("random machines, splines and polylines", "[stream][random]", double, float, Fixed) {
+    Used worst;
+    for (std::uint64_t seed = 1000; seed < 1150; ++seed) {
+        check_run<TestType>(seed, worst);
+    }
+    CHECK(worst.velocity > 0.9L); // the machines were used
+    CHECK(worst.acceleration > 0.9L);
+}
+
+TEMPLATE_TEST_CASE("random machines and Bezier segments", "[stream][random]", double, Fixed) {
+    for (std::uint64_t seed = 2000; seed < 2080; ++seed) {
+        Random random(seed);
+        const int axes = random.integer(2, max_axes);
+        const MachineSettings machine = random_machine(random, axes);
+        const BezierPath path = random_path(random, axes, 6, random.decades(0.05, 50.0), 0.3, 0.3);
+        const Stream stream = stream_of<TestType>(path, machine, 256);
+        CAPTURE(seed, stream.segments.size());
+        REQUIRE_FALSE(stream.endless);
+        Used used;
+        REQUIRE(std::string(check_stream(stream.segments, machine, used)).empty());
+        CHECK(used.acceleration <= 1.0L);
+        CHECK(used.velocity <= 1.0L);
+        CHECK(used.feed <= 1.0L);
+    }
+}
+
+TEMPLATE_TEST_CASE("an uneven parameter does not shake the axis", "[stream]", double, Fixed) {
+    // Straight, so that all of the acceleration is used along the path: what is left of the error of the inverse
+    // arc length is an acceleration of its own, v^2 times its second derivative.
+    Random random(3);
+    for (const double feed : {100.0, 300.0, 1000.0}) {
+        for (const double acceleration : {300.0, 1000.0, 10000.0}) {
+            for (const int period : {100, 1000}) {
+                BezierPath path;
+                for (int i = 0; i < 20; ++i) {
+                    const double d = random.decades(5.0, 100.0);
+                    const double x = random.between(0.05, 0.9);
+                    path.push_back(cubic_shape(d * x, 0.0, d * random.between(x, 0.95), 0.0, d, 0.0));
+                }
+                const MachineSettings machine = machine_of(2, feed, acceleration, feed, period);
+                const Stream stream = stream_of<TestType>(path, machine, 4096);
+                Used used;
+                REQUIRE(std::string(check_stream(stream.segments, machine, used)).empty());
+                CAPTURE(feed, acceleration, period);
+                CHECK(used.acceleration <= 1.0L);
+                CHECK(used.velocity <= 1.0L);
+            }
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("cusps inside of a segment keep every limit", "[stream]", double, Fixed) {
+    for (const double acceleration : {10.0, 1000.0, 20000.0}) {
+        for (const int period : {50, 250, 1000, 4000}) {
+            const MachineSettings machine = machine_of(2, 100.0, acceleration, 100.0, period);
+            if (!MotionLimits<TestType>::make(machine).has_value()) {
+                continue;
+            }
+            for (const BezierShape& shape :
+                 {cubic_shape(10.0, 10.0, 0.0, 10.0, 10.0, 0.0), cubic_shape(1.0, 0.0, 1.0, 0.0, 0.0, 0.0),
+                  cubic_shape(1.0, 0.0, 1.0, 1e-6, 0.0, 0.0), cubic_shape(0.0, 0.0, 0.0, 0.0, 1.0, 0.0),
+                  cubic_shape(1e-3, 1e-3, 1e-5, 1e-3, 1e-3, 0.0), cubic_shape(1e-3, 0.0, 1e-3, 0.0, 0.0, 0.0)}) {
+                const Stream stream = stream_of<TestType>(BezierPath{shape}, machine);
+                Used used;
+                REQUIRE_FALSE(stream.endless);
+                REQUIRE(std::string(check_stream(stream.segments, machine, used)).empty());
+                CAPTURE(acceleration, period, shape.offset[0][1], shape.offset[0][2], shape.offset[0][3]);
+                CHECK(used.acceleration <= 1.0L);
+                CHECK(used.velocity <= 1.0L);
+            }
+        }
+    }
+}

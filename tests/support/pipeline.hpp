@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages behind the curve, run to the end: planned cells, feed segments, machines to run them on.
+#pragma once
+
+#include "cell_reference.hpp"
+#include "splinefeed/trajectory.hpp"
+
+namespace splinefeed_test {
+
+/// Equal axes.
+inline MachineSettings machine_of(int axes, double velocity, double acceleration, double feed, int period_us = 1000,
+                                  double steps = 1000.0) {
+    MachineSettings machine;
+    machine.axes = axes;
+    machine.max_feed_mm_s = feed;
+    machine.sample_period_us = period_us;
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_velocity_mm_s = velocity;
+        axis.max_acceleration_mm_s2 = acceleration;
+        axis.steps_per_mm = steps;
+    }
+    return machine;
+}
+
+/// What the plan of a whole path was, and how it came about.
+template <Scalar S>
+struct Planned {
+    std::vector<PlannedCell<S>> cells;
+    std::uint32_t limited = 0; ///< FeedPlan::window_limited
+    std::size_t passes = 0;    ///< calls that took cells in, each followed by one pass over the window
+    std::size_t starvations = 0;
+    [[nodiscard]] double seconds() const {
+        double sum = 0.0;
+        for (const PlannedCell<S>& c : cells) {
+            sum += 2.0 * to_double(c.cell.length_mm) /
+                   (std::sqrt(to_double(c.entry_sq)) + std::sqrt(to_double(c.exit_sq)));
+        }
+        return sum;
+    }
+};
+
+template <Scalar S>
+Planned<S> plan_of(CurveSource<S>& source, const MotionLimits<S>& limits, std::size_t window_size,
+                   std::size_t most = 1U << 20) {
+    ArcLength<S> arc_length(source, limits.refinement);
+    std::vector<PlannedCell<S>> window(window_size);
+    FeedPlan<S> plan(arc_length, limits, window);
+    Planned<S> planned;
+    while (planned.cells.size() < most) {
+        const std::int64_t before = arc_length.travelled_raw();
+        const Pull pull = plan.prepare();
+        if (pull == Pull::finished) {
+            break;
+        }
+        planned.passes += arc_length.travelled_raw() != before ? 1U : 0U;
+        if (pull == Pull::starved) {
+            ++planned.starvations;
+            continue;
+        }
+        planned.cells.push_back(plan.front());
+        plan.pop();
+    }
+    planned.limited = plan.window_limited();
+    return planned;
+}
+
+template <Scalar S>
+Planned<S> plan_of(const BezierPath& path, const MachineSettings& machine, std::size_t window_size) {
+    ListSource<S> source(path);
+    return plan_of<S>(source, MotionLimits<S>::make(machine).value(), window_size);
+}
+
+/// A path of smooth runs and corners, with feeds of its own.
+inline BezierPath random_path(Random& random, int axes, int segments, double size_mm, double corners, double feeds) {
+    BezierPath path;
+    for (int i = 0; i < segments; ++i) {
+        BezierShape next = random_shape(random, axes, random.integer(3, 5), size_mm * random.decades(0.2, 5.0));
+        if (i > 0 && !random.chance(corners)) {
+            join_smoothly(path.back(), next);
+        }
+        if (random.chance(feeds)) {
+            next.feed_mm_s = random.decades(1.0, 1000.0);
+        }
+        path.push_back(next);
+    }
+    return path;
+}
+
+inline MachineSettings random_machine(Random& random, int axes) {
+    MachineSettings machine = machine_of(axes, 100.0, 1000.0, random.decades(10.0, 1000.0));
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_velocity_mm_s = random.decades(10.0, 1000.0);
+        axis.max_acceleration_mm_s2 = random.decades(100.0, 1e5);
+        axis.steps_per_mm = random.decades(10.0, 1e5);
+    }
+    machine.centripetal_mm_s2 = random.chance(0.4) ? random.decades(100.0, 1e5) : 0.0;
+    machine.chord_error_mm = random.chance(0.4) ? random.decades(1e-5, 0.1) : 0.0;
+    machine.sample_period_us = random.integer(250, 4000);
+    return machine;
+}
+
+} // namespace splinefeed_test

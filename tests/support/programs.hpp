@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+//
+// Programs of waypoints like those the machine is shown with, and what comes out at the end of the pipeline.
+#pragma once
+
+#include "pipeline.hpp"
+#include "splinefeed/s1_curve/g2_spline.hpp"
+#include "splinefeed/s1_curve/polyline.hpp"
+
+#include <optional>
+
+namespace splinefeed_test {
+
+struct Point {
+    PerAxis<double> mm{};
+    double feed_mm_s = 0.0;
+    Corner corner = Corner::automatic;
+};
+
+struct Program {
+    int axes = 3;
+    std::vector<Point> points;
+    bool polyline = false;
+};
+
+/// 61 points of a knotted loop in space.
+inline Program loop_program() {
+    Program program;
+    for (int i = 0; i <= 60; ++i) {
+        const double t = 6.283185307179586 * i / 60.0;
+        program.points.push_back(
+            {{40.0 * std::sin(2.0 * t) + 10.0 * std::cos(3.0 * t), 30.0 * std::cos(3.0 * t), 5.0 * std::sin(5.0 * t)}});
+    }
+    return program;
+}
+
+inline Program circle_program(int points, double radius = 30.0) {
+    Program program;
+    for (int i = 0; i <= points; ++i) {
+        const double t = 6.283185307179586 * i / points;
+        program.points.push_back({{radius * std::cos(t), radius * std::sin(t), 0.0}});
+    }
+    return program;
+}
+
+/// Lines to and fro over a wavy surface.
+inline Program raster_program(int lines = 6) {
+    Program program;
+    for (int line = 0; line < lines; ++line) {
+        for (int i = 0; i <= 40; ++i) {
+            const double x = line % 2 == 0 ? i : 40 - i;
+            const double y = 0.5 * line;
+            program.points.push_back({{x, y, std::sin(0.3 * x) * std::cos(0.5 * y)}});
+        }
+    }
+    return program;
+}
+
+inline Program star_program(bool polyline) {
+    Program program;
+    program.polyline = polyline;
+    for (int i = 0; i <= 10; ++i) {
+        const double t = 0.6283185307179586 * i;
+        const double r = i % 2 == 0 ? 30.0 : 12.0;
+        program.points.push_back({{r * std::cos(t), r * std::sin(t), 0.0}});
+    }
+    return program;
+}
+
+inline Program random_program(Random& random, int axes) {
+    Program program;
+    program.axes = axes;
+    program.polyline = random.chance(0.3);
+    Point point;
+    const int points = random.integer(3, 25);
+    const double size = random.decades(0.05, 20.0);
+    const bool feeds = random.chance(0.5);
+    for (int i = 0; i < points; ++i) {
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            point.mm[k] += size * random.decades(0.2, 5.0) * random.between(-0.3, 1.0);
+        }
+        point.feed_mm_s = feeds && random.chance(0.5) ? random.decades(1.0, 1000.0) : 0.0;
+        point.corner = random.chance(0.1) ? Corner::forced : random.chance(0.1) ? Corner::forbidden : Corner::automatic;
+        program.points.push_back(point);
+    }
+    return program;
+}
+
+/// Drives a pipeline by hand: pushes waypoints as it starves, `at_once` of them at a time.
+template <class S, class Curve>
+class Feeder {
+public:
+    Feeder(Curve& curve, const Program& program) : curve_(&curve), program_(&program) {}
+    void feed(int at_once) {
+        for (int i = 0; i < at_once && next_ < program_->points.size() && curve_->has_room(); ++i) {
+            const Point& point = program_->points[next_++];
+            Waypoint<S> waypoint;
+            for (unsigned k = 0; k < static_cast<unsigned>(program_->axes); ++k) {
+                waypoint.position[k] = position_from_mm(point.mm[k]);
+            }
+            waypoint.feed_mm_s = from_double<S>(point.feed_mm_s);
+            waypoint.corner = point.corner;
+            static_cast<void>(curve_->push(waypoint).ok());
+        }
+        if (next_ == program_->points.size() && !finished_) {
+            static_cast<void>(curve_->finish().ok());
+            finished_ = true;
+        }
+    }
+
+private:
+    Curve* curve_;
+    const Program* program_;
+    std::size_t next_ = 0;
+    bool finished_ = false;
+};
+
+struct Stream {
+    std::vector<FeedSegment> segments;
+    std::uint32_t limited = 0;
+    bool endless = false;
+};
+
+constexpr std::size_t most_segments = 400'000;
+constexpr std::size_t most_starvations = 100'000;
+
+template <class S, class Curve>
+Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& limits, std::size_t window_size,
+                 Random* interleaving) {
+    std::vector<PlannedCell<S>> window(window_size);
+    Trajectory<S> trajectory(curve, limits, window);
+    Feeder<S, Curve> feeder(curve, program);
+    Stream stream;
+    FeedSegment segment;
+    std::size_t starvations = 0;
+    while (trajectory.state() != Pull::finished && !stream.endless) {
+        if (interleaving != nullptr && interleaving->chance(0.02)) {
+            feeder.feed(interleaving->integer(1, 8));
+        }
+        if (trajectory.next(segment)) {
+            stream.segments.push_back(segment);
+            stream.endless = stream.segments.size() >= most_segments;
+        } else if (trajectory.state() == Pull::starved) {
+            feeder.feed(interleaving != nullptr ? interleaving->integer(0, 3) : 1000);
+            stream.endless =
+                ++starvations >= most_starvations; // starved for ever: full of waypoints, yet asking for more
+        }
+    }
+    stream.limited = trajectory.feed_plan().window_limited();
+    return stream;
+}
+
+/// The feed segments of a program. `interleaving`: pushes and pulls in random order.
+template <Scalar S>
+Stream stream_of(const Program& program, const MachineSettings& machine, std::size_t window_size = 1024,
+                 Random* interleaving = nullptr) {
+    const auto limits = MotionLimits<S>::make(machine).value();
+    CurveOptions<S> options;
+    options.axes = program.axes;
+    if (program.polyline) {
+        Polyline<S> curve(options);
+        return stream_of<S>(curve, program, limits, window_size, interleaving);
+    }
+    G2Spline<S> curve(options);
+    return stream_of<S>(curve, program, limits, window_size, interleaving);
+}
+
+/// The feed segments of Bezier segments as they stand.
+template <Scalar S>
+Stream stream_of(const BezierPath& path, const MachineSettings& machine, std::size_t window_size = 1024,
+                 const PerAxis<double>& start = {}, std::uint64_t seed = 0, int patience = 0) {
+    const auto limits = MotionLimits<S>::make(machine).value();
+    ListSource<S> source(segments_of<S>(path, start), seed, patience);
+    std::vector<PlannedCell<S>> window(window_size);
+    Trajectory<S> trajectory(source, limits, window);
+    Stream stream;
+    FeedSegment segment;
+    while (trajectory.state() != Pull::finished && !stream.endless) {
+        if (trajectory.next(segment)) {
+            stream.segments.push_back(segment);
+            stream.endless = stream.segments.size() >= most_segments;
+        }
+    }
+    stream.limited = trajectory.feed_plan().window_limited();
+    return stream;
+}
+
+} // namespace splinefeed_test
