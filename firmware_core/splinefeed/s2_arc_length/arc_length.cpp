@@ -24,10 +24,9 @@ constexpr S point_noise = literal<S>(2.4e-10);
 template <>
 constexpr float point_noise<float> = 1.0F / 256.0F;
 
-// Below this a halving adds more rounding than it removes error: the piece is taken as it is. (Fixed and double get there
-// at the deepest level.)
+// Below this a halving adds more rounding to a float than it removes error: the piece is taken as it is.
 template <Scalar S>
-constexpr S finest = literal<S>(1.0 / 128.0);
+constexpr S finest = S{};
 template <>
 constexpr float finest<float> = 16.0F;
 
@@ -45,7 +44,8 @@ bool ArcLength<S>::vanishes(const Piece<S>& piece) const noexcept {
     return true;
 }
 
-// Within the braking distance of a stop (7.3 grades) a cell is at most a grade or a third of its distance to the stop.
+// Within the braking distance of a stop (7.3 grades) a cell is at most a grade or about a third of its distance to the
+// stop (not exactly: on straight lines that would be a tie, and rounding would decide).
 template <Scalar S>
 bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
     const auto n = static_cast<unsigned>(current().degree);
@@ -57,7 +57,7 @@ bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
         return scale2(norm(gap.data(), current().axes), current().unit_log2);
     };
     const auto coarse = [&](S gap) {
-        return gap < literal<S>(9.1) * grade_mm_ && m_.length_mm > gap / from_integer<S>(3);
+        return gap < literal<S>(9.1) * grade_mm_ && m_.length_mm > gap / literal<S>(2.93);
     };
     return (stop_before_ && coarse(distance_mm(0, 0))) || (stop_after_ && coarse(distance_mm(n, n)));
 }
@@ -97,7 +97,7 @@ template <Scalar S>
 auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     const int axes = current().axes;
     m_.differentiate(piece, current().degree, axes);
-    const bool last = piece.level == deepest || m_.fastest < finest<S>; // then nothing is refused any more
+    const bool last = piece.level == deepest || m_.fastest < finest<S>; // then it is a cell or a cusp
     if (m_.slowest < nothing<S> || m_.fastest > m_.slowest * refinement_.metric_ratio) {
         return vanishes(piece) || last ? Verdict::cusp : Verdict::coarse;
     }
@@ -112,8 +112,8 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         turn = larger(turn, absolute(m_.first[2][k] - m_.first[0][k]));
     }
-    if (!last && turn > refinement_.turn) {
-        return Verdict::coarse;
+    if (turn > refinement_.turn) {
+        return last ? Verdict::cusp : Verdict::coarse;
     }
     m_.invert();
     const S error = absolute(m_.middle_slope * m_.sigma[1] - m_.length);
@@ -149,9 +149,13 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const auto n = static_cast<unsigned>(current().degree);
     fill_common(piece, current().degree, out);
     out.length_mm = m_.length_mm;
-    const S error = (absolute(m_.middle_slope * m_.sigma[1] - m_.length) + absolute(m_.length - m_.low_order_length)) / m_.length;
-    const S ripple = quotient_or_max(from_integer<S>(10) * error, m_.length_mm);
-    const S noise = quotient_or_max(control_noise<S> / m_.slowest, m_.length_mm);
+    const auto per_mm = [this](S x) {
+        return smaller(quotient_or_max(x, m_.length_mm), from_integer<S>(PieceMeasure<S>::sharpest));
+    };
+    const S error =
+        absolute(m_.middle_slope * m_.sigma[1] - m_.length) + absolute(m_.length - m_.low_order_length);
+    const S ripple = per_mm(from_integer<S>(10) * error / m_.length);
+    const S noise = per_mm(control_noise<S> / m_.slowest);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S> difference = piece.control[k];
         S binomial = from_integer<S>(1);

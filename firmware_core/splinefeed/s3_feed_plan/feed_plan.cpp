@@ -67,6 +67,7 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         planned.reach[k] = smaller(planned.reach[k], planned.cap_sq);
     }
+    planned.reach_from_rest = reachable(planned, S{});
 }
 
 template <Scalar S>

@@ -27,6 +27,7 @@ struct PlannedCell {
     S cap_sq{};           ///< largest v^2 anywhere in the cell
     PerAxis<S> reach{};   ///< v1^2 <= reach + carry v0^2, from either end
     PerAxis<S> carry{};
+    S reach_from_rest{};  ///< the smallest reach: v1^2 at most when v0 = 0
 };
 
 /// Stage 3. The window is the caller's storage. The plan in the window always ends at rest, so whatever is committed can

@@ -79,6 +79,12 @@ inline constexpr double rounding_share = 1e-5;
 template <>
 inline constexpr double rounding_share<float> = 2e-3;
 
+/// The same for the jumps of speed that rounding causes where cells meet.
+template <Scalar S>
+inline constexpr double jump_share = 1e-5;
+template <>
+inline constexpr double jump_share<float> = 1e-2;
+
 /// Rounding of a position, e, becomes the acceleration 4 e / T^2 in the second difference of control points.
 constexpr double acceleration_noise(double error_mm, double segment_s) noexcept {
     return 4.0 * error_mm / (segment_s * segment_s);
@@ -190,13 +196,13 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * usable - speed_noise);
         // Jumps of the speed that are tolerated at joints are accelerations, too.
         limits.acceleration_mm_s2[k] =
-            from_double<S>(axis.max_acceleration_mm_s2 * usable - noise - 2.0 * detail::rounding_share<S> * softest);
+            from_double<S>(axis.max_acceleration_mm_s2 * usable - noise - detail::jump_share<S> * softest);
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
     limits.usable = from_double<S>(usable);
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
-    limits.jump_mm_s = from_double<S>(detail::rounding_share<S> * softest * segment_s);
+    limits.jump_mm_s = from_double<S>(detail::jump_share<S> * softest * segment_s);
     limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
     limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, period_s));
     limits.segments_per_s = from_double<S>(n / period_s);

@@ -55,12 +55,28 @@ Pull SegmentStream<S>::enter_cell() noexcept {
     const PlannedCell<S>& planned = plan_->front();
     const S v0 = square_root(planned.entry_sq);
     const S sum = v0 + square_root(planned.exit_sq);
+    const S twice = (planned.cell.length_mm + planned.cell.length_mm) * segments_per_s_;
     // The mean speed over constant acceleration is (v0 + v1) / 2; never integrate ds / v.
-    duration_ = quotient_or_max((planned.cell.length_mm + planned.cell.length_mm) * segments_per_s_, sum);
+    hop_ = !(sum > S{});
+    duration_ = quotient_or_max(twice, hop_ ? square_root(scale2(planned.reach_from_rest, -1)) : sum);
     entry_ = quotient_or_max(v0 + v0, sum);
     waypoint_ = planned.cell.waypoint;
     in_cell_ = true;
     return Pull::item;
+}
+
+// Fraction of the cell's length after the fraction y of its time: constant acceleration. A cell between two stops (a crumb
+// between cusps, as a rule) is accelerated for half of its length and braked for the other: from rest the whole length would
+// reach v^2 = reach, so half of it reaches reach / 2, and the mean speed is half of that v.
+template <Scalar S>
+S SegmentStream<S>::position_in_cell() const noexcept {
+    const S one = from_integer<S>(1);
+    const S y = elapsed_ / duration_;
+    if (!hop_) {
+        return y * (entry_ + (one - entry_) * y);
+    }
+    const S to_end = one - y;
+    return y < to_end ? scale2(y * y, 1) : one - scale2(to_end * to_end, 1);
 }
 
 // Appends the next control point. It can be interrupted by starvation anywhere and goes on where it was.
@@ -112,9 +128,7 @@ Pull SegmentStream<S>::sample() noexcept {
             return pull;
         }
     }
-    const S y = elapsed_ / duration_;
-    const S x = y * (entry_ + (from_integer<S>(1) - entry_) * y);
-    plan_->front().cell.position_at(x, position);
+    plan_->front().cell.position_at(position_in_cell(), position);
     push_control(position);
     advanced_ = false;
     return Pull::item;

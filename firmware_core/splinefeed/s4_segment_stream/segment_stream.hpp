@@ -25,6 +25,7 @@ public:
 private:
     Pull sample() noexcept;
     Pull enter_cell() noexcept;
+    [[nodiscard]] S position_in_cell() const noexcept;
     void push_control(const PerAxis<Position>& position) noexcept;
 
     FeedPlan<S>* plan_;
@@ -32,7 +33,7 @@ private:
     S segments_per_s_{};
     S elapsed_{};  // time since the start of the cell [segment durations]
     S duration_{}; // time for the cell [segment durations]
-    S entry_{};    // 2 v0 / (v0 + v1): x = y (entry + (1 - entry) y), y = elapsed / duration, x = s / length
+    S entry_{};    // 2 v0 / (v0 + v1), see position_in_cell
     std::array<PerAxis<std::int64_t>, 4> control_{}; // the window of control points [6 units]
     std::uint64_t index_ = 0;
     std::uint32_t segment_ticks_ = 0;
@@ -41,6 +42,7 @@ private:
     int hold_ = 0; // control points still to repeat at a stop
     bool started_ = false;
     bool in_cell_ = false;
+    bool hop_ = false; // the cell is entered and left at rest
     bool advanced_ = false; // elapsed_ already holds the next sample's time
 };
 
