@@ -23,6 +23,6 @@ target_link_libraries(example PRIVATE splinefeed::core splinefeed::hal)
 target_compile_options(example PRIVATE -Wall -Wextra -Werror)
 PROJECT
 cmake --install "$build" --prefix "$out/prefix" >/dev/null
-cmake -S "$out" -B "$out/build" -DCMAKE_PREFIX_PATH="$PWD/$out/prefix"
+cmake -S "$out" -B "$out/build" -DCMAKE_PREFIX_PATH="$(cd "$out" && pwd)/prefix"
 cmake --build "$out/build"
 "$out/build/example" | head -20
