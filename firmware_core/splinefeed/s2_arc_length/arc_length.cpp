@@ -99,7 +99,10 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     m_.differentiate(piece, current().degree, axes);
     const bool last = piece.level == deepest || m_.fastest < finest<S>; // then it is a cell or a cusp
     if (m_.slowest < nothing<S> || m_.fastest > m_.slowest * refinement_.metric_ratio) {
-        return vanishes(piece) || last ? Verdict::cusp : Verdict::coarse;
+        if (vanishes(piece)) {
+            return piece.at_start || piece.at_end ? Verdict::cusp : Verdict::nothing;
+        }
+        return last ? Verdict::cusp : Verdict::coarse;
     }
     m_.measure_length(axes, current().unit_log2);
     if (!last && too_long(piece)) {
@@ -177,7 +180,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     out.direction_noise = from_integer<S>(current().degree) * point_noise<S> / m_.slowest;
 }
 
-// What is left of a cusp: its chord.
+// What is left of a cusp at the end of a segment, or where a float cannot halve any more: its chord, from stop to stop.
 template <Scalar S>
 void ArcLength<S>::fill_chord(const Piece<S>& piece, Cell<S>& out) noexcept {
     const auto n = static_cast<unsigned>(current().degree);
@@ -188,11 +191,11 @@ void ArcLength<S>::fill_chord(const Piece<S>& piece, Cell<S>& out) noexcept {
         chord[k] = piece.control[k][n] - piece.control[k][0];
         out.power[k][1] = chord[k];
         out.tangent_max[k] = from_integer<S>(1);
-        // Worse than any curvature that the feed could use: the machine all but stops here.
-        out.curvature_max[k] = from_integer<S>(PieceMeasure<S>::sharpest);
+        out.curvature_max[k] = S{};
     }
     out.length_mm = larger(scale2(norm(chord.data(), current().axes), current().unit_log2), literal<S>(1e-8)); // not zero, so that time passes
     out.inverse = {from_integer<S>(1), S{}, S{}, S{}, S{}, S{}};
+    out.stop_before = true;
 }
 
 // Whether the direction jumps between two segments; also where one of them starts or ends with a vanishing tangent.
@@ -272,24 +275,24 @@ Pull ArcLength<S>::next(Cell<S>& out) noexcept {
         }
     }
     Verdict verdict = judge(top());
-    while (verdict != Verdict::fine) {
-        const Piece<S>& piece = top();
+    while (verdict != Verdict::fine && verdict != Verdict::cusp) {
         if (verdict == Verdict::coarse) {
             split();
-        } else if (piece.at_start || piece.at_end) {
-            fill_chord(piece, out); // the end of a segment that starts or ends with a vanishing tangent
-            break;
-        } else {
+        } else { // nothing is left of it
             after_cusp_ = true;
             --depth_;
         }
         verdict = judge(top());
     }
-    if (verdict == Verdict::fine) {
+    const bool cusp = verdict == Verdict::cusp;
+    if (cusp) {
+        fill_chord(top(), out);
+    } else {
         fill(top(), out);
     }
     travelled_ = displaced(travelled_, out.length_mm, 0);
     leave();
+    after_cusp_ = cusp;
     return Pull::item;
 }
 
@@ -297,7 +300,6 @@ Pull ArcLength<S>::next(Cell<S>& out) noexcept {
 template <Scalar S>
 void ArcLength<S>::leave() noexcept {
     --depth_;
-    after_cusp_ = false;
     if (depth_ == 0) {
         stop_before_ = stop_after_;
         current_ = 1 - current_;

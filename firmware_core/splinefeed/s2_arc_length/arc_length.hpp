@@ -28,7 +28,7 @@ struct Refinement {
 
 /// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its direction and
 /// curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the pieces shrink
-/// until what is left is nothing: that is left out, and the machine stops there.
+/// until what is left is nothing: the machine stops there.
 /// Memory: two segments and a stack of pieces. Cost per cell: three evaluations with two derivatives.
 template <Scalar S>
 class ArcLength {
@@ -46,7 +46,7 @@ public:
 private:
     static constexpr int deepest = 22; ///< halvings of a segment; then a piece is taken as it is
 
-    enum class Verdict : std::uint8_t { fine, coarse, cusp };
+    enum class Verdict : std::uint8_t { fine, coarse, cusp, nothing };
 
     Pull load() noexcept;
     [[nodiscard]] bool jumps(const CurveSegment<S>& before, const CurveSegment<S>& after) const noexcept;
@@ -76,7 +76,7 @@ private:
     int depth_ = 0; // pieces on the stack
     bool has_current_ = false;
     bool has_ahead_ = false;
-    bool after_cusp_ = false; // the piece before was a cusp, and was left out
+    bool after_cusp_ = false; // the piece before was a cusp
     bool stop_before_ = true;
     bool stop_after_ = true;
 };
