@@ -12,7 +12,8 @@ constexpr S control_noise = literal<S>(1e-8);
 template <>
 constexpr float control_noise<float> = 48.0F * 65536.0F / 16777216.0F;
 
-// A segment is 2^15 units long. A tangent below this is a cusp, a polygon below it is nothing: 2^-30 of the segment.
+// A segment is 2^15 units long. A tangent below this is a cusp, a polygon below it is nothing: 2^-30 of the segment (and in any
+// case 2e-8 mm, below which Fixed has no digits for a length).
 template <Scalar S>
 constexpr S nothing = literal<S>(1.0 / 16384.0);
 template <>
@@ -36,7 +37,7 @@ template <Scalar S>
 bool ArcLength<S>::vanishes(const Piece<S>& piece) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         for (unsigned i = 1; i <= static_cast<unsigned>(current().degree); ++i) {
-            if (absolute(piece.control[k][i] - piece.control[k][0]) > nothing<S>) {
+            if (absolute(piece.control[k][i] - piece.control[k][0]) > nothing_) {
                 return false;
             }
         }
@@ -98,7 +99,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     const int axes = current().axes;
     m_.differentiate(piece, current().degree, axes);
     const bool last = piece.level == deepest || m_.fastest < finest<S>; // then it is a cell or a cusp
-    if (m_.slowest < nothing<S> || m_.fastest > m_.slowest * refinement_.metric_ratio) {
+    if (m_.slowest < nothing_ || m_.fastest > m_.slowest * refinement_.metric_ratio) {
         if (vanishes(piece)) {
             return piece.at_start || piece.at_end ? Verdict::cusp : Verdict::nothing;
         }
@@ -157,7 +158,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     };
     const S error =
         absolute(m_.middle_slope * m_.sigma[1] - m_.length) + absolute(m_.length - m_.low_order_length);
-    const S ripple = per_mm(from_integer<S>(10) * error / m_.length);
+    const S ripple = per_mm(from_integer<S>(40) * error / m_.length);
     const S noise = per_mm(control_noise<S> / m_.slowest);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S> difference = piece.control[k];
@@ -171,8 +172,9 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
             out.power[k][i] = binomial * difference[i];
         }
         out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<S>(1));
-        // An error e of the inverse's slope is an acceleration of up to 10 e / L along the tangent; rounding of the
-        // control points bends the curve.
+        // What is left of the inverse's error looks like c x^3 (1-x)^3 (x-1/2): with the slope e in the middle its second
+        // derivative reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, since the
+        // middle does not see all of it. Rounding of the control points bends the curve.
         out.curvature_max[k] = smaller(PieceMeasure<S>::bound(m_.second, k) + out.tangent_max[k] * ripple + noise,
                                        from_integer<S>(PieceMeasure<S>::sharpest));
     }
@@ -242,6 +244,7 @@ Pull ArcLength<S>::load() noexcept {
     const S feed = current().feed_mm_s > S{} ? smaller(current().feed_mm_s, refinement_.max_feed_mm_s)
                                              : refinement_.max_feed_mm_s;
     // Not below 2 nm, which still resolves in Fixed.
+    nothing_ = larger(nothing<S>, scale2(literal<S>(2e-8), -current().unit_log2));
     grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));
     stack_[0].control = current().control;
     stack_[0].level = 0;

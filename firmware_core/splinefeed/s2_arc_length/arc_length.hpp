@@ -71,6 +71,7 @@ private:
     PieceMeasure<S> m_{}; // of the piece that is being judged
     Position travelled_{};
     S grade_mm_{};
+    S nothing_{}; // in units of the current segment
     std::uint32_t segments_ = 0;
     unsigned current_ = 0;
     int depth_ = 0; // pieces on the stack
