@@ -78,6 +78,8 @@ Static<Trajectory<Real>> trajectory_storage;
 Static<std::array<PlannedCell<Real>, FeedPlan<Real>::smallest_window>> window_storage;
 FeedSegment segment;
 
+// Some functions are kept apart from main, so that what they need on the stack is not below the deepest call.
+
 /// FNV-1a, 64 bits, over the bytes of integers in little-endian order.
 class Hash {
 public:
@@ -87,7 +89,7 @@ public:
             value >>= 8;
         }
     }
-    void add(const FeedSegment& item) {
+    [[gnu::noinline]] void add(const FeedSegment& item) {
         add(item.index);
         add(item.duration_ticks);
         add(item.waypoint);
@@ -103,7 +105,7 @@ private:
     std::uint64_t state_ = 0xcbf29ce484222325U;
 };
 
-void write_line(const char* name, std::uint64_t value) {
+[[gnu::noinline]] void write_line(const char* name, std::uint64_t value) {
     constexpr char digits[] = "0123456789abcdef";
     char text[] = " 0x0000000000000000\n";
     for (unsigned i = 18; i > 2; --i) {
@@ -118,25 +120,33 @@ constexpr std::int64_t units(std::int32_t um) {
     return um * (std::int64_t{1} << Position::fraction_bits) / 1000;
 }
 
-Waypoint<Real> waypoint(const Point& point) {
-    Waypoint<Real> out;
-    out.position[0].raw = units(point.x_um);
-    out.position[1].raw = units(point.y_um);
-    out.position[2].raw = units(point.z_um);
-    return out;
+[[gnu::noinline]] bool push(G2Spline<Real>& curve, const Point& point) {
+    Waypoint<Real> waypoint;
+    waypoint.position[0].raw = units(point.x_um);
+    waypoint.position[1].raw = units(point.y_um);
+    waypoint.position[2].raw = units(point.z_um);
+    return curve.push(waypoint).ok();
 }
 
-} // namespace
+[[gnu::noinline]] G2Spline<Real>& build_curve() {
+    return curve_storage.build(CurveOptions<Real>{});
+}
 
-int main() {
-    auto& curve = curve_storage.build(CurveOptions<Real>{});
+[[gnu::noinline]] Trajectory<Real>& build_trajectory(G2Spline<Real>& curve) {
     auto& window = window_storage.build();
-    auto& trajectory = trajectory_storage.build(curve, *limits, window);
     write_line("bytes: curve      ", sizeof curve);
     write_line("bytes: arc length ", sizeof(ArcLength<Real>));
     write_line("bytes: feed plan  ", sizeof(FeedPlan<Real>));
     write_line("bytes: its window ", sizeof window);
     write_line("bytes: stream     ", sizeof(SegmentStream<Real>));
+    return trajectory_storage.build(curve, *limits, window);
+}
+
+} // namespace
+
+int main() {
+    auto& curve = build_curve();
+    auto& trajectory = build_trajectory(curve);
 
     Hash hash;
     std::uint64_t segments = 0;
@@ -147,7 +157,7 @@ int main() {
             ++segments;
         } else if (trajectory.state() == Pull::starved) {
             while (pushed < std::size(path) && curve.has_room()) {
-                if (!curve.push(waypoint(path[pushed++])).ok()) {
+                if (!push(curve, path[pushed++])) {
                     return 1;
                 }
             }

@@ -52,12 +52,7 @@ void report_stack() {
     exit_program(3);
 }
 
-[[noreturn]] void on_reset() {
-#ifdef __ARM_FP
-    *reinterpret_cast<volatile std::uint32_t*>(0xe000ed88) |= 0xfU
-                                                              << 20; // CPACR: full access to the coprocessors 10, 11
-    __asm__ volatile("dsb\n isb" ::: "memory");
-#endif
+[[gnu::noinline]] void prepare_memory() {
     for (std::uint32_t* word = data_start; word != data_end; ++word) {
         *word = data_image[word - data_start];
     }
@@ -68,6 +63,14 @@ void report_stack() {
     for (std::uint32_t* word = stack_bottom; word < in_use; ++word) {
         *word = paint;
     }
+}
+
+[[noreturn]] void on_reset() {
+#ifdef __ARM_FP
+    *reinterpret_cast<volatile std::uint32_t*>(0xe000ed88) |= 0xfU << 20; // CPACR: access to the coprocessors 10, 11
+    __asm__ volatile("dsb\n isb" ::: "memory");
+#endif
+    prepare_memory();
     const int status = main();
     report_stack();
     exit_program(status);
