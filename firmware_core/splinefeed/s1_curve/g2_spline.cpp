@@ -106,7 +106,7 @@ void G2Spline<S>::commit(std::uint64_t i) noexcept {
 template <Scalar S>
 void G2Spline<S>::close_seam(std::uint64_t i) noexcept {
     const auto role = [this](std::uint64_t j) { return this->knot(j).role; };
-    for (std::uint64_t slot = 0; slot < 3; ++slot) { // i is the knot before (0), at (1), after (2) the seam
+    for (unsigned slot = 0; slot < 3; ++slot) { // i is the knot before (0), at (1), after (2) the seam
         const std::uint64_t seam = i + 1 - slot;
         const bool beyond_run = slot == 0 && i > first_ && this->knot(i).breaks;
         if (seam == 0 || seam < first_ || beyond_run || seam + 1 >= this->known_) {

@@ -48,7 +48,7 @@ private:
 
     bool eliminate_row(std::uint64_t i) noexcept;
     void commit(std::uint64_t i) noexcept;
-    void close_seam(std::uint64_t end) noexcept;
+    void close_seam(std::uint64_t i) noexcept;
     void emit(std::uint64_t i, CurveSegment<S>& out) noexcept;
 
     EndTangents<S> tangents_;

@@ -100,10 +100,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     m_.differentiate(piece, current().degree, axes);
     const bool last = piece.level == deepest || m_.fastest < finest<S>; // then it is a cell or a cusp
     if (m_.slowest < nothing_ || m_.fastest > m_.slowest * refinement_.metric_ratio) {
-        if (vanishes(piece)) {
-            return piece.at_start || piece.at_end ? Verdict::cusp : Verdict::nothing;
-        }
-        return last ? Verdict::cusp : Verdict::coarse;
+        return last || vanishes(piece) ? Verdict::cusp : Verdict::coarse;
     }
     m_.measure_length(axes, current().unit_log2);
     if (!last && too_long(piece)) {
@@ -129,30 +126,33 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
 }
 
 template <Scalar S>
-void ArcLength<S>::fill_common(const Piece<S>& piece, int degree, Cell<S>& out) noexcept {
+void ArcLength<S>::fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out) noexcept {
     const CurveSegment<S>& segment = current();
     out.axes = segment.axes;
-    out.degree = degree;
     out.unit_log2 = segment.unit_log2;
     out.feed_mm_s = segment.feed_mm_s;
     out.waypoint = segment.waypoint;
-    out.stop_before = after_cusp_;
-    out.stop_at_end = piece.at_end && stop_after_;
-    out.direction_noise = S{};
+    out.stop_at_end = at_end && stop_after_;
     out.end = segment.end;
     for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
         // The origin moves to the start of the cell, so that offsets stay as small as the cell.
-        const S start = piece.control[k][0];
-        out.origin[k] = displaced(segment.origin[k], start, segment.unit_log2);
-        out.power[k][0] = start - distance<S>(segment.origin[k], out.origin[k], segment.unit_log2);
+        out.origin[k] = displaced(segment.origin[k], from[k], segment.unit_log2);
+        out.power[k][0] = from[k] - distance<S>(segment.origin[k], out.origin[k], segment.unit_log2);
     }
+    travelled_ = displaced(travelled_, out.length_mm, 0);
 }
 
 template <Scalar S>
 void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const auto n = static_cast<unsigned>(current().degree);
-    fill_common(piece, current().degree, out);
+    PerAxis<S> from{};
+    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+        from[k] = piece.control[k][0];
+    }
     out.length_mm = m_.length_mm;
+    out.degree = current().degree;
+    out.stop_before = after_cusp_;
+    fill_common(from, piece.at_end, out);
     const auto per_mm = [this](S x) {
         return smaller(quotient_or_max(x, m_.length_mm), from_integer<S>(PieceMeasure<S>::sharpest));
     };
@@ -182,22 +182,35 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     out.direction_noise = from_integer<S>(current().degree) * point_noise<S> / m_.slowest;
 }
 
-// What is left of a cusp at the end of a segment, or where a float cannot halve any more: its chord, from stop to stop.
+// Adds a piece to the cusp that is being passed.
 template <Scalar S>
-void ArcLength<S>::fill_chord(const Piece<S>& piece, Cell<S>& out) noexcept {
-    const auto n = static_cast<unsigned>(current().degree);
-    fill_common(piece, 1, out);
+void ArcLength<S>::extend_cusp(const Piece<S>& piece) noexcept {
+    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+        cusp_from_[k] = in_cusp_ ? cusp_from_[k] : piece.control[k][0];
+        cusp_to_[k] = piece.control[k][static_cast<unsigned>(current().degree)];
+    }
+    in_cusp_ = true;
+}
+
+// What is left of a cusp, or what a float cannot halve any more: its chord, from stop to stop.
+template <Scalar S>
+void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     PerAxis<S> chord{};
-    const auto axes_u = static_cast<unsigned>(current().axes);
-    for (unsigned k = 0; k < axes_u; ++k) {
-        chord[k] = piece.control[k][n] - piece.control[k][0];
+    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+        chord[k] = cusp_to_[k] - cusp_from_[k];
         out.power[k][1] = chord[k];
         out.tangent_max[k] = from_integer<S>(1);
         out.curvature_max[k] = S{};
     }
-    out.length_mm = larger(scale2(norm(chord.data(), current().axes), current().unit_log2), literal<S>(1e-8)); // not zero, so that time passes
+    // Not zero, so that time passes.
+    out.length_mm = larger(scale2(norm(chord.data(), current().axes), current().unit_log2), literal<S>(1e-8));
     out.inverse = {from_integer<S>(1), S{}, S{}, S{}, S{}, S{}};
+    out.direction_noise = S{};
+    out.degree = 1;
     out.stop_before = true;
+    fill_common(cusp_from_, at_end, out);
+    in_cusp_ = false;
+    after_cusp_ = true;
 }
 
 // Whether the direction jumps between two segments; also where one of them starts or ends with a vanishing tangent.
@@ -277,26 +290,29 @@ Pull ArcLength<S>::next(Cell<S>& out) noexcept {
             return pull;
         }
     }
-    Verdict verdict = judge(top());
-    while (verdict != Verdict::fine && verdict != Verdict::cusp) {
+    for (;;) {
+        const Verdict verdict = judge(top());
         if (verdict == Verdict::coarse) {
             split();
-        } else { // nothing is left of it
-            after_cusp_ = true;
+        } else if (verdict == Verdict::fine) {
+            if (in_cusp_) { // the cusp first; this piece is judged again
+                fill_chord(false, out);
+                return Pull::item;
+            }
+            fill(top(), out);
+            after_cusp_ = false;
+            leave();
+            return Pull::item;
+        } else {
+            extend_cusp(top());
+            if (top().at_end) {
+                fill_chord(true, out);
+                leave();
+                return Pull::item;
+            }
             --depth_;
         }
-        verdict = judge(top());
     }
-    const bool cusp = verdict == Verdict::cusp;
-    if (cusp) {
-        fill_chord(top(), out);
-    } else {
-        fill(top(), out);
-    }
-    travelled_ = displaced(travelled_, out.length_mm, 0);
-    leave();
-    after_cusp_ = cusp;
-    return Pull::item;
 }
 
 // Takes the piece that was delivered off the stack, and the segment if it was the last.

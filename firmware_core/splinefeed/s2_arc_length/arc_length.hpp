@@ -28,7 +28,7 @@ struct Refinement {
 
 /// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its direction and
 /// curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the pieces shrink
-/// until what is left is nothing: the machine stops there.
+/// until next to nothing is left, and the machine passes that from stop to stop.
 /// Memory: two segments and a stack of pieces. Cost per cell: three evaluations with two derivatives.
 template <Scalar S>
 class ArcLength {
@@ -44,9 +44,9 @@ public:
     [[nodiscard]] std::uint32_t segments() const noexcept { return segments_; }
 
 private:
-    static constexpr int deepest = 22; ///< halvings of a segment; then a piece is taken as it is
+    static constexpr int deepest = 18; ///< halvings of a segment; then a piece is taken as it is
 
-    enum class Verdict : std::uint8_t { fine, coarse, cusp, nothing };
+    enum class Verdict : std::uint8_t { fine, coarse, cusp };
 
     Pull load() noexcept;
     [[nodiscard]] bool jumps(const CurveSegment<S>& before, const CurveSegment<S>& after) const noexcept;
@@ -58,8 +58,9 @@ private:
     void split() noexcept;
     void leave() noexcept;
     void fill(const Piece<S>& piece, Cell<S>& out) noexcept;
-    void fill_chord(const Piece<S>& piece, Cell<S>& out) noexcept;
-    void fill_common(const Piece<S>& piece, int degree, Cell<S>& out) noexcept;
+    void extend_cusp(const Piece<S>& piece) noexcept;
+    void fill_chord(bool at_end, Cell<S>& out) noexcept;
+    void fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out) noexcept;
     [[nodiscard]] Piece<S>& top() noexcept { return stack_[static_cast<unsigned>(depth_ - 1)]; }
     [[nodiscard]] CurveSegment<S>& current() noexcept { return slots_[current_]; }
     [[nodiscard]] const CurveSegment<S>& current() const noexcept { return slots_[current_]; }
@@ -71,13 +72,16 @@ private:
     PieceMeasure<S> m_{}; // of the piece that is being judged
     Position travelled_{};
     S grade_mm_{};
+    PerAxis<S> cusp_from_{}; // in units of the current segment, from its origin
+    PerAxis<S> cusp_to_{};
     S nothing_{}; // in units of the current segment
     std::uint32_t segments_ = 0;
     unsigned current_ = 0;
     int depth_ = 0; // pieces on the stack
     bool has_current_ = false;
     bool has_ahead_ = false;
-    bool after_cusp_ = false; // the piece before was a cusp
+    bool in_cusp_ = false;    // pieces from cusp_from_ to cusp_to_ are to be passed as one chord
+    bool after_cusp_ = false; // the cell before was such a chord
     bool stop_before_ = true;
     bool stop_after_ = true;
 };
