@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a waypoint costs, stage by stage. Each stage is measured with all stages before it; the difference of two rows is
-// the cost of a stage alone. items_per_second counts waypoints.
+// What a waypoint costs, stage by stage. Each stage is measured with all stages before it; the difference of two rows
+// is the cost of a stage alone. items_per_second counts waypoints.
 #include "raster.hpp"
 
 #include "splinefeed/s1_curve/g2_spline.hpp"

@@ -62,7 +62,7 @@ double read(std::string_view option, std::string_view text, double low, double h
 
 Parameterization read_parameterization(std::string_view text) {
     constexpr std::array<std::string_view, 3> names{"uniform", "chordal", "centripetal"};
-    const auto found = std::find(names.begin(), names.end(), text);
+    const auto* const found = std::find(names.begin(), names.end(), text);
     if (found == names.end()) {
         throw UsageError(fmt::format("--parameterization {}: it must be one of {}", in_quotes(text), listed(names)));
     }

@@ -175,7 +175,7 @@ std::uint64_t CurveFeeder<S>::line_of_row(std::uint32_t row) const noexcept {
 }
 
 template <Scalar S>
-std::size_t CurveFeeder<S>::bytes() const noexcept {
+std::size_t CurveFeeder<S>::bytes() const {
     return std::visit([](const auto& curve) { return sizeof(curve); }, curve_);
 }
 

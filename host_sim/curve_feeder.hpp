@@ -43,7 +43,7 @@ public:
     /// Line of the waypoint in its file; 0: unknown.
     [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept;
     /// Memory of the curve stage.
-    [[nodiscard]] std::size_t bytes() const noexcept;
+    [[nodiscard]] std::size_t bytes() const;
 
 private:
     static constexpr std::size_t lead = 16;         ///< waypoints beyond the seam that shape a closed curve

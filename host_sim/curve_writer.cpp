@@ -25,7 +25,9 @@ void CurveWriter::segment(const CurveSegment<S>& segment) {
     file_->append("]}");
 }
 
-void CurveWriter::finish() { file_->append("\n]}\n"); }
+void CurveWriter::finish() {
+    file_->append("\n]}\n");
+}
 
 void CurveWriter::finish(const nlohmann::json& results) {
     if (!results.is_object()) {

@@ -16,7 +16,7 @@ struct Travel {
 };
 
 struct MachineDescription {
-    std::string file;                        ///< where it was read, for messages; empty: the built-in default machine
+    std::string file; ///< where it was read, for messages; empty: the built-in default machine
     std::string name = "default machine";
     MachineSettings settings{};              ///< numbers, in the core's form
     PerAxis<std::string> axis_name{};        ///< "x", "y", ...

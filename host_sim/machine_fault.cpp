@@ -33,8 +33,8 @@ std::string describe(const Fault& fault) {
     case FaultKind::acceleration:
     case FaultKind::jerk:
     case FaultKind::feed:
-        what = fmt::format("{}: {} {:.9g} {} is above the limit of {:.9g} {}", where, fault_name(fault.kind), fault.value,
-                           fault.unit, fault.limit, fault.unit);
+        what = fmt::format("{}: {} {:.9g} {} is above the limit of {:.9g} {}", where, fault_name(fault.kind),
+                           fault.value, fault.unit, fault.limit, fault.unit);
         break;
     case FaultKind::travel:
         what = fmt::format("{}: position {:.9g} mm is {} the travel limit of {:.9g} mm", where, fault.value,

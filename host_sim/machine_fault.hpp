@@ -8,15 +8,15 @@
 namespace splinefeed::host {
 
 enum class FaultKind : std::uint8_t {
-    chain,        ///< a segment does not start where the last one ended, in position or velocity
-    duration,     ///< a segment lasts no time
+    chain,    ///< a segment does not start where the last one ended, in position or velocity
+    duration, ///< a segment lasts no time
     velocity,
     acceleration,
     jerk,
-    feed,         ///< speed along the path
+    feed, ///< speed along the path
     travel,
-    underrun,     ///< the queue ran empty in motion
-    trace,        ///< the trace could not be written; finish() throws the reason
+    underrun, ///< the queue ran empty in motion
+    trace,    ///< the trace could not be written; finish() throws the reason
 };
 
 /// "chain", "velocity", ...
@@ -25,11 +25,11 @@ enum class FaultKind : std::uint8_t {
 /// The first thing that was wrong.
 struct Fault {
     FaultKind kind{};
-    std::string axis;        ///< empty: the path, or the whole machine
-    double time_s = 0.0;     ///< since the start of the first segment
-    double value = 0.0;      ///< in `unit`; chain: the gap
-    double limit = 0.0;      ///< as the machine file states it
-    const char* unit = "";   ///< "mm", "mm/s", ...
+    std::string axis;           ///< empty: the path, or the whole machine
+    double time_s = 0.0;        ///< since the start of the first segment
+    double value = 0.0;         ///< in `unit`; chain: the gap
+    double limit = 0.0;         ///< as the machine file states it
+    const char* unit = "";      ///< "mm", "mm/s", ...
     std::uint32_t waypoint = 0; ///< index of the nearest waypoint, from 0
 };
 

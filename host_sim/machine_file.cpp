@@ -178,7 +178,9 @@ private:
         }
         axis.max_velocity_mm_s = required(table, "max_velocity_mm_s", velocity_range, where);
         axis.max_acceleration_mm_s2 = required(table, "max_acceleration_mm_s2", acceleration_range, where);
-        axis.steps_per_mm = required(table, "steps_per_mm", steps_range, where);
+        if (const toml::node* steps = table.get("steps_per_mm")) { // without: a count is 1 um, as AxisSettings has it
+            axis.steps_per_mm = number(*steps, "steps_per_mm", steps_range);
+        }
         if (const toml::node* node = table.get("travel_mm")) {
             machine.travel[k] = travel(*node, axis.steps_per_mm);
         }

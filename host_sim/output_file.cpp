@@ -116,7 +116,9 @@ void OutputFile::open_temporary() {
     }
 }
 
-OutputFile::~OutputFile() { discard(); }
+OutputFile::~OutputFile() {
+    discard();
+}
 
 void OutputFile::discard() noexcept {
     if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // OutputFile: an output that is written whole or not at all.
 //
-// A regular file grows in a nameless (or hidden) temporary in the target's directory and replaces the target in one step
-// in commit(). Until then, and for ever if commit() is not reached, an existing target stays as it is.
+// A regular file grows in a nameless (or hidden) temporary in the target's directory and replaces the target in one
+// step in commit(). Until then, and for ever if commit() is not reached, an existing target stays as it is.
 #pragma once
 
 #include <fmt/format.h>

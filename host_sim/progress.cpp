@@ -18,19 +18,20 @@ constexpr std::size_t line_width = 79;
 
 // Progress is a courtesy: what a terminal does not take is dropped.
 void show(int descriptor, std::string_view text) noexcept {
-    static_cast<void>(!write(descriptor, text.data(), text.size()));
+    [[maybe_unused]] const ssize_t written = write(descriptor, text.data(), text.size());
 }
 
 std::string bar(double fraction) {
     const auto full = static_cast<std::size_t>(fraction * static_cast<double>(bar_width));
-    return fmt::format("[{}{}] {:3.0f} %  ", std::string(full, '#'), std::string(bar_width - full, '.'), fraction * 100.0);
+    return fmt::format("[{}{}] {:3.0f} %  ", std::string(full, '#'), std::string(bar_width - full, '.'),
+                       fraction * 100.0);
 }
 
 } // namespace
 
 Progress::Progress(const Options& options)
-    : waypoints_(options.waypoints), descriptor_(options.descriptor), shown_(!options.quiet && isatty(options.descriptor) == 1),
-      start_(Clock::now()), next_(start_ + redraw_period) {}
+    : waypoints_(options.waypoints), descriptor_(options.descriptor),
+      shown_(!options.quiet && isatty(options.descriptor) == 1), start_(Clock::now()), next_(start_ + redraw_period) {}
 
 std::string Progress::text(std::uint64_t waypoints, std::optional<std::uint64_t> all, double motion_s, double wall_s) {
     std::string line;

@@ -12,12 +12,12 @@ namespace splinefeed::host {
 struct ProgressOptions {
     bool quiet = false;
     std::optional<std::uint64_t> waypoints = std::nullopt; ///< how many there will be, where that is known
-    int descriptor = 2;                                        ///< standard error
+    int descriptor = 2;                                    ///< standard error
 };
 
-/// Shows waypoints read, seconds of motion planned and their rate, redrawn at most ten times a second, and erases the line
-/// at the end. Where the descriptor is no terminal it writes nothing at all.
-/// Cost of update(): a look at the clock every 64th time, nothing else between redraws.
+/// Shows waypoints read, seconds of motion planned and their rate, redrawn at most ten times a second, and erases the
+/// line at the end. Where the descriptor is no terminal it writes nothing at all. Cost of update(): a look at the clock
+/// every 64th time, nothing else between redraws.
 class Progress {
 public:
     using Options = ProgressOptions;

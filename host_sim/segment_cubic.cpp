@@ -15,9 +15,11 @@ namespace {
 
 // round(numerator / denominator), ties upwards, as floor(x + 1/2); the quotient fits in 64 bits.
 std::int64_t nearest_quotient(Wide128 numerator, std::int64_t denominator) noexcept {
-    const Wide128 shifted = numerator + denominator / 2; // an odd denominator has no ties: the lost half does not matter
+    const Wide128 shifted =
+        numerator + denominator / 2; // an odd denominator has no ties: the lost half does not matter
     if (shifted >= std::numeric_limits<std::int64_t>::min() && shifted <= std::numeric_limits<std::int64_t>::max()) {
-        const auto narrow = static_cast<std::int64_t>(shifted); // the usual case; 64 bit division is several times faster
+        const auto narrow =
+            static_cast<std::int64_t>(shifted); // the usual case; 64 bit division is several times faster
         return narrow / denominator - (narrow % denominator < 0 ? 1 : 0);
     }
     return static_cast<std::int64_t>(shifted / denominator - (shifted % denominator < 0 ? 1 : 0));

@@ -30,9 +30,9 @@ public:
     [[nodiscard]] double peak_u() const noexcept { return peak_u_; }
 
 private:
-    Wide128 a1_, a2_, a3_;   // position a1 u + a2 u^2 + a3 u^3 [units]
-    double b1_, b2_, b3_;    // velocity b1 + b2 u + b3 u^2 [mm/s]
-    double per_duration_;    // [1/s]
+    Wide128 a1_, a2_, a3_; // position a1 u + a2 u^2 + a3 u^3 [units]
+    double b1_, b2_, b3_;  // velocity b1 + b2 u + b3 u^2 [mm/s]
+    double per_duration_;  // [1/s]
     double peak_u_;
 };
 

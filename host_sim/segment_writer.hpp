@@ -9,8 +9,8 @@
 
 namespace splinefeed::host {
 
-/// `#` lines with the units, a header `index,duration_ticks,<axis>_start,<axis>_end,<axis>_v_start,<axis>_v_end,...`, one
-/// row a segment. No allocation per row. Errors: OutputError from the file.
+/// `#` lines with the units, a header `index,duration_ticks,<axis>_start,<axis>_end,<axis>_v_start,<axis>_v_end,...`,
+/// one row a segment. No allocation per row. Errors: OutputError from the file.
 class SegmentWriter {
 public:
     /// Writes the head. The caller commits the file, which must outlive the writer.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Tolerance. A control point of the stream is a position rounded to 2^-fraction_bits mm, then to a multiple of 6 units: it
-// is off by at most
+// Tolerance. A control point of the stream is a position rounded to 2^-fraction_bits mm, then to a multiple of 6 units:
+// it is off by at most
 //
 //   e = 2^-(fraction_bits + 1) mm + 3 units.
 //
-// Velocity, acceleration and jerk of the segment are its first, second, third differences over T, T^2, T^3, hence off by
-// at most e / T (the average of two first differences), 4 e / T^2 and 8 e / T^3. For 1000 counts per mm, e is 1.4 pm, and
-// 4 e / T^2 at 1 ms is 6e-9 of 1000 mm/s^2. The further 1e-6 is for the rounding of the curve itself.
+// Velocity, acceleration and jerk of the segment are its first, second, third differences over T, T^2, T^3, hence off
+// by at most e / T (the average of two first differences), 4 e / T^2 and 8 e / T^3. For 1000 counts per mm, e is 1.4
+// pm, and 4 e / T^2 at 1 ms is 6e-9 of 1000 mm/s^2. The further 1e-6 is for the rounding of the curve itself.
 #include "simulated_machine.hpp"
 
 #include "segment_cubic.hpp"
@@ -23,7 +23,9 @@ namespace {
 constexpr double tolerance = 1e-6;
 constexpr unsigned no_axis = static_cast<unsigned>(max_axes);
 
-bool is_linear(const std::string& name) { return name == "x" || name == "y" || name == "z"; }
+bool is_linear(const std::string& name) {
+    return name == "x" || name == "y" || name == "z";
+}
 
 } // namespace
 
@@ -32,10 +34,10 @@ struct SimulatedMachine::Motion {
     double start_s;
     double duration_s;
     PerAxis<SegmentCubic> cubic;
-    PerAxis<double> jump;         // of acceleration at the start, as jerk over one segment
+    PerAxis<double> jump;          // of acceleration at the start, as jerk over one segment
     PerAxis<bool> axis_suspicious; // some limit of the axis is violated somewhere
     bool suspicious;
-    double power;         // v . a at the last tick
+    double power; // v . a at the last tick
 };
 
 SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segments_per_sample, const Options& options)
@@ -50,7 +52,9 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
         Axis& axis = axis_[k];
         axis.units_per_mm = static_cast<double>(units_per_count) * settings.steps_per_mm;
         const double e = std::ldexp(1.0, -(Position::fraction_bits + 1)) + 3.0 / axis.units_per_mm;
-        const auto with_tolerance = [](double limit, double noise) { return Limit{limit, limit * (1.0 + tolerance), noise}; };
+        const auto with_tolerance = [](double limit, double noise) {
+            return Limit{limit, limit * (1.0 + tolerance), noise};
+        };
         axis.velocity = with_tolerance(settings.max_velocity_mm_s, e);
         axis.acceleration = with_tolerance(settings.max_acceleration_mm_s2, 4.0 * e);
         axis.jerk = with_tolerance(settings.max_jerk_mm_s3, 8.0 * e);
@@ -63,12 +67,15 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
         axis.on_path = !any_linear || is_linear(name_[k]);
         path_noise_sq += axis.on_path ? e * e : 0.0;
     }
-    feed_ = {machine.settings.max_feed_mm_s, machine.settings.max_feed_mm_s * (1.0 + tolerance), std::sqrt(path_noise_sq)};
+    feed_ = {machine.settings.max_feed_mm_s, machine.settings.max_feed_mm_s * (1.0 + tolerance),
+             std::sqrt(path_noise_sq)};
 }
 
 // ---- the port
 
-int SimulatedMachine::do_room() const noexcept { return static_cast<int>(queue_.size() - queued_); }
+int SimulatedMachine::do_room() const noexcept {
+    return static_cast<int>(queue_.size() - queued_);
+}
 
 bool SimulatedMachine::do_submit(const FeedSegment& segment) noexcept {
     if (fault_ || halted_ || queued_ == queue_.size()) {
@@ -163,13 +170,15 @@ bool SimulatedMachine::accept(const FeedSegment& segment) {
     for (unsigned k = 0; k < axes_; ++k) {
         const double units_per_mm = axis_[k].units_per_mm;
         if (started_ && segment.start[k] != position_[k]) {
-            const double gap = static_cast<double>(static_cast<Wide128>(segment.start[k]) - position_[k]) / units_per_mm;
+            const double gap =
+                static_cast<double>(static_cast<Wide128>(segment.start[k]) - position_[k]) / units_per_mm;
             return fail(FaultKind::chain, k, now, gap, 0.0, "mm", segment.waypoint);
         }
         const Wide128 gap = static_cast<Wide128>(segment.start_velocity[k]) * duration_ticks_ -
-                           static_cast<Wide128>(velocity_[k]) * segment.duration_ticks;
+                            static_cast<Wide128>(velocity_[k]) * segment.duration_ticks;
         if (gap != 0) {
-            const double mm_s = static_cast<double>(gap) / (units_per_mm * seconds(segment.duration_ticks) * duration_ticks_);
+            const double mm_s =
+                static_cast<double>(gap) / (units_per_mm * seconds(segment.duration_ticks) * duration_ticks_);
             return fail(FaultKind::chain, k, now, mm_s, 0.0, "mm/s", segment.waypoint);
         }
     }
@@ -240,8 +249,8 @@ void SimulatedMachine::survey(Motion& motion) noexcept {
         use.jerk = jerk_limited ? std::max(use.jerk, jerk / axis.jerk.limit) : 0.0;
         const double square = duration * duration;
         motion.axis_suspicious[k] = velocity > axis.velocity.most + axis.velocity.noise / duration ||
-                           acceleration > axis.acceleration.most + axis.acceleration.noise / square ||
-                           (jerk_limited && jerk > axis.jerk.most + axis.jerk.noise / (square * duration));
+                                    acceleration > axis.acceleration.most + axis.acceleration.noise / square ||
+                                    (jerk_limited && jerk > axis.jerk.most + axis.jerk.noise / (square * duration));
         motion.suspicious = motion.suspicious || motion.axis_suspicious[k];
     }
 }
@@ -308,8 +317,8 @@ bool SimulatedMachine::check_axes(const Motion& motion, int j) {
     return true;
 }
 
-// Path speed at tick j, and at its peak since tick j-1: where v . a changes from + to -. Near its peak the speed is flat:
-// four steps of false position (Illinois) leave less than 1e-9 of it.
+// Path speed at tick j, and at its peak since tick j-1: where v . a changes from + to -. Near its peak the speed is
+// flat: four steps of false position (Illinois) leave less than 1e-9 of it.
 bool SimulatedMachine::check_path(Motion& motion, int j) {
     const auto measure = [&](double u, double& power) {
         double speed_sq = 0.0;
@@ -367,7 +376,8 @@ bool SimulatedMachine::check_travel(const Motion& motion, unsigned k, std::int64
         return true;
     }
     const double limit = mm < axis.lowest ? axis.travel->low : axis.travel->high;
-    return fail(FaultKind::travel, k, motion.start_s + motion.duration_s * u, mm, limit, "mm", motion.segment->waypoint);
+    return fail(FaultKind::travel, k, motion.start_s + motion.duration_s * u, mm, limit, "mm",
+                motion.segment->waypoint);
 }
 
 } // namespace splinefeed::host

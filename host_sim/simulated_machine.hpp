@@ -35,17 +35,17 @@ struct LimitUse {
 };
 
 struct SimulationOptions {
-    bool enforce = true;       ///< false: limits are measured only (chain, duration and underrun are faults all the same)
+    bool enforce = true; ///< false: limits are measured only (chain, duration and underrun are faults all the same)
     int ticks_per_segment = 8; ///< rate of its own interpolation, 1 to 1024
     int queue = 64;            ///< segments that wait at most
     TraceSink* trace = nullptr;
 };
 
-/// Per segment: velocity, acceleration and jerk of an axis are checked over all of it, not only at ticks (acceleration is
-/// linear, velocity a parabola with a known peak). Per tick, `ticks_per_segment` times: position, counts, travel and path
-/// speed (with its peak between ticks). Tolerance: 1e-6 of the limit (of the travel) plus what rounding the control points
-/// of a segment explains; derivation in the .cpp.
-/// Memory: the queue. Cost of a segment: about 0.5 us for three axes and 8 ticks; no allocation but for a fault.
+/// Per segment: velocity, acceleration and jerk of an axis are checked over all of it, not only at ticks (acceleration
+/// is linear, velocity a parabola with a known peak). Per tick, `ticks_per_segment` times: position, counts, travel and
+/// path speed (with its peak between ticks). Tolerance: 1e-6 of the limit (of the travel) plus what rounding the
+/// control points of a segment explains; derivation in the .cpp. Memory: the queue. Cost of a segment: about 0.5 us for
+/// three axes and 8 ticks; no allocation but for a fault.
 class SimulatedMachine final : public hal::MotionPort {
 public:
     using Options = SimulationOptions;
@@ -93,7 +93,9 @@ private:
     hal::PortState do_poll() noexcept override;
     void do_halt() noexcept override;
 
-    [[nodiscard]] static double seconds(std::uint64_t ticks) noexcept { return static_cast<double>(ticks) / (ticks_per_us * 1e6); }
+    [[nodiscard]] static double seconds(std::uint64_t ticks) noexcept {
+        return static_cast<double>(ticks) / (ticks_per_us * 1e6);
+    }
     [[nodiscard]] bool moving() const noexcept;
     [[nodiscard]] double path_speed() const noexcept;
     bool execute(const FeedSegment& segment);
@@ -103,7 +105,8 @@ private:
     bool check_axes(const Motion& motion, int j);
     bool check_path(Motion& motion, int j);
     bool check_travel(const Motion& motion, unsigned k, std::int64_t position, double u);
-    bool fail(FaultKind kind, unsigned axis, double time_s, double value, double limit, const char* unit, std::uint32_t waypoint);
+    bool fail(FaultKind kind, unsigned axis, double time_s, double value, double limit, const char* unit,
+              std::uint32_t waypoint);
     void trace_row();
 
     PerAxis<Axis> axis_{};

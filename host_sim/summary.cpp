@@ -22,18 +22,27 @@ void row(Lines out, std::string_view label, const std::string& value, std::strin
 }
 
 // Lengths of a millionth of a millimetre are of interest and so are kilometres.
-std::string fine(double value) { return fmt::format("{:.3g}", value); }
+std::string fine(double value) {
+    return fmt::format("{:.3g}", value);
+}
 
-std::string percent(double use) { return fmt::format("{:.2f} %", use * 100.0); }
+std::string percent(double use) {
+    return fmt::format("{:.2f} %", use * 100.0);
+}
 
-std::string plural(std::uint64_t n, std::string_view thing) { return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s"); }
+std::string plural(std::uint64_t n, std::string_view thing) {
+    return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
 
 void write_limit_use(Lines out, const Summary& summary) {
     const auto& uses = summary.limit_use;
-    const bool any_jerk = std::any_of(uses.begin(), uses.end(), [](const Summary::AxisUse& use) { return use.jerk.has_value(); });
-    fmt::format_to(out, "\n{:<22}{:>14}{:>14}{}\n", "limits used", "velocity", "acceleration", any_jerk ? "          jerk" : "");
+    const bool any_jerk =
+        std::any_of(uses.begin(), uses.end(), [](const Summary::AxisUse& use) { return use.jerk.has_value(); });
+    fmt::format_to(out, "\n{:<22}{:>14}{:>14}{}\n", "limits used", "velocity", "acceleration",
+                   any_jerk ? "          jerk" : "");
     for (const Summary::AxisUse& use : uses) {
-        fmt::format_to(out, "{:<22}{:>14}{:>14}", "  axis " + use.axis, percent(use.velocity), percent(use.acceleration));
+        fmt::format_to(out, "{:<22}{:>14}{:>14}", "  axis " + use.axis, percent(use.velocity),
+                       percent(use.acceleration));
         if (any_jerk) {
             fmt::format_to(out, "{:>14}", use.jerk ? percent(*use.jerk) : "no limit");
         }
@@ -61,7 +70,8 @@ void write_sentences(Lines out, const Summary& summary) {
                        plural(summary.window_limited, "time"));
     }
     if (summary.stops > 0) {
-        fmt::format_to(out, "The machine stops at {} on the way, where the path turns sharply.\n", plural(summary.stops, "corner"));
+        fmt::format_to(out, "The machine stops at {} on the way, where the path turns sharply.\n",
+                       plural(summary.stops, "corner"));
     }
 }
 
@@ -126,7 +136,8 @@ std::string to_text(const Summary& summary) {
     row(out, "planner's memory", std::to_string(memory.curve + memory.feed_plan + memory.stream),
         fmt::format("bytes (curve {}, feed plan {}, stream {})", memory.curve, memory.feed_plan, memory.stream));
     if (summary.peak_rss_bytes > 0) {
-        row(out, "memory of the process", fmt::format("{:.1f}", static_cast<double>(summary.peak_rss_bytes) / 1048576.0), "MiB");
+        row(out, "memory of the process",
+            fmt::format("{:.1f}", static_cast<double>(summary.peak_rss_bytes) / 1048576.0), "MiB");
     }
     if (!summary.limit_use.empty()) {
         write_limit_use(out, summary);

@@ -37,11 +37,11 @@ struct Summary {
     std::optional<double> optimum_time_s; ///< lower bound of the cycle time; none: it was not computed
     double planning_time_s = 0.0;
     MemoryBytes memory_bytes;
-    bool stopped = false;               ///< the run ended before the program did
-    std::uint64_t window_limited = 0;   ///< how often the planning window was too short to tell the plan from the best
-    std::uint64_t stops = 0;            ///< corners where the feed is zero, ends not counted
-    double smoothing_bound_mm = 0.0;    ///< how far the emitted motion may be from the curve
-    std::uint64_t peak_rss_bytes = 0;   ///< memory of the process; 0: unknown
+    bool stopped = false;             ///< the run ended before the program did
+    std::uint64_t window_limited = 0; ///< how often the planning window was too short to tell the plan from the best
+    std::uint64_t stops = 0;          ///< corners where the feed is zero, ends not counted
+    double smoothing_bound_mm = 0.0;  ///< how far the emitted motion may be from the curve
+    std::uint64_t peak_rss_bytes = 0; ///< memory of the process; 0: unknown
 };
 
 /// One JSON object with the keys of the contract in its order, then those added since, and a line end. Under

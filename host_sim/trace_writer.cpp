@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A general conversion of a double to decimals must be right for any double and costs accordingly. Here the integer part
-// and the fraction are integers of at most 16 digits: splitting them is exact, scaling the fraction rounds once, to
-// 2^-53 of itself. The last decimal is therefore the nearest one, but for ties to within 1e-4 of its value.
+// A general conversion of a double to decimals must be right for any double and costs accordingly. Here the integer
+// part and the fraction are integers of at most 16 digits: splitting them is exact, scaling the fraction rounds once,
+// to 2^-53 of itself. The last decimal is therefore the nearest one, but for ties to within 1e-4 of its value.
 #include "trace_writer.hpp"
 
 #include <array>
@@ -50,7 +50,7 @@ char* write_fixed(char* out, double value) {
     }
     auto whole = static_cast<std::uint64_t>(size);
     const double fraction = (size - static_cast<double>(whole)) * static_cast<double>(scale);
-    auto decimals = static_cast<std::uint64_t>(fraction + 0.5);
+    auto decimals = static_cast<std::uint64_t>(std::llround(fraction));
     if (decimals >= scale) {
         decimals -= scale;
         ++whole;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Nearest point of a Bezier segment: the best of a few equidistant ones, then Newton's method for the root of
-// (C - P) . C' with the step halved until the distance falls. For a curve that passes its waypoint, the end of the segment
-// is that best one, and two steps reach the last bit; for one that only approaches it (control points), the result is
-// never below the true distance.
+// (C - P) . C' with the step halved until the distance falls. For a curve that passes its waypoint, the end of the
+// segment is that best one, and two steps reach the last bit; for one that only approaches it (control points), the
+// result is never below the true distance.
 #include "waypoint_error.hpp"
 
 #include <algorithm>

@@ -61,7 +61,8 @@ void WaypointReader::fail(std::string_view text) const {
     throw InputError(file_, line_, text);
 }
 
-WaypointReader::WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes, bool drop_absent_axes)
+WaypointReader::WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes,
+                               bool drop_absent_axes)
     : source_(input.rdbuf()), file_(std::move(file)), axes_(std::move(axes)), buffer_(std::size_t{1} << 16) {
     std::string_view line;
     if (!next_content(line)) {
@@ -117,7 +118,7 @@ bool WaypointReader::fill() {
         if (std::streambuf::traits_type::eq_int_type(source_->sgetc(), std::streambuf::traits_type::eof())) {
             return false;
         }
-        const std::streamsize room = static_cast<std::streamsize>(buffer_.size() - end_);
+        const auto room = static_cast<std::streamsize>(buffer_.size() - end_);
         const std::streamsize arrived = std::clamp<std::streamsize>(source_->in_avail(), 1, room);
         const std::streamsize taken = source_->sgetn(buffer_.data() + end_, arrived);
         end_ += static_cast<std::size_t>(taken);
@@ -172,7 +173,7 @@ bool WaypointReader::next_content(std::string_view& line) {
 }
 
 // A header has a letter first and no number anywhere.
-bool WaypointReader::is_header(std::string_view line) const {
+bool WaypointReader::is_header(std::string_view line) {
     std::string_view field;
     bool more = true;
     bool first = true;
@@ -282,8 +283,7 @@ void WaypointReader::parse(std::string_view line, WaypointRow& row) const {
         parse_field(field, column, row);
     }
     if (more) {
-        fail(fmt::format("values: {}; there must be {}, one for each column", count_fields(line),
-                         columns_.size()));
+        fail(fmt::format("values: {}; there must be {}, one for each column", count_fields(line), columns_.size()));
     }
 }
 

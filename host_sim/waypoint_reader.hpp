@@ -53,7 +53,7 @@ private:
     void read_header(std::string_view line);
     void assume_columns(std::string_view line);
     void drop_absent_axes();
-    [[nodiscard]] bool is_header(std::string_view line) const;
+    [[nodiscard]] static bool is_header(std::string_view line);
     void parse(std::string_view line, WaypointRow& row) const;
     void parse_field(std::string_view field, int column, WaypointRow& row) const;
     void check_move(const WaypointRow& row) const;

@@ -9,10 +9,10 @@ namespace splinefeed {
 /// Catmull-Rom curve with tension.
 ///
 /// Uniform: r'(P_i) = m (P_{i+1} - P_{i-1}), Borysenko & Ustenko (3); their printed b_x has the wrong sign of
-/// m (x3 - x1), see docs; m = 1/2 is the classical curve. Chordal and centripetal: the derivative of the parabola through
-/// three points at spans h_{i-1}, h_i, r' = (h_i e_{i-1}/h_{i-1} + h_{i-1} e_i/h_i) / (h_{i-1} + h_i), times 2 m
-/// (Barry & Goldman); both agree for equal spans. Ends by doubled end points: r' = m e / h.
-/// Class C1 in the knot parameter: the curvature jumps at waypoints. Interpolates; local: one waypoint of look-ahead.
+/// m (x3 - x1), see docs; m = 1/2 is the classical curve. Chordal and centripetal: the derivative of the parabola
+/// through three points at spans h_{i-1}, h_i, r' = (h_i e_{i-1}/h_{i-1} + h_{i-1} e_i/h_i) / (h_{i-1} + h_i), times 2
+/// m (Barry & Goldman); both agree for equal spans. Ends by doubled end points: r' = m e / h. Class C1 in the knot
+/// parameter: the curvature jumps at waypoints. Interpolates; local: one waypoint of look-ahead.
 template <Scalar S>
 class CatmullRom final : public WaypointCurve<S> {
 public:

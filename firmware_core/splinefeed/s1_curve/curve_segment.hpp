@@ -19,11 +19,11 @@ struct CurveSegment {
     int degree = 0;    ///< 1 to max_degree
     int unit_log2 = 0; ///< control is in units of 2^unit_log2 mm
     PerAxis<Position> origin{};
-    PerAxis<Position> end{};             ///< the exact target; meaningful where the machine stops at the end
-    PerAxis<PerDegree<S>> control{};     ///< control[axis][i], offset of Bezier point i from origin
-    S feed_mm_s{};                       ///< programmed feed; 0: the machine's
-    bool stop_at_end = false;            ///< the feed is zero at the end (a corner)
-    std::uint32_t waypoint = 0;          ///< index of the waypoint (or segment of a file) it leads to
+    PerAxis<Position> end{};         ///< the exact target; meaningful where the machine stops at the end
+    PerAxis<PerDegree<S>> control{}; ///< control[axis][i], offset of Bezier point i from origin
+    S feed_mm_s{};                   ///< programmed feed; 0: the machine's
+    bool stop_at_end = false;        ///< the feed is zero at the end (a corner)
+    std::uint32_t waypoint = 0;      ///< index of the waypoint (or segment of a file) it leads to
 
     /// Takes offsets in chord units (2^-12 mm) into `control`, choosing the unit. Cost: one pass.
     /// @pre axes, degree, origin are set; |offset| < 2^30 chord units

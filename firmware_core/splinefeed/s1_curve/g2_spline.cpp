@@ -3,22 +3,25 @@
 // Control point d_i is the blossom f(t_{i-1}, t_i, t_{i+1}) of the cubic pieces around knot i; at the clamped ends of a
 // run t_{a-1} = t_a, so d_a is the first inner Bezier point. With spans h_i = t_{i+1} - t_i (0 beyond the run):
 //
-//   before knot i:  f(t_{i-1}, t_i, t_i)   = lambda d_{i-1} + (1 - lambda) d_i,  lambda = h_i / (h_{i-2} + h_{i-1} + h_i)
-//   after knot i:   f(t_i, t_i, t_{i+1})   = (1 - mu) d_i + mu d_{i+1},          mu = h_{i-1} / (h_{i-1} + h_i + h_{i+1})
-//   at knot i:      f(t_i, t_i, t_i) = P_i = (1 - omega) before + omega after,   omega = h_{i-1} / (h_{i-1} + h_i)
+//   before knot i:  f(t_{i-1}, t_i, t_i)   = lambda d_{i-1} + (1 - lambda) d_i,  lambda = h_i / (h_{i-2} + h_{i-1} +
+//   h_i) after knot i:   f(t_i, t_i, t_{i+1})   = (1 - mu) d_i + mu d_{i+1},          mu = h_{i-1} / (h_{i-1} + h_i +
+//   h_{i+1}) at knot i:      f(t_i, t_i, t_i) = P_i = (1 - omega) before + omega after,   omega = h_{i-1} / (h_{i-1} +
+//   h_i)
 //
 // The last line, read as an equation for the d, is the interpolation condition: a tridiagonal, totally positive system.
-// Written in the offsets delta_i = d_i - P_i it holds differences of waypoints only, a = (1-omega) lambda, c = omega mu:
+// Written in the offsets delta_i = d_i - P_i it holds differences of waypoints only, a = (1-omega) lambda, c = omega
+// mu:
 //
 //   a delta_{i-1} + (1 - a - c) delta_i + c delta_{i+1} = a (P_i - P_{i-1}) - c (P_{i+1} - P_i)
 //
 // so the result does not move with the origin and single precision suffices far from it.
-// Natural start (b0 - 2 b1 + b2 = 0): (1 + f) delta_a - f delta_{a+1} = f e_a, f = h_a / (h_a + h_{a+1}); the end likewise.
+// Natural start (b0 - 2 b1 + b2 = 0): (1 + f) delta_a - f delta_{a+1} = f e_a, f = h_a / (h_a + h_{a+1}); the end
+// likewise.
 //
-// Streaming: rows are eliminated once, in order (delta_i = rho_i - gamma_i delta_{i+1}). A control point is committed by
-// back-substitution from the newest row, closed there by delta_{R+1} = delta_R; the influence of that guess falls by
-// 0.268 per knot for even spacing (measured: 2e-8 mm at spacings of 1000:1, too). Row i+1 never depends on what was committed, so the miss
-// does not accumulate.
+// Streaming: rows are eliminated once, in order (delta_i = rho_i - gamma_i delta_{i+1}). A control point is committed
+// by back-substitution from the newest row, closed there by delta_{R+1} = delta_R; the influence of that guess falls by
+// 0.268 per knot for even spacing (measured: 2e-8 mm at spacings of 1000:1, too). Row i+1 never depends on what was
+// committed, so the miss does not accumulate.
 #include "splinefeed/s1_curve/g2_spline.hpp"
 
 namespace splinefeed {
@@ -56,8 +59,7 @@ bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
         const S weight = f / (one + f);
         const bool given = tangents_.has_start && i == 0;
         for (unsigned k = 0; k < axes_u; ++k) {
-            here.rho[k] =
-                given ? tangents_.start[k] * knot.length / from_integer<S>(3) : weight * knot.chord[k];
+            here.rho[k] = given ? tangents_.start[k] * knot.length / from_integer<S>(3) : weight * knot.chord[k];
         }
         here.gamma = given ? S{} : -weight;
         here.lambda = here.mu = here.omega = S{};
@@ -101,11 +103,13 @@ void G2Spline<S>::commit(std::uint64_t i) noexcept {
     close_seam(i);
 }
 
-// A closed curve meets itself exactly: the three offsets around the seam are kept when they are first committed and used
-// again when the path comes back to them.
+// A closed curve meets itself exactly: the three offsets around the seam are kept when they are first committed and
+// used again when the path comes back to them.
 template <Scalar S>
 void G2Spline<S>::close_seam(std::uint64_t i) noexcept {
-    const auto role = [this](std::uint64_t j) { return this->knot(j).role; };
+    const auto role = [this](std::uint64_t j) {
+        return this->knot(j).role;
+    };
     for (unsigned slot = 0; slot < 3; ++slot) { // i is the knot before (0), at (1), after (2) the seam
         const std::uint64_t seam = i + 1 - slot;
         const bool beyond_run = slot == 0 && i > first_ && this->knot(i).breaks;
@@ -159,7 +163,9 @@ Pull G2Spline<S>::next(CurveSegment<S>& out) noexcept {
             return this->finished_ ? Pull::finished : Pull::starved;
         }
         // Row i + 15 needs knot i + 17: 16 waypoints past the end of segment i.
-        const auto ended = [this] { return rows_end_ > first_ + 1 && this->knot(rows_end_ - 1).breaks; };
+        const auto ended = [this] {
+            return rows_end_ > first_ + 1 && this->knot(rows_end_ - 1).breaks;
+        };
         while (!ended() && rows_end_ < i + look_ahead && eliminate_row(rows_end_)) {
             ++rows_end_;
         }

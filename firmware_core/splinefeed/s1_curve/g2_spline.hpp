@@ -21,10 +21,10 @@ struct EndTangents {
 };
 
 /// Class C2 in the knot parameter, hence G2, within a run; broken at corners. Interpolates (within 0.268^13 of the
-/// local second difference for even spacing; 2e-8 mm measured on spacings of 1000:1). Look-ahead: 16 waypoints past the end of the segment.
-/// Cost per waypoint: one elimination step (one division by the pivot) and 14 steps of back-substitution per axis.
-/// Source: de Boor's interpolation conditions by blossoms; Schoenberg-Whitney holds, total positivity makes elimination
-/// without pivoting stable.
+/// local second difference for even spacing; 2e-8 mm measured on spacings of 1000:1). Look-ahead: 16 waypoints past the
+/// end of the segment. Cost per waypoint: one elimination step (one division by the pivot) and 14 steps of
+/// back-substitution per axis. Source: de Boor's interpolation conditions by blossoms; Schoenberg-Whitney holds, total
+/// positivity makes elimination without pivoting stable.
 template <Scalar S>
 class G2Spline final : public WaypointCurve<S> {
 public:

@@ -89,9 +89,9 @@ Status WaypointCurve<S>::finish() noexcept {
     return {};
 }
 
-// Turn angle between the chords at knot i against the corner angle; the file's corner column overrides it. A move a million
-// times longer than its neighbour is a corner in any case: the pivots of a spline over both would have no bits left in
-// Fixed, and the short one is out of sight of the long one.
+// Turn angle between the chords at knot i against the corner angle; the file's corner column overrides it. A move a
+// million times longer than its neighbour is a corner in any case: the pivots of a spline over both would have no bits
+// left in Fixed, and the short one is out of sight of the long one.
 template <Scalar S>
 void WaypointCurve<S>::decide_corner(std::uint64_t i) noexcept {
     Knot<S>& here = knot(i);

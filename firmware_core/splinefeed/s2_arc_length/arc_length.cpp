@@ -5,15 +5,15 @@ namespace splinefeed {
 
 namespace {
 
-// Control points are below 2^16 units; 24 of their roundings enter a second derivative of a cubic, twice that is allowed.
-// Rounding is no reason to halve: halving makes it larger in proportion.
+// Control points are below 2^16 units; 24 of their roundings enter a second derivative of a cubic, twice that is
+// allowed. Rounding is no reason to halve: halving makes it larger in proportion.
 template <Scalar S>
 constexpr S control_noise = literal<S>(1e-8);
 template <>
 constexpr float control_noise<float> = 48.0F * 65536.0F / 16777216.0F;
 
-// A segment is 2^15 units long. A tangent below this is a cusp, a polygon below it is nothing: 2^-30 of the segment (and in any
-// case 2e-8 mm, below which Fixed has no digits for a length).
+// A segment is 2^15 units long. A tangent below this is a cusp, a polygon below it is nothing: 2^-30 of the segment
+// (and in any case 2e-8 mm, below which Fixed has no digits for a length).
 template <Scalar S>
 constexpr S nothing = literal<S>(1.0 / 16384.0);
 template <>
@@ -156,8 +156,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const auto per_mm = [this](S x) {
         return smaller(quotient_or_max(x, m_.length_mm), from_integer<S>(PieceMeasure<S>::sharpest));
     };
-    const S error =
-        absolute(m_.middle_slope * m_.sigma[1] - m_.length) + absolute(m_.length - m_.low_order_length);
+    const S error = absolute(m_.middle_slope * m_.sigma[1] - m_.length) + absolute(m_.length - m_.low_order_length);
     const S ripple = per_mm(from_integer<S>(40) * error / m_.length);
     const S noise = per_mm(control_noise<S> / m_.slowest);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
@@ -172,9 +171,9 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
             out.power[k][i] = binomial * difference[i];
         }
         out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<S>(1));
-        // What is left of the inverse's error looks like c x^3 (1-x)^3 (x-1/2): with the slope e in the middle its second
-        // derivative reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, since the
-        // middle does not see all of it. Rounding of the control points bends the curve.
+        // What is left of the inverse's error looks like c x^3 (1-x)^3 (x-1/2): with the slope e in the middle its
+        // second derivative reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed
+        // for, since the middle does not see all of it. Rounding of the control points bends the curve.
         out.curvature_max[k] = smaller(PieceMeasure<S>::bound(m_.second, k) + out.tangent_max[k] * ripple + noise,
                                        from_integer<S>(PieceMeasure<S>::sharpest));
     }
@@ -254,8 +253,8 @@ Pull ArcLength<S>::load() noexcept {
     }
     has_ahead_ = pull == Pull::item;
     stop_after_ = current().stop_at_end || !has_ahead_ || jumps(current(), ahead);
-    const S feed = current().feed_mm_s > S{} ? smaller(current().feed_mm_s, refinement_.max_feed_mm_s)
-                                             : refinement_.max_feed_mm_s;
+    const S feed =
+        current().feed_mm_s > S{} ? smaller(current().feed_mm_s, refinement_.max_feed_mm_s) : refinement_.max_feed_mm_s;
     // Not below 2 nm, which still resolves in Fixed.
     nothing_ = larger(nothing<S>, scale2(literal<S>(2e-8), -current().unit_log2));
     grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));

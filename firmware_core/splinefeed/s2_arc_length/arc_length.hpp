@@ -12,13 +12,13 @@ namespace splinefeed {
 /// decide alike and their traces stay comparable.
 template <Scalar S>
 struct Refinement {
-    S longest_mm{};          ///< longest cell (the resolution of the parameter w in Fixed and float)
-    S max_feed_mm_s{};       ///< feed of segments that program none
-    S grade_per_feed_sq{};   ///< cells next to a joint are at most feed^2 times this: a fraction of the braking distance
-    S direction_jump{};      ///< a larger change of dq/ds at a joint is a corner, and a stop
-    S turn = literal<S>(0.0613);            ///< largest change of direction within a cell [rad]
+    S longest_mm{};        ///< longest cell (the resolution of the parameter w in Fixed and float)
+    S max_feed_mm_s{};     ///< feed of segments that program none
+    S grade_per_feed_sq{}; ///< cells next to a joint are at most feed^2 times this: a fraction of the braking distance
+    S direction_jump{};    ///< a larger change of dq/ds at a joint is a corner, and a stop
+    S turn = literal<S>(0.0613);             ///< largest change of direction within a cell [rad]
     S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
-    S curvature_bend = literal<S>(0.0037);  ///< the same for the second difference of curvature
+    S curvature_bend = literal<S>(0.0037);   ///< the same for the second difference of curvature
     S metric_ratio = literal<S>(1.487);      ///< largest ratio of two |dr/dw| within a cell
     /// largest relative difference of a 4th and a 6th order length; float cannot tell less
     S metric_error = literal<S>(std::same_as<S, float> ? 1.13e-5 : 1.13e-6);
@@ -26,10 +26,10 @@ struct Refinement {
     S inverse_error = literal<S>(std::same_as<S, float> ? 3.1e-5 : 3.1e-6);
 };
 
-/// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its direction and
-/// curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the pieces shrink
-/// until next to nothing is left, and the machine passes that from stop to stop.
-/// Memory: two segments and a stack of pieces. Cost per cell: three evaluations with two derivatives.
+/// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its
+/// direction and curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the
+/// pieces shrink until next to nothing is left, and the machine passes that from stop to stop. Memory: two segments and
+/// a stack of pieces. Cost per cell: three evaluations with two derivatives.
 template <Scalar S>
 class ArcLength {
 public:

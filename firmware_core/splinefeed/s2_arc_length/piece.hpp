@@ -19,7 +19,7 @@ struct Piece {
 /// Derivation: piece.cpp. Cost: one de Casteljau triangle, three roots, 3 + 3 + 3 divisions per axis count.
 template <Scalar S>
 struct PieceMeasure {
-    static constexpr int points = 3;           // w = 0, 1/2, 1
+    static constexpr int points = 3;         // w = 0, 1/2, 1
     static constexpr int sharpest = 1 << 24; ///< curvatures beyond are as good as infinite [1/mm]
 
     PerAxis<PerDegree<S>> left{}; ///< the halves, by de Casteljau at 1/2

@@ -34,7 +34,8 @@ FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::
 template <Scalar S>
 void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
-    const S feed = cell.feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.feed_mm_s), limits_.feed_mm_s) : limits_.feed_mm_s;
+    const S feed =
+        cell.feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.feed_mm_s), limits_.feed_mm_s) : limits_.feed_mm_s;
     S speed = feed;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         if (cell.tangent_max[k] * speed > limits_.velocity_mm_s[k]) {
@@ -129,7 +130,8 @@ Pull FeedPlan<S>::prepare() noexcept {
         }
         if (pull == Pull::item) {
             bound(slot);
-            if (slot.cell.stop_before && size_ > 0) { // the newest cell is never committed before its successor is known
+            if (slot.cell.stop_before &&
+                size_ > 0) { // the newest cell is never committed before its successor is known
                 Cell<S>& before = at(size_ - 1).cell;
                 before.stop_at_end = true;
                 before.end = slot.cell.origin;

@@ -24,15 +24,15 @@ struct PlannedCell {
     Cell<S> cell{};
     S entry_sq{};
     S exit_sq{};
-    S cap_sq{};           ///< largest v^2 anywhere in the cell
-    PerAxis<S> reach{};   ///< v1^2 <= reach + carry v0^2, from either end
+    S cap_sq{};         ///< largest v^2 anywhere in the cell
+    PerAxis<S> reach{}; ///< v1^2 <= reach + carry v0^2, from either end
     PerAxis<S> carry{};
-    S reach_from_rest{};  ///< the smallest reach: v1^2 at most when v0 = 0
+    S reach_from_rest{}; ///< the smallest reach: v1^2 at most when v0 = 0
 };
 
-/// Stage 3. The window is the caller's storage. The plan in the window always ends at rest, so whatever is committed can
-/// stop within what is known. Committed values never change.
-/// Cost: amortised at most four visits a cell, each one product and sum per axis; independent of the program's length.
+/// Stage 3. The window is the caller's storage. The plan in the window always ends at rest, so whatever is committed
+/// can stop within what is known. Committed values never change. Cost: amortised at most four visits a cell, each one
+/// product and sum per axis; independent of the program's length.
 template <Scalar S>
 class FeedPlan {
 public:
@@ -52,7 +52,9 @@ public:
 
 private:
     [[nodiscard]] PlannedCell<S>& at(std::size_t i) noexcept { return window_[(head_ + i) % window_.size()]; }
-    [[nodiscard]] const PlannedCell<S>& at(std::size_t i) const noexcept { return window_[(head_ + i) % window_.size()]; }
+    [[nodiscard]] const PlannedCell<S>& at(std::size_t i) const noexcept {
+        return window_[(head_ + i) % window_.size()];
+    }
 
     void bound(PlannedCell<S>& planned) const noexcept;
     [[nodiscard]] S reachable(const PlannedCell<S>& planned, S from_sq) const noexcept;

@@ -39,15 +39,15 @@ struct MotionLimits {
     PerAxis<S> velocity_mm_s{};
     PerAxis<S> acceleration_mm_s2{};
     PerAxis<std::uint64_t> steps_per_mm_q32{}; ///< counts per mm, 32 fraction bits
-    S feed_mm_s{};                 ///< what planning may use of max_feed_mm_s
-    S usable{};                    ///< the part of a limit that planning may use, but for the noise of positions
+    S feed_mm_s{};                             ///< what planning may use of max_feed_mm_s
+    S usable{}; ///< the part of a limit that planning may use, but for the noise of positions
     S feed_noise_mm_s{};
-    S jump_mm_s{};                 ///< largest jump of the speed that rounding may cause at a joint of cells
-    S centripetal_mm_s2{};         ///< 0: none
-    S chord_mm_s2{};               ///< 8 e / T^2, to be divided by the curvature; 0: none
-    S segments_per_s{};            ///< feed segments a second
+    S jump_mm_s{};                   ///< largest jump of the speed that rounding may cause at a joint of cells
+    S centripetal_mm_s2{};           ///< 0: none
+    S chord_mm_s2{};                 ///< 8 e / T^2, to be divided by the curvature; 0: none
+    S segments_per_s{};              ///< feed segments a second
     std::uint32_t segment_ticks = 0; ///< duration of a feed segment
-    int segments_per_sample = 1;   ///< feed segments per sample period
+    int segments_per_sample = 1;     ///< feed segments per sample period
     Refinement<S> refinement{};
 
     /// What planning may use of a programmed feed; at least half of it.
@@ -97,7 +97,8 @@ constexpr double speed_noise(double error_mm, double segment_s) noexcept {
 
 /// Longest cell [mm]: its parameter resolves `error` of it, which must stay below `share` of the acceleration and ten
 /// times that of the feed.
-constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double segment_s) noexcept {
+constexpr double longest_cell_mm(double error, double share, double acceleration, double feed,
+                                 double segment_s) noexcept {
     const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
     const double by_feed = 10.0 * share * feed * segment_s / (2.0 * error);
     const double length = by_acceleration < by_feed ? by_acceleration : by_feed;
@@ -178,8 +179,8 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     const double segment_s = period_s / n;
     constexpr double usable = 1.0 - detail::usable_margin<S>;
     double feed_noise = 0.0;
-    const double longest =
-        detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest, settings.max_feed_mm_s, segment_s);
+    const double longest = detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest,
+                                                   settings.max_feed_mm_s, segment_s);
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
         const AxisSettings& axis = settings.axis[k];
         // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30).

@@ -6,23 +6,23 @@
 //   (c_{k+1} - 2 c_k + c_{k-1}) / T^2     to the same of k+1,
 //
 // its acceleration linear in between. A first, second or third difference of samples over T, T^2, T^3 is an average of
-// q', q'' or q''' over the samples' span, hence inside any limit that the plan keeps. p differs from c_k by a sixth of a
-// second difference: at most T^2 |A| / 6.
+// q', q'' or q''' over the samples' span, hence inside any limit that the plan keeps. p differs from c_k by a sixth of
+// a second difference: at most T^2 |A| / 6.
 //
-// Control points are rounded to multiples of 6 units; then p and 3 (c_{k+1} - c_{k-1}), the velocity in units per segment,
-// are whole numbers and the chain is C2 in exact arithmetic. Nothing accumulates: every control point is rounded from an
-// absolute position.
+// Control points are rounded to multiples of 6 units; then p and 3 (c_{k+1} - c_{k-1}), the velocity in units per
+// segment, are whole numbers and the chain is C2 in exact arithmetic. Nothing accumulates: every control point is
+// rounded from an absolute position.
 //
-// At a stop the control point is repeated three times: position exact, velocity and acceleration zero at one instant. The
-// dwell is 2 T and what is left of the current T.
+// At a stop the control point is repeated three times: position exact, velocity and acceleration zero at one instant.
+// The dwell is 2 T and what is left of the current T.
 #include "splinefeed/s4_segment_stream/segment_stream.hpp"
 
 namespace splinefeed {
 
 namespace {
 
-// Arriving up to this fraction of a segment early counts as arriving: an exact multiple of the segment duration must not
-// be decided by rounding. The control point moves by A (T/1024)^2 / 2, a 2e-6 part of a second difference.
+// Arriving up to this fraction of a segment early counts as arriving: an exact multiple of the segment duration must
+// not be decided by rounding. The control point moves by A (T/1024)^2 / 2, a 2e-6 part of a second difference.
 constexpr double arrival = 1.0 / 1024.0;
 
 // From 2^-40 mm times Q32.32 counts per mm to multiples of 6 units: 6 units are 2^-29 counts.
@@ -58,16 +58,17 @@ Pull SegmentStream<S>::enter_cell() noexcept {
     const S twice = (planned.cell.length_mm + planned.cell.length_mm) * segments_per_s_;
     // The mean speed over constant acceleration is (v0 + v1) / 2; never integrate ds / v.
     hop_ = !(sum > S{});
-    duration_ = quotient_or_max(twice, hop_ ? square_root(scale2(planned.reach_from_rest, -1)) : sum);
+    duration_ = quotient_or_max(twice, hop_ ? square_root(scale2(planned.reach_from_rest, -2)) : sum);
     entry_ = quotient_or_max(v0 + v0, sum);
     waypoint_ = planned.cell.waypoint;
     in_cell_ = true;
     return Pull::item;
 }
 
-// Fraction of the cell's length after the fraction y of its time: constant acceleration. A cell between two stops (a crumb
-// between cusps, as a rule) is accelerated for half of its length and braked for the other: from rest the whole length would
-// reach v^2 = reach, so half of it reaches reach / 2, and the mean speed is half of that v.
+// Fraction of the cell's length after the fraction y of its time: constant acceleration. A cell between two stops (a
+// crumb between cusps, as a rule) is accelerated for half of its length and braked for the other. From rest the whole
+// length would reach v^2 = reach, half of it reach / 2; half of that is used, since a crumb's length has few digits in
+// Fixed.
 template <Scalar S>
 S SegmentStream<S>::position_in_cell() const noexcept {
     const S one = from_integer<S>(1);
