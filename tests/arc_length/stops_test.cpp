@@ -108,8 +108,8 @@ TEMPLATE_TEST_CASE("cells carry feed and waypoint of their segment", "[arc_lengt
 }
 
 TEMPLATE_TEST_CASE("cells are graded towards stops", "[arc_length]", double, Fixed) {
-    // From a stop the first cell is at most 1/7.3 of the braking distance feed^2 / (2 A); slow feeds: 2 nm at least, or
-    // as far as a piece can be halved: to 1/128 unit of 2^15.
+    // From a stop the first cell is at most 1/7.3 of the braking distance feed^2 / (2 A), as far as a segment can be
+    // halved: 18 times.
     for (const double feed : {1.0, 10.0, 100.0}) {
         for (const double acceleration : {100.0, 1000.0, 10000.0}) {
             MachineSettings machine;
@@ -126,7 +126,7 @@ TEMPLATE_TEST_CASE("cells are graded towards stops", "[arc_length]", double, Fix
                     const double own = std::min(100.0, path[cells[i].waypoint].feed_mm_s);
                     const double grade = own * own / (7.3 * 2.0 * acceleration);
                     // 2 %: the reciprocal of the largest acceleration has few bits in Fixed
-                    CHECK(to_double(cells[i].length_mm) <= std::max(grade, 2e-5) * 1.02);
+                    CHECK(to_double(cells[i].length_mm) <= std::max(grade, 22.4 / (1 << 18)) * 1.02);
                 }
             }
         }
@@ -138,15 +138,32 @@ TEMPLATE_TEST_CASE("cells are graded towards stops", "[arc_length]", double, Fix
     }
 }
 
+TEMPLATE_TEST_CASE("a smooth joint costs three halvings, not a grading", "[arc_length]", double, Fixed) {
+    const auto cells =
+        cut<TestType>({line_shape(2, 3, {20.0, 0.0}), line_shape(2, 3, {20.0, 0.0}), line_shape(2, 3, {20.0, 0.0})});
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+        if (cells[i].waypoint == 1) {
+            CHECK(to_double(cells[i].length_mm) > 20.0 / 8.5);
+        }
+    }
+}
+
 TEMPLATE_TEST_CASE("a cusp inside of a segment is a stop", "[arc_length]", double, Fixed) {
     for (const BezierShape& shape :
          {cubic_shape(10.0, 10.0, 0.0, 10.0, 10.0, 0.0), cubic_shape(1.0, 0.0, 1.0, 0.0, 0.0, 0.0)}) {
         const auto cells = cut<TestType>({shape, line_shape(2, 1, {-5.0, 0.0})});
-        int cusps = 0;
-        for (const auto& cell : cells) {
-            cusps += cell.stop_before ? 1 : 0;
+        std::size_t chords = 0;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            // What is left of the cusp is one chord, a nothing, with a stop on both sides
+            if (is_chord(cells[i])) {
+                ++chords;
+                REQUIRE(i + 1 < cells.size());
+                CHECK(cells[i].stop_before);
+                CHECK(cells[i + 1].stop_before);
+                CHECK(to_double(cells[i].length_mm) < 1e-3);
+            }
         }
-        CHECK(cusps == 1);
+        CHECK(chords == 1);
         CHECK(stops_of(cells).back() == 1);
     }
 }

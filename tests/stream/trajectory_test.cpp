@@ -16,10 +16,8 @@ public:
     Clock(const std::vector<PlannedCell<S>>& cells, Real segment_s) : cells_(&cells), segment_s_(segment_s) {
         Real now = 0.0L;
         for (const PlannedCell<S>& c : cells) {
-            const Real v0 = std::sqrt(exact(c.entry_sq));
-            const Real v1 = std::sqrt(exact(c.exit_sq));
             start_.push_back(now);
-            seconds_.push_back(2.0L * exact(c.cell.length_mm) / (v0 + v1));
+            seconds_.push_back(seconds_in(c));
             now += seconds_.back();
             if (c.cell.stop_at_end) {
                 // The rest of the segment and two more: the control point repeats
@@ -36,7 +34,7 @@ public:
         const Real v0 = std::sqrt(exact(c.entry_sq));
         const Real v1 = std::sqrt(exact(c.exit_sq));
         const Real t = time - start_[now_];
-        if (t > seconds_[now_]) {
+        if (t > seconds_[now_] || v0 + v1 == 0.0L) {
             return false;
         }
         speed = v0 + (v1 - v0) * t / seconds_[now_];

@@ -60,16 +60,18 @@ Real inverse_at(const Cell<S>& cell, Real x, Real& slope) {
     return w * x;
 }
 
-/// Piece of a cusp that stands for its chord; its curvature is stated as infinite.
-template <Scalar S>
-bool is_chord(const Cell<S>& cell) {
-    return cell.degree == 1 && exact(cell.curvature_max[0]) == static_cast<Real>(PieceMeasure<S>::sharpest);
-}
-
-/// A piece that is taken as it is, because another halving would only add rounding: 1/128 unit of 2^15 (float: 16).
+/// A piece that is taken as it is, because another halving would only add rounding: at the deepest level a piece is
+/// 2^-18 of its segment, 1/4 unit (float: 16 units).
 template <Scalar S>
 constexpr Real finest_units() {
-    return std::same_as<S, float> ? 16.0L : 1.0L / 128.0L;
+    return std::same_as<S, float> ? 16.0L : 1.0L / 4.0L;
+}
+
+/// What is left of a cusp is passed as its chord, from stop to stop: a line shorter than a few finest pieces.
+template <Scalar S>
+bool is_chord(const Cell<S>& cell) {
+    return cell.degree == 1 && cell.stop_before &&
+           exact(cell.length_mm) <= std::max(8.0L * std::ldexp(finest_units<S>(), cell.unit_log2), 1.1e-8L);
 }
 
 /// Smallest |dr/dw| over the cell, in units of the segment: what rounding has to be compared with.

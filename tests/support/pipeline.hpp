@@ -23,6 +23,13 @@ inline MachineSettings machine_of(int axes, double velocity, double acceleration
     return machine;
 }
 
+/// Time for a planned cell. One between two stops is accelerated over half of its length and braked over the other.
+template <Scalar S>
+Real seconds_in(const PlannedCell<S>& c) {
+    const Real sum = std::sqrt(exact(c.entry_sq)) + std::sqrt(exact(c.exit_sq));
+    return 2.0L * exact(c.cell.length_mm) / (sum > 0.0L ? sum : std::sqrt(exact(c.reach_from_rest) / 2.0L));
+}
+
 /// What the plan of a whole path was, and how it came about.
 template <Scalar S>
 struct Planned {
@@ -33,8 +40,7 @@ struct Planned {
     [[nodiscard]] double seconds() const {
         double sum = 0.0;
         for (const PlannedCell<S>& c : cells) {
-            sum += 2.0 * to_double(c.cell.length_mm) /
-                   (std::sqrt(to_double(c.entry_sq)) + std::sqrt(to_double(c.exit_sq)));
+            sum += static_cast<double>(seconds_in(c));
         }
         return sum;
     }
