@@ -148,6 +148,16 @@ TEMPLATE_TEST_CASE("a smooth joint costs three halvings, not a grading", "[arc_l
     }
 }
 
+TEMPLATE_TEST_CASE("a line behind a curve is straight", "[arc_length]", double, float, Fixed) {
+    const BezierPath path{cubic_shape(1.0, 3.0, 2.0, -3.0, 4.0, 0.0), line_shape(2, 1, {10.0, 5.0})};
+    for (const auto& cell : cut<TestType>(path)) {
+        if (cell.waypoint == 1) {
+            // What rounding may be: 1e-8 of the unit (float: 0.2), seen over cells of more than 1e-4 mm
+            CHECK(to_double(cell.curvature_max[0]) < (std::same_as<TestType, float> ? 1.0 : 1e-3));
+        }
+    }
+}
+
 TEMPLATE_TEST_CASE("a cusp inside of a segment is a stop", "[arc_length]", double, Fixed) {
     for (const BezierShape& shape :
          {cubic_shape(10.0, 10.0, 0.0, 10.0, 10.0, 0.0), cubic_shape(1.0, 0.0, 1.0, 0.0, 0.0, 0.0)}) {

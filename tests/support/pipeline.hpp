@@ -27,7 +27,7 @@ inline MachineSettings machine_of(int axes, double velocity, double acceleration
 template <Scalar S>
 Real seconds_in(const PlannedCell<S>& c) {
     const Real sum = std::sqrt(exact(c.entry_sq)) + std::sqrt(exact(c.exit_sq));
-    return 2.0L * exact(c.cell.length_mm) / (sum > 0.0L ? sum : std::sqrt(exact(c.reach_from_rest) / 2.0L));
+    return 2.0L * exact(c.cell.length_mm) / (sum > 0.0L ? sum : std::sqrt(exact(c.reach_from_rest)) / 2.0L);
 }
 
 /// What the plan of a whole path was, and how it came about.
