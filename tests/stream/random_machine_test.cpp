@@ -132,6 +132,27 @@ TEMPLATE_TEST_CASE("an uneven parameter does not shake the axis", "[stream]", do
     }
 }
 
+TEMPLATE_TEST_CASE("a slow middle of a segment does not shake the axis", "[stream]", double, Fixed) {
+    // Many uneven parameters at one speed: among them cells in whose middle the speed along the parameter is least,
+    // where the error of the inverse does not show in the middle
+    Random random(3);
+    const MachineSettings machine = machine_of(2, 1000.0, 1000.0, 1000.0);
+    for (int run = 0; run < 30; ++run) {
+        BezierPath path;
+        for (int i = 0; i < 30; ++i) {
+            const double d = random.decades(5.0, 100.0);
+            const double x = random.between(0.05, 0.9);
+            const double y = random.between(x, 0.95);
+            path.push_back(cubic_shape(d * x, 0.0, d * y, 0.0, d, 0.0));
+        }
+        const Stream stream = stream_of<TestType>(path, machine, 4096);
+        Used used;
+        REQUIRE(std::string(check_stream(stream.segments, machine, used)).empty());
+        CAPTURE(run);
+        CHECK(used.acceleration <= 1.0L);
+    }
+}
+
 TEMPLATE_TEST_CASE("cusps inside of a segment keep every limit", "[stream]", double, Fixed) {
     for (const double acceleration : {10.0, 1000.0, 20000.0}) {
         for (const int period : {50, 250, 1000, 4000}) {
