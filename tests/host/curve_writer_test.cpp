@@ -33,8 +33,8 @@ TEMPLATE_TEST_CASE("a curve is written to the last bit", "", double, float, Fixe
     const TemporaryFolder folder;
     OutputFile file(folder.file("c.json"));
     CurveWriter writer(file, "g2");
-    const std::vector<CurveSegment<TestType>> segments = {sample_segment<TestType>(3, 3), sample_segment<TestType>(1, 1),
-                                                          sample_segment<TestType>(6, 9)};
+    const std::vector<CurveSegment<TestType>> segments = {
+        sample_segment<TestType>(3, 3), sample_segment<TestType>(1, 1), sample_segment<TestType>(6, 9)};
     for (const auto& segment : segments) {
         writer.segment(segment);
     }

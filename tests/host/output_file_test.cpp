@@ -160,7 +160,8 @@ TEST_CASE("two outputs of one name do not mix") {
     CHECK(folder.entries() == Entries{"out"});
 }
 
-// With pipes in a folder of the test's own, never with the devices of the system: run by root, a fault would replace them.
+// With pipes in a folder of the test's own, never with the devices of the system: run by root, a fault would replace
+// them.
 TEST_CASE("a target that is no regular file is written to, not replaced") {
     const TemporaryFolder folder;
     const std::string pipe = folder.file("pipe");

@@ -80,7 +80,8 @@ TEST_CASE("whole counts are the nearest, ties upwards, over all of the range") {
     CHECK(nearest_count(-half - 1) == -1);
     CHECK(nearest_count(-units_per_count) == -1);
     CHECK(nearest_count(units_per_count * 1000 - half) == 1000);
-    for (const std::int64_t units : {std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()}) {
+    for (const std::int64_t units :
+         {std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()}) {
         const Wide128 off = 2 * (static_cast<Wide128>(nearest_count(units)) * units_per_count - units);
         CHECK((off <= units_per_count && off > -units_per_count));
     }

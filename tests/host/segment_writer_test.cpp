@@ -38,7 +38,8 @@ TEST_CASE("segments are written as integers under their units") {
     REQUIRE(lines.size() == head + 3);
     CHECK(head == 6);
     CHECK(lines[1] == "# duration_ticks: 1 tick = 1/8 us = 1.25e-07 s.");
-    CHECK(lines[2].find("# x_start, x_end: position in units of 1/3221225472 count; 320 counts per mm; 1 unit = ") == 0);
+    CHECK(lines[2].find("# x_start, x_end: position in units of 1/3221225472 count; 320 counts per mm; 1 unit = ") ==
+          0);
     CHECK(lines[4].find("# b_start, b_end: ") == 0);
     CHECK(lines[head] == "index,duration_ticks,x_start,x_end,x_v_start,x_v_end,b_start,b_end,b_v_start,b_v_end");
     CHECK(lines[head + 1] == "18446744073709551615,4294967295,-9223372036854775808,9223372036854775807,0,-4,1,-2,3,5");

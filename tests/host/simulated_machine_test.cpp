@@ -31,7 +31,9 @@ MachineDescription machine_of(std::vector<std::string> names) {
     return machine;
 }
 
-std::int64_t units(double mm) { return std::llround(mm * 1000.0 * static_cast<double>(units_per_count)); }
+std::int64_t units(double mm) {
+    return std::llround(mm * 1000.0 * static_cast<double>(units_per_count));
+}
 
 // Samples [mm] of one axis of `axes`; the others stand still.
 Motion motion_of(const std::vector<long double>& samples, unsigned axis = 0, std::uint32_t duration = millisecond) {
@@ -56,7 +58,9 @@ Motion motion_of(const std::vector<long double>& samples, unsigned axis = 0, std
     return motion;
 }
 
-void repeat(std::vector<long double>& list, int n, long double value) { list.insert(list.end(), static_cast<std::size_t>(n), value); }
+void repeat(std::vector<long double>& list, int n, long double value) {
+    list.insert(list.end(), static_cast<std::size_t>(n), value);
+}
 
 // Positions from rest with these second differences [mm/s^2].
 std::vector<long double> integrated(const std::vector<long double>& accelerations) {
@@ -104,7 +108,8 @@ PortPhase run(SimulatedMachine& machine, const Motion& motion) {
     return phase;
 }
 
-std::string fault_of(const MachineDescription& description, const Motion& motion, const SimulationOptions& options = {}) {
+std::string fault_of(const MachineDescription& description, const Motion& motion,
+                     const SimulationOptions& options = {}) {
     SimulatedMachine machine(description, 1, options);
     run(machine, motion);
     return machine.fault() ? fault_name(machine.fault()->kind) : "none";
@@ -298,14 +303,22 @@ TEST_CASE("a broken chain is a fault at once, down to one unit") {
     Motion motion = there(50.0, 500.0, 1);
     const std::size_t at = 57;
     std::string quantity = "position";
-    SECTION("position up") { motion[at].start[1] += 1; }
-    SECTION("position down") { motion[at].start[1] -= 1; }
+    SECTION("position up") {
+        motion[at].start[1] += 1;
+    }
+    SECTION("position down") {
+        motion[at].start[1] -= 1;
+    }
     SECTION("velocity") {
         motion[at].start_velocity[1] += 1;
         quantity = "velocity";
     }
-    SECTION("lost segment") { motion.erase(motion.begin() + at); }
-    SECTION("repeated segment") { motion.insert(motion.begin() + at, motion[at - 1]); }
+    SECTION("lost segment") {
+        motion.erase(motion.begin() + at);
+    }
+    SECTION("repeated segment") {
+        motion.insert(motion.begin() + at, motion[at - 1]);
+    }
     SECTION("other duration") { // the same units per segment are another velocity
         motion[at].duration_ticks *= 2;
         quantity = "velocity";
@@ -318,7 +331,8 @@ TEST_CASE("a broken chain is a fault at once, down to one unit") {
         CHECK(machine.fault()->axis == "y");
         CHECK(machine.segments() == at);
         CHECK(describe(*machine.fault()).find(quantity + " is off by") != std::string::npos);
-        CHECK(machine.position_mm()[1] * 1000.0 * static_cast<double>(units_per_count) == Approx(static_cast<double>(motion[at - 1].end[1])));
+        CHECK(machine.position_mm()[1] * 1000.0 * static_cast<double>(units_per_count) ==
+              Approx(static_cast<double>(motion[at - 1].end[1])));
     }
 }
 

@@ -29,7 +29,9 @@ Summary sample() {
     return summary;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 } // namespace
 
@@ -39,10 +41,10 @@ TEST_CASE("the JSON summary has the keys of the contract, in order") {
     for (const auto& item : json.items()) {
         keys.push_back(item.key());
     }
-    CHECK(keys == std::vector<std::string>{"cycle_time_s", "length_mm", "waypoints", "curve_segments", "feed_segments", "scalar",
-                                           "curve", "max_speed_mm_s", "limit_use", "waypoint_error_mm", "optimum_time_s",
-                                           "planning_time_s", "memory_bytes", "stopped", "window_limited", "stops",
-                                           "smoothing_bound_mm", "peak_rss_bytes"});
+    CHECK(keys == std::vector<std::string>{"cycle_time_s", "length_mm", "waypoints", "curve_segments", "feed_segments",
+                                           "scalar", "curve", "max_speed_mm_s", "limit_use", "waypoint_error_mm",
+                                           "optimum_time_s", "planning_time_s", "memory_bytes", "stopped",
+                                           "window_limited", "stops", "smoothing_bound_mm", "peak_rss_bytes"});
     CHECK(json["cycle_time_s"] == 12.3456789);
     CHECK(json["feed_segments"] == 12346);
     CHECK(json["scalar"] == "fixed");

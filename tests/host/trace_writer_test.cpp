@@ -32,8 +32,12 @@ struct Rows {
     }
 };
 
-std::string time_text(double t_s) { return cells_of(Rows(std::vector<PerAxis<double>>(1), t_s).lines.at(1)).at(0); }
-std::string position_text(double mm) { return cells_of(Rows({PerAxis<double>{mm}}).lines.at(1)).at(1); }
+std::string time_text(double t_s) {
+    return cells_of(Rows(std::vector<PerAxis<double>>(1), t_s).lines.at(1)).at(0);
+}
+std::string position_text(double mm) {
+    return cells_of(Rows({PerAxis<double>{mm}}).lines.at(1)).at(1);
+}
 
 } // namespace
 

@@ -13,7 +13,9 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-PerAxis<Position> at(double x, double y) { return {position_from_mm(x), position_from_mm(y)}; }
+PerAxis<Position> at(double x, double y) {
+    return {position_from_mm(x), position_from_mm(y)};
+}
 
 // A Bezier segment with these control points in mm that leads to a waypoint.
 template <Scalar S = double>
@@ -32,7 +34,9 @@ CurveSegment<S> bezier(const std::vector<Point>& points, std::uint32_t waypoint)
     return segment;
 }
 
-CurveSegment<double> line(Point from, Point to, std::uint32_t waypoint) { return bezier({from, to}, waypoint); }
+CurveSegment<double> line(Point from, Point to, std::uint32_t waypoint) {
+    return bezier({from, to}, waypoint);
+}
 
 } // namespace
 
@@ -117,9 +121,9 @@ TEST_CASE("waypoints that no segment leads to are measured where they were merge
     WaypointError error;
     error.waypoint(0, at(0.0, 0.0));
     error.waypoint(1, at(1.0, 0.0));
-    error.waypoint(2, at(1.0, 0.0));     // the same
-    error.waypoint(3, at(1.0, 0.9e-6));  // within the nanometre
-    error.waypoint(4, at(1.0, 0.002));   // merged by a coarser curve
+    error.waypoint(2, at(1.0, 0.0));    // the same
+    error.waypoint(3, at(1.0, 0.9e-6)); // within the nanometre
+    error.waypoint(4, at(1.0, 0.002));  // merged by a coarser curve
     error.waypoint(5, at(2.0, 0.0));
     error.segment(line({0.0, 0.0}, {1.0, 0.0}, 1));
     CHECK(error.largest_mm() == Approx(0.9e-6).epsilon(1e-4));

@@ -9,6 +9,16 @@
 #include <new>
 #include <string>
 
+// A sanitizer brings an operator new of its own; counting is left to the other builds.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SPLINEFEED_SANITIZED
+#endif
+#endif
+#ifdef __SANITIZE_ADDRESS__
+#define SPLINEFEED_SANITIZED
+#endif
+
 namespace {
 
 std::size_t count = 0;
@@ -18,6 +28,14 @@ std::size_t count = 0;
 std::size_t splinefeed_test::allocations() noexcept {
     return count;
 }
+
+#ifdef SPLINEFEED_SANITIZED
+
+TEST_CASE("allocations are counted", "[stream]") {
+    WARN("SKIPPED: the sanitizer has an operator new of its own");
+}
+
+#else
 
 void* operator new(std::size_t size) {
     ++count;
@@ -40,3 +58,5 @@ TEST_CASE("allocations are counted", "[stream]") {
     CHECK(text.size() >= 1000);
     CHECK(after > before);
 }
+
+#endif

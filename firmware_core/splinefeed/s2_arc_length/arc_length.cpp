@@ -118,7 +118,8 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     }
     m_.invert();
     const S error = absolute(m_.middle_slope * m_.sigma[1] - m_.length);
-    if (!last && error > refinement_.inverse_error * m_.length + control_noise<S>) {
+    if (!last && (error > refinement_.inverse_error * m_.length + control_noise<S> ||
+                  m_.shape_error > scale2(refinement_.inverse_error, 2))) {
         return Verdict::coarse;
     }
     m_.measure_curvature(axes, current().unit_log2);
@@ -157,7 +158,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
         return smaller(quotient_or_max(x, m_.length_mm), from_integer<S>(PieceMeasure<S>::sharpest));
     };
     const S error = absolute(m_.middle_slope * m_.sigma[1] - m_.length) + absolute(m_.length - m_.low_order_length);
-    const S ripple = per_mm(from_integer<S>(40) * error / m_.length);
+    const S ripple = per_mm(from_integer<S>(40) * error / m_.length + from_integer<S>(8) * m_.shape_error);
     const S noise = per_mm(control_noise<S> / m_.slowest);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S> difference = piece.control[k];

@@ -19,7 +19,7 @@ struct Refinement {
     S turn = literal<S>(0.0613);             ///< largest change of direction within a cell [rad]
     S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
     S curvature_bend = literal<S>(0.0037);   ///< the same for the second difference of curvature
-    S metric_ratio = literal<S>(1.487);      ///< largest ratio of two |dr/dw| within a cell
+    S metric_ratio = literal<S>(1.2173);     ///< largest ratio of two |dr/dw| within a cell
     /// largest relative difference of a 4th and a 6th order length; float cannot tell less
     S metric_error = literal<S>(std::same_as<S, float> ? 1.13e-5 : 1.13e-6);
     /// largest relative error of the inverse's slope in the middle of a cell: a bound of the feed fluctuation
