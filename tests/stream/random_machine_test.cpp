@@ -160,12 +160,13 @@ TEMPLATE_TEST_CASE("cusps inside of a segment keep every limit", "[stream]", dou
             if (!MotionLimits<TestType>::make(machine).has_value()) {
                 continue;
             }
-            // Fixed holds v^2 to 2^-32 in each of the graded cells, four for each of some fifteen halvings, that a machine passes
-            // in its first segment; there v^2 is (A T)^2. And it holds lengths to 2^-33 mm.
+            // Fixed holds v^2 to 2^-32 in each of the graded cells, four for each of some fifteen halvings, that a
+            // machine passes in its first segment; there v^2 is (A T)^2. And it holds lengths to 2^-33 mm: eight of
+            // these, a random sum over sixty.
             const Real segment_s = real(period * 1e-6) / MotionLimits<TestType>::make(machine)->segments_per_sample;
             const Real reached = real(acceleration) * segment_s;
             const Real slack = std::same_as<TestType, Fixed>
-                                   ? 64.0L * 0x1p-32L / (reached * reached) + 4.0L * 0x1p-33L / (reached * segment_s)
+                                   ? 64.0L * 0x1p-32L / (reached * reached) + 8.0L * 0x1p-33L / (reached * segment_s)
                                    : 0.0L;
             for (const BezierShape& shape :
                  {cubic_shape(10.0, 10.0, 0.0, 10.0, 10.0, 0.0), cubic_shape(1.0, 0.0, 1.0, 0.0, 0.0, 0.0),
