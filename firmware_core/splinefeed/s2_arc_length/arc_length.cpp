@@ -119,7 +119,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     m_.invert();
     const S error = absolute(m_.middle_slope * m_.sigma[1] - m_.length);
     if (!last && (error > refinement_.inverse_error * m_.length + control_noise<S> ||
-                  m_.shape_error > scale2(refinement_.inverse_error, 2))) {
+                  m_.shape_error > scale2(refinement_.inverse_error, 14))) {
         return Verdict::coarse;
     }
     m_.measure_curvature(axes, current().unit_log2);
@@ -154,12 +154,13 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     out.degree = current().degree;
     out.stop_before = after_cusp_;
     fill_common(from, piece.at_end, out);
-    const auto per_mm = [this](S x) {
-        return smaller(quotient_or_max(x, m_.length_mm), from_integer<S>(PieceMeasure<S>::sharpest));
+    const auto per_mm = [this](S x, int shift) {
+        return smaller(scale2(quotient_or_max(x, m_.length_mm), shift), from_integer<S>(PieceMeasure<S>::sharpest));
     };
-    const S error = absolute(m_.middle_slope * m_.sigma[1] - m_.length) + absolute(m_.length - m_.low_order_length);
-    const S ripple = per_mm(from_integer<S>(40) * error / m_.length + from_integer<S>(8) * m_.shape_error);
-    const S noise = per_mm(control_noise<S> / m_.slowest);
+    // In units of 2^-12, lest Fixed lose the digits of a small error over a small length.
+    const S error = m_.shape_error + scale2(absolute(m_.length - m_.low_order_length), 12) / m_.length;
+    const S ripple = per_mm(from_integer<S>(40) * error, -12);
+    const S noise = per_mm(control_noise<S> / m_.slowest, 0);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S> difference = piece.control[k];
         S binomial = from_integer<S>(1);
@@ -172,9 +173,9 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
             out.power[k][i] = binomial * difference[i];
         }
         out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<S>(1));
-        // What is left of the inverse's error looks like c x^3 (1-x)^3 (x-1/2): with the slope e in the middle its
-        // second derivative reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed
-        // for, since the middle does not see all of it. Rounding of the control points bends the curve.
+        // What is left of the inverse's error looks like c x^3 (1-x)^3 (x-1/2): with the slope e its second derivative
+        // reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, e being an
+        // estimate. Rounding of the control points bends the curve.
         out.curvature_max[k] = smaller(PieceMeasure<S>::bound(m_.second, k) + out.tangent_max[k] * ripple + noise,
                                        from_integer<S>(PieceMeasure<S>::sharpest));
     }

@@ -87,7 +87,8 @@ void PieceMeasure<S>::measure_length(int axes, int unit_log2) noexcept {
     // 0.045 p^6. The middle may see nothing of it where both mix.
     const S slant = (sigma[2] - sigma[0]) / sigma[1];
     const S bow = absolute(sigma[2] - sigma[1] - (sigma[1] - sigma[0])) / sigma[1] + slant * slant;
-    shape_error = literal<S>(0.045) * bow * bow * bow;
+    const S scaled = scale2(bow, 4); // lest Fixed lose the digits of its cube
+    shape_error = literal<S>(0.045) * scaled * scaled * scaled;
 }
 
 template <Scalar S>

@@ -34,7 +34,7 @@ struct PieceMeasure {
     S low_order_length{};                    ///< the same by a rule two orders lower
     S length_mm{};
     std::array<S, 6> inverse{}; ///< w = sum inverse[i] x^(i+1), x = fraction of the length
-    S shape_error{};            ///< estimate of the inverse's relative error from the shape of sigma alone
+    S shape_error{};            ///< 2^12 times the inverse's relative error as the shape of sigma tells it
     S middle_slope{};           ///< dw/dx of the inverse at w = 1/2; times sigma/length it should be 1
 
     /// Halves the piece and takes dr/dw, d2r/dw2 and sigma.

@@ -63,7 +63,7 @@ namespace detail {
 
 /// Relative resolution of the curve parameter within a cell, with what the polynomials add to it.
 template <Scalar S>
-inline constexpr double parameter_error = 4.7e-10; // 2 ulp of Q31.32; double takes the same cells, to stay comparable
+inline constexpr double parameter_error = 9.4e-10; // 4 ulp of Q31.32; double takes the same cells, to stay comparable
 template <>
 inline constexpr double parameter_error<float> = 2.4e-7; // 4 x 2^-24
 
@@ -75,7 +75,7 @@ inline constexpr double usable_margin<float> = 1e-3;
 
 /// How much of an acceleration limit rounding may use up before cells are made shorter.
 template <Scalar S>
-inline constexpr double rounding_share = 1e-5;
+inline constexpr double rounding_share = 2e-5;
 template <>
 inline constexpr double rounding_share<float> = 2e-3;
 
