@@ -29,6 +29,26 @@ const char* describe(Error error) noexcept {
     case Error::degree_out_of_range: return "a Bezier segment has degree 1 to 9";
     case Error::gap_in_curve: return "each segment must start where the one before it ends";
     case Error::window_too_small: return "the feed plan needs a window of at least 16 cells";
+    case Error::too_few_points: return "there are too few points for the method and its degree";
+    case Error::coincident_points: return "two successive points are the same; merge them, or use uniform parameters";
+    case Error::storage_too_small: return "the storage given is smaller than the method needs for these points";
+    case Error::beta1_not_positive: return "beta1 (bias) must be greater than 0";
+    case Error::beta2_out_of_range: return "beta2 (tension) must be a finite number; for interpolation not below 0";
+    case Error::closed_chain_overlaps:
+        return "a closed chain needs polygons of degree 2 order + 1 at least (5 for G2), or its joints overlap";
+    case Error::lambda_not_positive: return "lambda must be greater than 0";
+    case Error::curvature_sign_invalid: return "a curvature sign must be 1 or -1";
+    case Error::system_singular:
+        return "the system of equations is singular for these points and parameters; change a parameter or a point";
+    case Error::schoenberg_whitney:
+        return "the knots do not suit the parameters of the points (Schoenberg-Whitney); use averaged knots";
+    case Error::knots_invalid: return "knots must not decrease, nor repeat more than degree + 1 times";
+    case Error::parameters_invalid: return "parameters must increase strictly within the domain";
+    case Error::even_degree_closed:
+        return "a closed curve of even degree through an even number of points cannot have its knots at the points; "
+               "put them between";
+    case Error::tangent_vanishes: return "the tangent vanishes at a joint: its direction is undefined";
+    case Error::result_out_of_range: return "the result is beyond the range of the numbers it is computed with";
     }
     return "unknown error";
 }

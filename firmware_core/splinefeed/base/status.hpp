@@ -33,6 +33,21 @@ enum class Error : std::uint8_t {
     degree_out_of_range,
     gap_in_curve,
     window_too_small,
+    too_few_points,
+    coincident_points,
+    storage_too_small,
+    beta1_not_positive,
+    beta2_out_of_range,
+    closed_chain_overlaps,
+    lambda_not_positive,
+    curvature_sign_invalid,
+    system_singular,
+    schoenberg_whitney,
+    knots_invalid,
+    parameters_invalid,
+    even_degree_closed,
+    tangent_vanishes,
+    result_out_of_range,
 };
 
 /// One sentence: what is wrong and what would be right.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// BezierPiece: what the whole-curve methods make: one polynomial piece, in the unit of the points it was made of.
+//
+// These methods see all points at once and compute in plain scalars, in a unit that the caller chooses: mm in double
+// and float; in Fixed a power of two of mm that gives the largest coordinate its digits. Storage is the caller's.
+// Those that stream from waypoints are in s1_curve and share the arithmetic of a segment with the functions here.
+#pragma once
+
+#include "splinefeed/base/capacity.hpp"
+#include "splinefeed/base/status.hpp"
+#include "splinefeed/number/scalar.hpp"
+
+#include <span>
+
+namespace splinefeed {
+
+/// A point, a chord or a derivative: one value per axis.
+template <Scalar S>
+using Point = PerAxis<S>;
+
+template <Scalar S>
+struct BezierPiece {
+    int degree = 0;                  ///< 1 to max_degree
+    PerAxis<PerDegree<S>> control{}; ///< control[axis][i]: Bezier point i
+
+    /// Bezier point i, 0 to degree.
+    [[nodiscard]] Point<S> point(int i) const noexcept {
+        Point<S> out{};
+        for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+            out[k] = control[k][static_cast<unsigned>(i)];
+        }
+        return out;
+    }
+    void set_point(int i, const Point<S>& point) noexcept {
+        for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+            control[k][static_cast<unsigned>(i)] = point[k];
+        }
+    }
+};
+
+} // namespace splinefeed
