@@ -7,7 +7,7 @@ build=$1
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cmake --install "$build" --prefix "$scratch/prefix"
-cmake -S tests/install -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix"
+cmake -G Ninja -S tests/install -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix"
 cmake --build "$scratch/build"
 output=$("$scratch/build/consumer")
 echo "$output"

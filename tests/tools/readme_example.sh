@@ -23,6 +23,7 @@ target_link_libraries(example PRIVATE splinefeed::core splinefeed::hal)
 target_compile_options(example PRIVATE -Wall -Wextra -Werror)
 PROJECT
 cmake --install "$build" --prefix "$out/prefix" >/dev/null
-cmake -S "$out" -B "$out/build" -DCMAKE_PREFIX_PATH="$(cd "$out" && pwd)/prefix"
+rm -rf "$out/build" # it may be of another generator
+cmake -G Ninja -S "$out" -B "$out/build" -DCMAKE_PREFIX_PATH="$(cd "$out" && pwd)/prefix"
 cmake --build "$out/build"
 "$out/build/example" | head -20
