@@ -49,22 +49,42 @@ void add_input(CLI::App& app, Job& job, Typed& typed) {
 void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     CurveArguments& curve = job.curve;
     const std::string group = "Curve";
-    app.add_option("--curve", curve.method, "g2, catmull-rom or polyline (default g2)")->group(group);
+    const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
+        app.add_option(name, value, text)->group(group);
+    };
+    option("--curve", curve.method,
+           "g2, g2-bezier, catmull-rom, catmull-rom-modified, bspline, bspline-interpolation, ferguson, beta-chain or "
+           "polyline (default g2); docs/curves.md compares them");
     app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
         ->group(group)
         ->disable_flag_override();
-    app.add_option("--parameterization", curve.parameterization,
-                   "uniform, chordal or centripetal (default: g2 chordal, catmull-rom centripetal)")
-        ->group(group);
-    app.add_option("--tension", curve.tension, "of catmull-rom, 0 to 10 (default 0.5)")->group(group);
-    app.add_option("--corner-angle", curve.corner_angle,
-                   "a sharper turn, in degrees, is a corner: the machine stops there (default 60; 180: none is)")
-        ->group(group);
-    app.add_option("--start-tangent", curve.start_tangent,
-                   "X,Y,Z: direction at the start, of g2, in units of the first chord")
-        ->group(group);
-    app.add_option("--end-tangent", curve.end_tangent, "X,Y,Z: direction at the end, of g2, in units of the last chord")
-        ->group(group);
+    app.add_flag("--smooth", curve.smooth,
+                 "join the segments of a curve whose curvature jumps (catmull-rom and others) with G2: quintics")
+        ->group(group)
+        ->disable_flag_override();
+    option("--parameterization", curve.parameterization,
+           "uniform, chordal or centripetal (default: catmull-rom centripetal, else chordal)");
+    option("--degree", curve.degree,
+           "of bspline, 2 or 3, bspline-interpolation, 1 to 9, beta-chain, 2 to 9 (default 3)");
+    option("--knots", curve.knots, "of bspline-interpolation: uniform or averaged (default averaged)");
+    option("--tension", curve.tension,
+           "of catmull-rom, 0 to 10 (default 0.5); factor of catmull-rom-modified (default 1)");
+    option("--factor", curve.factor,
+           "of catmull-rom-modified: chord, the tension times each chord, or constant, the tension in mm (default "
+           "chord)");
+    option("--beta1", curve.beta1, "bias of g2-bezier (default: the ratio of the chords) and beta-chain (default 1)");
+    option("--beta2", curve.beta2, "tension of g2-bezier, not below 0, and beta-chain (default 0)");
+    option("--lambda", curve.lambda, "of ferguson: ratio of the tangents at each point (default 1)");
+    option("--mu", curve.mu,
+           "of ferguson: tension, or auto, the nearest to 0 that keeps the solve stable (default auto)");
+    option("--curvature-sign", curve.curvature_sign,
+           "of ferguson: 1, -1 (flips the curvature at every point) or auto (default auto)");
+    option("--corner-angle", curve.corner_angle,
+           "a sharper turn, in degrees, is a corner: the machine stops there (default 60; 180: none is)");
+    option("--start-tangent", curve.start_tangent,
+           "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
+           "derivative)");
+    option("--end-tangent", curve.end_tangent, "X,Y,Z: the same at the end");
     app.add_option("--scalar", typed.scalar,
                    "fixed, float or double: what it is computed in (default fixed, as on a microcontroller)")
         ->group(group);

@@ -7,29 +7,66 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
 
 namespace {
 
+/// What a method may be told.
+enum Option : unsigned {
+    takes_nothing = 0U,
+    takes_parameterization = 1U,
+    takes_tension = 1U << 1U,
+    takes_factor = 1U << 2U,
+    takes_corners = 1U << 3U,
+    takes_tangents = 1U << 4U,
+    takes_degree = 1U << 5U,
+    takes_knots = 1U << 6U,
+    takes_betas = 1U << 7U,
+    takes_joints = 1U << 8U, ///< lambda, mu, curvature sign
+    takes_smooth = 1U << 9U,
+};
+
 /// One row per method: a new method adds its own.
 struct Row {
     Method method;
     std::string_view name;
-    bool parameterization;
-    bool tension;
-    bool corners;
-    bool tangents;
-    Parameterization usual;
+    unsigned takes;
+    Parameterization usual = Parameterization::chordal;
+    double usual_tension = 0.5;
+    double highest_tension = 10.0;
+    int lowest_degree = 3;
+    int highest_degree = 3;
 };
 
 constexpr std::array table{
-    Row{Method::g2, "g2", true, false, true, true, Parameterization::chordal},
-    Row{Method::catmull_rom, "catmull-rom", true, true, true, false, Parameterization::centripetal},
-    Row{Method::polyline, "polyline", false, false, false, false, Parameterization::chordal},
+    Row{Method::g2, "g2", takes_parameterization | takes_corners | takes_tangents},
+    Row{Method::g2_bezier, "g2-bezier", takes_betas | takes_corners | takes_tangents},
+    Row{Method::catmull_rom, "catmull-rom", takes_parameterization | takes_tension | takes_corners | takes_smooth,
+        Parameterization::centripetal},
+    // With --factor constant the tension is a length.
+    Row{Method::catmull_rom_modified, "catmull-rom-modified",
+        takes_tension | takes_factor | takes_corners | takes_smooth, Parameterization::chordal, 1.0, 65536.0},
+    Row{Method::bspline, "bspline", takes_degree | takes_corners | takes_smooth, Parameterization::uniform, 0.5, 10.0,
+        2, 3},
+    Row{Method::bspline_interpolation, "bspline-interpolation",
+        takes_degree | takes_parameterization | takes_knots | takes_tangents | takes_smooth, Parameterization::chordal,
+        0.5, 10.0, 1, max_degree},
+    Row{Method::ferguson, "ferguson", takes_joints | takes_tangents | takes_smooth},
+    Row{Method::beta_chain, "beta-chain", takes_degree | takes_betas, Parameterization::uniform, 0.5, 10.0, 2,
+        max_degree},
+    Row{Method::polyline, "polyline", takes_nothing},
 };
-constexpr std::array<std::string_view, table.size()> available{table[0].name, table[1].name, table[2].name};
+
+std::string available() {
+    std::array<std::string_view, table.size()> names{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        names[i] = table[i].name;
+    }
+    return listed(names);
+}
 
 const Row& find_method(std::string_view name) {
     for (const Row& row : table) {
@@ -41,10 +78,10 @@ const Row& find_method(std::string_view name) {
         throw UsageError(
             "--curve bezier: a Bezier curve is read from a curve file (.json), without --curve; from waypoints "
             "there are " +
-            listed(available));
+            available());
     }
     throw UsageError(
-        fmt::format("--curve {}: there is no such method; available are {}", in_quotes(name), listed(available)));
+        fmt::format("--curve {}: there is no such method; available are {}", in_quotes(name), available()));
 }
 
 double read(std::string_view option, std::string_view text, double low, double high, std::string_view what) {
@@ -58,6 +95,14 @@ double read(std::string_view option, std::string_view text, double low, double h
                                      what, low, high));
     }
     return value;
+}
+
+int read_integer(std::string_view option, std::string_view text, int low, int high) {
+    const double value = read(option, text, low, high, "it");
+    if (value != std::floor(value)) {
+        throw UsageError(fmt::format("{} {} must be a whole number from {} to {}", option, in_quotes(text), low, high));
+    }
+    return static_cast<int>(value);
 }
 
 Parameterization read_parameterization(std::string_view text) {
@@ -107,32 +152,73 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
     CurveChoice choice;
     choice.method = row.method;
     choice.closed = arguments.closed;
+    choice.smooth = arguments.smooth;
     choice.parameterization = row.usual;
-    const auto require = [&row](bool takes, std::string_view option) {
-        if (!takes) {
+    choice.tension = row.usual_tension;
+    const auto require = [&row](unsigned what, std::string_view option) {
+        if ((row.takes & what) == 0) {
             throw UsageError(fmt::format("--curve {} has no option {}; leave it out", row.name, option));
         }
     };
+    // Reads an option that was given.
+    const auto take = [&require](const std::optional<std::string>& text, unsigned what, std::string_view option,
+                                 double low, double high, std::string_view name, auto& out) {
+        if (text) {
+            require(what, option);
+            out = read(option, *text, low, high, name);
+        }
+    };
+    if (arguments.smooth) {
+        require(takes_smooth, "--smooth");
+    }
     if (arguments.parameterization) {
-        require(row.parameterization, "--parameterization");
+        require(takes_parameterization, "--parameterization");
         choice.parameterization = read_parameterization(*arguments.parameterization);
     }
-    if (arguments.tension) {
-        require(row.tension, "--tension");
-        choice.tension = read("--tension", *arguments.tension, 0.0, 10.0, "the tension");
+    if (arguments.knots) {
+        require(takes_knots, "--knots");
+        if (*arguments.knots != "uniform" && *arguments.knots != "averaged") {
+            throw UsageError(
+                fmt::format("--knots {}: it must be one of uniform, averaged", in_quotes(*arguments.knots)));
+        }
+        choice.knots = arguments.knots;
     }
-    if (arguments.corner_angle) {
-        require(row.corners, "--corner-angle");
-        choice.corner_angle_deg =
-            read("--corner-angle", *arguments.corner_angle, 0.0, 180.0, "the corner angle in degrees");
+    if (arguments.factor) {
+        require(takes_factor, "--factor");
+        if (*arguments.factor != "chord" && *arguments.factor != "constant") {
+            throw UsageError(
+                fmt::format("--factor {}: it must be one of chord, constant", in_quotes(*arguments.factor)));
+        }
+        choice.constant_factor = *arguments.factor == "constant";
     }
+    if (arguments.degree) {
+        require(takes_degree, "--degree");
+        choice.degree = read_integer("--degree", *arguments.degree, row.lowest_degree, row.highest_degree);
+    }
+    if (arguments.curvature_sign && *arguments.curvature_sign != "auto") {
+        require(takes_joints, "--curvature-sign");
+        choice.curvature_sign = read_integer("--curvature-sign", *arguments.curvature_sign, -1, 1);
+        if (choice.curvature_sign == 0) {
+            throw UsageError("--curvature-sign 0: it must be 1, -1 or auto");
+        }
+    }
+    take(arguments.tension, takes_tension, "--tension", 0.0, row.highest_tension, "the tension", choice.tension);
+    take(arguments.beta1, takes_betas, "--beta1", 1e-3, 1e3, "the bias", choice.beta1);
+    take(arguments.beta2, takes_betas, "--beta2", row.method == Method::beta_chain ? -1e3 : 0.0, 1e3, "the tension",
+         choice.beta2);
+    take(arguments.lambda, takes_joints, "--lambda", 1e-3, 1e3, "lambda", choice.lambda);
+    if (!arguments.mu || *arguments.mu != "auto") {
+        take(arguments.mu, takes_joints, "--mu", -1e6, 1e6, "mu", choice.mu);
+    }
+    take(arguments.corner_angle, takes_corners, "--corner-angle", 0.0, 180.0, "the corner angle in degrees",
+         choice.corner_angle_deg);
     for (const auto& [text, option, tangent] :
          {std::tuple{&arguments.start_tangent, "--start-tangent", &choice.start_tangent},
           std::tuple{&arguments.end_tangent, "--end-tangent", &choice.end_tangent}}) {
         if (!*text) {
             continue;
         }
-        require(row.tangents, option);
+        require(takes_tangents, option);
         if (choice.closed) {
             throw UsageError(fmt::format("{} and --closed exclude each other: a closed curve has no ends", option));
         }
@@ -144,8 +230,16 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
 std::string_view first_option(const CurveArguments& arguments) noexcept {
     return arguments.method             ? "--curve"
            : arguments.closed           ? "--closed"
+           : arguments.degree           ? "--degree"
            : arguments.parameterization ? "--parameterization"
+           : arguments.knots            ? "--knots"
            : arguments.tension          ? "--tension"
+           : arguments.factor           ? "--factor"
+           : arguments.beta1            ? "--beta1"
+           : arguments.beta2            ? "--beta2"
+           : arguments.lambda           ? "--lambda"
+           : arguments.mu               ? "--mu"
+           : arguments.curvature_sign   ? "--curvature-sign"
            : arguments.corner_angle     ? "--corner-angle"
            : arguments.start_tangent    ? "--start-tangent"
            : arguments.end_tangent      ? "--end-tangent"

@@ -59,14 +59,17 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
     EndTangents<S> tangents;
     take_tangent(choice.start_tangent, options.axes, tangents.has_start, tangents.start);
     take_tangent(choice.end_tangent, options.axes, tangents.has_end, tangents.end);
+    if (input.segments() != nullptr) {
+        build<BezierSource<S>>(*input.segments(), options.axes);
+        rows_read_ = input.points_read();
+        finished_ = true;
+        return;
+    }
     switch (choice.method) {
     case Method::g2: build<G2Spline<S>>(options, tangents); break;
     case Method::catmull_rom: build<CatmullRom<S>>(options, from_double<S>(choice.tension)); break;
     case Method::polyline: build<Polyline<S>>(options); break;
-    case Method::bezier:
-        build<BezierSource<S>>(*input.segments(), options.axes);
-        finished_ = true;
-        return;
+    default: throw UsageError(fmt::format("--curve {} is not available yet", method_name(choice.method)));
     }
     input_rows_ = input.rows();
     lines_.resize(remembered);

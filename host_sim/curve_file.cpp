@@ -2,14 +2,13 @@
 #include "curve_file.hpp"
 
 #include "input_error.hpp"
-#include "nearest_name.hpp"
-#include "number_text.hpp"
 #include "text_file.hpp"
+
+#include "host_sim/methods/method_table.hpp"
 
 #include "splinefeed/number/position.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
@@ -22,12 +21,11 @@ namespace {
 using nlohmann::json;
 
 constexpr double longest_mm = 65536.0;
-constexpr std::array<std::string_view, 2> methods{"bezier", "catmull_rom"};
 
 /// Reads one document into one CurveFile.
 class Parser {
 public:
-    Parser(const json& root, const std::string& file) : root_(root), file_(file) {}
+    Parser(const json& root, const std::string& file, ScalarKind scalar) : root_(root), file_(file), scalar_(scalar) {}
 
     [[nodiscard]] CurveFile parse() {
         if (!root_.is_object()) {
@@ -36,7 +34,6 @@ public:
         if (root_.contains("method")) {
             description();
         } else if (root_.contains("segments")) {
-            curve_.method = "bezier";
             segments(root_);
         } else {
             fail("there is neither \"segments\" (a curve) nor \"method\" with \"input\" (a description of one)");
@@ -49,19 +46,18 @@ private:
 
     void description() {
         const json& method = root_["method"];
-        curve_.method = method.is_string() ? method.get<std::string>() : "";
-        if (std::find(methods.begin(), methods.end(), curve_.method) == methods.end()) {
-            fail(fmt::format("\"method\" {} is not available; in a curve file there are {}", in_quotes(curve_.method),
-                             listed(methods)));
+        if (!method.is_string()) {
+            fail("\"method\" must be the name of a method, in quotes");
         }
         const auto input = root_.find("input");
         if (input == root_.end() || !input->is_object()) {
             fail("there must be an object \"input\" beside \"method\"");
         }
-        if (curve_.method == "bezier") {
+        const auto& name = method.get_ref<const std::string&>();
+        if (name == "bezier") {
             segments(*input);
         } else {
-            waypoints(*input);
+            curve_ = compute_curve(name, *input, scalar_, file_);
         }
     }
 
@@ -125,44 +121,12 @@ private:
         curve_.segments.push_back(added);
     }
 
-    void waypoints(const json& object) {
-        read_closed(object);
-        if (const auto tension = object.find("tension"); tension != object.end()) {
-            curve_.tension = number(*tension, "\"tension\"");
-            if (curve_.tension < 0.0 || curve_.tension > 10.0) {
-                fail(fmt::format("\"tension\" is {}; it must lie between 0 and 10", curve_.tension));
-            }
-        }
-        const auto points = object.find("points");
-        if (points == object.end() || !points->is_array() || points->size() < 2) {
-            fail("\"points\" must be an array of at least two points");
-        }
-        for (const json& point : *points) {
-            const std::size_t index = curve_.axes == 0 ? 0 : curve_.points();
-            const std::string name = fmt::format("point {}", index + 1);
-            add_point(point, name);
-            if (index > 0) {
-                require_near(index - 1, index, name);
-            }
-        }
-    }
-
     [[nodiscard]] double number(const json& value, const std::string& name) const {
-        double result = 0.0;
-        if (value.is_number()) {
-            result = value.get<double>();
-        } else if (value.is_string()) {
-            const auto& text = value.get_ref<const std::string&>();
-            if (const NumberText read = read_number(text, result); read != NumberText::number) {
-                fail(fmt::format("{}: {} {}", name, in_quotes(text), why_no_number(read)));
-            }
-        } else {
-            fail(fmt::format("{} must be a number, or one as a text in quotes", name));
+        try {
+            return number_of(value, name);
+        } catch (const DescriptionError& error) {
+            fail(error.what());
         }
-        if (!std::isfinite(result)) {
-            fail(fmt::format("{} must be finite", name));
-        }
-        return result;
     }
 
     void add_point(const json& point, const std::string& name) {
@@ -207,14 +171,61 @@ private:
 
     const json& root_;
     const std::string& file_;
+    ScalarKind scalar_;
     CurveFile curve_;
 };
 
 } // namespace
 
-CurveFile parse_curve(std::string_view text, const std::string& file) {
+CurveFile compute_curve(std::string_view method, const json& input, ScalarKind scalar, const std::string& file) {
+    DescribedCurve made;
     try {
-        return Parser(json::parse(text), file).parse();
+        made = describe_curve(method, input, scalar);
+    } catch (const DescriptionError& error) {
+        throw InputError(file, 0, error.what());
+    }
+    CurveFile curve;
+    curve.method = curve_name_of(method);
+    curve.described = true;
+    curve.closed = made.closed;
+    curve.axes = made.axes;
+    curve.intervals = std::move(made.intervals);
+    curve.results = std::move(made.results);
+    for (const BezierPiece<double>& piece : made.pieces) {
+        curve.segments.push_back({curve.numbers.size() / static_cast<std::size_t>(made.axes), piece.degree});
+        for (unsigned i = 0; i <= static_cast<unsigned>(piece.degree); ++i) {
+            for (unsigned k = 0; k < static_cast<unsigned>(made.axes); ++k) {
+                curve.numbers.push_back(piece.control[k][i]);
+            }
+        }
+    }
+    return curve;
+}
+
+void require_executable(const CurveFile& curve, const std::string& file) {
+    for (std::size_t s = 0; s < curve.segments.size(); ++s) {
+        const CurveFile::Segment& segment = curve.segments[s];
+        for (std::size_t i = segment.first_point; i <= segment.first_point + static_cast<unsigned>(segment.degree);
+             ++i) {
+            for (std::size_t k = 0; k < static_cast<std::size_t>(curve.axes); ++k) {
+                if (!position_representable(curve.at(i, k))) {
+                    throw InputError(file, 0,
+                                     fmt::format("segment {} of the curve reaches {:.6g}; a position must lie within "
+                                                 "+-1048576 mm",
+                                                 s + 1, curve.at(i, k)));
+                }
+                if (std::fabs(curve.at(i, k) - curve.at(segment.first_point, k)) > longest_mm) {
+                    throw InputError(file, 0,
+                                     fmt::format("segment {} of the curve is longer than {} mm", s + 1, longest_mm));
+                }
+            }
+        }
+    }
+}
+
+CurveFile parse_curve(std::string_view text, const std::string& file, ScalarKind scalar) {
+    try {
+        return Parser(json::parse(text), file, scalar).parse();
     } catch (const json::parse_error& error) {
         const std::size_t at = std::min<std::size_t>(error.byte == 0 ? 0 : error.byte - 1, text.size());
         const auto line = static_cast<std::uint64_t>(
@@ -228,9 +239,9 @@ CurveFile parse_curve(std::string_view text, const std::string& file) {
     }
 }
 
-CurveFile read_curve_file(const std::string& path) {
+CurveFile read_curve_file(const std::string& path, ScalarKind scalar) {
     constexpr std::size_t largest = std::size_t{1} << 30;
-    return parse_curve(read_text_file(path, largest), path);
+    return parse_curve(read_text_file(path, largest), path, scalar);
 }
 
 } // namespace splinefeed::host

@@ -2,7 +2,9 @@
 // CurveFile: a curve .json: Bezier segments that are executed as they stand, or points and the method that joins them.
 #pragma once
 
-#include "splinefeed/base/capacity.hpp"
+#include "job.hpp"
+
+#include "host_sim/methods/description.hpp"
 
 #include <cstddef>
 #include <string>
@@ -11,7 +13,7 @@
 
 namespace splinefeed::host {
 
-/// What the file says, checked: finite numbers in range, one dimension, segments that meet.
+/// A curve as Bezier segments, read from the file or computed as it describes.
 struct CurveFile {
     /// Control points first_point to first_point + degree.
     struct Segment {
@@ -20,12 +22,14 @@ struct CurveFile {
     };
     static constexpr double largest_gap_mm = 1e-6; ///< between segments that meet
 
-    std::string method; ///< as the file names it: bezier, catmull_rom
+    std::string method = "bezier"; ///< the name of --curve
+    bool described = false;        ///< computed from a description
     bool closed = false;
-    double tension = 0.5;          ///< catmull_rom
-    int axes = 0;                  ///< numbers a point, 1 to 6
-    std::vector<double> numbers;   ///< all points in order, `axes` numbers each [mm]
-    std::vector<Segment> segments; ///< bezier: at least one; else none, and every point is a waypoint
+    int axes = 0;                                    ///< numbers a point, 1 to 6
+    std::vector<double> numbers;                     ///< all control points in order, `axes` numbers each [mm]
+    std::vector<Segment> segments;                   ///< at least one
+    std::vector<DescribedCurve::Interval> intervals; ///< as in DescribedCurve
+    nlohmann::ordered_json results = nlohmann::ordered_json::object();
 
     [[nodiscard]] std::size_t points() const noexcept { return numbers.size() / static_cast<std::size_t>(axes); }
     [[nodiscard]] double at(std::size_t point, std::size_t axis) const noexcept {
@@ -33,10 +37,20 @@ struct CurveFile {
     }
 };
 
-/// Reads the file ("-": standard input). Throws InputError.
-[[nodiscard]] CurveFile read_curve_file(const std::string& path);
+/// Reads the file ("-": standard input); a description is computed in `scalar`. Segments from the file are checked:
+/// finite numbers in range, one dimension, segments that meet. Throws InputError.
+[[nodiscard]] CurveFile read_curve_file(const std::string& path, ScalarKind scalar);
 
 /// The same for a text; `file` is its name in messages.
-[[nodiscard]] CurveFile parse_curve(std::string_view text, const std::string& file);
+[[nodiscard]] CurveFile parse_curve(std::string_view text, const std::string& file,
+                                    ScalarKind scalar = ScalarKind::dual);
+
+/// Computes a description's curve. Throws InputError.
+[[nodiscard]] CurveFile compute_curve(std::string_view method, const nlohmann::json& input, ScalarKind scalar,
+                                      const std::string& file);
+
+/// Whether a machine can be sent along a computed curve: positions in range, segments of a length that the core takes.
+/// Throws InputError.
+void require_executable(const CurveFile& curve, const std::string& file);
 
 } // namespace splinefeed::host

@@ -2,11 +2,10 @@
 // CurveWriter: the curve .json, written while the curve is made.
 #pragma once
 
+#include "curve_file.hpp"
 #include "output_file.hpp"
 
 #include "splinefeed/s1_curve/curve_segment.hpp"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <string_view>
 
@@ -21,14 +20,20 @@ public:
 
     template <Scalar S>
     void segment(const CurveSegment<S>& segment);
+    /// All segments of a curve that is there whole, in the numbers it was computed in. Those of a description come with
+    /// their interval, where the curve has a parameter of its own, and with samples.
+    void segments(const CurveFile& curve);
 
     /// Ends the document. Call it once, before the file is committed.
     void finish();
     /// The same, with the keys of an object added at the top level: a method's further results.
     /// Throws std::invalid_argument where `results` is no object or has one of the keys above.
-    void finish(const nlohmann::json& results);
+    void finish(const nlohmann::ordered_json& results);
 
 private:
+    void open_segment(int degree);
+    void number(double value, int axis, int point);
+
     OutputFile* file_;
     bool first_ = true;
 };

@@ -122,7 +122,7 @@ Summary Motion<S>::summary() const {
     summary.curve_segments = tee_.segments();
     summary.feed_segments = segments_;
     summary.scalar = scalar_name<S>();
-    summary.curve = method_name(input_->choice().method);
+    summary.curve = input_->curve_name();
     summary.max_speed_mm_s = machine_.max_path_speed_mm_s();
     double acceleration_sq = 0.0;
     for (int k = 0; k < limits_->axes; ++k) {

@@ -19,8 +19,10 @@ Outputs::Outputs(const Job& job, std::string_view method, bool closed, const Mac
     }
 }
 
-void Outputs::commit() {
-    if (curve_) {
+void Outputs::commit(const nlohmann::ordered_json* results) {
+    if (curve_ && results != nullptr) {
+        curve_->finish(*results);
+    } else if (curve_) {
         curve_->finish();
     }
     for (std::optional<OutputFile>* file : {&curve_file_, &trace_file_, &segments_file_}) {

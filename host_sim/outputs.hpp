@@ -26,7 +26,8 @@ public:
     [[nodiscard]] CurveWriter* curve() noexcept { return curve_ ? &*curve_ : nullptr; }
 
     /// Completes the files and puts them in place. @pre the writers have got everything
-    void commit();
+    /// @param results  of the curve's method, beside its segments; null: none
+    void commit(const nlohmann::ordered_json* results = nullptr);
 
 private:
     std::optional<OutputFile> trace_file_;

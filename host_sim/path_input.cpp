@@ -4,6 +4,8 @@
 #include "input_error.hpp"
 #include "text_file.hpp"
 
+#include "host_sim/methods/points_description.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
@@ -42,28 +44,6 @@ private:
     WaypointReader reader_;
 };
 
-/// The points of a curve description.
-class PointRows final : public WaypointRows {
-public:
-    explicit PointRows(const CurveFile& file) : file_(&file) {}
-
-    bool next(WaypointRow& out) override {
-        if (next_ == file_->points()) {
-            return false;
-        }
-        out = {};
-        for (unsigned k = 0; k < static_cast<unsigned>(file_->axes); ++k) {
-            out.position[k] = file_->at(next_, k);
-        }
-        ++next_;
-        return true;
-    }
-
-private:
-    const CurveFile* file_;
-    std::size_t next_ = 0;
-};
-
 } // namespace
 
 PathInput::PathInput(const Job& job, const std::vector<std::string>& machine_axes)
@@ -81,19 +61,48 @@ PathInput::PathInput(const Job& job, const std::vector<std::string>& machine_axe
     auto rows = std::make_unique<TableRows>(path_, name_, machine_axes_);
     axes_ = rows->axes();
     opened_ = std::move(rows);
+    if (needs_all_points(choice_.method)) {
+        compute_from_points(job);
+    }
+}
+
+void PathInput::compute_from_points(const Job& job) {
+    std::vector<PerAxis<double>> points;
+    WaypointRow row;
+    while (opened_->next(row)) {
+        if (row.feed_mm_s > 0.0 || row.corner != Corner::automatic) {
+            throw InputError(name_, row.line,
+                             fmt::format("--curve {} takes all points as one smooth curve; leave out the columns feed "
+                                         "and corner",
+                                         method_name(choice_.method)));
+        }
+        points.push_back(row.position);
+    }
+    points_read_ = points.size();
+    opened_.reset();
+    const int axes = static_cast<int>(axes_.size());
+    try {
+        file_ = compute_curve(description_name(choice_.method), points_description(choice_, points, axes), job.scalar,
+                              name_);
+    } catch (const DescriptionError& error) {
+        throw InputError(name_, 0, error.what());
+    }
+    if (job.command != Command::curve) {
+        require_executable(file_, name_);
+    }
 }
 
 void PathInput::open_description(const Job& job, const std::vector<std::string>& machine_axes) {
-    table_ = false;
     if (const std::string_view option = first_option(job.curve); !option.empty()) {
         throw UsageError(fmt::format("{}: a curve file says itself which curve it is; leave the option out", option));
     }
-    file_ = read_curve_file(name_);
-    choice_.method = file_.segments.empty() ? Method::catmull_rom : Method::bezier;
+    file_ = read_curve_file(name_, job.scalar);
+    if (file_.described && job.command != Command::curve) {
+        require_executable(file_, name_);
+    }
+    choice_.method = Method::bezier;
     choice_.closed = file_.closed;
-    choice_.tension = file_.tension;
-    choice_.parameterization = Parameterization::uniform;
-    choice_.corner_angle_deg = 180.0; // none: the method has no corners
+    choice_.smooth = job.curve.smooth;
     const auto count = static_cast<std::size_t>(file_.axes);
     axes_ = machine_axes.empty() ? std::vector<std::string>(every_axis.begin(), every_axis.begin() + file_.axes)
                                  : machine_axes;
@@ -107,9 +116,6 @@ void PathInput::open_description(const Job& job, const std::vector<std::string>&
 std::unique_ptr<WaypointRows> PathInput::rows() {
     if (opened_) {
         return std::move(opened_);
-    }
-    if (!table_) {
-        return std::make_unique<PointRows>(file_);
     }
     return std::make_unique<TableRows>(path_, name_, machine_axes_);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PathInput: what the path is made of: rows of waypoints, from a file, a pipe or a description, or Bezier segments.
+// PathInput: what the path is made of: rows of waypoints, from a file or a pipe, or Bezier segments.
 #pragma once
 
 #include "curve_choice.hpp"
@@ -28,9 +28,16 @@ public:
     PathInput(const Job& job, const std::vector<std::string>& machine_axes);
 
     [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
+    /// The curve's name for files and reports.
+    [[nodiscard]] std::string_view curve_name() const noexcept {
+        return file_.segments.empty() ? method_name(choice_.method) : std::string_view(file_.method);
+    }
     [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
-    /// Bezier segments to be executed as they stand; null: there are waypoints.
+    /// Bezier segments to be executed as they stand: a curve file, what a description asks for, or what a method made
+    /// of all waypoints; null: there are waypoints, and the method streams.
     [[nodiscard]] const CurveFile* segments() const noexcept { return file_.segments.empty() ? nullptr : &file_; }
+    /// Waypoints that the segments were made of; 0: none, or not known.
+    [[nodiscard]] std::uint64_t points_read() const noexcept { return points_read_; }
     /// Whether rows() can be called again: the input is no pipe.
     [[nodiscard]] bool repeatable() const noexcept { return repeatable_; }
     /// The waypoints, from the first; once only where the input is not repeatable. @pre segments() is null
@@ -40,6 +47,7 @@ public:
 
 private:
     void open_description(const Job& job, const std::vector<std::string>& machine_axes);
+    void compute_from_points(const Job& job);
 
     std::string name_;
     std::string path_; // what is opened: /dev/stdin for a file that is standard input
@@ -48,7 +56,7 @@ private:
     std::vector<std::string> machine_axes_;
     std::vector<std::string> axes_;
     std::unique_ptr<WaypointRows> opened_;
-    bool table_ = true;
+    std::uint64_t points_read_ = 0;
     bool repeatable_ = true;
 };
 

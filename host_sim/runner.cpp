@@ -36,10 +36,16 @@ std::uint64_t draw(PathInput& input, const PathObservers& observers) {
 template <Scalar S>
 int draw_curve(const Job& job) {
     PathInput input(job, {});
+    if (const CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
+        Outputs outputs(job, input.curve_name(), curve->closed);
+        outputs.curve()->segments(*curve);
+        outputs.commit(&curve->results);
+        return 0;
+    }
     if (input.repeatable()) {
         static_cast<void>(draw<S>(input, {}));
     }
-    Outputs outputs(job, method_name(input.choice().method), input.choice().closed);
+    Outputs outputs(job, input.curve_name(), input.choice().closed);
     static_cast<void>(draw<S>(input, {.writer = outputs.curve()}));
     outputs.commit();
     return 0;
@@ -69,7 +75,7 @@ int move_machine(const Job& job) {
     if (input.repeatable()) {
         waypoints = draw<S>(input, {.limits = &path_limits});
     }
-    Outputs outputs(job, method_name(input.choice().method), input.choice().closed, machine);
+    Outputs outputs(job, input.curve_name(), input.choice().closed, machine);
     Motion<S> motion(job, machine, *limits, input, path_limits, outputs);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();

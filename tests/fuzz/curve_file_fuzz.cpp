@@ -33,12 +33,14 @@ void require_chain(const CurveFile& file) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
-        const CurveFile file = parse_curve({reinterpret_cast<const char*>(data), size}, "fuzz.json");
-        if (!file.segments.empty()) {
-            require_chain<double>(file);
-            require_chain<float>(file);
-            require_chain<Fixed>(file);
+        const auto scalar = static_cast<ScalarKind>(size % 3);
+        const CurveFile file = parse_curve({reinterpret_cast<const char*>(data), size}, "fuzz.json", scalar);
+        if (file.described) {
+            require_executable(file, "fuzz.json");
         }
+        require_chain<double>(file);
+        require_chain<float>(file);
+        require_chain<Fixed>(file);
     } catch (const InputError& error) {
         if (std::string_view(error.what()).find('\n') != std::string_view::npos) {
             std::abort();

@@ -58,7 +58,7 @@ TEST_CASE("A wrong curve option is refused in one line") {
     const auto contains = [](const std::string& text, const char* part) {
         return text.find(part) != std::string::npos;
     };
-    CHECK(contains(g2([](A& a) { a.method = "spline"; }), "g2, catmull-rom, polyline"));
+    CHECK(contains(g2([](A& a) { a.method = "spline"; }), "g2, g2-bezier, catmull-rom"));
     CHECK(contains(g2([](A& a) { a.method = "bezier"; }), "curve file"));
     CHECK(contains(g2([](A& a) { a.tension = "1"; }), "--curve g2 has no option --tension"));
     CHECK(contains(g2([](A& a) { a.method = "polyline", a.corner_angle = "1"; }), "has no option"));

@@ -40,11 +40,13 @@ TEST_CASE("A description names a method and its points") {
     const CurveFile file = parse_curve(
         R"({"id": "p1", "method": "catmull_rom", "input": {"closed": false, "tension": "0.25", "points": [[0, 0, 1], ["1e1", 2, 3]]}})",
         "c.json");
-    CHECK(file.method == "catmull_rom");
-    CHECK(file.segments.empty());
-    CHECK(file.points() == 2);
-    CHECK(file.tension == 0.25);
-    CHECK(file.at(1, 0) == 10.0);
+    CHECK(file.method == "catmull-rom");
+    CHECK(file.described);
+    REQUIRE(file.segments.size() == 1);
+    CHECK(file.axes == 3);
+    CHECK(file.at(1, 0) == Approx(10.0 / 12.0));
+    CHECK(file.at(3, 0) == 10.0);
+    CHECK(file.results["tangents"][0][0] == 2.5);
 }
 
 TEST_CASE("Every malformed curve file is refused in one line") {

@@ -115,7 +115,7 @@ TEST_CASE("Every wrong command line gets one line and status 2, and nothing is w
         {"plan p.csv --target sim", "no option"},
         {"run p.csv --window 15", "16 to 1000000"},
         {"run p.csv --window many", "16 to 1000000"},
-        {"run p.csv --curve bspline", "g2, catmull-rom, polyline"},
+        {"run p.csv --curve spline", "g2, g2-bezier, catmull-rom"},
         {"run p.csv --tension 1", "no option --tension"},
         {"run p.csv --closed=2", "no value"},
         {"run p.csv --start-tangent 1,0,0,0", "axes"},

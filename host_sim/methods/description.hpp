@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Description: the "input" of a curve description, read field by field, and the curve that a method makes of it.
+#pragma once
+
+#include "splinefeed/splines/bezier_piece.hpp"
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// What is wrong with a description and what would be right; the reader of the file adds its name.
+struct DescriptionError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A curve that was computed from a description, in mm.
+struct DescribedCurve {
+    /// Part of the curve's own parameter that a piece covers. Without it each piece has [0, 1].
+    struct Interval {
+        double from = 0.0;
+        double to = 1.0;
+    };
+    int axes = 0;
+    bool closed = false;
+    std::vector<BezierPiece<double>> pieces;
+    std::vector<Interval> intervals;                                   ///< empty, or one a piece
+    nlohmann::ordered_json results = nlohmann::ordered_json::object(); ///< keyed as the contract names them
+};
+
+/// A finite number, or one as a text, as exact data is written. Throws DescriptionError naming `what`.
+[[nodiscard]] double number_of(const nlohmann::json& value, std::string_view what);
+
+/// input[key]; the second form gives `otherwise` where there is no such key or it is null. Throws DescriptionError.
+[[nodiscard]] double number_in(const nlohmann::json& input, const char* key);
+[[nodiscard]] double number_in(const nlohmann::json& input, const char* key, double otherwise);
+[[nodiscard]] int integer_in(const nlohmann::json& input, const char* key, int low, int high);
+[[nodiscard]] int integer_in(const nlohmann::json& input, const char* key, int low, int high, int otherwise);
+[[nodiscard]] bool flag_in(const nlohmann::json& input, const char* key, bool otherwise);
+/// One of `names`, as its index.
+[[nodiscard]] std::size_t choice_in(const nlohmann::json& input, const char* key,
+                                    std::initializer_list<std::string_view> names, std::size_t otherwise);
+/// One number a joint: an array of `count`, or one number for all, or `otherwise` for all.
+[[nodiscard]] std::vector<double> numbers_in(const nlohmann::json& input, const char* key, std::size_t count,
+                                             double otherwise);
+
+/// Points of one dimension.
+struct PointList {
+    int axes = 0;
+    std::vector<PerAxis<double>> points; ///< [mm]
+
+    /// The largest |coordinate|.
+    [[nodiscard]] double largest() const noexcept;
+};
+
+/// input[key], or a part of it that `what` names: an array of `fewest` points at least, 1 to max_axes numbers each, all
+/// of one dimension. Throws DescriptionError naming the point.
+[[nodiscard]] PointList points_in(const nlohmann::json& input, const char* key, std::size_t fewest);
+[[nodiscard]] PointList points_of(const nlohmann::json& array, std::string_view what, std::size_t fewest);
+/// For a closed curve: drops the last point where it is the first again, within 1e-12 of the largest coordinate.
+void drop_repeated_end(PointList& list);
+/// input[key] as a vector of `axes` numbers; nothing where there is no such key or it is null.
+[[nodiscard]] bool vector_in(const nlohmann::json& input, const char* key, int axes, PerAxis<double>& out);
+
+/// The unit a method computes in, and the way there and back. double and float take mm. Fixed takes 2^exponent mm, so
+/// that `largest_mm` times `growth` becomes 2^24 to 2^25: 2^6 of headroom for sums, 57 bits in all.
+template <Scalar S>
+class Unit {
+public:
+    /// @param growth  by what the method's results may exceed its input
+    Unit(double largest_mm, double growth);
+
+    [[nodiscard]] int exponent() const noexcept { return exponent_; }
+    /// mm to units. Throws DescriptionError where the number is beyond the range of S.
+    [[nodiscard]] S in(double mm) const;
+    /// Units to mm.
+    [[nodiscard]] double out(S value) const noexcept;
+
+    [[nodiscard]] Point<S> in(const PerAxis<double>& mm) const;
+    [[nodiscard]] PerAxis<double> out(const Point<S>& point) const noexcept;
+    [[nodiscard]] std::vector<Point<S>> in(const PointList& list) const;
+    [[nodiscard]] BezierPiece<double> out(const BezierPiece<S>& piece) const noexcept;
+    [[nodiscard]] std::vector<BezierPiece<double>> out(const std::vector<BezierPiece<S>>& pieces) const;
+
+private:
+    int exponent_ = 0;
+};
+
+/// Throws what the core refused as a DescriptionError.
+void require(Status status);
+
+/// The first `axes` numbers as a JSON array; a list of them.
+[[nodiscard]] nlohmann::ordered_json to_json(const PerAxis<double>& point, int axes);
+template <Scalar S>
+[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<Point<S>>& points, int axes, const Unit<S>& unit);
+
+} // namespace splinefeed::host

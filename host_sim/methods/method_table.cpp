@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/methods/method_table.hpp"
+
+#include "host_sim/input_error.hpp"
+#include "host_sim/methods/joint_report.hpp"
+#include "host_sim/nearest_name.hpp"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+using Describe = DescribedCurve (*)(const nlohmann::json&);
+
+/// One row per name: a new method adds its own.
+struct Row {
+    std::string_view name;
+    std::string_view curve; ///< the name of --curve
+    Describe fixed;
+    Describe single;
+    Describe dual;
+};
+
+constexpr std::array table{
+    Row{"catmull_rom", "catmull-rom", describe_catmull_rom<Fixed>, describe_catmull_rom<float>,
+        describe_catmull_rom<double>},
+};
+
+const Row* find(std::string_view method) noexcept {
+    for (const Row& row : table) {
+        if (row.name == method) {
+            return &row;
+        }
+    }
+    return nullptr;
+}
+
+} // namespace
+
+std::vector<std::string_view> described_methods() {
+    std::vector<std::string_view> names;
+    for (const Row& row : table) {
+        names.push_back(row.name);
+    }
+    return names;
+}
+
+std::string curve_name_of(std::string_view method) {
+    const Row* const row = find(method);
+    return std::string(row == nullptr ? method : row->curve);
+}
+
+DescribedCurve describe_curve(std::string_view method, const nlohmann::json& input, ScalarKind scalar) {
+    const Row* const row = find(method);
+    if (row == nullptr) {
+        const std::vector<std::string_view> names = described_methods();
+        throw DescriptionError(
+            fmt::format("\"method\" {} is not available{}", in_quotes(method), suggestion(method, names)));
+    }
+    DescribedCurve curve = scalar == ScalarKind::fixed    ? row->fixed(input)
+                           : scalar == ScalarKind::single ? row->single(input)
+                                                          : row->dual(input);
+    if (!curve.results.contains("joints")) {
+        curve.results["joints"] = joint_report(curve, scalar == ScalarKind::fixed    ? agreement_of<Fixed>
+                                                      : scalar == ScalarKind::single ? agreement_of<float>
+                                                                                     : agreement_of<double>);
+    }
+    return curve;
+}
+
+} // namespace splinefeed::host
