@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "path_limits.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "splinefeed/splines/curve_hull.hpp"
+
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -12,49 +12,6 @@ namespace {
 constexpr double tolerance_mm = 1e-6;
 constexpr double most_counts = 2147483647.0;
 constexpr double slack_mm = 1e-9; // rounding of points up to 2^20 mm
-constexpr int deepest = 24;       // halvings; a hull is 4^-24 of its segment's wide then
-
-using Points = PerDegree<double>;
-
-struct Extent {
-    double low;
-    double high;
-};
-
-Extent hull(const Points& points, unsigned degree) {
-    const auto [low, high] = std::minmax_element(points.begin(), points.begin() + degree + 1);
-    return {*low, *high};
-}
-
-// Adds to `found` the points of the curve that are needed to know how far it goes beyond the limits.
-void survey(const Points& points, unsigned degree, Extent limits, int depth, Extent& found) {
-    const auto take = [&found](double value) {
-        found.low = std::min(found.low, value);
-        found.high = std::max(found.high, value);
-    };
-    take(points[0]);
-    take(points[degree]);
-    const Extent most = hull(points, degree);
-    // Nothing below adds to what is known.
-    if (most.high <= std::max(limits.high, found.high) + slack_mm &&
-        most.low >= std::min(limits.low, found.low) - slack_mm) {
-        return;
-    }
-    if (depth == deepest) {
-        return;
-    }
-    Points left{};
-    Points right = points;
-    left[0] = points[0];
-    for (unsigned step = 1; step <= degree; ++step) {
-        for (unsigned i = 0; i + step <= degree; ++i) {
-            right[i] = (right[i] + right[i + 1]) / 2.0;
-        }
-        left[step] = right[0];
-    }
-    survey(left, degree, limits, depth + 1, found);
-    survey(right, degree, limits, depth + 1, found);
-}
 
 } // namespace
 
@@ -71,14 +28,13 @@ std::optional<std::string> PathLimits::violation(const CurveSegment<S>& segment)
     const auto degree = static_cast<unsigned>(segment.degree);
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
         const Axis& axis = axis_[k];
-        Points points{};
+        PerDegree<double> points{};
         for (unsigned i = 0; i <= degree; ++i) {
             points[i] = segment.control_mm(static_cast<int>(k), static_cast<int>(i));
         }
-        const Extent limits{axis.low - tolerance_mm, axis.high + tolerance_mm};
-        Extent found{points[0], points[0]};
-        survey(points, degree, limits, 0, found);
-        if (found.low >= limits.low && found.high <= limits.high) {
+        const Extent<double> limits{axis.low - tolerance_mm, axis.high + tolerance_mm};
+        const Extent<double> found = extent_beyond(points, segment.degree, limits, slack_mm);
+        if (limits.contains(found)) {
             continue;
         }
         const double value = found.low < limits.low ? found.low : found.high;

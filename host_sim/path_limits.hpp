@@ -12,7 +12,8 @@
 namespace splinefeed::host {
 
 /// The travel of each axis and the range of its counter. Bezier curves lie in the hull of their control points: a
-/// segment whose hull is inside costs one comparison a point; another one is halved until it is decided, to 1 nm.
+/// segment whose hull is inside costs one comparison a point; another one is halved until it is decided, to 1 nm
+/// (splines/curve_hull.hpp). Nothing is sampled.
 class PathLimits {
 public:
     explicit PathLimits(const MachineDescription& machine);
