@@ -60,6 +60,10 @@ void write_sentences(Lines out, const Summary& summary) {
     if (summary.stopped) {
         fmt::format_to(out, "The run was stopped before the end of the program.\n");
     }
+    if (!summary.waypoint_error_mm) {
+        fmt::format_to(out,
+                       "The waypoints are control points: the curve is drawn towards them and need not pass them.\n");
+    }
     for (const Summary::AxisUse& use : summary.limit_use) {
         write_use_sentence(out, use.axis, "velocity", use.velocity);
         write_use_sentence(out, use.axis, "acceleration", use.acceleration);
@@ -101,7 +105,7 @@ std::string to_json(const Summary& summary) {
     json["limit_use"]["velocity"] = velocity;
     json["limit_use"]["acceleration"] = acceleration;
     json["limit_use"]["jerk"] = jerk;
-    json["waypoint_error_mm"] = summary.waypoint_error_mm;
+    json["waypoint_error_mm"] = summary.waypoint_error_mm ? Json(*summary.waypoint_error_mm) : Json(nullptr);
     json["optimum_time_s"] = summary.optimum_time_s ? Json(*summary.optimum_time_s) : Json(nullptr);
     json["planning_time_s"] = summary.planning_time_s;
     json["memory_bytes"]["curve"] = summary.memory_bytes.curve;
@@ -126,7 +130,9 @@ std::string to_text(const Summary& summary) {
     }
     row(out, "path length", fmt::format("{:.6f}", summary.length_mm), "mm");
     row(out, "largest speed", fmt::format("{:.6f}", summary.max_speed_mm_s), "mm/s");
-    row(out, "waypoint error", fine(summary.waypoint_error_mm), "mm at most");
+    if (summary.waypoint_error_mm) {
+        row(out, "waypoint error", fine(*summary.waypoint_error_mm), "mm at most");
+    }
     row(out, "smoothing error", fine(summary.smoothing_bound_mm), "mm at most");
     row(out, "waypoints", std::to_string(summary.waypoints), "");
     row(out, "curve segments", std::to_string(summary.curve_segments), summary.curve);

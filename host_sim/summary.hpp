@@ -32,9 +32,9 @@ struct Summary {
     std::string scalar;
     std::string curve;
     double max_speed_mm_s = 0.0;
-    std::vector<AxisUse> limit_use; ///< in the order of the machine file
-    double waypoint_error_mm = 0.0;
-    std::optional<double> optimum_time_s; ///< lower bound of the cycle time; none: it was not computed
+    std::vector<AxisUse> limit_use;          ///< in the order of the machine file
+    std::optional<double> waypoint_error_mm; ///< none: the waypoints are control points, which no curve has to pass
+    std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; none: it was not computed
     double planning_time_s = 0.0;
     MemoryBytes memory_bytes;
     bool stopped = false;             ///< the run ended before the program did
@@ -45,7 +45,8 @@ struct Summary {
 };
 
 /// One JSON object with the keys of the contract in its order, then those added since, and a line end. Under
-/// limit_use.jerk an axis without a jerk limit is omitted; optimum_time_s is null where there is none.
+/// limit_use.jerk an axis without a jerk limit is omitted; waypoint_error_mm and optimum_time_s are null where there is
+/// none.
 [[nodiscard]] std::string to_json(const Summary& summary);
 
 /// A table with units, then a sentence for everything that is unusual. Ends with a line end.

@@ -12,6 +12,7 @@ namespace splinefeed::host {
 /// Takes waypoints and curve segments as they come, each in order, waypoints ahead of the segments that lead to them.
 /// A waypoint is measured against the nearest points of the segments around it: those that lead to it and the first
 /// after it. One to which no segment leads was merged with its predecessor and is measured where that one is.
+/// Meaningless for a method that does not pass its points (bspline): the summary then says so instead.
 /// Memory: the waypoints that no segment has reached yet (the look-ahead of the curve). Cost: about 1 us a segment.
 class WaypointError {
 public:

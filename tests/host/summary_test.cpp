@@ -35,6 +35,17 @@ bool contains(const std::string& text, const std::string& part) {
 
 } // namespace
 
+TEST_CASE("without a waypoint error the key stays, and the text says why") {
+    Summary summary = sample();
+    CHECK(contains(to_text(summary), "waypoint error"));
+    CHECK_FALSE(contains(to_text(summary), "control points"));
+    summary.waypoint_error_mm.reset();
+    CHECK(nlohmann::json::parse(to_json(summary)).at("waypoint_error_mm").is_null());
+    CHECK_FALSE(contains(to_text(summary), "waypoint error"));
+    CHECK(contains(to_text(summary),
+                   "The waypoints are control points: the curve is drawn towards them and need not pass"));
+}
+
 TEST_CASE("the JSON summary has the keys of the contract, in order") {
     const nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_json(sample()));
     std::vector<std::string> keys;
