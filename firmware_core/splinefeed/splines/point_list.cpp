@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/splines/point_list.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+std::size_t first_bad_point(std::span<const Point<S>> points) noexcept {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (const S& x : points[i]) {
+            if (!within(x, farthest_coordinate<S>())) {
+                return i;
+            }
+        }
+    }
+    return points.size();
+}
+
+template <Scalar S>
+std::size_t closed_count(std::span<const Point<S>> points) noexcept {
+    const bool repeated = points.size() > 1 && points.front() == points.back();
+    return points.size() - (repeated ? 1U : 0U);
+}
+
+template <Scalar S>
+Point<S> chord_between(const Point<S>& from, const Point<S>& to) noexcept {
+    Point<S> out{};
+    for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+        out[k] = to[k] - from[k];
+    }
+    return out;
+}
+
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template std::size_t first_bad_point<S>(std::span<const Point<S>>) noexcept;                                       \
+    template std::size_t closed_count<S>(std::span<const Point<S>>) noexcept;                                          \
+    template Point<S> chord_between<S>(const Point<S>&, const Point<S>&) noexcept;
+SPLINEFEED_INSTANTIATE(double)
+SPLINEFEED_INSTANTIATE(float)
+SPLINEFEED_INSTANTIATE(Fixed)
+#undef SPLINEFEED_INSTANTIATE
+
+} // namespace splinefeed

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What the whole-curve methods check of their points before any arithmetic.
+#pragma once
+
+#include "splinefeed/splines/bezier_piece.hpp"
+
+#include <cstddef>
+
+namespace splinefeed {
+
+/// Largest coordinate that the whole-curve methods take, in the unit of the points: 2^18 in Fixed, where it leaves 2^13
+/// for the factors of a method, 2^40 in floating point, where squares of chords still fit into a float.
+template <Scalar S>
+[[nodiscard]] constexpr S farthest_coordinate() noexcept {
+    return std::same_as<S, Fixed> ? literal<S>(0x1p18) : literal<S>(0x1p30) * literal<S>(0x1p10);
+}
+
+/// Whether |x| <= limit; false for NaN.
+template <Scalar S>
+[[nodiscard]] constexpr bool within(S x, S limit) noexcept {
+    return x >= -limit && x <= limit;
+}
+
+/// Index of the first point that is out of range or not a number; points.size() if there is none.
+template <Scalar S>
+[[nodiscard]] std::size_t first_bad_point(std::span<const Point<S>> points) noexcept;
+
+/// Number of different points of a closed curve: one less where the last repeats the first.
+template <Scalar S>
+[[nodiscard]] std::size_t closed_count(std::span<const Point<S>> points) noexcept;
+
+/// to - from, per axis.
+template <Scalar S>
+[[nodiscard]] Point<S> chord_between(const Point<S>& from, const Point<S>& to) noexcept;
+
+} // namespace splinefeed

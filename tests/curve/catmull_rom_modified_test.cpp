@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// CatmullRomModified: the whole-curve method bit by bit, corners, merged duplicates, the seam.
+#include "splinefeed/s1_curve/catmull_rom_modified.hpp"
+
+#include "support/curve_harness.hpp"
+#include "support/spline_points.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed_test;
+
+namespace {
+
+template <Scalar S>
+std::vector<Feed<S>> open_feeds(const std::vector<Waypoint<S>>& points) {
+    std::vector<Feed<S>> feeds;
+    for (const auto& point : points) {
+        feeds.push_back({point, Role::path});
+    }
+    return feeds;
+}
+
+template <Scalar S>
+std::vector<BezierPiece<S>> batch(const std::vector<Point<S>>& points, bool closed, ModifiedTangents<S> tangents) {
+    std::vector<S> chords(points.size());
+    std::vector<Point<S>> derivatives(points.size());
+    std::vector<BezierPiece<S>> pieces(points.size());
+    const auto count = modified_catmull_rom<S>(points, closed, tangents, {chords, derivatives, pieces});
+    REQUIRE(count.has_value());
+    pieces.resize(*count);
+    return pieces;
+}
+
+} // namespace
+
+TEST_CASE("catmull-rom modified: streaming is the whole-curve method bit by bit", "[curve][catmull_rom_modified]") {
+    RandomPath random(path_seed + 50);
+    CAPTURE(path_seed);
+    for (int round = 0; round < 200; ++round) {
+        const bool closed = round % 2 == 1;
+        const int axes = 1 + random.below(6);
+        const auto points = random_points<double>(random, axes, (closed ? 3 : 2) + random.below(40));
+        const ModifiedTangents<double> tangents{round % 4 < 2 ? ChordFactor::chord : ChordFactor::constant,
+                                                random.between(0.0, 2.0)};
+        const auto pieces = batch(points, closed, tangents);
+        CatmullRomModified<double> curve({axes, Parameterization::chordal, 0.5, 65536}, tangents.factor, tangents.mode);
+        const auto waypoints = waypoints_at(points);
+        const auto segments = run_curve<double>(curve, closed ? closed_feeds(waypoints) : open_feeds(waypoints),
+                                                round % 3 == 0 ? Pace::lazy : Pace::eager);
+        REQUIRE(segments.size() == pieces.size());
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            for (int k = 0; k < axes; ++k) {
+                for (int p = 0; p <= 3; ++p) {
+                    CAPTURE(round, i, k, p);
+                    REQUIRE(segments[i].control_mm(k, p) ==
+                            pieces[i].control[static_cast<unsigned>(k)][static_cast<unsigned>(p)]);
+                }
+            }
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("catmull-rom modified: a corner ends the curve and starts another", "[curve][catmull_rom_modified]",
+                   double, float, Fixed) {
+    using S = TestType;
+    RandomPath random(path_seed + 51);
+    for (int round = 0; round < 40; ++round) {
+        const auto points = random_points<S>(random, 3, 5 + random.below(20));
+        auto waypoints = waypoints_at(points);
+        const auto corner = static_cast<std::size_t>(1 + random.below(static_cast<int>(points.size()) - 2));
+        waypoints[corner].corner = Corner::forced;
+        const CurveOptions<S> options{3, Parameterization::chordal, literal<S>(0.5), 65536};
+        CatmullRomModified<S> whole(options, literal<S>(1));
+        const auto segments = run_curve<S>(whole, open_feeds(waypoints));
+        const auto middle = waypoints.begin() + static_cast<std::ptrdiff_t>(corner);
+        CatmullRomModified<S> one(options, literal<S>(1));
+        CatmullRomModified<S> two(options, literal<S>(1));
+        auto parts = run_curve<S>(one, open_feeds<S>({waypoints.begin(), middle + 1}));
+        const auto rest = run_curve<S>(two, open_feeds<S>({middle, waypoints.end()}));
+        parts.insert(parts.end(), rest.begin(), rest.end());
+        REQUIRE(segments.size() == parts.size());
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            REQUIRE(same_shape(segments[i], parts[i]));
+        }
+        REQUIRE(segments[corner - 1].stop_at_end);
+    }
+}
+
+TEMPLATE_TEST_CASE("catmull-rom modified: duplicates are merged before", "[curve][catmull_rom_modified]", double, float,
+                   Fixed) {
+    using S = TestType;
+    RandomPath random(path_seed + 52);
+    const auto points = random_points<S>(random, 2, 12);
+    auto doubled = points;
+    doubled.insert(doubled.begin() + 5, points[5]);
+    doubled.insert(doubled.begin(), points[0]);
+    const CurveOptions<S> options{2, Parameterization::chordal, literal<S>(0.5), 65536};
+    CatmullRomModified<S> a(options, literal<S>(1));
+    CatmullRomModified<S> b(options, literal<S>(1));
+    const auto once = run_curve<S>(a, open_feeds(waypoints_at(points)));
+    const auto twice = run_curve<S>(b, open_feeds(waypoints_at(doubled)));
+    REQUIRE(once.size() == twice.size());
+    for (std::size_t i = 0; i < once.size(); ++i) {
+        REQUIRE(same_shape(once[i], twice[i]));
+    }
+}
+
+// G1 in the segment's parameter, C1 by chord length: the unit tangents agree, the legs are as the chords. The slopes at
+// a joint are the same numbers on both sides; a Bezier point is off by a few roundings of its segment's size.
+TEMPLATE_TEST_CASE("catmull-rom modified: joints, measured", "[curve][catmull_rom_modified]", double, float, Fixed) {
+    using S = TestType;
+    RandomPath random(path_seed + 53);
+    for (const Shape shape : {Shape::even, Shape::uneven, Shape::helix}) {
+        const Path path = random.make(shape, 3, 60);
+        CatmullRomModified<S> curve({3, Parameterization::chordal, literal<S>(0.5), 65536}, literal<S>(1));
+        const auto segments = run_curve<S>(curve, feeds_of<S>(path));
+        for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
+            const Joint joint = joint_of(segments[i], segments[i + 1]);
+            const Real longest = std::max(size(bezier(segments[i], 3)), size(bezier(segments[i + 1], 3)));
+            CAPTURE(static_cast<int>(shape), i);
+            REQUIRE(static_cast<double>(joint.gap) <= 0x1p-39 + static_cast<double>(rounding<S>(longest)));
+            if (!segments[i].stop_at_end) {
+                REQUIRE(static_cast<double>(joint.direction) <=
+                        static_cast<double>(16.0L * rounding<S>(longest) / joint.least_leg));
+            }
+        }
+    }
+}
