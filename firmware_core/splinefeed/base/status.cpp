@@ -43,6 +43,10 @@ const char* describe(Error error) noexcept {
     case Error::schoenberg_whitney:
         return "the knots do not suit the parameters of the points (Schoenberg-Whitney); use averaged knots";
     case Error::knots_invalid: return "knots must not decrease, nor repeat more than degree + 1 times";
+    case Error::knot_rule_unsuited:
+        return "this knot rule does not fit the curve: 'params' and 'midpoints' are for closed curves, 'params' also "
+               "for "
+               "degree 3 with end tangents or degree 1 without; 'average_tangents' needs end tangents and degree 2";
     case Error::parameters_invalid: return "parameters must increase strictly within the domain";
     case Error::even_degree_closed:
         return "a closed curve of even degree through an even number of points cannot have its knots at the points; "

@@ -44,6 +44,7 @@ enum class Error : std::uint8_t {
     system_singular,
     schoenberg_whitney,
     knots_invalid,
+    knot_rule_unsuited,
     parameters_invalid,
     even_degree_closed,
     tangent_vanishes,

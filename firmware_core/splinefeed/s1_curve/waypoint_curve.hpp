@@ -4,13 +4,11 @@
 #pragma once
 
 #include "splinefeed/s1_curve/curve_source.hpp"
+#include "splinefeed/splines/parameterization.hpp"
 
 #include <cstdint>
 
 namespace splinefeed {
-
-/// Spacing of the curve parameter between waypoints: 1, |chord| or sqrt(|chord|).
-enum class Parameterization : std::uint8_t { uniform, chordal, centripetal };
 
 /// What the shared part of the streaming methods needs to know.
 template <Scalar S>

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/splines/spline_parameters.hpp"
+
+#include "splinefeed/splines/weight.hpp"
+
+#include <cstddef>
+
+namespace splinefeed {
+
+namespace {
+
+// Differences of coordinates below 2^29 are squared and summed exactly by norm.
+template <Scalar S>
+bool usable(S coordinate) noexcept {
+    if constexpr (std::same_as<S, Fixed>) {
+        return absolute(coordinate) < from_integer<S>(1 << 29);
+    } else {
+        return absolute(coordinate) <= largest<S>(); // false for NaN
+    }
+}
+
+/// Length of the span from one point to the next, before it is brought to the domain.
+template <Scalar S>
+S span_length(const Point<S>& from, const Point<S>& to, int axes, Parameterization how) noexcept {
+    if (how == Parameterization::uniform) {
+        return from_integer<S>(1);
+    }
+    Point<S> chord{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        chord[k] = to[k] - from[k];
+    }
+    const S length = norm(chord.data(), axes);
+    return how == Parameterization::chordal ? length : square_root(length);
+}
+
+} // namespace
+
+template <Scalar S>
+Status spline_parameters(std::span<const Point<S>> points, int axes, Parameterization how, bool closed, S domain_length,
+                         std::span<S> parameters) noexcept {
+    const std::size_t count = points.size();
+    if (count < (closed ? 3U : 2U)) {
+        return Error::too_few_points;
+    }
+    if (axes < 1 || axes > max_axes) {
+        return Error::axes_out_of_range;
+    }
+    if (parameters.size() < count) {
+        return Error::storage_too_small;
+    }
+    if (!(domain_length > S{}) || !usable(domain_length)) {
+        return Error::parameters_invalid;
+    }
+    if constexpr (std::same_as<S, Fixed>) {
+        if (domain_length > from_integer<S>(1 << 26)) {
+            return Error::parameters_invalid;
+        }
+    }
+    for (const Point<S>& point : points) {
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            if (!usable(point[k])) {
+                return Error::position_out_of_range;
+            }
+        }
+    }
+    const std::size_t spans = closed ? count : count - 1U;
+    // In Fixed the sum of the spans must fit: halve the unit as often as their number may double the longest.
+    int halvings = 0;
+    if constexpr (std::same_as<S, Fixed>) {
+        S longest{};
+        for (std::size_t i = 0; i < spans; ++i) {
+            longest = larger(longest, span_length(points[i], points[(i + 1U) % count], axes, how));
+        }
+        while (halvings < 40 && scale2(longest, -halvings) >=
+                                    from_integer<S>(1 << 29) / from_integer<S>(static_cast<std::int32_t>(spans))) {
+            ++halvings;
+        }
+    }
+    S sum{};
+    for (std::size_t i = 0; i < spans; ++i) {
+        S length = span_length(points[i], points[(i + 1U) % count], axes, how);
+        if constexpr (std::same_as<S, Fixed>) {
+            length = scale2(length, -halvings);
+        }
+        if (!(length > S{})) {
+            return Error::coincident_points;
+        }
+        parameters[i] = sum;
+        sum += length;
+    }
+    if (!(sum <= largest<S>())) {
+        return Error::result_out_of_range;
+    }
+    for (std::size_t i = 1; i < spans; ++i) {
+        parameters[i] = weighted(weight_ratio(parameters[i], sum), domain_length);
+        if (!(parameters[i] > parameters[i - 1U])) {
+            return Error::coincident_points;
+        }
+    }
+    if (!(parameters[spans - 1U] < domain_length)) {
+        return Error::coincident_points;
+    }
+    if (!closed) {
+        parameters[spans] = domain_length;
+    }
+    return {};
+}
+
+template Status spline_parameters(std::span<const Point<double>>, int, Parameterization, bool, double,
+                                  std::span<double>) noexcept;
+template Status spline_parameters(std::span<const Point<float>>, int, Parameterization, bool, float,
+                                  std::span<float>) noexcept;
+template Status spline_parameters(std::span<const Point<Fixed>>, int, Parameterization, bool, Fixed,
+                                  std::span<Fixed>) noexcept;
+
+} // namespace splinefeed
