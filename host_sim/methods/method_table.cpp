@@ -26,6 +26,8 @@ struct Row {
 constexpr std::array table{
     Row{"catmull_rom", "catmull-rom", describe_catmull_rom<Fixed>, describe_catmull_rom<float>,
         describe_catmull_rom<double>},
+    Row{"beta_chain", "beta-chain", describe_beta_chain<Fixed>, describe_beta_chain<float>,
+        describe_beta_chain<double>},
 };
 
 const Row* find(std::string_view method) noexcept {

@@ -10,6 +10,8 @@ namespace splinefeed::host {
 /// A method's own results and its curve, from the "input" of a description. Throws DescriptionError.
 template <Scalar S>
 [[nodiscard]] DescribedCurve describe_catmull_rom(const nlohmann::json& input);
+template <Scalar S>
+[[nodiscard]] DescribedCurve describe_beta_chain(const nlohmann::json& input);
 
 /// Names of the methods, as descriptions spell them.
 [[nodiscard]] std::vector<std::string_view> described_methods();
