@@ -3,6 +3,7 @@
 """Draws every curve method on the same points, with curvature combs, as SVG.
 
     docs/curves.py build/release/bin/splinefeed > docs/curves.svg
+    docs/curves.py build/release/bin/splinefeed --table build/release/bin > table.md      (with the benchmarks built)
 
 A tooth of the comb is normal to the curve and as long as the curvature there: a step in the comb is a step in the
 curvature, which a machine feels as a jerk. Python's standard library only.
@@ -78,7 +79,113 @@ def panel(tool, csv, title, options, left, top):
     return out
 
 
+
+# method, what is proved of a joint, benchmark of its cost, when to use it
+METHODS = [
+    ("g2", "", "G2", "C2 in the knot parameter", "g2", "the default: smooth motion through points, endless input"),
+    ("g2-bezier", "--beta2 8", "G2", "G2", "g2_bezier", "through points, with a tension that pulls it to the chords"),
+    ("catmull-rom", "", "G1", "C1 in the knot parameter", "catmull_rom", "local: a point moves four segments; curvature jumps"),
+    ("catmull-rom", "--smooth", "G2", "G2", "catmull_rom_smooth", "local and G2: six segments, degree 5"),
+    ("catmull-rom-modified", "", "G1", "C1 in arc length nearly: C1 in s", "catmull_rom_modified",
+     "local, unevenly spaced points"),
+    ("bspline", "", "C2", "C2 (degree 2: C1)", "bspline", "the points are a control polygon; stays in its hull"),
+    ("bspline-interpolation", "--degree 3", "G2", "C^(k-1) in t", "interpolate_bspline/3", "any degree 1 to 9; all points known"),
+    ("bspline-interpolation", "--degree 5", "G2", "C^(k-1) in t", "interpolate_bspline/5", "cams and whatever is differentiated twice"),
+    ("ferguson", "", "G2", "C2 at lambda 1, mu 0; else G2", "ferguson", "tangent length and tension of single joints; evenly spaced points"),
+    ("ferguson", "--curvature-sign -1 --mu 8", "G1+|k|", "G1, |kappa| only", "ferguson", "hardly ever: the curvature flips at every point"),
+    ("beta-chain", "--beta2 4", "G2", "G2 (order 1: G1)", "beta_chain", "shapes drawn by hand, bias and tension a joint"),
+    ("polyline", "", "C0", "C0, a stop at each corner", "polyline", "straight lines"),
+]
+RANK = ["C0", "G1", "G1+|k|", "G2", "C2"]
+
+
+def segments_of(tool, points, options):
+    with tempfile.NamedTemporaryFile("w", suffix=".csv") as csv:
+        csv.write("\n".join(f"{x!r},{y!r}" for x, y in points) + "\n")
+        csv.flush()
+        made = subprocess.run([tool, "curve", csv.name, *options.split(), "--scalar", "double"], capture_output=True,
+                              text=True, check=True).stdout
+    return [[tuple(p[:2]) for p in s["control_points"]] for s in json.loads(made)["segments"]]
+
+
+def least_class(curve):
+    """The least of the joints' classes, by unit parameter."""
+    least = len(RANK) - 1
+    for before, after in zip(curve, curve[1:]):
+        (_, a1, a2), (_, b1, b2) = jet(before, 1.0), jet(after, 0.0)
+        na, nb = math.hypot(*a1), math.hypot(*b1)
+        ka, kb = [(d[0] * dd[1] - d[1] * dd[0]) / n**3 for d, dd, n in ((a1, a2, na), (b1, b2, nb))]
+        if math.hypot(a1[0] / na - b1[0] / nb, a1[1] / na - b1[1] / nb) > 1e-6:
+            rank = 0
+        elif abs(ka - kb) <= 1e-6 * (abs(ka) + 1e-3):
+            same = math.hypot(a1[0] - b1[0], a1[1] - b1[1]) < 1e-9 * na and \
+                math.hypot(a2[0] - b2[0], a2[1] - b2[1]) < 1e-7 * (math.hypot(*a2) + na)
+            rank = 4 if same else 3
+        else:
+            rank = 2 if abs(abs(ka) - abs(kb)) <= 1e-6 * (abs(ka) + 1e-3) else 1
+        least = min(least, rank)
+    return RANK[least]
+
+
+def moved(curve, other, least):
+    count = 0
+    for a, b in zip(curve, other):
+        count += any(math.hypot(p[0] - q[0], p[1] - q[1]) > least for p, q in zip(a, b))
+    return count
+
+
+def miss(curve, points):
+    worst = 0.0
+    for point in points:
+        def distance(segment, u):
+            p = jet(segment, u)[0]
+            return math.hypot(p[0] - point[0], p[1] - point[1])
+        _, i, u = min((distance(s, u / 32), i, u / 32) for i, s in enumerate(curve) for u in range(33))
+        low, high = max(0.0, u - 1 / 32), min(1.0, u + 1 / 32)
+        for _ in range(60):
+            a, b = low + (high - low) / 3, high - (high - low) / 3
+            low, high = (low, b) if distance(curve[i], a) < distance(curve[i], b) else (a, high)
+        worst = max(worst, distance(curve[i], low))
+    return worst
+
+
+def costs(folder):
+    out = {}
+    for program in ("curve_bench", "interpolation_bench"):
+        made = subprocess.run([f"{folder}/{program}", "--benchmark_format=json", "--benchmark_min_time=0.2"],
+                              capture_output=True, text=True, check=True).stdout
+        for row in json.loads(made)["benchmarks"]:
+            out[row["name"].replace("<double>", "")] = 1e9 / row["items_per_second"]
+    return out
+
+
+def table(tool, folder):
+    cost = costs(folder)
+    points = [(2.5 * i + 0.3 * math.sin(2.0 * i), 10 * math.sin(0.35 * i) + 2 * math.sin(1.3 * i)) for i in range(40)]
+    print("| method | continuity | measured at least | passes the points within | moving one point by 1 mm moves | "
+          "ns a waypoint | when to use |")
+    print("|---|---|---|---|---|---|---|")
+    for name, options, expected, proved, bench, use in METHODS:
+        both = f"--curve {name} {options}"
+        if name in ("g2", "g2-bezier", "catmull-rom", "catmull-rom-modified", "bspline"):
+            both += " --corner-angle 180"
+        curve = segments_of(tool, points, both)
+        changed = segments_of(tool, [(x, y + (i == 20)) for i, (x, y) in enumerate(points)], both)
+        found = least_class(curve)
+        if RANK.index(found) < RANK.index(expected):
+            sys.exit(f"{name} {options}: joints are {found}, not {expected}")
+        nearest = miss(curve, points)
+        passes = "1 nm" if nearest < 1e-6 else "does not"
+        some, many = moved(curve, changed, 1e-3), moved(curve, changed, 1e-12)
+        reach = f"{many} segments" if some == many else f"{some} segments by more than 1 um"
+        print(f"| `{name}{' ' + options if options else ''}` | {proved} | {found} | {passes} | {reach} | "
+              f"{cost.get(bench, math.nan):.0f} | {use} |")
+
+
 def main():
+    if len(sys.argv) == 4 and sys.argv[2] == "--table":
+        table(sys.argv[1], sys.argv[3])
+        return
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     rows = -(-len(PANELS) // COLUMNS)
