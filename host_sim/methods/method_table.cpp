@@ -28,6 +28,8 @@ constexpr std::array table{
         describe_catmull_rom<double>},
     Row{"beta_chain", "beta-chain", describe_beta_chain<Fixed>, describe_beta_chain<float>,
         describe_beta_chain<double>},
+    Row{"boehm", "bspline", describe_boehm<Fixed>, describe_boehm<float>, describe_boehm<double>},
+    Row{"bspline", "bspline", describe_boehm<Fixed>, describe_boehm<float>, describe_boehm<double>},
 };
 
 const Row* find(std::string_view method) noexcept {

@@ -12,6 +12,8 @@ template <Scalar S>
 [[nodiscard]] DescribedCurve describe_catmull_rom(const nlohmann::json& input);
 template <Scalar S>
 [[nodiscard]] DescribedCurve describe_beta_chain(const nlohmann::json& input);
+template <Scalar S>
+[[nodiscard]] DescribedCurve describe_boehm(const nlohmann::json& input);
 
 /// Names of the methods, as descriptions spell them.
 [[nodiscard]] std::vector<std::string_view> described_methods();
