@@ -80,7 +80,8 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     option("--curvature-sign", curve.curvature_sign,
            "of ferguson: 1, -1 (flips the curvature at every point) or auto (default auto)");
     option("--corner-angle", curve.corner_angle,
-           "a sharper turn, in degrees, is a corner: the machine stops there (default 60; 180: none is)");
+           "a sharper turn, in degrees, is a corner: the machine stops there (default 60, of "
+           "bspline 180: none is)");
     option("--start-tangent", curve.start_tangent,
            "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
            "derivative)");

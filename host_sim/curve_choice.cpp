@@ -39,6 +39,7 @@ struct Row {
     double highest_tension = 10.0;
     int lowest_degree = 3;
     int highest_degree = 3;
+    double usual_corner_angle_deg = 60.0;
 };
 
 constexpr std::array table{
@@ -50,7 +51,7 @@ constexpr std::array table{
     Row{Method::catmull_rom_modified, "catmull-rom-modified",
         takes_tension | takes_factor | takes_corners | takes_smooth, Parameterization::chordal, 1.0, 65536.0},
     Row{Method::bspline, "bspline", takes_degree | takes_corners | takes_smooth, Parameterization::uniform, 0.5, 10.0,
-        2, 3},
+        2, 3, 180.0}, // a polygon of control points turns sharply where the curve does not
     Row{Method::bspline_interpolation, "bspline-interpolation",
         takes_degree | takes_parameterization | takes_knots | takes_tangents | takes_smooth, Parameterization::chordal,
         0.5, 10.0, 1, max_degree},
@@ -154,6 +155,7 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
     choice.closed = arguments.closed;
     choice.smooth = arguments.smooth;
     choice.parameterization = row.usual;
+    choice.corner_angle_deg = row.usual_corner_angle_deg;
     choice.tension = row.usual_tension;
     const auto require = [&row](unsigned what, std::string_view option) {
         if ((row.takes & what) == 0) {

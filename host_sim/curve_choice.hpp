@@ -26,6 +26,11 @@ enum class Method {
 
 /// As the command line and the curve files name it.
 [[nodiscard]] std::string_view method_name(Method method) noexcept;
+/// Whether the curve of that name passes its waypoints; else they are control points, and how far it stays from them
+/// says nothing.
+[[nodiscard]] constexpr bool passes_waypoints(std::string_view curve_name) noexcept {
+    return curve_name != "bspline" && curve_name != "beta-chain";
+}
 /// Whether its points have to be known before it can begin.
 [[nodiscard]] constexpr bool needs_all_points(Method method) noexcept {
     return method >= Method::bspline_interpolation && method < Method::bezier;
@@ -78,7 +83,7 @@ struct CurveChoice {
 };
 
 /// Reads the options and fills in the method's defaults: g2 chordal, catmull-rom centripetal with tension 1/2, corners
-/// from 60 degrees. Throws UsageError where a value is wrong or the method has no such option.
+/// from 60 degrees (bspline: none). Throws UsageError where a value is wrong or the method has no such option.
 [[nodiscard]] CurveChoice choose_curve(const CurveArguments& arguments);
 
 /// The option that was given first, without its value; empty: none was. For inputs that bring their own curve;

@@ -68,6 +68,7 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
     switch (choice.method) {
     case Method::g2: build<G2Spline<S>>(options, tangents); break;
     case Method::catmull_rom: build<CatmullRom<S>>(options, from_double<S>(choice.tension)); break;
+    case Method::bspline: build<BSplineCurve<S>>(options, choice.degree); break;
     case Method::polyline: build<Polyline<S>>(options); break;
     default: throw UsageError(fmt::format("--curve {} is not available yet", method_name(choice.method)));
     }

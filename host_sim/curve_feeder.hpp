@@ -5,6 +5,7 @@
 #include "bezier_source.hpp"
 #include "path_input.hpp"
 
+#include "splinefeed/s1_curve/bspline_curve.hpp"
 #include "splinefeed/s1_curve/catmull_rom.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/s1_curve/polyline.hpp"
@@ -55,7 +56,7 @@ private:
     bool next_row(WaypointRow& row, Role& role);
     void finish();
 
-    std::variant<std::monostate, G2Spline<S>, CatmullRom<S>, Polyline<S>, BezierSource<S>> curve_;
+    std::variant<std::monostate, G2Spline<S>, CatmullRom<S>, BSplineCurve<S>, Polyline<S>, BezierSource<S>> curve_;
     CurveSource<S>* source_ = nullptr;
     WaypointCurve<S>* waypoints_ = nullptr; // null: Bezier segments
     PathInput* input_;

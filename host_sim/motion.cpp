@@ -133,7 +133,9 @@ Summary Motion<S>::summary() const {
                                      has_jerk ? std::optional(use.jerk) : std::nullopt});
         acceleration_sq += axis.max_acceleration_mm_s2 * axis.max_acceleration_mm_s2;
     }
-    summary.waypoint_error_mm = error_.largest_mm();
+    if (passes_waypoints(summary.curve)) {
+        summary.waypoint_error_mm = error_.largest_mm();
+    }
     summary.planning_time_s = std::chrono::duration<double>(planning_).count();
     summary.memory_bytes = {feeder_.bytes(),
                             sizeof(ArcLength<S>) + sizeof(FeedPlan<S>) + window_.size() * sizeof(PlannedCell<S>),

@@ -97,6 +97,10 @@ TEST_CASE("bspline curve: a closed curve through lead-in and lead-out, bit by bi
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             same_bits(segments[i], pieces[i], axes);
             REQUIRE_FALSE(segments[i].stop_at_end);
+            for (int k = 0; k < axes; ++k) { // where the machine stands if this one is the last
+                const double end = to_mm(segments[i].end[static_cast<unsigned>(k)]);
+                REQUIRE(std::fabs(end - segments[i].control_mm(k, degree)) <= 0x1p-40);
+            }
         }
     }
 }

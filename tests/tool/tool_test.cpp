@@ -54,6 +54,66 @@ TEST_CASE("A run writes its outputs and says what it did") {
     CHECK(tool.read("p.csv") == trace);
 }
 
+TEST_CASE("A B-spline of control points runs, open and closed, and has no waypoint error") {
+    const Tool tool;
+    tool.write("square.csv", square);
+    for (const std::string options : {"", "--degree 2", "--closed", "--closed --degree 2", "--corner-angle 60"}) {
+        const Call call = tool("run square.csv --curve bspline " + options + " --summary json");
+        CAPTURE(options, call.error);
+        CHECK(call.status == 0);
+        CHECK(contains(call.output, "\"waypoint_error_mm\": null"));
+        CHECK(contains(call.output, options == "--corner-angle 60" ? "\"stops\": 3" : "\"stops\": 0"));
+    }
+    CHECK(contains(tool("run square.csv --curve bspline").output, "The waypoints are control points"));
+    CHECK(contains(tool("run square.csv --curve g2 --summary json").output, "\"waypoint_error_mm\": 0.0"));
+    // The hull of all control points is beyond the travel, the curve is not; then it is, and nothing moves.
+    tool.write("hill.csv", "x,y,z\n0,0,0\n30,0,0\n60,140,0\n90,0,0\n120,0,0\n");
+    const std::string y_travel = "[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n"
+                                 "steps_per_mm = 320\n[[axis]]\nname = 'y'\nmax_velocity_mm_s = 100\n"
+                                 "max_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\ntravel_mm = [0, ";
+    const std::string z = "]\n[[axis]]\nname = 'z'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n"
+                          "steps_per_mm = 320\n";
+    tool.write("high.toml", "[path]\nmax_feed_mm_s = 100\n" + y_travel + "70.001" + z);
+    tool.write("low.toml", "[path]\nmax_feed_mm_s = 100\n" + y_travel + "69.99" + z);
+    CHECK(tool("run hill.csv -m high.toml --curve bspline").status == 0); // its top is (0 + 2 * 140 + 0) / 4
+    const Call refused = tool("run hill.csv -m low.toml --curve bspline --trace t.csv");
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.error, "axis y goes to 70.000000 mm; its travel_mm is [0, 69.99]"));
+    CHECK(tool.read("t.csv").empty());
+}
+
+TEST_CASE("Boehm's method by both its names; a cusp is told") {
+    const Tool tool;
+    for (const std::string name : {"boehm", "bspline"}) {
+        tool.write("cusp.json", "{\"method\": \"" + name +
+                                    "\", \"input\": {\"degree\": 3, \"closed\": false, \"vertices\": [[0, 0], [3, 3], "
+                                    "[6, 0], [6, 0], [6, 0], [9, 3], [12, 0]]}}");
+        const Call call = tool("curve cusp.json --scalar double");
+        CHECK(call.status == 0);
+        CHECK(contains(call.output, "\"curve\": \"bspline\""));
+        CHECK(contains(call.output, "C2+singular"));
+    }
+    const auto refused = [&](const std::string& input, const std::string& what) {
+        tool.write("bad.json", "{\"method\": \"boehm\", \"input\": {" + input + "}}");
+        const Call call = tool("curve bad.json");
+        CAPTURE(input, call.error);
+        CHECK(call.status == 2);
+        CHECK(lines(call.error) == 1);
+        CHECK(contains(call.error, "bad.json"));
+        CHECK(contains(call.error, what));
+    };
+    refused("\"degree\": 4, \"vertices\": [[0], [1], [2], [3], [4]]",
+            "\"degree\" is 4; it must be a whole number from 2 to 3");
+    refused("\"degree\": 3, \"vertices\": [[0], [1], [2]]", "at least 4 points");
+    refused("\"degree\": 2, \"vertices\": [[0], [1]]", "at least 3 points");
+    refused("\"degree\": 3, \"closed\": true, \"vertices\": [[0, 0], [1, 1]]", "at least 3 points");
+    refused("\"degree\": 3, \"closed\": true, \"vertices\": [[0, 0], [1, 1], [0, 0]]", "2 different points");
+    refused("\"degree\": 3, \"vertices\": [[0, 0], [1, 1], [0], [3, 3]]", "point 3 has 1 numbers");
+    refused("\"degree\": 3, \"vertices\": [[0, 0], [1, \"nan\"], [0, 1], [3, 3]]", "point 2");
+    refused("\"degree\": 3, \"vertices\": []", "at least 4 points");
+    refused("\"degree\": 3", "\"vertices\" is missing");
+}
+
 TEST_CASE("What curve prints can be run") {
     const Tool tool;
     tool.write("path.csv", "0,0\n10,5\n20,0\n30,5\n");

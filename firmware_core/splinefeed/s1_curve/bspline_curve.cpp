@@ -38,6 +38,9 @@ void BSplineCurve<S>::emit(std::uint64_t end, int degree, CurveSegment<S>& out) 
         for (unsigned i = 0; i <= static_cast<unsigned>(degree); ++i) {
             offsets[k][i] = points[i][k];
         }
+        if (!last) { // the joint: a closed curve may end there
+            out.end[k] = displaced(out.origin[k], offsets[k][static_cast<unsigned>(degree)], chord_unit_log2);
+        }
     }
     out.assign(offsets);
 }
