@@ -118,12 +118,12 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
         const double noise = e2 * (1.0 / (n0 * n0) + 1.0 / (n1 * n1)) + 3.0 * e1 * (k0 / n0 + k1 / n1);
         const double jump = size(minus(start.curvature, end.curvature));
         g2 = g1 && agree(jump, k0, k1, noise);
-        abs_kappa = g1 && agree(std::fabs(k1 - k0), k0, k1, noise);
+        abs_kappa = c0 && agree(std::fabs(k1 - k0), k0, k1, noise);
         ratio = n1 / n0;
         curvature_jump = jump;
         modulus_jump = std::fabs(k1 - k0);
     }
-    joint["class"] = class_of(c1, c2, regular, g1, g2, abs_kappa);
+    joint["class"] = class_of(c1, c2, regular, g1, g2, g1 && abs_kappa);
     joint["C0"] = c0;
     joint["C1"] = c1;
     joint["C2"] = c2;

@@ -24,6 +24,8 @@ struct Row {
 };
 
 constexpr std::array table{
+    Row{"bspline_interpolation", "bspline-interpolation", describe_bspline_interpolation<Fixed>,
+        describe_bspline_interpolation<float>, describe_bspline_interpolation<double>},
     Row{"catmull_rom", "catmull-rom", describe_catmull_rom<Fixed>, describe_catmull_rom<float>,
         describe_catmull_rom<double>},
     Row{"beta_chain", "beta-chain", describe_beta_chain<Fixed>, describe_beta_chain<float>,

@@ -14,6 +14,8 @@ template <Scalar S>
 [[nodiscard]] DescribedCurve describe_beta_chain(const nlohmann::json& input);
 template <Scalar S>
 [[nodiscard]] DescribedCurve describe_boehm(const nlohmann::json& input);
+template <Scalar S>
+[[nodiscard]] DescribedCurve describe_bspline_interpolation(const nlohmann::json& input);
 
 /// Names of the methods, as descriptions spell them.
 [[nodiscard]] std::vector<std::string_view> described_methods();

@@ -18,7 +18,8 @@ DescribedCurve curve_of(const nlohmann::json& item) {
 } // namespace
 
 TEST_CASE("Reference vectors: double within the tolerance of each case", "[golden]") {
-    const auto file = GENERATE(Catch::Generators::as<std::string>{}, "004_catmull_rom.json", "000_beta.json", "003_boehm.json");
+    const auto file = GENERATE(Catch::Generators::as<std::string>{}, "000_beta.json", "002_bspline_curve.json",
+                               "003_boehm.json", "004_catmull_rom.json");
     const nlohmann::json set = golden_set(file);
     REQUIRE_FALSE(set["cases"].empty());
     for (const nlohmann::json& item : set["cases"]) {
