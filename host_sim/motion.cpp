@@ -133,7 +133,8 @@ Summary Motion<S>::summary() const {
                                      has_jerk ? std::optional(use.jerk) : std::nullopt});
         acceleration_sq += axis.max_acceleration_mm_s2 * axis.max_acceleration_mm_s2;
     }
-    if (passes_waypoints(summary.curve)) {
+    // Segments that came whole are not measured against the points they were made of.
+    if (input_->segments() == nullptr && passes_waypoints(summary.curve)) {
         summary.waypoint_error_mm = error_.largest_mm();
     }
     summary.planning_time_s = std::chrono::duration<double>(planning_).count();

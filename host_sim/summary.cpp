@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "summary.hpp"
 
+#include "curve_choice.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -60,7 +62,7 @@ void write_sentences(Lines out, const Summary& summary) {
     if (summary.stopped) {
         fmt::format_to(out, "The run was stopped before the end of the program.\n");
     }
-    if (!summary.waypoint_error_mm) {
+    if (!passes_waypoints(summary.curve)) {
         fmt::format_to(out,
                        "The waypoints are control points: the curve is drawn towards them and need not pass them.\n");
     }

@@ -33,7 +33,7 @@ struct Summary {
     std::string curve;
     double max_speed_mm_s = 0.0;
     std::vector<AxisUse> limit_use;          ///< in the order of the machine file
-    std::optional<double> waypoint_error_mm; ///< none: the waypoints are control points, which no curve has to pass
+    std::optional<double> waypoint_error_mm; ///< none: there are no waypoints, or the curve need not pass them
     std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; none: it was not computed
     double planning_time_s = 0.0;
     MemoryBytes memory_bytes;
