@@ -67,6 +67,17 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
     }
     switch (choice.method) {
     case Method::g2: build<G2Spline<S>>(options, tangents); break;
+    case Method::g2_bezier: {
+        BetaJoints<S> joints;
+        joints.span_ratio = !choice.beta1.has_value();
+        joints.beta1 = from_double<S>(choice.beta1.value_or(1.0));
+        joints.beta2 = from_double<S>(choice.beta2);
+        if (const Status status = joints.check(); !status.ok()) {
+            throw UsageError(fmt::format("--curve g2-bezier: {}", describe(status.error())));
+        }
+        build<G2Bezier<S>>(options, joints, tangents);
+        break;
+    }
     case Method::catmull_rom: build<CatmullRom<S>>(options, from_double<S>(choice.tension)); break;
     case Method::bspline: build<BSplineCurve<S>>(options, choice.degree); break;
     case Method::polyline: build<Polyline<S>>(options); break;

@@ -7,6 +7,7 @@
 
 #include "splinefeed/s1_curve/bspline_curve.hpp"
 #include "splinefeed/s1_curve/catmull_rom.hpp"
+#include "splinefeed/s1_curve/g2_bezier.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/s1_curve/polyline.hpp"
 
@@ -56,7 +57,8 @@ private:
     bool next_row(WaypointRow& row, Role& role);
     void finish();
 
-    std::variant<std::monostate, G2Spline<S>, CatmullRom<S>, BSplineCurve<S>, Polyline<S>, BezierSource<S>> curve_;
+    std::variant<std::monostate, G2Spline<S>, G2Bezier<S>, CatmullRom<S>, BSplineCurve<S>, Polyline<S>, BezierSource<S>>
+        curve_;
     CurveSource<S>* source_ = nullptr;
     WaypointCurve<S>* waypoints_ = nullptr; // null: Bezier segments
     PathInput* input_;

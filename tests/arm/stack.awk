@@ -12,8 +12,8 @@ BEGIN {
     library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
     root = "_ZN12_GLOBAL__N_18on_resetEv"
     # The one virtual call: the arc length asks the curve, which is a G2Spline here.
-    curve = scalar == "float" ? "_ZN10splinefeed8G2SplineIfE4nextERNS_12CurveSegmentIfEE" \
-                              : "_ZN10splinefeed8G2SplineINS_5FixedEE4nextERNS_12CurveSegmentIS1_EE"
+    curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
+                              : "_ZN10splinefeed18ControlPointStreamINS_5FixedENS_11PlainJointsIS1_EEE4nextERNS_12CurveSegmentIS1_EE"
 }
 
 function quoted(line, key) {

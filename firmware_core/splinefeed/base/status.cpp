@@ -33,7 +33,11 @@ const char* describe(Error error) noexcept {
     case Error::coincident_points: return "two successive points are the same; merge them, or use uniform parameters";
     case Error::storage_too_small: return "the storage given is smaller than the method needs for these points";
     case Error::beta1_not_positive: return "beta1 (bias) must be greater than 0";
-    case Error::beta2_out_of_range: return "beta2 (tension) must be a finite number; for interpolation not below 0";
+    case Error::beta1_out_of_range:
+        return "a beta1 (bias) for all joints must lie between 1/8 and 8, and so that the curve settles: beta1^3 + 1 "
+               "at "
+               "most 2 beta1^2 + 2 beta1 + beta2 / 2 (without tension 0.382 to 2.618)";
+    case Error::beta2_out_of_range: return "beta2 (tension) must be a finite number; for interpolation 0 to 1000";
     case Error::closed_chain_overlaps:
         return "a closed chain needs polygons of degree 2 order + 1 at least (5 for G2), or its joints overlap";
     case Error::lambda_not_positive: return "lambda must be greater than 0";

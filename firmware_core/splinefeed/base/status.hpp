@@ -37,6 +37,7 @@ enum class Error : std::uint8_t {
     coincident_points,
     storage_too_small,
     beta1_not_positive,
+    beta1_out_of_range,
     beta2_out_of_range,
     closed_chain_overlaps,
     lambda_not_positive,

@@ -10,6 +10,8 @@
 // gamma = (d-1)(1 + beta1) / (beta2 + beta1 (d-1)(1 + beta1)), T = B + beta1^2 gamma (B - A).
 #include "splinefeed/splines/beta_joint.hpp"
 
+#include "splinefeed/splines/product_fits.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -22,12 +24,6 @@ constexpr S beta1_most() noexcept {
 template <Scalar S>
 constexpr S beta2_most() noexcept {
     return std::same_as<S, Fixed> ? from_integer<S>(1 << 29) : scale2(from_integer<S>(1), 60);
-}
-
-/// Whether a b is a number of S with two bits to spare; a, b >= 0. NaN is not.
-template <Scalar S>
-bool product_fits(S a, S b) noexcept {
-    return a <= quotient_or_max(scale2(largest<S>(), -2), b);
 }
 
 template <Scalar S>

@@ -18,16 +18,20 @@
 // Natural start (b0 - 2 b1 + b2 = 0): (1 + f) delta_a - f delta_{a+1} = f e_a, f = h_a / (h_a + h_{a+1}); the end
 // likewise.
 //
+// Weighted joints: h_i in lambda (before knot i) and h_{i-1} in mu (after it) are multiplied by gamma_i, the outer
+// spans by the gamma of their knots; omega is as it is. All weights stay in [0, 1] for 0 < gamma <= 1, so that the
+// system stays totally positive. That a joint so divided is r'' = beta1^2 q'' + beta2 q' is measured in g2_bezier_test.
+//
 // Streaming: rows are eliminated once, in order (delta_i = rho_i - gamma_i delta_{i+1}). A control point is committed
 // by back-substitution from the newest row, closed there by delta_{R+1} = delta_R; the influence of that guess falls by
 // 0.268 per knot for even spacing (measured: 2e-8 mm at spacings of 1000:1, too). Row i+1 never depends on what was
 // committed, so the miss does not accumulate.
-#include "splinefeed/s1_curve/g2_spline.hpp"
+#include "splinefeed/s1_curve/control_point_stream.hpp"
 
 namespace splinefeed {
 
-template <Scalar S>
-bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
+template <Scalar S, class Joints>
+bool ControlPointStream<S, Joints>::eliminate_row(std::uint64_t i) noexcept {
     const auto axes_u = static_cast<unsigned>(this->axes());
     const S one = from_integer<S>(1);
     if (!this->decided(i)) {
@@ -38,8 +42,9 @@ bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
     if (i > first_ && knot.breaks) { // the end of the run
         const Row& before = row(i - 1);
         const Knot<S>& knot_before = this->knot(i - 1);
-        const S outer = i - 1 > first_ ? this->knot(i - 2).span : S{};
-        const S g = knot_before.span / (knot_before.span + outer);
+        const S two_before = i - 1 > first_ ? this->knot(i - 2).span : S{};
+        const SpansAround<S> spans = joints_.around(two_before, knot_before.span, S{}, S{});
+        const S g = spans.before / (spans.before + spans.outer_before);
         const bool given = tangents_.has_end && this->finished_ && i + 1 == this->known_;
         const S inverse = one / (one + g + g * before.gamma);
         for (unsigned k = 0; k < axes_u; ++k) {
@@ -52,10 +57,10 @@ bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
     if (!this->decided(i + 1)) {
         return false;
     }
-    const S after = knot.span;
-    const S outer_after = this->knot(i + 1).breaks ? S{} : this->knot(i + 1).span;
+    const S two_after = this->knot(i + 1).breaks ? S{} : this->knot(i + 1).span;
     if (i == first_) {
-        const S f = after / (after + outer_after);
+        const SpansAround<S> spans = joints_.around(S{}, S{}, knot.span, two_after);
+        const S f = spans.after / (spans.after + spans.outer_after);
         const S weight = f / (one + f);
         const bool given = tangents_.has_start && i == 0;
         for (unsigned k = 0; k < axes_u; ++k) {
@@ -66,15 +71,22 @@ bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
         return true;
     }
     const Knot<S>& knot_before = this->knot(i - 1);
-    const S before = knot_before.span;
-    const S outer_before = i - 1 > first_ ? this->knot(i - 2).span : S{};
-    here.lambda = after / (outer_before + before + after);
-    here.mu = before / (before + after + outer_after);
+    const S two_before = i - 1 > first_ ? this->knot(i - 2).span : S{};
+    const auto [outer_before, before, after, outer_after, gamma] =
+        joints_.around(two_before, knot_before.span, knot.span, two_after);
+    S inner_before = before; // the part of the leg after knot i
+    S inner_after = after;   // of the leg before it
+    if constexpr (Joints::weighted) {
+        inner_before = gamma * before;
+        inner_after = gamma * after;
+    }
+    here.lambda = inner_after / (outer_before + before + inner_after);
+    here.mu = inner_before / (inner_before + after + outer_after);
     here.omega = before / (before + after);
     const S others = after / (before + after); // 1 - omega, with all its bits where spans differ a lot
     const S a = others * here.lambda;
-    const S b = others * ((outer_before + before) / (outer_before + before + after)) +
-                here.omega * ((after + outer_after) / (before + after + outer_after));
+    const S b = others * ((outer_before + before) / (outer_before + before + inner_after)) +
+                here.omega * ((after + outer_after) / (inner_before + after + outer_after));
     const S c = here.omega * here.mu;
     const Row& previous = row(i - 1);
     const S inverse = one / (b - a * previous.gamma);
@@ -86,8 +98,8 @@ bool G2Spline<S>::eliminate_row(std::uint64_t i) noexcept {
 }
 
 // Commits the offset of control point i from the newest eliminated row.
-template <Scalar S>
-void G2Spline<S>::commit(std::uint64_t i) noexcept {
+template <Scalar S, class Joints>
+void ControlPointStream<S, Joints>::commit(std::uint64_t i) noexcept {
     const auto axes_u = static_cast<unsigned>(this->axes());
     const std::uint64_t newest = rows_end_ - 1;
     const bool run_ended = newest > first_ && this->knot(newest).breaks;
@@ -105,8 +117,8 @@ void G2Spline<S>::commit(std::uint64_t i) noexcept {
 
 // A closed curve meets itself exactly: the three offsets around the seam are kept when they are first committed and
 // used again when the path comes back to them.
-template <Scalar S>
-void G2Spline<S>::close_seam(std::uint64_t i) noexcept {
+template <Scalar S, class Joints>
+void ControlPointStream<S, Joints>::close_seam(std::uint64_t i) noexcept {
     const auto role = [this](std::uint64_t j) {
         return this->knot(j).role;
     };
@@ -127,8 +139,8 @@ void G2Spline<S>::close_seam(std::uint64_t i) noexcept {
     }
 }
 
-template <Scalar S>
-void G2Spline<S>::emit(std::uint64_t i, CurveSegment<S>& out) noexcept {
+template <Scalar S, class Joints>
+void ControlPointStream<S, Joints>::emit(std::uint64_t i, CurveSegment<S>& out) noexcept {
     this->describe_segment(i, 3, out);
     const Row& from = row(i);
     const Row& to = row(i + 1);
@@ -155,8 +167,8 @@ void G2Spline<S>::emit(std::uint64_t i, CurveSegment<S>& out) noexcept {
     out.assign(offsets);
 }
 
-template <Scalar S>
-Pull G2Spline<S>::next(CurveSegment<S>& out) noexcept {
+template <Scalar S, class Joints>
+Pull ControlPointStream<S, Joints>::next(CurveSegment<S>& out) noexcept {
     for (;;) {
         const std::uint64_t i = next_;
         if (i + 1 >= this->known_) {
@@ -188,8 +200,65 @@ Pull G2Spline<S>::next(CurveSegment<S>& out) noexcept {
     }
 }
 
-template class G2Spline<double>;
-template class G2Spline<float>;
-template class G2Spline<Fixed>;
+template <Scalar S>
+Status BetaJoints<S>::check() const noexcept {
+    if (!(beta1 > S{})) {
+        return Error::beta1_not_positive;
+    }
+    if (!(beta2 >= S{} && beta2 <= from_integer<S>(1000))) {
+        return Error::beta2_out_of_range;
+    }
+    if (span_ratio) {
+        return {};
+    }
+    if (beta1 < literal<S>(0.125) || beta1 > from_integer<S>(8)) {
+        return Error::beta1_out_of_range;
+    }
+    const S one = from_integer<S>(1);
+    const S square = beta1 * beta1;
+    const S room = scale2(square + beta1, 1) + scale2(beta2, -1);
+    return beta1 * square + one <= room ? Status{} : Status{Error::beta1_out_of_range};
+}
+
+// 1 / (1 + (beta2 / 2) omega h_{i-1} / h_i)
+template <Scalar S>
+S BetaJoints<S>::gamma(S before, S after) const noexcept {
+    const S one = from_integer<S>(1);
+    return one / (one + scale2(beta2, -1) * (before / (before + after)) * (before / after));
+}
+
+template <Scalar S>
+SpansAround<S> BetaJoints<S>::around(S outer_before, S before, S after, S outer_after) const noexcept {
+    const bool from_before = before > S{};
+    const bool from_after = after > S{};
+    if (!span_ratio) { // as ratios, which stay the same however many joints there are
+        const S one = from_integer<S>(1);
+        outer_before = outer_before > S{} ? one / beta1 : S{};
+        outer_after = outer_after > S{} ? beta1 * beta1 : S{};
+        before = from_before ? one : S{};
+        after = from_after ? beta1 : S{};
+    }
+    SpansAround<S> out{outer_before, before, after, outer_after, from_integer<S>(1)};
+    if (outer_before > S{}) {
+        out.outer_before = gamma(outer_before, before) * outer_before;
+    }
+    if (outer_after > S{}) {
+        out.outer_after = gamma(after, outer_after) * outer_after;
+    }
+    if (from_before && from_after) {
+        out.gamma = gamma(before, after);
+    }
+    return out;
+}
+
+template struct BetaJoints<double>;
+template struct BetaJoints<float>;
+template struct BetaJoints<Fixed>;
+template class ControlPointStream<double, PlainJoints<double>>;
+template class ControlPointStream<float, PlainJoints<float>>;
+template class ControlPointStream<Fixed, PlainJoints<Fixed>>;
+template class ControlPointStream<double, BetaJoints<double>>;
+template class ControlPointStream<float, BetaJoints<float>>;
+template class ControlPointStream<Fixed, BetaJoints<Fixed>>;
 
 } // namespace splinefeed
