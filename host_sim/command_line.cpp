@@ -78,7 +78,7 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     option("--mu", curve.mu,
            "of ferguson: tension, or auto, the nearest to 0 that keeps the solve stable (default auto)");
     option("--curvature-sign", curve.curvature_sign,
-           "of ferguson: 1, -1 (flips the curvature at every point) or auto (default auto)");
+           "of ferguson: 1, -1 (flips the curvature at every point) or auto (-1 at inflections; default 1)");
     option("--corner-angle", curve.corner_angle,
            "a sharper turn, in degrees, is a corner: the machine stops there (default 60, of "
            "bspline 180: none is)");

@@ -197,8 +197,11 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
         require(takes_degree, "--degree");
         choice.degree = read_integer("--degree", *arguments.degree, row.lowest_degree, row.highest_degree);
     }
-    if (arguments.curvature_sign && *arguments.curvature_sign != "auto") {
+    if (arguments.curvature_sign) {
         require(takes_joints, "--curvature-sign");
+        choice.curvature_sign.reset();
+    }
+    if (arguments.curvature_sign && *arguments.curvature_sign != "auto") {
         choice.curvature_sign = read_integer("--curvature-sign", *arguments.curvature_sign, -1, 1);
         if (choice.curvature_sign == 0) {
             throw UsageError("--curvature-sign 0: it must be 1, -1 or auto");

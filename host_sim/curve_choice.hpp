@@ -75,8 +75,8 @@ struct CurveChoice {
     std::optional<double> beta1;  ///< nothing: the ratio of the chords
     double beta2 = 0.0;
     double lambda = 1.0;
-    std::optional<double> mu;          ///< nothing: automatic
-    std::optional<int> curvature_sign; ///< nothing: automatic
+    std::optional<double> mu;              ///< nothing: automatic
+    std::optional<int> curvature_sign = 1; ///< nothing: automatic
     double corner_angle_deg = 60.0;
     std::optional<Tangent> start_tangent;
     std::optional<Tangent> end_tangent;

@@ -32,6 +32,11 @@ constexpr std::array table{
         describe_beta_chain<double>},
     Row{"boehm", "bspline", describe_boehm<Fixed>, describe_boehm<float>, describe_boehm<double>},
     Row{"bspline", "bspline", describe_boehm<Fixed>, describe_boehm<float>, describe_boehm<double>},
+    Row{"catmull_rom_modified", "catmull-rom-modified", describe_catmull_rom_modified<Fixed>,
+        describe_catmull_rom_modified<float>, describe_catmull_rom_modified<double>},
+    Row{"ferguson", "ferguson", describe_ferguson<Fixed>, describe_ferguson<float>, describe_ferguson<double>},
+    Row{"hermite_delta_lambda_mu", "ferguson", describe_ferguson<Fixed>, describe_ferguson<float>,
+        describe_ferguson<double>},
 };
 
 const Row* find(std::string_view method) noexcept {

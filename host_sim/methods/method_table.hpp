@@ -17,6 +17,11 @@ template <Scalar S>
 template <Scalar S>
 [[nodiscard]] DescribedCurve describe_bspline_interpolation(const nlohmann::json& input);
 
+template <Scalar S>
+[[nodiscard]] DescribedCurve describe_catmull_rom_modified(const nlohmann::json& input);
+template <Scalar S>
+[[nodiscard]] DescribedCurve describe_ferguson(const nlohmann::json& input);
+
 /// Names of the methods, as descriptions spell them.
 [[nodiscard]] std::vector<std::string_view> described_methods();
 

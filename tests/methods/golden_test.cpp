@@ -18,8 +18,9 @@ DescribedCurve curve_of(const nlohmann::json& item) {
 } // namespace
 
 TEST_CASE("Reference vectors: double within the tolerance of each case", "[golden]") {
-    const auto file = GENERATE(Catch::Generators::as<std::string>{}, "000_beta.json", "002_bspline_curve.json",
-                               "003_boehm.json", "004_catmull_rom.json");
+    const auto file =
+        GENERATE(Catch::Generators::as<std::string>{}, "000_beta.json", "001_hermite_delta_lambda_mu.json",
+                 "002_bspline_curve.json", "003_boehm.json", "004_catmull_rom.json", "004_catmull_rom_modified.json");
     const nlohmann::json set = golden_set(file);
     REQUIRE_FALSE(set["cases"].empty());
     for (const nlohmann::json& item : set["cases"]) {

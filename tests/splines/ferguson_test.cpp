@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+//
+// ferguson against the conditions of its joints, measured on the pieces, and against a dense solve; singular systems;
+// degenerate inputs.
+#include "splinefeed/splines/ferguson.hpp"
+
+#include "support/curve_harness.hpp"
+#include "support/spline_points.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed_test;
+
+namespace {
+
+template <Scalar S>
+struct Made {
+    Error error = Error::none;
+    FergusonReport<S> report;
+    std::vector<Point<S>> in;
+    std::vector<Point<S>> out;
+    std::vector<BezierPiece<S>> pieces;
+};
+
+template <Scalar S>
+Made<S> make(const std::vector<Point<S>>& points, const std::vector<FergusonJoint<S>>& joints, bool closed = false,
+             const Point<S>& start = {}, const Point<S>& end = {}) {
+    Made<S> made;
+    made.in.resize(points.size());
+    made.out.resize(points.size());
+    made.pieces.resize(points.size());
+    std::vector<CyclicRow<S>> system(joints.size());
+    made.error =
+        ferguson<S>({points, joints, closed, start, end}, {made.in, made.out, made.pieces, system}, made.report)
+            .error();
+    made.pieces.resize(made.report.segments);
+    return made;
+}
+
+std::vector<FergusonJoint<double>> all(std::size_t count, double mu, int delta = 1, double lambda = 1.0) {
+    return std::vector<FergusonJoint<double>>(count, {lambda, mu, delta});
+}
+
+/// Largest failure of r'' = delta lambda^2 r'' + mu r' and r' = lambda r' over all joints, relative to the curve's
+/// size.
+template <Scalar S>
+Real broken_conditions(const Made<S>& made, const std::vector<FergusonJoint<S>>& joints, bool closed) {
+    const std::size_t n = made.pieces.size();
+    Real worst = 0.0L;
+    Real largest = 1.0L;
+    for (const auto& piece : made.pieces) {
+        for (int j = 0; j <= 3; ++j) {
+            largest = std::max(largest, size(exact_point(piece.point(j))));
+        }
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        const BezierPiece<S>& a = made.pieces[closed ? (j + n - 1) % n : j];
+        const BezierPiece<S>& b = made.pieces[closed ? j : j + 1];
+        const auto p = [](const BezierPiece<S>& piece, int i) {
+            return exact_point(piece.point(i));
+        };
+        const Vec in1 = 3.0L * (p(a, 3) - p(a, 2));
+        const Vec out1 = 3.0L * (p(b, 1) - p(b, 0));
+        const Vec in2 = 6.0L * (p(a, 3) - 2.0L * p(a, 2) + p(a, 1));
+        const Vec out2 = 6.0L * (p(b, 2) - 2.0L * p(b, 1) + p(b, 0));
+        const Real lambda = exact(joints[j].lambda);
+        const Real square = static_cast<Real>(joints[j].delta) * lambda * lambda;
+        const Real weight = 1.0L + lambda * lambda + std::fabs(exact(joints[j].mu));
+        worst = std::max(worst, distance_of(p(a, 3), p(b, 0)) / largest);
+        worst = std::max(worst, distance_of(out1, lambda * in1) / (largest * weight));
+        worst = std::max(worst, distance_of(out2, square * in2 + exact(joints[j].mu) * in1) / (largest * weight));
+    }
+    return worst;
+}
+
+std::vector<std::vector<Real>> dense(const std::vector<FergusonJoint<double>>& joints, bool closed) {
+    const std::size_t n = joints.size();
+    std::vector<std::vector<Real>> m(n, std::vector<Real>(n, 0.0L));
+    for (std::size_t i = 0; i < n; ++i) {
+        const Real l = static_cast<Real>(joints[i].lambda);
+        const Real d = static_cast<Real>(joints[i].delta);
+        m[i][i] += static_cast<Real>(joints[i].mu) / 2.0L + 2.0L * l * (d * l + 1.0L);
+        if (closed || i > 0) {
+            const std::size_t before = (i + n - 1) % n;
+            m[i][before] += d * l * l * static_cast<Real>(joints[before].lambda);
+        }
+        if (closed || i + 1 < n) {
+            m[i][(i + 1) % n] += 1.0L;
+        }
+    }
+    return m;
+}
+
+Real condition_of(const std::vector<std::vector<Real>>& m) {
+    const std::size_t n = m.size();
+    std::vector<Real> sums(n, 0.0L);
+    Real norm = 0.0L;
+    for (std::size_t i = 0; i < n; ++i) {
+        Real sum = 0.0L;
+        for (const Real x : m[i]) {
+            sum += std::fabs(x);
+        }
+        norm = std::max(norm, sum);
+        std::vector<Vec> unit(n);
+        unit[i][0] = 1.0L;
+        const auto column = solve_dense(m, unit);
+        for (std::size_t j = 0; j < n; ++j) {
+            sums[j] += std::fabs(column[j][0]);
+        }
+    }
+    return norm * *std::max_element(sums.begin(), sums.end());
+}
+
+} // namespace
+
+// Every misprint of (7) and (9) breaks the condition of some joint: not the first one, and not with lambda = 1.
+TEMPLATE_TEST_CASE("ferguson: the joints keep their conditions, measured", "[splines][ferguson]", double, float,
+                   Fixed) {
+    using S = TestType;
+    RandomPath random(path_seed + 60);
+    CAPTURE(path_seed);
+    for (int round = 0; round < 400; ++round) {
+        const bool closed = round % 2 == 1;
+        const int axes = 1 + random.below(6);
+        const auto points = random_points<S>(random, axes, (closed ? 3 : 2) + random.below(30), round % 3 == 0);
+        std::vector<FergusonJoint<S>> joints(closed ? points.size() : points.size() - 2);
+        for (auto& joint : joints) {
+            joint.delta = random.below(3) == 0 ? -1 : 1;
+            joint.lambda = from_double<S>(random.between(0.5, 2.0));
+        }
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            const S before = i > 0 || closed ? joints[(i + joints.size() - 1) % joints.size()].lambda : literal<S>(1);
+            joints[i].mu = stable_mu(from_double<S>(random.between(-30.0, 30.0)), joints[i].delta, joints[i].lambda,
+                                     before, closed);
+        }
+        const auto ends = random_points<S>(random, axes, 2);
+        const auto made = make<S>(points, joints, closed, ends[0], ends[1]);
+        CAPTURE(round, closed, axes, points.size());
+        REQUIRE(made.error == Error::none);
+        REQUIRE(made.pieces.size() == (closed ? points.size() : points.size() - 1));
+        const auto bad = static_cast<double>(broken_conditions(made, joints, closed));
+        // Bezier points are off by an ulp of their size, second derivatives by 24 of those; the solve by the condition,
+        // below 100 with these tensions.
+        REQUIRE(bad <= static_cast<double>(400.0L * unit_roundoff<S>()));
+        if (!closed) {
+            REQUIRE(made.in.front() == ends[0]);
+            REQUIRE(made.in.back() == ends[1]);
+            REQUIRE(made.out.front() == ends[0]);
+        }
+    }
+}
+
+TEST_CASE("ferguson: tangents and condition against a dense solve", "[splines][ferguson]") {
+    RandomPath random(path_seed + 61);
+    CAPTURE(path_seed);
+    for (int round = 0; round < 200; ++round) {
+        const bool closed = round % 2 == 1;
+        const auto points = random_points<double>(random, 3, (closed ? 3 : 3) + random.below(12));
+        std::vector<FergusonJoint<double>> joints(closed ? points.size() : points.size() - 2);
+        for (auto& joint : joints) {
+            joint = {random.between(0.4, 2.5), random.between(-20.0, 20.0), random.below(2) == 0 ? -1 : 1};
+        }
+        const auto matrix = dense(joints, closed);
+        const Real condition = condition_of(matrix);
+        const auto made = make<double>(points, joints, closed);
+        CAPTURE(round, closed, points.size(), static_cast<double>(condition));
+        REQUIRE(made.error == Error::none);
+        REQUIRE(made.report.condition <= static_cast<double>(condition) * 1.000001);
+        REQUIRE(made.report.condition >= static_cast<double>(condition) / 20.0);
+        const auto p = exact_points(points);
+        const std::size_t n = p.size();
+        std::vector<Vec> right;
+        for (std::size_t j = 0; j < joints.size(); ++j) {
+            const std::size_t i = closed ? j : j + 1;
+            const Real w = static_cast<Real>(joints[j].delta) * static_cast<Real>(joints[j].lambda) *
+                           static_cast<Real>(joints[j].lambda);
+            right.push_back(3.0L * (p[(i + 1) % n] - (1.0L - w) * p[i] - w * p[(i + n - 1) % n]));
+        }
+        const auto tangents = solve_dense(matrix, right);
+        for (std::size_t j = 0; j < joints.size(); ++j) {
+            REQUIRE(static_cast<double>(distance_of(tangents[j], exact_point(made.in[closed ? j : j + 1]))) <=
+                    static_cast<double>(condition) * 1e-14 * (1.0 + static_cast<double>(size(tangents[j])) + 64.0));
+        }
+    }
+}
+
+TEST_CASE("ferguson: zero pivots are not singular, singular systems are", "[splines][ferguson]") {
+    RandomPath random(path_seed + 62);
+    for (std::size_t unknowns = 1; unknowns <= 24; ++unknowns) {
+        const auto points = random_points<double>(random, 2, static_cast<int>(unknowns) + 2);
+        const auto made = make<double>(points, all(unknowns, 0.0, -1));
+        CAPTURE(unknowns);
+        REQUIRE_FALSE(made.report.elimination_without_pivoting_ok);
+        REQUIRE_FALSE(made.report.diagonally_dominant);
+        if (unknowns % 2 == 0) {
+            REQUIRE(made.error == Error::none);
+            REQUIRE(static_cast<double>(broken_conditions(made, all(unknowns, 0.0, -1), false)) < 1e-13);
+        } else {
+            REQUIRE(made.error == Error::system_singular);
+            REQUIRE((made.report.weakest_knot >= 1 && made.report.weakest_knot <= unknowns));
+        }
+        // delta = +1, lambda = 1: singular exactly at mu = -8 - 4 cos(j pi / (N + 1)).
+        for (std::size_t j = 1; j <= unknowns; ++j) {
+            const double mu =
+                -8.0 - 4.0 * std::cos(static_cast<double>(j) * std::acos(-1.0) / static_cast<double>(unknowns + 1));
+            REQUIRE(make<double>(points, all(unknowns, mu)).error == Error::system_singular);
+        }
+        REQUIRE(make<double>(points, all(unknowns, -3.9)).error == Error::none);
+        REQUIRE(make<double>(points, all(unknowns, -12.1)).error == Error::none);
+    }
+    // Mixed signs (+, -, +), mu = 0.
+    const auto five = random_points<double>(random, 2, 5);
+    auto mixed = all(3, 0.0);
+    mixed[1].delta = -1;
+    REQUIRE(make<double>(five, mixed).error == Error::system_singular);
+    // Far below the article's |mu| >= 4 the system is well conditioned.
+    const auto many = random_points<double>(random, 2, 21);
+    const auto far_below = make<double>(many, all(19, 0.4, -1));
+    REQUIRE(far_below.error == Error::none);
+    REQUIRE(far_below.report.condition < 25.0);
+    REQUIRE(far_below.report.condition > 2.0);
+    REQUIRE(far_below.report.elimination_without_pivoting_ok);
+    REQUIRE_FALSE(far_below.report.diagonally_dominant);
+}
+
+TEST_CASE("ferguson: dominance with lambda, as corrected", "[splines][ferguson]") {
+    RandomPath random(path_seed + 63);
+    const auto points = random_points<double>(random, 2, 6);
+    // lambda = 2, delta = 1: dominant from mu = 2 * 8 - 16 - 8 + 2 = -6 on; the printed lambda^2 + 1 would say -14.
+    REQUIRE(make<double>(points, all(4, -5.99, 1, 2.0)).report.diagonally_dominant);
+    REQUIRE_FALSE(make<double>(points, all(4, -6.01, 1, 2.0)).report.diagonally_dominant);
+    REQUIRE(make<double>(points, all(4, -42.01, 1, 2.0)).report.diagonally_dominant);
+    REQUIRE_FALSE(make<double>(points, all(4, -41.99, 1, 2.0)).report.diagonally_dominant);
+}
+
+TEST_CASE("ferguson: a point-symmetric S with delta -1 has a zero tangent, and says so", "[splines][ferguson]") {
+    const std::vector<Point<double>> s{{-4, -1}, {-2, 1}, {0, 0}, {2, -1}, {4, 1}};
+    auto joints = all(3, 0.0);
+    joints[1] = {1.0, 6.0, -1};
+    const auto made = make<double>(s, joints, false, {1, 3}, {1, 3});
+    REQUIRE(made.error == Error::none);
+    REQUIRE(made.report.vanishing == 1);
+    REQUIRE(made.report.first_vanishing == 2);
+    REQUIRE(make<double>(s, all(3, 0.0), false, {1, 3}, {1, 3}).report.vanishing == 0);
+}
+
+TEST_CASE("ferguson: classes as the conditions give them", "[splines][ferguson]") {
+    REQUIRE(ferguson_class<double>({1.0, 0.0, 1}, false) == FergusonClass::c2);
+    REQUIRE(ferguson_class<double>({1.0, 2.0, 1}, false) == FergusonClass::c1_g2);
+    REQUIRE(ferguson_class<double>({2.0, 0.0, 1}, false) == FergusonClass::g2);
+    REQUIRE(ferguson_class<double>({1.0, 0.0, -1}, false) == FergusonClass::c1_abs_kappa); // never G2
+    REQUIRE(ferguson_class<double>({2.0, 0.0, -1}, false) == FergusonClass::g1_abs_kappa);
+    REQUIRE(ferguson_class<double>({1.0, 0.0, 1}, true) == FergusonClass::undefined);
+}
+
+TEMPLATE_TEST_CASE("ferguson: automatic mu is stable and nearest", "[splines][ferguson]", double, float, Fixed) {
+    using S = TestType;
+    RandomPath random(path_seed + 64);
+    for (int round = 0; round < 2000; ++round) {
+        const double lambda = random.between(0.3, 3.0);
+        const double before = random.between(0.3, 3.0);
+        const int delta = random.below(2) == 0 ? 1 : -1;
+        const double wish = random.between(-60.0, 60.0);
+        const double bound = 2.0 * std::pow(lambda, 1.5) * std::max(1.0, std::sqrt(lambda / before));
+        const auto diagonal = [&](double mu) {
+            return 2.0 * (mu / 4.0 + delta * lambda * lambda + lambda);
+        };
+        const double mu =
+            to_double(stable_mu(from_double<S>(wish), delta, from_double<S>(lambda), from_double<S>(before), false));
+        const double nearest =
+            std::fabs(diagonal(wish)) >= bound
+                ? wish
+                : 2.0 * ((diagonal(wish) < 0.0 ? -bound : bound) - 2.0 * (delta * lambda * lambda + lambda));
+        const double tolerance = std::same_as<S, float> ? 1e-4 : 1e-7;
+        if (std::fabs(diagonal(wish)) > 1e-3 && std::fabs(std::fabs(diagonal(wish)) - bound) > 1e-3) {
+            REQUIRE(mu == Approx(nearest).margin(tolerance));
+        }
+        const double closed =
+            to_double(stable_mu(from_double<S>(wish), delta, from_double<S>(lambda), from_double<S>(before), true));
+        REQUIRE(std::fabs(diagonal(closed)) > lambda * lambda * before + 1.0);
+    }
+    // By induction every pivot keeps half of its diagonal entry.
+    for (int round = 0; round < 300; ++round) {
+        double pivot = 0.0;
+        double last = 1.0;
+        for (int i = 0; i < 40; ++i) {
+            const double lambda = random.between(0.25, 4.0);
+            const int delta = random.below(2) == 0 ? 1 : -1;
+            const double mu = stable_mu(random.between(-40.0, 40.0), delta, lambda, last, false);
+            const double diagonal = 2.0 * (mu / 4.0 + delta * lambda * lambda + lambda);
+            pivot = i == 0 ? diagonal : diagonal - delta * lambda * lambda * last / pivot;
+            REQUIRE(std::fabs(pivot) >= 0.5 * std::fabs(diagonal) * (1.0 - 1e-9));
+            last = lambda;
+        }
+    }
+}
+
+TEST_CASE("ferguson: automatic sign at inflections of the polygon only", "[splines][ferguson]") {
+    const std::vector<Point<double>> s{{-4, -1}, {-2, 1}, {0, 0}, {2, -1}, {4, 1}};
+    REQUIRE(automatic_sign<double>(s, 2, false) == -1);
+    for (const std::size_t knot : {0U, 1U, 3U, 4U}) {
+        REQUIRE(automatic_sign<double>(s, knot, false) == 1);
+    }
+    const std::vector<Point<double>> line{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}};
+    const std::vector<Point<double>> arc{{0, 0}, {1, 2}, {3, 3}, {5, 2}, {6, 0}};
+    for (std::size_t knot = 0; knot < 5; ++knot) {
+        REQUIRE(automatic_sign<double>(line, knot, false) == 1);
+        REQUIRE(automatic_sign<double>(arc, knot, false) == 1);
+        REQUIRE(automatic_sign<double>(arc, knot, true) == 1);
+    }
+}
+
+TEST_CASE("ferguson: estimated end tangents are those of a parabola", "[splines][ferguson]") {
+    const auto at = [](double t) {
+        return Point<double>{1.0 + 3.0 * t - t * t, 2.0 * t * t};
+    };
+    // Knots at 0, 1, 3 and 3.5: spans 1, 2, 1/2, ratios 2 and 1/4; derivatives by the segments' own parameters.
+    const std::vector<Point<double>> points{at(0.0), at(1.0), at(3.0), at(3.5)};
+    const std::vector<FergusonJoint<double>> joints{{2.0, 0.0, 1}, {0.25, 0.0, 1}};
+    Point<double> start{};
+    Point<double> end{};
+    estimate_end_tangents<double>(points, joints, start, end);
+    REQUIRE(start[0] == Approx(3.0));
+    REQUIRE(start[1] == Approx(0.0).margin(1e-14));
+    REQUIRE(end[0] == Approx(0.5 * (3.0 - 7.0)));
+    REQUIRE(end[1] == Approx(0.5 * 14.0));
+    // mu = 0: the curve is the parabola.
+    const auto made = make<double>(points, joints, false, start, end);
+    REQUIRE(made.in[1][0] == Approx(1.0));
+    REQUIRE(made.in[1][1] == Approx(4.0));
+    estimate_end_tangents<double>(std::vector<Point<double>>{{1, 1}, {3, 4}}, {}, start, end);
+    REQUIRE(start == Point<double>{2, 3});
+    REQUIRE(end == start);
+}
+
+TEMPLATE_TEST_CASE("ferguson: degenerate inputs", "[splines][ferguson]", double, float, Fixed) {
+    using S = TestType;
+    const auto at = [](double x, double y) {
+        return Point<S>{from_double<S>(x), from_double<S>(y)};
+    };
+    using Joints = std::vector<FergusonJoint<S>>;
+    const std::vector<Point<S>> four{at(0, 0), at(1, 0), at(2, 1), at(3, 3)};
+    const Joints two(2);
+    REQUIRE(make<S>({}, {}).error == Error::too_few_points);
+    REQUIRE(make<S>({at(1, 1)}, {}).error == Error::too_few_points);
+    REQUIRE(make<S>({at(0, 0), at(1, 1), at(0, 0)}, two, true).error == Error::too_few_points);
+    REQUIRE(make<S>(four, Joints(3)).error == Error::parameters_invalid);
+    REQUIRE(make<S>(four, two, true).error == Error::parameters_invalid);
+    auto repeated = four;
+    repeated.push_back(four[0]);
+    REQUIRE(make<S>(repeated, Joints(4), true).in[1] == make<S>(four, Joints(4), true).in[1]);
+    // Two points: one Hermite segment from the tangents.
+    const auto segment = make<S>({at(0, 0), at(3, 0)}, {}, false, at(3, 3), at(3, -3));
+    REQUIRE(segment.pieces.size() == 1);
+    REQUIRE(segment.pieces[0].point(1) == at(1, 1));
+    REQUIRE(segment.pieces[0].point(2) == at(2, 1));
+    REQUIRE(segment.report.condition == literal<S>(1));
+    // Parameters.
+    const auto with = [&](double lambda, double mu, int delta) {
+        return make<S>(four, {{}, {from_double<S>(lambda), from_double<S>(mu), delta}}).error;
+    };
+    REQUIRE(with(0.0, 0.0, 1) == Error::lambda_not_positive);
+    REQUIRE(with(-1.0, 0.0, 1) == Error::lambda_not_positive);
+    REQUIRE(with(1.0, 0.0, 0) == Error::curvature_sign_invalid);
+    REQUIRE(with(1.0, 0.0, 2) == Error::curvature_sign_invalid);
+    REQUIRE(with(0x1p22, 0.0, 1) == Error::parameters_invalid);
+    REQUIRE(with(1.0, 65536.0, 1) == Error::none);
+    auto far = four;
+    far[2][0] = from_double<S>(std::same_as<S, Fixed> ? 0x1.1p18 : 0x1.1p40);
+    REQUIRE(make<S>(far, two).error == Error::position_out_of_range);
+    REQUIRE(make<S>(four, two, false, far[2]).error == Error::tangent_out_of_range);
+    if constexpr (!std::same_as<S, Fixed>) {
+        for (const S bad : {std::numeric_limits<S>::quiet_NaN(), std::numeric_limits<S>::infinity()}) {
+            auto points = four;
+            points[1][0] = bad;
+            REQUIRE(make<S>(points, two).error == Error::position_out_of_range);
+            REQUIRE(make<S>(four, two, false, {}, points[1]).error == Error::tangent_out_of_range);
+            REQUIRE(make<S>(four, {{bad, S{}, 1}, {}}).error != Error::none);
+            REQUIRE(make<S>(four, {{S{1}, bad, 1}, {}}).error == Error::parameters_invalid);
+        }
+    }
+    // Duplicates are regular; all points equal and no end tangents: the curve stands still and says so.
+    REQUIRE(make<S>({at(0, 0), at(1, 0), at(1, 0), at(3, 3)}, two).error == Error::none);
+    const auto still = make<S>({at(1, 1), at(1, 1), at(1, 1), at(1, 1)}, two);
+    REQUIRE(still.error == Error::none);
+    REQUIRE(still.report.vanishing == 4);
+    // Collinear points stay on their line.
+    for (const auto& piece : make<S>({at(0, 2), at(1, 2), at(4, 2), at(5, 2)}, two).pieces) {
+        for (unsigned j = 0; j <= 3; ++j) {
+            REQUIRE(piece.control[1][j] == from_double<S>(2));
+        }
+    }
+    std::vector<Point<S>> storage(3);
+    std::vector<BezierPiece<S>> pieces(4);
+    std::vector<CyclicRow<S>> system(4);
+    FergusonReport<S> report;
+    REQUIRE(ferguson<S>({four, two, false, {}, {}}, {storage, storage, pieces, system}, report).error() ==
+            Error::storage_too_small);
+}
+
+// In a debug build an overflow would stop the test.
+TEST_CASE("ferguson: nothing overflows in Fixed", "[splines][ferguson]") {
+    RandomPath random(path_seed + 65);
+    int solved = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const bool closed = round % 2 == 1;
+        std::vector<Point<Fixed>> points(static_cast<unsigned>(3 + random.below(10)));
+        for (auto& point : points) {
+            for (auto& x : point) {
+                x = from_double<Fixed>(random.below(2) == 0 ? -0x1p18 : 0x1p18);
+            }
+        }
+        std::vector<FergusonJoint<Fixed>> joints(closed ? points.size() : points.size() - 2);
+        for (auto& joint : joints) {
+            joint.lambda = from_double<Fixed>(std::pow(2.0, random.between(-4.0, 4.0)));
+            joint.mu = from_double<Fixed>(random.below(2) == 0 ? random.between(-65536.0, 65536.0)
+                                                               : random.between(-16.0, 4.0));
+            joint.delta = random.below(2) == 0 ? 1 : -1;
+        }
+        const auto made = make<Fixed>(points, joints, closed, points[0], points[1]);
+        solved += made.error == Error::none ? 1 : 0;
+        REQUIRE((made.error == Error::none || made.error == Error::system_singular ||
+                 made.error == Error::result_out_of_range ||
+                 (closed && points.front() == points.back()))); // one joint too many
+    }
+    REQUIRE(solved > 1500);
+}
