@@ -19,6 +19,9 @@ struct CurveOptions {
     /// Longest move that push takes, at most 65536. Motion along a longer one would feel float's 24 bits in the
     /// acceleration (docs/numbers.md); who wants the geometry alone may raise it.
     std::int32_t longest_move_mm = std::same_as<S, float> ? 512 : 65536;
+    /// Whether the last segment of the lead-in and the first of the lead-out are delivered, too: what Seam::repeated
+    /// takes.
+    bool seam_segments = false;
 };
 
 /// cos of a corner angle in degrees, 0 to 180, for CurveOptions; host and compile-time use.
@@ -73,9 +76,12 @@ protected:
     [[nodiscard]] const Knot<S>& knot(std::uint64_t i) const noexcept { return ring_[i % capacity]; }
     /// Whether `breaks` of knot i is final.
     [[nodiscard]] bool decided(std::uint64_t i) const noexcept { return i + 1 < known_ || (finished_ && i < known_); }
-    /// Whether segment i -> i+1 is travelled (not lead-in, not lead-out).
+    /// Whether segment i -> i+1 is delivered: not lead-in, not lead-out, but for the seam's own two.
     [[nodiscard]] bool travelled(std::uint64_t i) const noexcept {
-        return knot(i).role != Role::lead_in && knot(i + 1).role != Role::lead_out;
+        const bool enters = knot(i).role != Role::lead_in || (options_.seam_segments && knot(i + 1).role == Role::path);
+        const bool leaves =
+            knot(i + 1).role != Role::lead_out || (options_.seam_segments && knot(i).role == Role::path);
+        return enters && leaves;
     }
     /// Fills all of a segment i -> i+1 but the control points.
     void describe_segment(std::uint64_t i, int degree, CurveSegment<S>& out) const noexcept;

@@ -233,12 +233,12 @@ Status solve_cyclic(std::span<CyclicRow<S>> rows, bool ring, std::span<Point<S>>
         norm = larger(norm, row_sum(row));
     }
     if (n == 1) {
-        if (!(absolute(rows[0].on) > negligible_pivot<S>())) {
+        if (!(absolute(rows[0].on) > negligible_pivot<S>()) || !place(rows[0], 0, 1, 0)) {
             return Error::system_singular;
         }
         report.condition = from_integer<S>(1);
         for (unsigned k = 0; k < all_axes; ++k) {
-            if (!divided(rows[0].right[k], rows[0].on, out[0][k])) {
+            if (!divided(rows[0].right[k], rows[0].border[1], out[0][k])) {
                 return Error::result_out_of_range;
             }
         }
