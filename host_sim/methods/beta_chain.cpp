@@ -141,6 +141,25 @@ double largest_sum(const Chain& chain) {
     return largest;
 }
 
+// Cubics have one free point each, and what a joint does to the next one grows about five times from one to the next.
+void require_digits(const Chain& chain, double largest) {
+    double given = 0.0;
+    for (const auto* points : {&chain.first_polygon, &chain.free_points}) {
+        for (const PerAxis<double>& point : *points) {
+            for (const double x : point) {
+                given = std::max(given, std::fabs(x));
+            }
+        }
+    }
+    if (largest > 0x1p30 * given) { // the points would keep less than 26 bits
+        throw DescriptionError(
+            fmt::format("the chain grows from joint to joint, to {:.3g} times its largest coordinate: too "
+                        "far for fixed-point numbers; use a higher degree, which leaves more points "
+                        "free, or fewer joints",
+                        largest / given));
+    }
+}
+
 template <Scalar S>
 nlohmann::ordered_json joint_json(const BetaJoint<S>& joint, const Chain& chain, const Unit<S>& unit) {
     nlohmann::ordered_json out;
@@ -163,7 +182,11 @@ nlohmann::ordered_json joint_json(const BetaJoint<S>& joint, const Chain& chain,
 template <Scalar S>
 DescribedCurve describe_beta_chain(const json& input) {
     const Chain chain = read(input);
-    const Unit<S> unit(largest_sum(chain), 1.0);
+    const double largest = largest_sum(chain);
+    if constexpr (std::same_as<S, Fixed>) {
+        require_digits(chain, largest);
+    }
+    const Unit<S> unit(largest, 1.0);
     const Built<S> built = build<S>(chain, unit);
     DescribedCurve curve;
     curve.axes = chain.axes;

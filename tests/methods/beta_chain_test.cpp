@@ -35,9 +35,9 @@ double bound_of(const nlohmann::json& golden, const DescribedCurve& curve, doubl
     return largest / number_in(golden, "scale");
 }
 
-std::string refusal(const nlohmann::json& input) {
+std::string refusal(const nlohmann::json& input, ScalarKind scalar = ScalarKind::dual) {
     try {
-        static_cast<void>(describe_curve("beta_chain", input, ScalarKind::dual));
+        static_cast<void>(describe_curve("beta_chain", input, scalar));
     } catch (const DescriptionError& error) {
         return error.what();
     }
@@ -100,6 +100,13 @@ TEST_CASE("beta_chain: a bad description is refused in a sentence", "[methods][b
     CHECK(says(with("/free_points/1", nlohmann::json::parse("[[1, 2, 3]]")), "like those before"));
     CHECK(says(with("/first_polygon", nullptr), "\"first_polygon\""));
     CHECK(says(with("/first_polygon/2", nlohmann::json::parse("[5, 2]")), "tangent vanishes"));
+    nlohmann::json growing = good_input();
+    for (int j = 0; j < 40; ++j) {
+        growing["free_points"].push_back(growing["free_points"][0]);
+        growing["betas"].push_back(growing["betas"][0]);
+    }
+    CHECK(says(refusal(growing, ScalarKind::fixed), "grows from joint to joint"));
+    CHECK(refusal(growing) == "none");
     nlohmann::json wide = good_input();
     wide["betas"][0]["beta1"] = 9000;
     CHECK_THROWS_AS(describe_curve("beta_chain", wide, ScalarKind::fixed), DescriptionError);
