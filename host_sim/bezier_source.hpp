@@ -15,14 +15,26 @@ class BezierSource final : public CurveSource<S> {
 public:
     /// @pre file.method is bezier; it outlives the source
     /// @param axes  of the machine, at least file.axes; those beyond stay at 0
-    BezierSource(const CurveFile& file, int axes) noexcept;
+    /// @param repeat_seam  for SmoothedCurve: a closed file's last segment comes before the first, too, and its first
+    ///                     after the last
+    BezierSource(const CurveFile& file, int axes, bool repeat_seam = false) noexcept;
     Pull next(CurveSegment<S>& out) noexcept override;
+    /// Whether the seam is repeated: asked for, and the file's ends meet.
+    [[nodiscard]] bool repeats_seam() const noexcept { return repeats_; }
 
 private:
+    [[nodiscard]] bool negligible(std::size_t segment) const noexcept;
+    /// Of a segment that begins at here_; false where it is left out.
+    bool deliver(std::size_t segment, CurveSegment<S>& out) noexcept;
+    void go_to_start(std::size_t segment) noexcept;
+
     const CurveFile* file_;
     PerAxis<Position> here_{}; // the end of the segment before
     std::size_t next_ = 0;
     int axes_;
+    bool repeats_ = false;
+    bool before_seam_ = false; // the last segment is due, before the first
+    bool after_seam_ = false;  // the first one is, after the last
 };
 
 } // namespace splinefeed::host

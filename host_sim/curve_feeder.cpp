@@ -56,11 +56,22 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
     options.axes = static_cast<int>(input.axes().size());
     options.parameterization = choice.parameterization;
     options.corner_cosine = from_double<S>(corner_cosine(choice.corner_angle_deg));
+    options.seam_segments = choice.smooth && choice.closed;
     EndTangents<S> tangents;
     take_tangent(choice.start_tangent, options.axes, tangents.has_start, tangents.start);
     take_tangent(choice.end_tangent, options.axes, tangents.has_end, tangents.end);
     if (input.segments() != nullptr) {
-        build<BezierSource<S>>(*input.segments(), options.axes);
+        build<BezierSource<S>>(*input.segments(), options.axes, choice.smooth);
+        if (choice.smooth) {
+            for (const CurveFile::Segment& segment : input.segments()->segments) {
+                if (segment.degree > 5) {
+                    throw UsageError(fmt::format("--smooth takes segments up to degree 5; there is one of degree {}",
+                                                 segment.degree));
+                }
+            }
+            const bool seam = std::get<BezierSource<S>>(curve_).repeats_seam();
+            source_ = &smoothed_.emplace(*source_, seam ? Seam::repeated : Seam::open);
+        }
         rows_read_ = input.points_read();
         finished_ = true;
         return;
@@ -79,9 +90,19 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
         break;
     }
     case Method::catmull_rom: build<CatmullRom<S>>(options, from_double<S>(choice.tension)); break;
+    case Method::catmull_rom_modified:
+        if (!choice.constant_factor && choice.tension > 2.0) {
+            throw UsageError("--tension of catmull-rom-modified is at most 2 (a length in mm with --factor constant)");
+        }
+        build<CatmullRomModified<S>>(options, from_double<S>(choice.tension),
+                                     choice.constant_factor ? ChordFactor::constant : ChordFactor::chord);
+        break;
     case Method::bspline: build<BSplineCurve<S>>(options, choice.degree); break;
     case Method::polyline: build<Polyline<S>>(options); break;
     default: throw UsageError(fmt::format("--curve {} is not available yet", method_name(choice.method)));
+    }
+    if (choice.smooth) {
+        source_ = &smoothed_.emplace(*source_, choice.closed ? Seam::repeated : Seam::open);
     }
     input_rows_ = input.rows();
     lines_.resize(remembered);

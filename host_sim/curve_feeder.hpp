@@ -7,10 +7,13 @@
 
 #include "splinefeed/s1_curve/bspline_curve.hpp"
 #include "splinefeed/s1_curve/catmull_rom.hpp"
+#include "splinefeed/s1_curve/catmull_rom_modified.hpp"
 #include "splinefeed/s1_curve/g2_bezier.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/s1_curve/polyline.hpp"
+#include "splinefeed/s1_curve/smoothed_curve.hpp"
 
+#include <optional>
 #include <variant>
 
 namespace splinefeed::host {
@@ -57,8 +60,10 @@ private:
     bool next_row(WaypointRow& row, Role& role);
     void finish();
 
-    std::variant<std::monostate, G2Spline<S>, G2Bezier<S>, CatmullRom<S>, BSplineCurve<S>, Polyline<S>, BezierSource<S>>
+    std::variant<std::monostate, G2Spline<S>, G2Bezier<S>, CatmullRom<S>, CatmullRomModified<S>, BSplineCurve<S>,
+                 Polyline<S>, BezierSource<S>>
         curve_;
+    std::optional<SmoothedCurve<S>> smoothed_; // --smooth
     CurveSource<S>* source_ = nullptr;
     WaypointCurve<S>* waypoints_ = nullptr; // null: Bezier segments
     PathInput* input_;
