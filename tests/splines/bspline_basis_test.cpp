@@ -101,6 +101,8 @@ TEST_CASE("spans are half-open, the last one closed, empty ones skipped", "[spli
     const std::vector<double> doubled{0, 0, 0, 1, 1, 2, 2, 2};
     REQUIRE(find_span<double>(doubled, 2, 1.0) == 4);
     REQUIRE(find_span<double>(doubled, 2, 0.5) == 2);
+    const std::vector<double> loose_end{0, 0, 0, 1, 2, 2, 2, 3}; // its domain ends with an empty span
+    REQUIRE(find_span<double>(loose_end, 2, 2.0) == 3);
     // At a simple inner knot only k functions differ from zero; closed spans would count two of degree 0.
     const PerDegree<double> at_knot = basis_functions<double>(knots, 3, 4, 1.0);
     REQUIRE(at_knot[0] + at_knot[1] + at_knot[2] == Approx(1.0));
