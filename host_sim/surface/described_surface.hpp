@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// DescribedSurface: a surface that was computed from a description, with all that led to it.
+#pragma once
+
+#include "host_sim/methods/description.hpp"
+#include "splinefeed/surfaces/bspline_surface.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// Owns knots and net, in mm; surfaces are computed in double.
+struct DescribedSurface {
+    int axes = 0;
+    int degree_u = 3;
+    int degree_v = 3;
+    std::vector<double> params_u; ///< skins: empty, each section has its own
+    std::vector<double> params_v;
+    std::vector<double> knots_u;
+    std::vector<double> knots_v;
+    std::vector<Point<double>> net;                                    ///< [i * points along v + j]
+    nlohmann::ordered_json results = nlohmann::ordered_json::object(); ///< further keys, as the contract names them
+
+    [[nodiscard]] BSplineSurface<double> view() const noexcept {
+        return {axes, degree_u, degree_v, knots_u, knots_v, net};
+    }
+};
+
+/// "bspline_surface": the surface through input["grid"] (Sakude, section 3). Throws DescriptionError.
+[[nodiscard]] DescribedSurface describe_grid(const nlohmann::json& input);
+/// "bspline_skin": the surface through input["sections"], carried along input["spine"] where there is one.
+[[nodiscard]] DescribedSurface describe_skin(const nlohmann::json& input);
+/// By the name of the method. Throws DescriptionError.
+[[nodiscard]] DescribedSurface describe_surface(std::string_view method, const nlohmann::json& input);
+
+/// {"degree_u", "degree_v", "params_u", "params_v", "knots_u", "knots_v", "net", "samples"}, then the method's own
+/// keys. params_u is null for a skin. `samples` holds S and its derivatives at nine places.
+[[nodiscard]] nlohmann::ordered_json surface_report(const DescribedSurface& surface);
+
+/// The degree that `key` asks for, or the usual one for that many points. Throws DescriptionError if there are too few.
+[[nodiscard]] int degree_in(const nlohmann::json& input, const char* key, std::size_t points, std::string_view what);
+
+} // namespace splinefeed::host
