@@ -235,7 +235,13 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_curve_options(*curve, job, typed);
     curve->add_option("-o,--curve-out", job.curve_out, "C.json (default: standard output)");
     curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
-    for (CLI::App* const command : {run, plan, curve}) {
+    CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
+    surface->add_option("FILE", job.input, "a grid or sections (.json); - reads standard input")->required();
+    add_surface_options(*surface, job.surface);
+    surface->footer(std::string("Example: splinefeed surface dome.json --along u --scallop 0.01 --ball-radius 6 -o "
+                                "path.csv\n") +
+                    exit_statuses);
+    for (CLI::App* const command : {run, plan, curve, surface}) {
         for (CLI::Option* const option : command->get_options()) {
             option->type_name(""); // the descriptions say what a value may be
         }
@@ -247,7 +253,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
 } // namespace
 
 std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
-    constexpr std::array<std::string_view, 3> commands{"run", "plan", "curve"};
+    constexpr std::array<std::string_view, 4> commands{"run", "plan", "curve", "surface"};
     Job job;
     Typed typed;
     CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
@@ -284,6 +290,11 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     refuse_extras(command, job);
     if (job.input.empty()) {
         throw UsageError("the input has no name; give a .csv or .json file, or - for standard input");
+    }
+    if (command.get_name() == "surface") {
+        job.command = Command::surface;
+        static_cast<void>(choose_raster(job.surface));
+        return job;
     }
     job.machine = typed.machine.value_or("");
     if (typed.machine && job.machine.empty()) {

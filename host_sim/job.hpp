@@ -3,13 +3,14 @@
 #pragma once
 
 #include "curve_choice.hpp"
+#include "surface/surface_arguments.hpp"
 
 #include <cstddef>
 #include <string>
 
 namespace splinefeed::host {
 
-enum class Command { run, plan, curve };
+enum class Command { run, plan, curve, surface };
 enum class ScalarKind { fixed, single, dual };
 enum class InputFormat { csv, json };
 enum class SummaryKind { none, text, json };
@@ -20,6 +21,7 @@ struct Job {
     InputFormat format = InputFormat::csv;
     std::string machine; ///< empty: the default machine
     CurveArguments curve;
+    SurfaceArguments surface;
     ScalarKind scalar = ScalarKind::fixed;
     std::size_t window_cells = 1024;
     std::string trace; ///< empty: no such output; "-": standard output

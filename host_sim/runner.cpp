@@ -95,6 +95,9 @@ int run_with(const Job& job) {
 } // namespace
 
 int run(const Job& job) {
+    if (job.command == Command::surface) {
+        return run_surface(job.input, job.surface);
+    }
     switch (job.scalar) {
     case ScalarKind::fixed: return run_with<Fixed>(job);
     case ScalarKind::single: return run_with<float>(job);

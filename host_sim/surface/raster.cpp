@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/surface/raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+using Vector = Point<double>;
+
+constexpr int most_lines = 100000;
+constexpr double same_point_mm = 1e-4; // as the core merges waypoints
+constexpr int looks = 48;              // along each line for hollows
+
+double apart(const Vector& a, const Vector& b) {
+    return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+}
+
+bool same(const Vector& a, const Vector& b) {
+    return std::max({std::fabs(a[0] - b[0]), std::fabs(a[1] - b[1]), std::fabs(a[2] - b[2])}) < same_point_mm;
+}
+
+Vector at(const ToolSurface& surface, const Stretch& stretch, double t) {
+    return stretch.kind == Stretch::Kind::along ? surface.tool(t, stretch.constant) : surface.tool(stretch.constant, t);
+}
+
+void require_fit(const ToolSurface& surface, double across) {
+    const double r = surface.options().ball_radius_mm;
+    for (int i = 0; r > 0.0 && i <= looks; ++i) {
+        const double along = surface.first_along() + (surface.last_along() - surface.first_along()) * i / looks;
+        const auto hollow = surface.hollow(along, across);
+        if (hollow && *hollow * r > 1.0 + 1e-9) {
+            const Vector p = surface.jet(along, across).position;
+            throw DescriptionError(
+                fmt::format("a ball of radius {:g} mm does not fit into the hollow at x={:.3f} y={:.3f} z={:.3f}, "
+                            "whose radius is {:.4f} mm; take a smaller --ball-radius",
+                            r, p[0], p[1], p[2], 1.0 / *hollow));
+        }
+    }
+}
+
+// Parameters along a stretch so that neighbours are at most step_mm apart; those of creases are among them.
+struct Places {
+    std::vector<double> parameters;
+    std::vector<bool> creases;
+};
+
+Places places_of(const ToolSurface& surface, const Stretch& stretch) {
+    const BSplineSurface<double>& view = surface.view();
+    const bool u = (stretch.kind == Stretch::Kind::along) == (surface.options().along == SurfaceDirection::u);
+    const double low = std::min(stretch.from, stretch.to);
+    const double high = std::max(stretch.from, stretch.to);
+    std::vector<double> ends{low};
+    for (const double crease : u ? creases(view.knots_u, view.degree_u) : creases(view.knots_v, view.degree_v)) {
+        if (crease > low && crease < high) {
+            ends.push_back(crease);
+        }
+    }
+    ends.push_back(high);
+    Places places{{low}, {false}};
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        constexpr int fine = 256; // the length as of a polygon; a waypoint each step of it
+        std::vector<double> length{0.0};
+        Vector before = at(surface, stretch, ends[i]);
+        for (int j = 1; j <= fine; ++j) {
+            const Vector here = at(surface, stretch, ends[i] + (ends[i + 1] - ends[i]) * j / fine);
+            length.push_back(length.back() + apart(before, here));
+            before = here;
+        }
+        const int count = std::max(1, static_cast<int>(std::ceil(length.back() * 1.001 / surface.options().step_mm)));
+        std::size_t slot = 0;
+        for (int j = 1; j < count; ++j) {
+            const double target = length.back() * j / count;
+            while (length[slot + 1] < target) {
+                ++slot;
+            }
+            const double part = (target - length[slot]) / (length[slot + 1] - length[slot]);
+            places.parameters.push_back(ends[i] + (ends[i + 1] - ends[i]) * (static_cast<double>(slot) + part) / fine);
+            places.creases.push_back(false);
+        }
+        places.parameters.push_back(ends[i + 1]);
+        places.creases.push_back(i + 2 < ends.size());
+    }
+    if (stretch.from > stretch.to) {
+        std::reverse(places.parameters.begin(), places.parameters.end());
+        std::reverse(places.creases.begin(), places.creases.end());
+    }
+    return places;
+}
+
+} // namespace
+
+std::vector<double> line_parameters(const ToolSurface& surface) {
+    const double first = surface.first_across();
+    const double last = surface.last_across();
+    std::vector<double> lines;
+    if (surface.options().lines) {
+        const int count = *surface.options().lines;
+        for (int i = 0; i < count; ++i) {
+            lines.push_back(i + 1 == count ? last : first + (last - first) * i / (count - 1));
+        }
+        return lines;
+    }
+    const double highest = surface.options().scallop_mm.value_or(0.0);
+    lines.push_back(first);
+    double step = (last - first) / 64.0;
+    while (lines.back() < last) {
+        const double from = lines.back();
+        double good = 0.0;
+        double bad = last - from;
+        if (surface.scallop_mm(from, last) <= highest) {
+            lines.push_back(last);
+            break;
+        }
+        step = std::min(step, bad / 2.0);
+        while (surface.scallop_mm(from, from + step) > highest && step > 1e-12 * (last - first)) {
+            bad = step;
+            step /= 2.0;
+        }
+        good = step;
+        for (int halving = 0; halving < 40 && bad - good > 1e-6 * good; ++halving) {
+            const double middle = std::min(0.5 * (good + bad), 2.0 * good);
+            (surface.scallop_mm(from, from + middle) <= highest ? good : bad) = middle;
+        }
+        step = good;
+        lines.push_back(from + good);
+        if (lines.size() > most_lines) {
+            throw DescriptionError(
+                fmt::format("ridges of {:g} mm need more than {} lines; take a larger --scallop", highest, most_lines));
+        }
+    }
+    return lines;
+}
+
+std::vector<Stretch> raster(const ToolSurface& surface) {
+    using Kind = Stretch::Kind;
+    const std::vector<double> lines = line_parameters(surface);
+    const double first = surface.first_along();
+    const double last = surface.last_along();
+    double highest = -INFINITY;
+    for (const double across : lines) {
+        require_fit(surface, across);
+        for (int i = 0; !surface.options().zigzag && i <= looks; ++i) {
+            highest = std::max(highest, surface.tool(first + (last - first) * i / looks, across)[2]);
+        }
+    }
+    std::vector<Stretch> path;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const bool back = surface.options().zigzag && i % 2 == 1;
+        const double from = back ? last : first;
+        const double to = back ? first : last;
+        path.push_back({Kind::along, lines[i], from, to, {}, {}});
+        if (i + 1 == lines.size()) {
+            break;
+        }
+        if (surface.options().zigzag) {
+            path.push_back({Kind::across, to, lines[i], lines[i + 1], {}, {}});
+            continue;
+        }
+        const Vector end = surface.tool(to, lines[i]);
+        const Vector next = surface.tool(from, lines[i + 1]);
+        Vector up = end;
+        Vector over = next;
+        up[2] = over[2] = highest + surface.options().lift_mm;
+        path.push_back({Kind::straight, 0.0, 0.0, 0.0, end, up});
+        path.push_back({Kind::straight, 0.0, 0.0, 0.0, up, over});
+        path.push_back({Kind::straight, 0.0, 0.0, 0.0, over, next});
+    }
+    return path;
+}
+
+std::vector<double> stretch_parameters(const ToolSurface& surface, const Stretch& stretch) {
+    return places_of(surface, stretch).parameters;
+}
+
+std::vector<ToolPoint> waypoints(const ToolSurface& surface, const std::vector<Stretch>& path) {
+    std::vector<ToolPoint> points;
+    const auto add = [&points](const Vector& position, bool corner) {
+        if (!points.empty() && same(points.back().position, position)) {
+            points.back().corner = points.back().corner || corner;
+        } else {
+            points.push_back({position, corner});
+        }
+    };
+    for (const Stretch& stretch : path) {
+        if (stretch.kind == Stretch::Kind::straight) {
+            add(stretch.start, true);
+            add(stretch.end, true);
+            continue;
+        }
+        const Places places = places_of(surface, stretch);
+        for (std::size_t i = 0; i < places.parameters.size(); ++i) {
+            const bool end = i == 0 || i + 1 == places.parameters.size();
+            add(at(surface, stretch, places.parameters[i]), end || places.creases[i]);
+        }
+    }
+    return points;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/surface/surface_arguments.hpp"
+
+#include "host_sim/input_error.hpp"
+#include "host_sim/nearest_name.hpp"
+#include "host_sim/number_text.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+double read(std::string_view option, std::string_view text, double low, double high) {
+    double value = 0.0;
+    if (const NumberText result = read_number(text, value); result != NumberText::number) {
+        throw UsageError(fmt::format("{} {} {}", option, in_quotes(text), why_no_number(result)));
+    }
+    if (value < low || value > high) {
+        throw UsageError(
+            fmt::format("{} {} is out of range; it must lie between {} and {}", option, in_quotes(text), low, high));
+    }
+    return value;
+}
+
+// The index of the name.
+std::size_t choose(std::string_view option, std::string_view text, std::array<std::string_view, 2> names) {
+    if (text != names[0] && text != names[1]) {
+        throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(text), listed(names)));
+    }
+    return text == names[0] ? 0 : 1;
+}
+
+} // namespace
+
+void add_surface_options(CLI::App& app, SurfaceArguments& arguments) {
+    const std::string group = "Tool path";
+    const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
+        app.add_option(name, value, text)->group(group);
+    };
+    option("--along", arguments.along,
+           "u or v: the parameter that runs along the lines (default: no path, the surface)");
+    option("--lines", arguments.lines, "number of lines, 2 to 100000");
+    option("--scallop", arguments.scallop, "instead: as many as leave ridges of this height [mm] at most");
+    option("--ball-radius", arguments.ball_radius,
+           "of a ball-nosed cutter [mm] (default 0: the path is on the surface)");
+    option("--tool", arguments.tool, "centre or tip: what of the ball the path is that of (default tip)");
+    option("--pattern", arguments.pattern, "zigzag or one-way, lifted for the way back (default zigzag)");
+    option("--lift", arguments.lift, "one-way: height above the highest point of the path [mm] (default 5)");
+    option("--step", arguments.step, "largest distance of waypoints [mm] (default 1)");
+    app.add_option("-o,--output", arguments.output,
+                   "WAYPOINTS.csv or CURVE.json (default: standard output, waypoints)");
+}
+
+std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments) {
+    if (!arguments.along) {
+        for (const auto& [value, name] :
+             {std::pair{&arguments.lines, "--lines"}, std::pair{&arguments.scallop, "--scallop"},
+              std::pair{&arguments.ball_radius, "--ball-radius"}, std::pair{&arguments.tool, "--tool"},
+              std::pair{&arguments.pattern, "--pattern"}, std::pair{&arguments.lift, "--lift"},
+              std::pair{&arguments.step, "--step"}}) {
+            if (*value) {
+                throw UsageError(fmt::format("{} is for a tool path; add --along u or --along v", name));
+            }
+        }
+        return std::nullopt;
+    }
+    RasterOptions options;
+    options.along = choose("--along", *arguments.along, {"u", "v"}) == 0 ? SurfaceDirection::u : SurfaceDirection::v;
+    if (arguments.lines.has_value() == arguments.scallop.has_value()) {
+        throw UsageError("a tool path needs one of --lines and --scallop");
+    }
+    if (arguments.ball_radius) {
+        options.ball_radius_mm = read("--ball-radius", *arguments.ball_radius, 0.0, 10000.0);
+    }
+    const bool ball = options.ball_radius_mm > 0.0;
+    if (arguments.lines) {
+        const double count = read("--lines", *arguments.lines, 2.0, 100000.0);
+        if (count != std::floor(count)) {
+            throw UsageError(fmt::format("--lines {}: it must be a whole number", in_quotes(*arguments.lines)));
+        }
+        options.lines = static_cast<int>(count);
+    } else {
+        if (!ball) {
+            throw UsageError("--scallop needs --ball-radius: the ridges are left by a ball");
+        }
+        options.scallop_mm = read("--scallop", *arguments.scallop, 1e-6, 0.5 * options.ball_radius_mm);
+    }
+    if (arguments.tool && !ball) {
+        throw UsageError("--tool needs --ball-radius: without a ball the path is on the surface");
+    }
+    options.tip = choose("--tool", arguments.tool.value_or("tip"), {"centre", "tip"}) == 1;
+    options.zigzag = choose("--pattern", arguments.pattern.value_or("zigzag"), {"zigzag", "one-way"}) == 0;
+    if (arguments.lift) {
+        if (options.zigzag) {
+            throw UsageError("--lift is for --pattern one-way; a zigzag is not lifted");
+        }
+        options.lift_mm = read("--lift", *arguments.lift, 0.001, 10000.0);
+    }
+    if (arguments.step) {
+        options.step_mm = read("--step", *arguments.step, 0.001, 10000.0);
+    }
+    return options;
+}
+
+} // namespace splinefeed::host

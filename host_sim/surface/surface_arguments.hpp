@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// SurfaceArguments: the options of `splinefeed surface` as they were typed, and what they ask for.
+#pragma once
+
+#include "host_sim/surface/raster.hpp"
+
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace splinefeed::host {
+
+/// No value: not given.
+struct SurfaceArguments {
+    std::optional<std::string> along;
+    std::optional<std::string> lines;
+    std::optional<std::string> scallop;
+    std::optional<std::string> ball_radius;
+    std::optional<std::string> tool;
+    std::optional<std::string> pattern;
+    std::optional<std::string> lift;
+    std::optional<std::string> step;
+    std::string output; ///< empty: standard output
+};
+
+void add_surface_options(CLI::App& app, SurfaceArguments& arguments);
+
+/// Checks the options. Nothing: no tool path is asked for. Throws UsageError.
+[[nodiscard]] std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments);
+
+/// Carries the command out. Throws InputError, OutputError. Returns the exit status.
+int run_surface(const std::string& input, const SurfaceArguments& arguments);
+
+} // namespace splinefeed::host

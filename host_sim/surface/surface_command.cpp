@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/curve_writer.hpp"
+#include "host_sim/input_error.hpp"
+#include "host_sim/output_file.hpp"
+#include "host_sim/surface/surface_arguments.hpp"
+#include "host_sim/text_file.hpp"
+#include "splinefeed/number/position.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+using nlohmann::json;
+
+json read_json(const std::string& file) {
+    constexpr std::size_t largest = std::size_t{1} << 28;
+    const std::string text = read_text_file(file, largest);
+    try {
+        return json::parse(text);
+    } catch (const json::parse_error& error) {
+        const std::size_t at = std::min<std::size_t>(error.byte == 0 ? 0 : error.byte - 1, text.size());
+        const auto line = static_cast<std::uint64_t>(
+            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+        throw InputError(file, line,
+                         "not JSON; a surface is like {\"method\": \"bspline_surface\", \"input\": {\"grid\": ...}}");
+    } catch (const json::out_of_range&) {
+        throw InputError(file, 0, "a number is out of range; coordinates must lie within +-1048576 mm");
+    }
+}
+
+DescribedSurface read_surface(const std::string& file) {
+    const json description = read_json(file);
+    const bool object = description.is_object();
+    const auto method = object ? description.find("method") : description.end();
+    const auto input = object ? description.find("input") : description.end();
+    if (!object || method == description.end() || !method->is_string() || input == description.end() ||
+        !input->is_object()) {
+        throw DescriptionError("there must be \"method\", bspline_surface or bspline_skin, and an object \"input\"");
+    }
+    return describe_surface(method->get<std::string>(), *input);
+}
+
+void require_place(const Point<double>& point) {
+    for (const double x : point) {
+        if (!position_representable(x)) {
+            throw DescriptionError(
+                fmt::format("the path goes to {:.6g} mm; a position must lie within +-1048576 mm", x));
+        }
+    }
+}
+
+void write_waypoints(OutputFile& file, const std::vector<ToolPoint>& points) {
+    file.append("x,y,z,corner\n");
+    for (const ToolPoint& point : points) {
+        require_place(point.position);
+        file.format("{},{},{},{}\n", point.position[0], point.position[1], point.position[2], point.corner ? 1 : 0);
+    }
+}
+
+void write_curve(OutputFile& file, const std::vector<BezierPiece<double>>& pieces) {
+    CurveFile curve;
+    curve.method = "bezier";
+    curve.axes = 3;
+    for (const BezierPiece<double>& piece : pieces) {
+        curve.segments.push_back({curve.numbers.size() / 3, piece.degree});
+        for (int i = 0; i <= piece.degree; ++i) {
+            const Point<double> point = piece.point(i);
+            require_place(point);
+            curve.numbers.insert(curve.numbers.end(), point.begin(), point.begin() + 3);
+        }
+    }
+    CurveWriter writer(file, curve.method, false);
+    writer.segments(curve);
+    writer.finish();
+}
+
+} // namespace
+
+int run_surface(const std::string& input, const SurfaceArguments& arguments) {
+    const std::optional<RasterOptions> options = choose_raster(arguments);
+    try {
+        const DescribedSurface surface = read_surface(input);
+        OutputFile file(arguments.output.empty() ? "-" : arguments.output);
+        if (!options) {
+            file.append(surface_report(surface).dump());
+            file.append("\n");
+        } else {
+            const ToolSurface tool(surface, *options);
+            const std::vector<Stretch> path = raster(tool);
+            const std::string suffix = ".json";
+            const bool as_curve =
+                arguments.output.size() >= suffix.size() &&
+                arguments.output.compare(arguments.output.size() - suffix.size(), suffix.size(), suffix) == 0;
+            if (as_curve) {
+                write_curve(file, pieces(tool, path));
+            } else {
+                write_waypoints(file, waypoints(tool, path));
+            }
+        }
+        file.commit();
+    } catch (const DescriptionError& error) {
+        throw InputError(input, 0, error.what());
+    }
+    return 0;
+}
+
+} // namespace splinefeed::host

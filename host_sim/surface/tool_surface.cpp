@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/surface/raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+using Vector = Point<double>;
+
+constexpr int looks_along = 64; // where the height of a ridge is measured along a line
+
+double dot(const Vector& a, const Vector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector plus(const Vector& a, double factor, const Vector& b) {
+    return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+
+} // namespace
+
+std::vector<double> creases(std::span<const double> knots, int degree) {
+    const auto k = static_cast<std::size_t>(degree);
+    std::vector<double> found;
+    for (std::size_t i = k + 1; i + 2 * k < knots.size(); ++i) {
+        if (knots[i] == knots[i + k - 1] && knots[i] > knots[k] && knots[i] < knots[knots.size() - k - 1] &&
+            (found.empty() || found.back() < knots[i])) {
+            found.push_back(knots[i]);
+        }
+    }
+    return found;
+}
+
+ToolSurface::ToolSurface(const DescribedSurface& surface, const RasterOptions& options)
+    : view_(surface.view()), options_(&options), along_u_(options.along == SurfaceDirection::u) {
+    if (surface.axes != 3) {
+        throw DescriptionError(fmt::format("the points have {} numbers; a tool path needs x, y and z", surface.axes));
+    }
+    if (options.ball_radius_mm > 0.0 &&
+        !(creases(view_.knots_u, view_.degree_u).empty() && creases(view_.knots_v, view_.degree_v).empty())) {
+        throw DescriptionError(
+            "the surface has creases, at which a ball would jump; raise its degree to 2 at least, or "
+            "leave out --ball-radius");
+    }
+    double up = 0.0;
+    constexpr int looks = 16;
+    for (int i = 0; i <= looks; ++i) {
+        for (int j = 0; j <= looks; ++j) {
+            const auto at = [looks](int n, double first, double last) {
+                return first + (last - first) * n / looks;
+            };
+            const auto found =
+                normal_at(view_, at(i, view_.first_u(), view_.last_u()), at(j, view_.first_v(), view_.last_v()));
+            up += found.has_value() ? found->direction[2] : 0.0;
+        }
+    }
+    side_ = up < 0.0 ? -1.0 : 1.0;
+}
+
+SurfaceJet<double> ToolSurface::jet(double along, double across) const noexcept {
+    return along_u_ ? evaluate(view_, along, across) : evaluate(view_, across, along);
+}
+
+Point<double> ToolSurface::normal(double along, double across) const {
+    const double u = along_u_ ? along : across;
+    const double v = along_u_ ? across : along;
+    const auto found = normal_at(view_, u, v);
+    if (!found.has_value()) {
+        throw DescriptionError(fmt::format("the surface has no normal at u = {:.6g}, v = {:.6g}: a ball has no place "
+                                           "there; leave out --ball-radius, or move the points apart",
+                                           u, v));
+    }
+    return plus({}, side_, found->direction);
+}
+
+Point<double> ToolSurface::centre(double along, double across) const {
+    const Vector position = jet(along, across).position;
+    return options_->ball_radius_mm > 0.0 ? plus(position, options_->ball_radius_mm, normal(along, across)) : position;
+}
+
+Point<double> ToolSurface::tool(double along, double across) const {
+    Vector at = centre(along, across);
+    if (options_->tip) {
+        at[2] -= options_->ball_radius_mm;
+    }
+    return at;
+}
+
+// The principal curvatures are the eigenvalues of the second fundamental form (L M N) against the first (E F G).
+std::optional<double> ToolSurface::hollow(double along, double across) const {
+    const SurfaceJet<double> s = jet(along, across);
+    const double e = dot(s.u, s.u);
+    const double f = dot(s.u, s.v);
+    const double g = dot(s.v, s.v);
+    const double area_sq = e * g - f * f;
+    if (!(area_sq > 1e-18 * e * g) || !(e * g > 0.0)) {
+        return std::nullopt;
+    }
+    const Vector n = normal(along, across);
+    const double l = dot(s.uu, n);
+    const double m = dot(s.uv, n);
+    const double k = dot(s.vv, n);
+    const double mean = (e * k - 2.0 * f * m + g * l) / (2.0 * area_sq);
+    const double product = (l * k - m * m) / area_sq;
+    return mean + std::sqrt(std::max(0.0, mean * mean - product));
+}
+
+double ToolSurface::scallop_mm(double across, double next_across) const {
+    const double r = options_->ball_radius_mm;
+    const double middle = 0.5 * (across + next_across);
+    double most = 0.0;
+    for (int i = 0; i <= looks_along; ++i) {
+        const double along = first_along() + (last_along() - first_along()) * i / looks_along;
+        const SurfaceJet<double> between = jet(along, middle);
+        const Vector& direction = along_u_ ? between.u : between.v;
+        const Vector a = centre(along, across);
+        Vector apart = plus(centre(along, next_across), -1.0, a);
+        const Vector half = plus(a, 0.5, apart);
+        if (const double size_sq = dot(direction, direction); size_sq > 0.0) { // across the line
+            apart = plus(apart, -dot(apart, direction) / size_sq, direction);
+        }
+        const double inside_sq = r * r - 0.25 * dot(apart, apart);
+        if (!(inside_sq > 0.0)) {
+            return INFINITY;
+        }
+        const double above = dot(plus(half, -1.0, between.position), normal(along, middle));
+        most = std::max(most, above - std::sqrt(inside_sq));
+    }
+    return most;
+}
+
+} // namespace splinefeed::host
