@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace splinefeed::host {
 
@@ -140,7 +141,7 @@ std::vector<Stretch> raster(const ToolSurface& surface) {
     const std::vector<double> lines = line_parameters(surface);
     const double first = surface.first_along();
     const double last = surface.last_along();
-    double highest = -INFINITY;
+    double highest = -std::numeric_limits<double>::infinity();
     for (const double across : lines) {
         require_fit(surface, across);
         for (int i = 0; !surface.options().zigzag && i <= looks; ++i) {

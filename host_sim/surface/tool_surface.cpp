@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace splinefeed::host {
 
@@ -50,7 +51,7 @@ ToolSurface::ToolSurface(const DescribedSurface& surface, const RasterOptions& o
     constexpr int looks = 16;
     for (int i = 0; i <= looks; ++i) {
         for (int j = 0; j <= looks; ++j) {
-            const auto at = [looks](int n, double first, double last) {
+            const auto at = [](int n, double first, double last) {
                 return first + (last - first) * n / looks;
             };
             const auto found =
@@ -125,7 +126,7 @@ double ToolSurface::scallop_mm(double across, double next_across) const {
         }
         const double inside_sq = r * r - 0.25 * dot(apart, apart);
         if (!(inside_sq > 0.0)) {
-            return INFINITY;
+            return std::numeric_limits<double>::infinity();
         }
         const double above = dot(plus(half, -1.0, between.position), normal(along, middle));
         most = std::max(most, above - std::sqrt(inside_sq));

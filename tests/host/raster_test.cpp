@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
@@ -51,7 +52,7 @@ double measured_ridge(const std::vector<Point<double>>& centres, double from, do
     double most = 0.0;
     for (int i = 0; i <= 400; ++i) {
         const double y = from + (to - from) * i / 400.0;
-        double lowest = INFINITY;
+        double lowest = std::numeric_limits<double>::infinity();
         for (const Point<double>& c : centres) {
             const double inside = r * r - (y - c[1]) * (y - c[1]);
             lowest = inside > 0.0 ? std::min(lowest, c[2] - std::sqrt(inside)) : lowest;
@@ -174,7 +175,7 @@ TEST_CASE("raster: waypoints, pieces and patterns", "[surface]") {
     options.lift_mm = 7.0;
     const auto lifted = raster(tool);
     CHECK(lifted.size() == 5 + 3 * 4);
-    double highest = -INFINITY;
+    double highest = -std::numeric_limits<double>::infinity();
     for (const auto& piece : pieces(tool, lifted)) {
         highest = std::max(highest, piece.control[2][0]);
     }

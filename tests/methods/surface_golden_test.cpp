@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace splinefeed::host;
 using namespace splinefeed_test;
@@ -36,7 +37,7 @@ double worst(const json& actual, const json& expected, double tolerance) {
         return std::fabs(real(actual) - real(expected)) / tolerance;
     }
     if (!actual.is_array() || actual.size() != expected.size()) {
-        return INFINITY;
+        return std::numeric_limits<double>::infinity();
     }
     double most = 0.0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
