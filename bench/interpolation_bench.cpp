@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Interpolation of n points in 3-D that are all known, and evaluation of a cubic B-spline with two derivatives; against
 // SISL where it is installed (Debian: libsisl-dev). items_per_second counts points, or evaluations.
+#include "splinefeed/splines/beta_chain.hpp"
 #include "splinefeed/splines/bspline_basis.hpp"
 #include "splinefeed/splines/bspline_interpolation.hpp"
+#include "splinefeed/splines/ferguson.hpp"
 #include "splinefeed/splines/g2_bezier.hpp"
 #include "splinefeed/splines/spline_parameters.hpp"
 
@@ -104,6 +106,55 @@ void interpolate_bspline(benchmark::State& state) {
 }
 BENCHMARK(interpolate_bspline<3>)->Arg(1000)->Arg(100000);
 BENCHMARK(interpolate_bspline<5>)->Arg(1000);
+
+std::vector<Point<double>> points_of(const std::vector<double>& numbers) {
+    std::vector<Point<double>> points(numbers.size() / axes);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        points[i / axes][i % axes] = numbers[i];
+    }
+    return points;
+}
+
+void ferguson_curve(benchmark::State& state) {
+    const auto points = points_of(helix(1000));
+    const std::vector<FergusonJoint<double>> joints(points.size() - 2);
+    FergusonInput<double> input;
+    input.points = points;
+    input.joints = joints;
+    std::vector<Point<double>> in(points.size());
+    std::vector<Point<double>> out(points.size());
+    std::vector<BezierPiece<double>> pieces(points.size());
+    std::vector<CyclicRow<double>> system(points.size());
+    FergusonReport<double> report;
+    for (auto _ : state) {
+        if (!ferguson<double>(input, {in, out, pieces, system}, report).ok()) {
+            state.SkipWithError("refused");
+        }
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * 1000);
+}
+BENCHMARK(ferguson_curve);
+
+void beta_chain_curve(benchmark::State& state) {
+    const auto points = points_of(helix(1002)); // 6 of the first polygon, 3 of each further one
+    const std::vector<Beta<double>> betas(332);
+    BetaChain<double> chain;
+    chain.degree = 5;
+    chain.first_polygon = std::span(points).first(6);
+    chain.free_points = std::span(points).subspan(6);
+    chain.betas = betas;
+    std::vector<BezierPiece<double>> pieces(chain.piece_count());
+    std::vector<BetaJoint<double>> joints(betas.size());
+    for (auto _ : state) {
+        if (!beta_chain<double>(chain, pieces, joints).ok()) {
+            state.SkipWithError("refused");
+        }
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * 1002);
+}
+BENCHMARK(beta_chain_curve);
 
 void evaluate_bspline(benchmark::State& state) {
     Interpolated curve(1000, 3);

@@ -25,7 +25,7 @@ PANELS = [  # title, options, what is measured at the joints
     ("bspline-interpolation, degree 5", "--curve bspline-interpolation --degree 5"),
     ("ferguson", "--curve ferguson"),
     ("ferguson, curvature sign -1, mu = 8", "--curve ferguson --curvature-sign -1 --mu 8"),
-    ("beta-chain, beta1 = 1, beta2 = 4", "--curve beta-chain --beta2 4"),
+    ("beta-chain, degree 5, control points", "--curve beta-chain --degree 5"),
     ("polyline", "--curve polyline"),
 ]
 WIDTH, HEIGHT, COLUMNS = 320, 210, 3
@@ -86,14 +86,14 @@ METHODS = [
     ("g2-bezier", "--beta2 8", "G2", "G2", "g2_bezier", "through points, with a tension that pulls it to the chords"),
     ("catmull-rom", "", "G1", "C1 in the knot parameter", "catmull_rom", "local: a point moves four segments; curvature jumps"),
     ("catmull-rom", "--smooth", "G2", "G2", "catmull_rom_smooth", "local and G2: six segments, degree 5"),
-    ("catmull-rom-modified", "", "G1", "C1 in arc length nearly: C1 in s", "catmull_rom_modified",
+    ("catmull-rom-modified", "", "G1", "C1 by chord length", "catmull_rom_modified",
      "local, unevenly spaced points"),
     ("bspline", "", "C2", "C2 (degree 2: C1)", "bspline", "the points are a control polygon; stays in its hull"),
-    ("bspline-interpolation", "--degree 3", "G2", "C^(k-1) in t", "interpolate_bspline/3", "any degree 1 to 9; all points known"),
-    ("bspline-interpolation", "--degree 5", "G2", "C^(k-1) in t", "interpolate_bspline/5", "cams and whatever is differentiated twice"),
-    ("ferguson", "", "G2", "C2 at lambda 1, mu 0; else G2", "ferguson", "tangent length and tension of single joints; evenly spaced points"),
-    ("ferguson", "--curvature-sign -1 --mu 8", "G1+|k|", "G1, |kappa| only", "ferguson", "hardly ever: the curvature flips at every point"),
-    ("beta-chain", "--beta2 4", "G2", "G2 (order 1: G1)", "beta_chain", "shapes drawn by hand, bias and tension a joint"),
+    ("bspline-interpolation", "--degree 3", "G2", "C^(k-1) in t", "interpolate_bspline<3>/1000", "any degree 1 to 9; all points known"),
+    ("bspline-interpolation", "--degree 5", "G2", "C^(k-1) in t", "interpolate_bspline<5>/1000", "cams and whatever is differentiated twice"),
+    ("ferguson", "", "G2", "C2 at lambda 1, mu 0; else G2", "ferguson_curve", "tangent length and tension of single joints; evenly spaced points"),
+    ("ferguson", "--curvature-sign -1 --mu 8", "G1+|k|", "G1, only the modulus of the curvature", "ferguson_curve", "hardly ever: the curvature flips at every point"),
+    ("beta-chain", "--degree 5 --beta2 4", "G2", "G2 (order 1: G1)", "beta_chain_curve", "shapes drawn by hand, bias and tension a joint"),
     ("polyline", "", "C0", "C0, a stop at each corner", "polyline", "straight lines"),
 ]
 RANK = ["C0", "G1", "G1+|k|", "G2", "C2"]
@@ -140,12 +140,15 @@ def miss(curve, points):
         def distance(segment, u):
             p = jet(segment, u)[0]
             return math.hypot(p[0] - point[0], p[1] - point[1])
-        _, i, u = min((distance(s, u / 32), i, u / 32) for i, s in enumerate(curve) for u in range(33))
-        low, high = max(0.0, u - 1 / 32), min(1.0, u + 1 / 32)
-        for _ in range(60):
-            a, b = low + (high - low) / 3, high - (high - low) / 3
-            low, high = (low, b) if distance(curve[i], a) < distance(curve[i], b) else (a, high)
-        worst = max(worst, distance(curve[i], low))
+        samples = sorted((distance(s, u / 32), i, u / 32) for i, s in enumerate(curve) for u in range(33))
+        nearest = math.inf
+        for _, i, u in samples[:4]:  # the nearest point may be on either side of a joint
+            low, high = max(0.0, u - 1 / 32), min(1.0, u + 1 / 32)
+            for _ in range(60):
+                a, b = low + (high - low) / 3, high - (high - low) / 3
+                low, high = (low, b) if distance(curve[i], a) < distance(curve[i], b) else (a, high)
+            nearest = min(nearest, distance(curve[i], low))
+        worst = max(worst, nearest)
     return worst
 
 
@@ -161,7 +164,7 @@ def costs(folder):
 
 def table(tool, folder):
     cost = costs(folder)
-    points = [(2.5 * i + 0.3 * math.sin(2.0 * i), 10 * math.sin(0.35 * i) + 2 * math.sin(1.3 * i)) for i in range(40)]
+    points = [(2.5 * i + 0.3 * math.sin(2.0 * i), 10 * math.sin(0.35 * i) + 2 * math.sin(1.3 * i)) for i in range(39)]
     print("| method | continuity | measured at least | passes the points within | moving one point by 1 mm moves | "
           "ns a waypoint | when to use |")
     print("|---|---|---|---|---|---|---|")
@@ -178,7 +181,7 @@ def table(tool, folder):
         passes = "1 nm" if nearest < 1e-6 else "does not"
         some, many = moved(curve, changed, 1e-3), moved(curve, changed, 1e-12)
         reach = f"{many} segments" if some == many else f"{some} segments by more than 1 um"
-        print(f"| `{name}{' ' + options if options else ''}` | {proved} | {found} | {passes} | {reach} | "
+        print(f"| `{name}{' ' + options if options else ''}` | {proved} | {found.replace('|', chr(92) + '|')} | {passes} | {reach} | "
               f"{cost.get(bench, math.nan):.0f} | {use} |")
 
 
@@ -192,12 +195,16 @@ def main():
     size = f"{WIDTH * COLUMNS} {HEIGHT * rows}"
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" font-family="sans-serif">',
            '<rect width="100%" height="100%" fill="white"/>']
-    with tempfile.NamedTemporaryFile("w", suffix=".csv") as csv:
-        csv.write("\n".join(f"{x},{y}" for x, y in POINTS) + "\n")
-        csv.flush()
+    with tempfile.NamedTemporaryFile("w", suffix=".csv") as csv, tempfile.NamedTemporaryFile("w", suffix=".csv") as nine:
+        for file, points in ((csv, POINTS), (nine, POINTS[:9])):
+            file.write("\n".join(f"{x},{y}" for x, y in points) + "\n")
+            file.flush()
         for i, (title, options) in enumerate(PANELS):
-            out.append("<g>")
-            out += panel(sys.argv[1], csv.name, title, options, WIDTH * (i % COLUMNS), HEIGHT * (i // COLUMNS))
+            left, top = WIDTH * (i % COLUMNS), HEIGHT * (i // COLUMNS)
+            out.append(f'<clipPath id="c{i}"><rect x="{left}" y="{top}" width="{WIDTH}" height="{HEIGHT}"/></clipPath>'
+                       f'<g clip-path="url(#c{i})">')
+            # A chain of degree 5 takes 6 points and 3 for each further polygon: 9.
+            out += panel(sys.argv[1], nine.name if "beta-chain" in options else csv.name, title, options, left, top)
             out.append("</g>")
     print("\n".join(out + ["</svg>"]))
 

@@ -13,8 +13,8 @@ need cmake ninja g++
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 git ls-files -z | xargs -0 cp --parents --target-directory="$scratch"
-targets=(splines_tests curve_tests methods_tests)
-cmake -G Ninja -S "$scratch" -B "$scratch/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" >/dev/null
+targets=(splines_tests surfaces_tests curve_tests methods_tests)
+cmake -G Ninja -S "$scratch" -B "$scratch/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="-w" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" >/dev/null
 
 # Whether the tests pass; a build that fails ends the script.
 passes() {
