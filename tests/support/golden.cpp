@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
+#include <limits>
 
 namespace splinefeed_test {
 
@@ -75,7 +76,7 @@ private:
         const bool parameters = key.find("params") != std::string::npos || key.find("knots") != std::string::npos ||
                                 key == "matrix" || key == "schoenberg_whitney_slack" || key == "chords";
         if (key == "derivatives_ds") {
-            double shortest = INFINITY;
+            double shortest = std::numeric_limits<double>::infinity();
             for (const json& chord : golden_["expected"]["chords"]) {
                 shortest = std::min(shortest, real(chord));
             }
