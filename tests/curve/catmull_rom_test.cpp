@@ -3,7 +3,9 @@
 // CatmullRom against the reference vectors of the paper's original curve, and against its formula in long double.
 #include "splinefeed/s1_curve/catmull_rom.hpp"
 
+#include "splinefeed/splines/catmull_rom_points.hpp"
 #include "support/curve_harness.hpp"
+#include "support/spline_points.hpp"
 
 #if __has_include(<nlohmann/json.hpp>)
 #include <nlohmann/json.hpp>
@@ -99,6 +101,37 @@ TEMPLATE_TEST_CASE("catmull-rom: tension 0 is the polygon", "[curve][catmull_rom
             REQUIRE(segment.control[k][0] == S{});
             REQUIRE(segment.control[k][1] == S{});
             REQUIRE(segment.control[k][2] == segment.control[k][3]);
+        }
+    }
+}
+
+TEST_CASE("catmull-rom: uniform streaming is the whole-curve method bit by bit", "[curve][catmull_rom]") {
+    RandomPath random(path_seed + 31);
+    CAPTURE(path_seed);
+    for (int round = 0; round < 200; ++round) {
+        const bool closed = round % 2 == 1;
+        const int axes = 1 + random.below(6);
+        const auto points = random_points<double>(random, axes, (closed ? 3 : 2) + random.below(40));
+        const double tension = round % 4 < 2 ? 0.5 : random.between(0.0, 10.0);
+        std::vector<Point<double>> tangents(points.size());
+        std::vector<BezierPiece<double>> pieces(pieces_through(points.size(), closed));
+        REQUIRE(catmull_rom_points<double>(points, axes, closed, tension, tangents, pieces).ok());
+        CatmullRom<double> curve({axes, Parameterization::uniform, 0.5, 65536}, tension);
+        std::vector<Feed<double>> feeds;
+        for (const auto& point : waypoints_at(points)) {
+            feeds.push_back({point, Role::path});
+        }
+        const auto segments = run_curve<double>(curve, closed ? closed_feeds(waypoints_at(points)) : feeds,
+                                                round % 3 == 0 ? Pace::lazy : Pace::eager);
+        REQUIRE(segments.size() == pieces.size());
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            for (int k = 0; k < axes; ++k) {
+                for (int p = 0; p <= 3; ++p) {
+                    CAPTURE(round, i, k, p);
+                    REQUIRE(segments[i].control_mm(k, p) ==
+                            pieces[i].control[static_cast<unsigned>(k)][static_cast<unsigned>(p)]);
+                }
+            }
         }
     }
 }

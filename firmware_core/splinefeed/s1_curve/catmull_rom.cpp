@@ -4,24 +4,19 @@
 namespace splinefeed {
 
 template <Scalar S>
-PerAxis<S> CatmullRom<S>::slope(std::uint64_t i, bool from_before, bool from_after) const noexcept {
-    PerAxis<S> out{};
-    const Knot<S>& before = this->knot(i - (from_before ? 1U : 0U));
-    const Knot<S>& here = this->knot(i);
-    const S weight = from_before && from_after ? before.span / (before.span + here.span) : S{};
-    for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
-        if (from_before && from_after) {
-            const S left = before.chord[k] / before.span;
-            const S right = here.chord[k] / here.span;
-            out[k] = (left + weight * (right - left)) * (tension_ + tension_);
-            // weight belongs to the later chord: h_{i-1}/(h_{i-1}+h_i)
-        } else if (from_before) {
-            out[k] = before.chord[k] / before.span * tension_;
-        } else {
-            out[k] = here.chord[k] / here.span * tension_;
-        }
+void CatmullRom<S>::find_tangent(std::uint64_t i, bool from_before, bool from_after,
+                                 KnotTangent<S>& out) const noexcept {
+    SpannedChord<S> before;
+    SpannedChord<S> after;
+    if (from_before) {
+        const Knot<S>& knot = this->knot(i - 1);
+        before = {&knot.chord, knot.span};
     }
-    return out;
+    if (from_after) {
+        const Knot<S>& knot = this->knot(i);
+        after = {&knot.chord, knot.span};
+    }
+    catmull_rom_tangent(before, after, tension_, this->axes(), out);
 }
 
 template <Scalar S>
@@ -38,16 +33,22 @@ Pull CatmullRom<S>::next(CurveSegment<S>& out) noexcept {
         this->oldest_ = i;
         if (this->travelled(i)) {
             this->describe_segment(i, 3, out);
-            const Knot<S>& from = this->knot(i);
-            const Knot<S>& to = this->knot(i + 1);
-            const PerAxis<S> start = slope(i, !from.breaks, true);
-            const PerAxis<S> end = slope(i + 1, true, !to.breaks);
-            const S reach = from.span / from_integer<S>(3);
+            const Knot<S>& here = this->knot(i);
+            KnotTangent<S>& start = tangents_[i % 2];
+            KnotTangent<S>& end = tangents_[(i + 1) % 2];
+            if (here.breaks || ends_at_ != i) {
+                find_tangent(i, !here.breaks, true, start);
+            }
+            find_tangent(i + 1, true, !this->knot(i + 1).breaks, end);
+            ends_at_ = i + 1;
+            Point<S> leg_in{};
+            Point<S> leg_out{};
+            catmull_rom_legs<S>({&here.chord, here.span}, start, end, this->axes(), leg_in, leg_out);
             PerAxis<PerDegree<S>> offsets{};
             for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
-                offsets[k][1] = start[k] * reach;
-                offsets[k][2] = from.chord[k] - end[k] * reach;
-                offsets[k][3] = from.chord[k];
+                offsets[k][1] = leg_in[k];
+                offsets[k][2] = leg_out[k];
+                offsets[k][3] = here.chord[k];
             }
             out.assign(offsets);
             return Pull::item;

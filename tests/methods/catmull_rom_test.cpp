@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// Descriptions of the original Catmull-Rom curve: joints of degenerate points, and what is refused.
+#include "host_sim/methods/method_table.hpp"
+
+#include "support/catch.hpp"
+
+using namespace splinefeed::host;
+using nlohmann::json;
+
+namespace {
+
+DescribedCurve made(const json& points, const json& tension = 0.5, bool closed = false,
+                    ScalarKind scalar = ScalarKind::dual) {
+    return describe_curve("catmull_rom", {{"points", points}, {"tension", tension}, {"closed", closed}}, scalar);
+}
+
+std::string class_of(const DescribedCurve& curve, std::size_t joint) {
+    return curve.results.at("joints").at(joint).at("class").get<std::string>();
+}
+
+} // namespace
+
+TEST_CASE("catmull_rom: classes of degenerate joints", "[methods][catmull_rom]") {
+    for (const ScalarKind scalar : {ScalarKind::dual, ScalarKind::single, ScalarKind::fixed}) {
+        const json reversal = {{0, 0}, {3, 1}, {0, 0}, {5, 5}};
+        const DescribedCurve turn = made(reversal, 0.5, false, scalar);
+        CHECK(class_of(turn, 0) == "C1+singular");
+        CHECK(turn.results["joints"][0]["G1"].is_null());
+        CHECK(class_of(turn, 1) == "C1");
+        const json square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+        const DescribedCurve polygon = made(square, 0, true, scalar);
+        for (std::size_t i = 0; i < 4; ++i) {
+            CHECK(class_of(polygon, i) == "C1+singular");
+        }
+        const DescribedCurve twice = made({{0, 0}, {4, 0}, {4, 0}, {4, 4}}, 0.5, false, scalar);
+        CHECK(class_of(twice, 0) == "C1");
+        CHECK(made({{0, 0}, {4, 3}}, 0.5, false, scalar).pieces.size() == 1);
+        CHECK(made({{0, 0}, {4, 0}, {4, 4}, {0, 0}}, 0.5, true, scalar).pieces.size() == 3); // the repeat is dropped
+    }
+}
+
+TEST_CASE("catmull_rom: refusals", "[methods][catmull_rom]") {
+    const json square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+    CHECK_THROWS_AS(made(square, -0.5), DescriptionError);
+    CHECK_THROWS_AS(made(square, 10.5), DescriptionError);
+    CHECK_THROWS_AS(made({{0, 0}, {4, 0}, {0, 0}}, 0.5, true), DescriptionError); // two points, closed
+    CHECK_THROWS_AS(made({{0, 0}}), DescriptionError);
+    CHECK_THROWS_AS(made({{0, 0}, {1, 2, 3}}), DescriptionError);
+    CHECK_THROWS_AS(made({{0, 0}, {"nan", 2}}), DescriptionError);
+}
