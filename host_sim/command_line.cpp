@@ -74,9 +74,10 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
            "chord)");
     option("--beta1", curve.beta1, "bias of g2-bezier (default: the ratio of the chords) and beta-chain (default 1)");
     option("--beta2", curve.beta2, "tension of g2-bezier, not below 0, and beta-chain (default 0)");
-    option("--lambda", curve.lambda, "of ferguson: ratio of the tangents at each point (default 1)");
-    option("--mu", curve.mu,
-           "of ferguson: tension, or auto, the nearest to 0 that keeps the solve stable (default auto)");
+    option("--lambda", curve.lambda, "of ferguson: ratio of the tangents at each point, 1/16 to 16 (default 1)");
+    option(
+        "--mu", curve.mu,
+        "of ferguson: tension, -65536 to 65536, or auto, the nearest to 0 that keeps the solve stable (default auto)");
     option("--curvature-sign", curve.curvature_sign,
            "of ferguson: 1, -1 (flips the curvature at every point) or auto (-1 at inflections; default 1)");
     option("--corner-angle", curve.corner_angle,
@@ -102,7 +103,9 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);
     app.add_option("--curve-out", job.curve_out, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
-    app.add_flag("--quiet", job.quiet, "no progress on standard error")->group(group)->disable_flag_override();
+    app.add_flag("--quiet", job.quiet, "no progress and no warnings on standard error")
+        ->group(group)
+        ->disable_flag_override();
 }
 
 /// The options of an app by their long names, as they are typed.
@@ -234,6 +237,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_input(*curve, job, typed);
     add_curve_options(*curve, job, typed);
     curve->add_option("-o,--curve-out", job.curve_out, "C.json (default: standard output)");
+    curve->add_flag("--quiet", job.quiet, "no warnings on standard error")->disable_flag_override();
     curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
     CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
     surface->add_option("FILE", job.input, "a grid or sections (.json); - reads standard input")->required();

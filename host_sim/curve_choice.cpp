@@ -211,9 +211,10 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
     take(arguments.beta1, takes_betas, "--beta1", 1e-3, 1e3, "the bias", choice.beta1);
     take(arguments.beta2, takes_betas, "--beta2", row.method == Method::beta_chain ? -1e3 : 0.0, 1e3, "the tension",
          choice.beta2);
-    take(arguments.lambda, takes_joints, "--lambda", 1e-3, 1e3, "lambda", choice.lambda);
+    // What FergusonJoint takes in every scalar.
+    take(arguments.lambda, takes_joints, "--lambda", 0.0625, 16.0, "lambda", choice.lambda);
     if (!arguments.mu || *arguments.mu != "auto") {
-        take(arguments.mu, takes_joints, "--mu", -1e6, 1e6, "mu", choice.mu);
+        take(arguments.mu, takes_joints, "--mu", -65536.0, 65536.0, "mu", choice.mu);
     }
     take(arguments.corner_angle, takes_corners, "--corner-angle", 0.0, 180.0, "the corner angle in degrees",
          choice.corner_angle_deg);

@@ -191,6 +191,7 @@ CurveFile compute_curve(std::string_view method, const json& input, ScalarKind s
     curve.axes = made.axes;
     curve.intervals = std::move(made.intervals);
     curve.results = std::move(made.results);
+    curve.warnings = std::move(made.warnings);
     for (const BezierPiece<double>& piece : made.pieces) {
         curve.segments.push_back({curve.numbers.size() / static_cast<std::size_t>(made.axes), piece.degree});
         for (unsigned i = 0; i <= static_cast<unsigned>(piece.degree); ++i) {

@@ -30,6 +30,7 @@ struct CurveFile {
     std::vector<Segment> segments;                   ///< at least one
     std::vector<DescribedCurve::Interval> intervals; ///< as in DescribedCurve
     nlohmann::ordered_json results = nlohmann::ordered_json::object();
+    std::vector<std::string> warnings; ///< sentences
 
     [[nodiscard]] std::size_t points() const noexcept { return numbers.size() / static_cast<std::size_t>(axes); }
     [[nodiscard]] double at(std::size_t point, std::size_t axis) const noexcept {

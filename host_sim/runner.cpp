@@ -33,9 +33,20 @@ std::uint64_t draw(PathInput& input, const PathObservers& observers) {
     return feeder.rows();
 }
 
+/// Input that is valid, but whose curve is hardly what was meant.
+void warn(const PathInput& input, const Job& job) {
+    if (input.segments() == nullptr || job.quiet) {
+        return;
+    }
+    for (const std::string& warning : input.segments()->warnings) {
+        fmt::print(stderr, "{}: warning: {}\n", printable(input.name()), warning);
+    }
+}
+
 template <Scalar S>
 int draw_curve(const Job& job) {
     PathInput input(job, {});
+    warn(input, job);
     if (const CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
         Outputs outputs(job, input.curve_name(), curve->closed);
         outputs.curve()->segments(*curve);
@@ -70,6 +81,7 @@ int move_machine(const Job& job) {
     }
     const auto axes = static_cast<std::size_t>(machine.settings.axes);
     PathInput input(job, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+    warn(input, job);
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;
     if (input.repeatable()) {

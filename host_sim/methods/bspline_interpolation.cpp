@@ -16,6 +16,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int warned_degree = 8; ///< condition for 25 points, docs/numbers.md: 5 in degree 3, 445 in degree 9
+
 /// What the description asks for.
 struct Request {
     PointList list;
@@ -265,6 +267,11 @@ DescribedCurve describe_bspline_interpolation(const nlohmann::json& input) {
     for (const double growth : {0x1p2, 0x1p8, 0x1p14, 0x1p20}) {
         DescribedCurve curve = computed(request, Unit<S>(largest, growth), error);
         if (error == Error::none) {
+            if (request.kind.degree >= warned_degree) {
+                curve.warnings.push_back(fmt::format("degree {} is high: the condition grows with it, and the curve "
+                                                     "swings between the points; 3 or 5 is usual",
+                                                     request.kind.degree));
+            }
             return curve;
         }
     }

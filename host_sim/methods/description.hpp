@@ -29,6 +29,7 @@ struct DescribedCurve {
     std::vector<BezierPiece<double>> pieces;
     std::vector<Interval> intervals;                                   ///< empty, or one a piece
     nlohmann::ordered_json results = nlohmann::ordered_json::object(); ///< keyed as the contract names them
+    std::vector<std::string> warnings; ///< sentences: valid input whose curve is hardly what was meant
 };
 
 /// A finite number, or one as a text, as exact data is written. Throws DescriptionError naming `what`.

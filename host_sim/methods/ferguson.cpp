@@ -69,6 +69,23 @@ json matrix_of(const std::vector<FergusonJoint<double>>& joints, bool closed) {
     return matrix;
 }
 
+/// Valid input whose curve is hardly what was meant.
+std::vector<std::string> warnings_of(const std::vector<FergusonJoint<double>>& joints, const PointList& list) {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i + 1 < list.points.size(); ++i) {
+        if (list.points[i] == list.points[i + 1]) {
+            warnings.push_back(
+                fmt::format("points {} and {} are the same: the curve makes a small loop there", i + 1, i + 2));
+        }
+    }
+    const auto flips = std::count_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.delta < 0; });
+    if (flips > 0) {
+        warnings.push_back(fmt::format("the curvature flips at {} point{}: |kappa| is continuous, the curve is not G2",
+                                       flips, flips == 1 ? "" : "s"));
+    }
+    return warnings;
+}
+
 const char* name_of(FergusonClass found) {
     switch (found) {
     case FergusonClass::c2: return "C2";
@@ -102,6 +119,9 @@ DescribedCurve describe_ferguson(const json& input) {
     PointList list = points_in(input, "points", 2);
     if (curve.closed) {
         drop_repeated_end(list);
+        while (list.points.size() > 1 && list.points.front() == list.points.back()) { // so does the core
+            list.points.pop_back();
+        }
     }
     if (curve.closed && list.points.size() < 3) {
         require(Error::too_few_points);
@@ -142,6 +162,7 @@ DescribedCurve describe_ferguson(const json& input) {
     require(status);
     pieces.resize(report.segments);
     curve.pieces = unit.out(pieces);
+    curve.warnings = warnings_of(exact, list);
     auto& results = curve.results;
     results["tangent_in"] = to_json(in, list.axes, unit);
     results["tangent_out"] = to_json(out, list.axes, unit);

@@ -78,6 +78,7 @@ DescribedCurve describe_curve(std::string_view method, const nlohmann::json& inp
                                                       : scalar == ScalarKind::single ? agreement_of<float>
                                                                                      : agreement_of<double>);
     }
+    curve.results["warnings"] = curve.warnings;
     return curve;
 }
 

@@ -29,7 +29,7 @@ template <Scalar S>
 [[nodiscard]] std::string curve_name_of(std::string_view method);
 
 /// Computes the curve. Throws DescriptionError, also for a method that there is not.
-/// `results` gets, beside the method's own keys, `joints`: the classes of continuity as measured.
+/// `results` gets, beside the method's own keys, `joints`: the classes of continuity as measured, and `warnings`.
 [[nodiscard]] DescribedCurve describe_curve(std::string_view method, const nlohmann::json& input, ScalarKind scalar);
 
 } // namespace splinefeed::host

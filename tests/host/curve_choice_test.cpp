@@ -74,4 +74,7 @@ TEST_CASE("A wrong curve option is refused in one line") {
     CHECK(contains(g2([](A& a) { a.start_tangent = "1,101"; }), "between -100 and 100"));
     CHECK(contains(g2([](A& a) { a.start_tangent = "1,1,1,1,1,1,1"; }), "more than 6"));
     CHECK(contains(g2([](A& a) { a.end_tangent = "1,0", a.closed = true; }), "exclude"));
+    CHECK(contains(g2([](A& a) { a.method = "ferguson", a.lambda = "0.06"; }), "between 0.0625 and 16"));
+    CHECK(contains(g2([](A& a) { a.method = "ferguson", a.lambda = "16.1"; }), "between 0.0625 and 16"));
+    CHECK(contains(g2([](A& a) { a.method = "ferguson", a.mu = "65537"; }), "between -65536 and 65536"));
 }

@@ -54,6 +54,23 @@ TEST_CASE("A run writes its outputs and says what it did") {
     CHECK(tool.read("p.csv") == trace);
 }
 
+TEST_CASE("Warnings go to standard error, a line each, unless --quiet") {
+    const Tool tool;
+    tool.write("twice.csv", "0,0,0\n10,5,0\n10,5,0\n20,0,0\n30,5,0\n");
+    tool.write("twice.json", R"({"method": "ferguson", "input": {"points": [[0, 0], [10, 5], [10, 5], [20, 0]]}})");
+    for (const std::string input : {"twice.csv --curve ferguson", "twice.json"}) {
+        for (const std::string command : {"curve ", "run ", "plan "}) {
+            const Call call = tool(command + input);
+            CAPTURE(command, input, call.error);
+            CHECK(call.status == 0);
+            CHECK(call.error == input.substr(0, input.find(' ')) +
+                                    ": warning: points 2 and 3 are the same: the curve makes a small loop there\n");
+            CHECK(tool(command + input + " --quiet").error.empty());
+        }
+        CHECK(contains(tool("curve --quiet " + input).output, "\"warnings\""));
+    }
+}
+
 TEST_CASE("A B-spline of control points runs, open and closed, and has no waypoint error") {
     const Tool tool;
     tool.write("square.csv", square);
