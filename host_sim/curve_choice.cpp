@@ -234,22 +234,25 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
 }
 
 std::string_view first_option(const CurveArguments& arguments) noexcept {
-    return arguments.method             ? "--curve"
-           : arguments.closed           ? "--closed"
-           : arguments.degree           ? "--degree"
-           : arguments.parameterization ? "--parameterization"
-           : arguments.knots            ? "--knots"
-           : arguments.tension          ? "--tension"
-           : arguments.factor           ? "--factor"
-           : arguments.beta1            ? "--beta1"
-           : arguments.beta2            ? "--beta2"
-           : arguments.lambda           ? "--lambda"
-           : arguments.mu               ? "--mu"
-           : arguments.curvature_sign   ? "--curvature-sign"
-           : arguments.corner_angle     ? "--corner-angle"
-           : arguments.start_tangent    ? "--start-tangent"
-           : arguments.end_tangent      ? "--end-tangent"
-                                        : "";
+    const std::array<std::pair<bool, std::string_view>, 15> given{{
+        {arguments.method.has_value(), "--curve"},
+        {arguments.closed, "--closed"},
+        {arguments.degree.has_value(), "--degree"},
+        {arguments.parameterization.has_value(), "--parameterization"},
+        {arguments.knots.has_value(), "--knots"},
+        {arguments.tension.has_value(), "--tension"},
+        {arguments.factor.has_value(), "--factor"},
+        {arguments.beta1.has_value(), "--beta1"},
+        {arguments.beta2.has_value(), "--beta2"},
+        {arguments.lambda.has_value(), "--lambda"},
+        {arguments.mu.has_value(), "--mu"},
+        {arguments.curvature_sign.has_value(), "--curvature-sign"},
+        {arguments.corner_angle.has_value(), "--corner-angle"},
+        {arguments.start_tangent.has_value(), "--start-tangent"},
+        {arguments.end_tangent.has_value(), "--end-tangent"},
+    }};
+    const auto* const first = std::find_if(given.begin(), given.end(), [](const auto& option) { return option.first; });
+    return first == given.end() ? "" : first->second;
 }
 
 } // namespace splinefeed::host

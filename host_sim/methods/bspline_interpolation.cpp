@@ -129,6 +129,7 @@ std::vector<S> in_units(const std::vector<double>& values, double unit) {
 template <Scalar S>
 std::vector<double> out_of_units(const std::vector<S>& values, double unit) {
     std::vector<double> out;
+    out.reserve(values.size());
     for (const S value : values) {
         out.push_back(to_double(value) * unit);
     }

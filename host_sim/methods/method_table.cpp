@@ -52,6 +52,7 @@ const Row* find(std::string_view method) noexcept {
 
 std::vector<std::string_view> described_methods() {
     std::vector<std::string_view> names;
+    names.reserve(table.size());
     for (const Row& row : table) {
         names.push_back(row.name);
     }

@@ -114,13 +114,15 @@ template <Scalar S>
 }
 
 /// The smaller of two numbers.
-template <Scalar S>
+template <typename S>
+requires Scalar<S> || std::integral<S>
 [[nodiscard]] constexpr S smaller(S a, S b) noexcept {
     return b < a ? b : a;
 }
 
 /// The larger of two numbers.
-template <Scalar S>
+template <typename S>
+requires Scalar<S> || std::integral<S>
 [[nodiscard]] constexpr S larger(S a, S b) noexcept {
     return a < b ? b : a;
 }

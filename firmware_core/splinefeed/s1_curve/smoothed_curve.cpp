@@ -64,13 +64,6 @@ Size<S> size_of(S length, int unit_log2) noexcept {
     return {scale2(length, up), unit_log2 - up};
 }
 
-constexpr int at_most(int x, int most) noexcept {
-    return x > most ? most : x;
-}
-constexpr int at_least(int x, int least) noexcept {
-    return x < least ? least : x;
-}
-
 // A normal part this large moves the segment by about its own size: 0.018 * 2^22.
 template <Scalar S>
 constexpr S most_change() noexcept {
@@ -118,16 +111,16 @@ void SmoothedCurve<S>::join() noexcept {
     const Size<S>& one = a_longer ? size_a : size_b;
     const Size<S>& other = a_longer ? size_b : size_a;
     const S m = other.mantissa / one.mantissa;
-    const int e = at_least(other.exponent - one.exponent, -48); // beyond, the weight is 1 to the last digit
+    const int e = larger(other.exponent - one.exponent, -48); // beyond, the weight is 1 to the last digit
     const S square = m * m;
     const S weight_one = literal<S>(1) / (literal<S>(1) + scale2(square, 2 * e));
     const S weight_other = square * weight_one; // times 2^(2e)
     // V in the larger unit of the two, where neither term outgrows the other's digits.
     const int unit_one = a_longer ? current_.unit_log2 : ahead_.unit_log2;
     const int unit_other = a_longer ? ahead_.unit_log2 : current_.unit_log2;
-    const int unit = at_least(unit_one, unit_other);
-    const int up_one = -at_least(unit_one - unit, -96);
-    const int up_other = -at_least(unit_other - unit, -96);
+    const int unit = larger(unit_one, unit_other);
+    const int up_one = -larger(unit_one - unit, -96);
+    const int up_other = -larger(unit_other - unit, -96);
     const Derivatives<S>& at_one = a_longer ? a : b;
     const Derivatives<S>& at_other = a_longer ? b : a;
     const S along_one = dot(at_one.second, direction, axes);
@@ -135,7 +128,7 @@ void SmoothedCurve<S>::join() noexcept {
     End& end_one = a_longer ? end_ : next_start_;
     End& end_other = a_longer ? next_start_ : end_;
     const S most_one = scale2(most_change<S>(), -up_one);
-    const S most_other = scale2(most_change<S>(), at_most(at_least(-up_other - 2 * e, -96), 96));
+    const S most_other = scale2(most_change<S>(), smaller(larger(-up_other - 2 * e, -96), 96));
     for (unsigned k = 0; k < axes_u; ++k) {
         const S normal_one = at_one.second[k] - along_one * direction[k];
         const S normal_other = at_other.second[k] - along_other * direction[k];
@@ -144,7 +137,7 @@ void SmoothedCurve<S>::join() noexcept {
             return;
         }
         end_one.curvature[k] = scale2(v * weight_one, up_one);
-        end_other.curvature[k] = scale2(v * weight_other, at_least(up_other + 2 * e, -96));
+        end_other.curvature[k] = scale2(v * weight_other, larger(up_other + 2 * e, -96));
         end_one.tangent[k] = direction[k] * at_one.length;
         end_other.tangent[k] = direction[k] * at_other.length;
         end_one.direction[k] = end_other.direction[k] = direction[k];

@@ -9,6 +9,8 @@
 // Seen from the joint, the neighbouring Bezier point lies one part of its side away.
 #include "splinefeed/splines/boehm.hpp"
 
+#include "splinefeed/splines/point_list.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -58,8 +60,12 @@ Status check(std::span<const PerAxis<N>> vertices, int degree, bool closed, std:
     for (const PerAxis<N>& vertex : vertices) {
         for (const N x : vertex) {
             if (!(x <= most && x >= -most)) {
-                const bool finite = x - x == N{};
-                return finite ? Error::result_out_of_range : Error::position_out_of_range;
+                if constexpr (Scalar<N>) {
+                    if (!within(x, largest<N>())) {
+                        return Error::position_out_of_range;
+                    }
+                }
+                return Error::result_out_of_range;
             }
         }
     }

@@ -2,6 +2,7 @@
 #include "splinefeed/splines/knot_vector.hpp"
 
 #include "splinefeed/base/capacity.hpp"
+#include "splinefeed/splines/point_list.hpp"
 
 namespace splinefeed {
 
@@ -14,7 +15,7 @@ S whole(std::size_t value) noexcept {
 
 template <Scalar S>
 bool finite(S value) noexcept {
-    return absolute(value) <= largest<S>(); // false for NaN
+    return within(value, largest<S>());
 }
 
 template <Scalar S>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/surfaces/surface_interpolation.hpp"
 
+#include "splinefeed/splines/point_list.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -28,8 +30,7 @@ Status check(const PointGrid<S>& grid, const SurfaceKind& kind, const SurfaceSto
     }
     for (std::size_t i = 0; i < grid.rows * grid.columns; ++i) {
         for (unsigned k = 0; k < static_cast<unsigned>(grid.axes); ++k) {
-            const S x = grid.points[i][k];
-            if (!(x - x == S{})) { // infinite or not a number
+            if (!within(grid.points[i][k], largest<S>())) {
                 return Error::position_out_of_range;
             }
         }
