@@ -25,7 +25,7 @@ constexpr const char* exit_statuses =
 struct Typed {
     std::optional<std::string> machine;
     std::string target = "sim";
-    std::string scalar = "fixed";
+    std::optional<std::string> scalar;
     std::string format;
     std::string summary;
     std::string window = "1024";
@@ -242,6 +242,9 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
     surface->add_option("FILE", job.input, "a grid or sections (.json); - reads standard input")->required();
     add_surface_options(*surface, job.surface);
+    surface->add_option("--scalar", typed.scalar,
+                        "fixed, float or double: what parameters, knots and control points are computed in (default "
+                        "double)");
     surface->footer(std::string("Example: splinefeed surface dome.json --along u --scallop 0.01 --ball-radius 6 -o "
                                 "path.csv\n") +
                     exit_statuses);
@@ -298,6 +301,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (command.get_name() == "surface") {
         job.command = Command::surface;
         static_cast<void>(choose_raster(job.surface));
+        take_scalar(job, typed.scalar.value_or("double"));
         return job;
     }
     job.machine = typed.machine.value_or("");
@@ -312,7 +316,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
                                      in_quotes(typed.target)));
     }
     take_format(job, typed.format);
-    take_scalar(job, typed.scalar);
+    take_scalar(job, typed.scalar.value_or("fixed"));
     take_window(job, typed.window);
     take_outputs(job, command, typed.summary);
     if (job.command == Command::curve && job.curve_out.empty()) {

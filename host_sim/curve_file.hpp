@@ -2,7 +2,7 @@
 // CurveFile: a curve .json: Bezier segments that are executed as they stand, or points and the method that joins them.
 #pragma once
 
-#include "job.hpp"
+#include "scalar_kind.hpp"
 
 #include "host_sim/methods/description.hpp"
 

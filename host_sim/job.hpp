@@ -3,6 +3,7 @@
 #pragma once
 
 #include "curve_choice.hpp"
+#include "scalar_kind.hpp"
 #include "surface/surface_arguments.hpp"
 
 #include <cstddef>
@@ -11,7 +12,6 @@
 namespace splinefeed::host {
 
 enum class Command { run, plan, curve, surface };
-enum class ScalarKind { fixed, single, dual };
 enum class InputFormat { csv, json };
 enum class SummaryKind { none, text, json };
 

@@ -108,7 +108,7 @@ int run_with(const Job& job) {
 
 int run(const Job& job) {
     if (job.command == Command::surface) {
-        return run_surface(job.input, job.surface);
+        return run_surface(job.input, job.surface, job.scalar);
     }
     switch (job.scalar) {
     case ScalarKind::fixed: return run_with<Fixed>(job);

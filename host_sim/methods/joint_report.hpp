@@ -26,7 +26,7 @@ struct Agreement {
 template <Scalar S>
 inline constexpr Agreement agreement_of{};
 template <>
-inline constexpr Agreement agreement_of<Fixed>{1e-6, 1e-12};
+inline constexpr Agreement agreement_of<Fixed>{1e-6, 1e-10};
 template <>
 inline constexpr Agreement agreement_of<float>{1e-3, 2e-6};
 

@@ -2,8 +2,8 @@
 // MethodTable: the methods that a description may name, and the functions that carry them out.
 #pragma once
 
-#include "host_sim/job.hpp"
 #include "host_sim/methods/description.hpp"
+#include "host_sim/scalar_kind.hpp"
 
 namespace splinefeed::host {
 

@@ -88,6 +88,56 @@ ordered_json samples_json(const DescribedSurface& surface) {
     return samples;
 }
 
+struct Grid {
+    PointList list;
+    std::size_t rows = 0;
+    std::size_t columns = 0;
+    SurfaceKind kind;
+};
+
+template <Scalar S>
+DescribedSurface through(const Grid& grid, const Unit<S>& unit, Error& error) {
+    const std::size_t longest = std::max(grid.rows, grid.columns);
+    const double length_u = static_cast<double>(grid.rows) - grid.kind.degree_u;
+    const double length_v = static_cast<double>(grid.columns) - grid.kind.degree_v;
+    const double unit_u = parameter_unit<S>(length_u);
+    const double unit_v = parameter_unit<S>(length_v);
+    const std::vector<Point<S>> points = unit.in(grid.list);
+    std::vector<S> entries(grid.kind.entries(grid.rows, grid.columns));
+    std::vector<S> row_parameters(longest);
+    std::vector<Point<S>> row(longest);
+    std::vector<S> params_u(grid.rows);
+    std::vector<S> params_v(grid.columns);
+    std::vector<S> knots_u(open_knot_count(grid.rows, grid.kind.degree_u));
+    std::vector<S> knots_v(open_knot_count(grid.columns, grid.kind.degree_v));
+    std::vector<Point<S>> net(points.size());
+    error = interpolate_surface<S>({grid.list.axes, grid.rows, grid.columns, points}, grid.kind,
+                                   from_double<S>(length_u / unit_u), from_double<S>(length_v / unit_v),
+                                   {params_u, params_v, knots_u, knots_v, net, entries, row, row_parameters})
+                .error();
+    return {grid.list.axes,
+            grid.kind.degree_u,
+            grid.kind.degree_v,
+            out_of_units(params_u, unit_u),
+            out_of_units(params_v, unit_v),
+            out_of_units(knots_u, unit_u),
+            out_of_units(knots_v, unit_v),
+            unit.out(net),
+            {}};
+}
+
+template <Scalar S>
+DescribedSurface grid_surface(const Grid& grid) {
+    return in_fitting_unit<S>(grid.list.largest(), [&](const Unit<S>& unit, Error& error) {
+        DescribedSurface surface = through(grid, unit, error);
+        if (error == Error::coincident_points) {
+            throw DescriptionError("in every row (or column) of \"grid\" two neighbours coincide; leave them out, or "
+                                   "give \"parameters\": \"uniform\"");
+        }
+        return surface;
+    });
+}
+
 } // namespace
 
 int degree_in(const json& input, const char* key, std::size_t points, std::string_view what) {
@@ -99,48 +149,30 @@ int degree_in(const json& input, const char* key, std::size_t points, std::strin
     return degree;
 }
 
-DescribedSurface describe_grid(const json& input) {
-    std::size_t rows = 0;
-    const PointList list = read_grid(input, rows);
-    const std::size_t columns = list.points.size() / rows;
-    DescribedSurface surface;
-    surface.axes = list.axes;
-    surface.degree_u = degree_in(input, "degree_u", rows, "rows");
-    surface.degree_v = degree_in(input, "degree_v", columns, "columns");
+DescribedSurface describe_grid(const json& input, ScalarKind scalar) {
+    Grid grid;
+    grid.list = read_grid(input, grid.rows);
+    grid.columns = grid.list.points.size() / grid.rows;
+    grid.kind.degree_u = degree_in(input, "degree_u", grid.rows, "rows");
+    grid.kind.degree_v = degree_in(input, "degree_v", grid.columns, "columns");
     constexpr std::array how{Parameterization::uniform, Parameterization::chordal, Parameterization::chordal,
                              Parameterization::centripetal};
-    SurfaceKind kind{surface.degree_u, surface.degree_v};
-    kind.parameters = how[choice_in(input, "parameters", {"uniform", "chord", "chordal", "centripetal"}, 1)];
-    kind.knots = choice_in(input, "knots", {"average", "uniform"}, 0) == 0 ? KnotRule::average : KnotRule::uniform;
-    const std::vector<Point<double>> grid = Unit<double>(list.largest(), 1.0).in(list);
-    const std::size_t longest = std::max(rows, columns);
-    std::vector<double> entries(kind.entries(rows, columns));
-    std::vector<double> row_parameters(longest);
-    std::vector<Point<double>> row(longest);
-    surface.params_u.resize(rows);
-    surface.params_v.resize(columns);
-    surface.knots_u.resize(open_knot_count(rows, kind.degree_u));
-    surface.knots_v.resize(open_knot_count(columns, kind.degree_v));
-    surface.net.resize(rows * columns);
-    const auto result =
-        interpolate_surface<double>({list.axes, rows, columns, grid}, kind, static_cast<double>(rows) - kind.degree_u,
-                                    static_cast<double>(columns) - kind.degree_v,
-                                    {surface.params_u, surface.params_v, surface.knots_u, surface.knots_v, surface.net,
-                                     entries, row, row_parameters});
-    if (result.error() == Error::coincident_points) {
-        throw DescriptionError("in every row (or column) of \"grid\" two neighbours coincide; leave them out, or give "
-                               "\"parameters\": \"uniform\"");
+    grid.kind.parameters = how[choice_in(input, "parameters", {"uniform", "chord", "chordal", "centripetal"}, 1)];
+    grid.kind.knots = choice_in(input, "knots", {"average", "uniform"}, 0) == 0 ? KnotRule::average : KnotRule::uniform;
+    switch (scalar) {
+    case ScalarKind::fixed: return grid_surface<Fixed>(grid);
+    case ScalarKind::single: return grid_surface<float>(grid);
+    case ScalarKind::dual: return grid_surface<double>(grid);
     }
-    require(result.error());
-    return surface;
+    return {};
 }
 
-DescribedSurface describe_surface(std::string_view method, const json& input) {
+DescribedSurface describe_surface(std::string_view method, const json& input, ScalarKind scalar) {
     if (method == "bspline_surface") {
-        return describe_grid(input);
+        return describe_grid(input, scalar);
     }
     if (method == "bspline_skin") {
-        return describe_skin(input);
+        return describe_skin(input, scalar);
     }
     constexpr std::array<std::string_view, 2> methods{"bspline_surface", "bspline_skin"};
     throw DescriptionError(

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/methods/description.hpp"
+#include "host_sim/scalar_kind.hpp"
 #include "splinefeed/surfaces/bspline_surface.hpp"
 
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace splinefeed::host {
 
-/// Owns knots and net, in mm; surfaces are computed in double.
+/// Owns knots and net, in mm; what they were computed in, double holds. It is evaluated in double.
 struct DescribedSurface {
     int axes = 0;
     int degree_u = 3;
@@ -29,11 +30,13 @@ struct DescribedSurface {
 };
 
 /// "bspline_surface": the surface through input["grid"] (Sakude, section 3). Throws DescriptionError.
-[[nodiscard]] DescribedSurface describe_grid(const nlohmann::json& input);
-/// "bspline_skin": the surface through input["sections"], carried along input["spine"] where there is one.
-[[nodiscard]] DescribedSurface describe_skin(const nlohmann::json& input);
+[[nodiscard]] DescribedSurface describe_grid(const nlohmann::json& input, ScalarKind scalar);
+/// "bspline_skin": the surface through input["sections"], carried along input["spine"] (in double) where there is
+/// one.
+[[nodiscard]] DescribedSurface describe_skin(const nlohmann::json& input, ScalarKind scalar);
 /// By the name of the method. Throws DescriptionError.
-[[nodiscard]] DescribedSurface describe_surface(std::string_view method, const nlohmann::json& input);
+[[nodiscard]] DescribedSurface describe_surface(std::string_view method, const nlohmann::json& input,
+                                                ScalarKind scalar = ScalarKind::dual);
 
 /// {"degree_u", "degree_v", "params_u", "params_v", "knots_u", "knots_v", "net", "samples"}, then the method's own
 /// keys. params_u is null for a skin. `samples` holds S and its derivatives at nine places.

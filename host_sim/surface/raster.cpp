@@ -110,24 +110,31 @@ std::vector<double> line_parameters(const ToolSurface& surface) {
     double step = (last - first) / 64.0;
     while (lines.back() < last) {
         const double from = lines.back();
-        double good = 0.0;
         double bad = last - from;
-        if (surface.scallop_mm(from, last) <= highest) {
+        if ((lines.size() == 1 || bad < 4.0 * step) && surface.scallop_mm(from, last) <= highest) {
             lines.push_back(last);
             break;
         }
         step = std::min(step, bad / 2.0);
-        while (surface.scallop_mm(from, from + step) > highest && step > 1e-12 * (last - first)) {
+        double ridge = surface.scallop_mm(from, from + step);
+        while (ridge > highest && step > 1e-12 * (last - first)) {
             bad = step;
             step /= 2.0;
+            ridge = surface.scallop_mm(from, from + step);
         }
-        good = step;
-        for (int halving = 0; halving < 40 && bad - good > 1e-6 * good; ++halving) {
-            const double middle = std::min(0.5 * (good + bad), 2.0 * good);
-            (surface.scallop_mm(from, from + middle) <= highest ? good : bad) = middle;
+        // The ridge grows about as the square of the step: aimed for a little below, halved where that fails.
+        for (int tries = 0; tries < 40 && bad - step > 1e-6 * step && ridge < (1.0 - 4e-6) * highest; ++tries) {
+            const double aimed = step * std::min(2.0, (1.0 - 1e-6) * std::sqrt(highest / std::max(ridge, 1e-300)));
+            const double next = aimed > step && aimed < bad ? aimed : 0.5 * (step + bad);
+            const double height = surface.scallop_mm(from, from + next);
+            if (height <= highest) {
+                step = next;
+                ridge = height;
+            } else {
+                bad = next;
+            }
         }
-        step = good;
-        lines.push_back(from + good);
+        lines.push_back(from + step);
         if (lines.size() > most_lines) {
             throw DescriptionError(
                 fmt::format("ridges of {:g} mm need more than {} lines; take a larger --scallop", highest, most_lines));

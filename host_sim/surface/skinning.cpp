@@ -25,11 +25,21 @@ using nlohmann::ordered_json;
 
 constexpr double same_knot = 1e-6; // of the domain
 
+template <Scalar S>
 struct Section {
-    std::vector<Point<double>> points;
-    std::vector<double> parameters;
-    std::vector<double> knots;
-    std::vector<Point<double>> controls;
+    std::vector<Point<S>> points;
+    std::vector<S> parameters;
+    std::vector<S> knots;
+    std::vector<Point<S>> controls;
+};
+
+/// What the description asks for.
+struct Skin {
+    std::vector<PointList> sections;
+    int axes = 0;
+    int degree_u = 3;
+    int degree_v = 3;
+    double domain = 1.0;
 };
 
 std::vector<PointList> read_sections(const json& input, std::size_t fewest) {
@@ -51,26 +61,28 @@ std::vector<PointList> read_sections(const json& input, std::size_t fewest) {
 
 // Inner knots of all sections in order, each group of near ones as often as in the section that has most of them. The
 // sections' own knots become the first of their group.
-std::vector<double> merge_knots(std::vector<Section>& sections, std::size_t degree, double domain) {
-    std::vector<double> all;
-    const auto inner = [degree](Section& section) {
+template <Scalar S>
+std::vector<S> merge_knots(std::vector<Section<S>>& sections, std::size_t degree, S domain) {
+    std::vector<S> all;
+    const auto inner = [degree](Section<S>& section) {
         return std::span(section.knots).subspan(degree + 1, section.knots.size() - 2 * (degree + 1));
     };
-    for (Section& section : sections) {
+    for (Section<S>& section : sections) {
         all.insert(all.end(), inner(section).begin(), inner(section).end());
     }
     std::sort(all.begin(), all.end());
-    std::vector<double> merged(degree + 1, 0.0);
+    const S tolerance = literal<S>(same_knot) * domain;
+    std::vector<S> merged(degree + 1, S{});
     for (std::size_t from = 0; from < all.size();) {
-        const double knot = all[from];
+        const S knot = all[from];
         std::size_t to = from;
-        while (to < all.size() && all[to] - knot <= same_knot * domain) {
+        while (to < all.size() && all[to] - knot <= tolerance) {
             ++to;
         }
         std::size_t most = 0;
-        for (Section& section : sections) {
+        for (Section<S>& section : sections) {
             std::size_t count = 0;
-            for (double& own : inner(section)) {
+            for (S& own : inner(section)) {
                 if (own >= knot && own <= all[to - 1]) {
                     own = knot;
                     ++count;
@@ -85,110 +97,151 @@ std::vector<double> merge_knots(std::vector<Section>& sections, std::size_t degr
     return merged;
 }
 
-void interpolate(Section& section, int degree, int axes) {
-    const InterpolationKind kind{degree};
-    std::vector<double> entries(kind.band(section.points.size()).entries());
-    BsplineInterpolation<double> system;
-    require(system.prepare(kind, section.parameters, section.knots, entries, {}));
-    section.controls.resize(section.points.size());
-    require(system.interpolate(section.points, nullptr, axes, section.controls));
-}
-
-std::vector<Point<double>> refined(const Section& section, int degree, int axes, const std::vector<double>& merged) {
-    std::vector<double> knots = section.knots;
-    std::vector<Point<double>> controls = section.controls;
-    knots.resize(merged.size());
-    controls.resize(merged.size() - static_cast<std::size_t>(degree) - 1);
-    GrowingCurve<double> curve{degree, axes, section.knots.size(), knots, controls};
-    require(refine_knots<double>(curve, merged));
-    return controls;
-}
-
-ordered_json list_json(const std::vector<Point<double>>& points, int axes) {
-    ordered_json list = ordered_json::array();
-    for (const Point<double>& point : points) {
-        list.push_back(to_json(point, axes));
-    }
-    return list;
-}
-
-} // namespace
-
-DescribedSurface describe_skin(const json& input) {
-    DescribedSurface surface;
-    std::vector<PointList> lists = read_sections(input, 2);
-    const std::size_t count = lists.size();
-    std::size_t fewest = lists.front().points.size();
-    for (const PointList& list : lists) {
-        fewest = std::min(fewest, list.points.size());
-    }
-    const int degree = surface.degree_u = degree_in(input, "degree_u", fewest, "points of the shortest section");
-    surface.degree_v = degree_in(input, "degree_v", count, "sections");
-    const double domain = number_in(input, "domain_length", 1.0);
-    if (!(domain > 0.0)) {
-        throw DescriptionError("\"domain_length\" must be greater than 0");
-    }
-    carry_along_spine(input, lists);
-    surface.axes = lists.front().axes;
-
-    std::vector<Section> sections(count);
-    for (std::size_t s = 0; s < count; ++s) {
-        Section& section = sections[s];
-        section.points = Unit<double>(lists[s].largest(), 1.0).in(lists[s]);
+template <Scalar S>
+std::vector<Section<S>> with_parameters(const Skin& skin, const Unit<S>& unit, S domain) {
+    std::vector<Section<S>> sections(skin.sections.size());
+    for (std::size_t s = 0; s < sections.size(); ++s) {
+        Section<S>& section = sections[s];
+        section.points = unit.in(skin.sections[s]);
         section.parameters.resize(section.points.size());
-        section.knots.resize(open_knot_count(section.points.size(), degree));
-        const Status status = spline_parameters<double>(section.points, surface.axes, Parameterization::chordal, false,
-                                                        domain, section.parameters);
+        section.knots.resize(open_knot_count(section.points.size(), skin.degree_u));
+        const Status status = spline_parameters<S>(section.points, skin.axes, Parameterization::chordal, false, domain,
+                                                   section.parameters);
         if (status.error() == Error::coincident_points) {
             throw DescriptionError(
                 fmt::format("\"sections\", section {}: two successive points are the same; leave one out", s + 1));
         }
         require(status);
-        require(open_knots<double>(KnotRule::average, section.parameters, degree, false, section.knots));
+        require(open_knots<S>(KnotRule::average, section.parameters, skin.degree_u, false, section.knots));
     }
-    surface.knots_u = merge_knots(sections, static_cast<std::size_t>(degree), domain);
-    ordered_json section_knots = ordered_json::array();
-    ordered_json section_controls = ordered_json::array();
-    ordered_json refined_controls = ordered_json::array();
-    const std::size_t along = surface.knots_u.size() - static_cast<std::size_t>(degree) - 1;
-    surface.net.resize(along * count);
-    for (std::size_t s = 0; s < count; ++s) {
-        interpolate(sections[s], degree, surface.axes);
-        section_knots.push_back(sections[s].knots);
-        section_controls.push_back(list_json(sections[s].controls, surface.axes));
-        const std::vector<Point<double>> controls = refined(sections[s], degree, surface.axes, surface.knots_u);
-        refined_controls.push_back(list_json(controls, surface.axes));
-        for (std::size_t j = 0; j < along; ++j) {
-            surface.net[j * count + s] = controls[j];
-        }
-    }
-    // Across: the columns share the means of their chord parameters.
-    surface.params_v.resize(count);
-    surface.knots_v.resize(open_knot_count(count, surface.degree_v));
-    std::vector<Point<double>> row(std::max(along, count));
-    std::vector<double> row_parameters(row.size());
-    SurfaceStorage<double> storage;
+    return sections;
+}
+
+template <Scalar S>
+Status interpolate(Section<S>& section, int degree, int axes) {
+    const InterpolationKind kind{degree};
+    std::vector<S> entries(kind.band(section.points.size()).entries());
+    BsplineInterpolation<S> system;
+    require(system.prepare(kind, section.parameters, section.knots, entries, {}));
+    section.controls.resize(section.points.size());
+    return system.interpolate(section.points, nullptr, axes, section.controls);
+}
+
+template <Scalar S>
+std::vector<Point<S>> refined(const Section<S>& section, int degree, int axes, const std::vector<S>& merged) {
+    std::vector<S> knots = section.knots;
+    std::vector<Point<S>> controls = section.controls;
+    knots.resize(merged.size());
+    controls.resize(merged.size() - static_cast<std::size_t>(degree) - 1);
+    GrowingCurve<S> curve{degree, axes, section.knots.size(), knots, controls};
+    require(refine_knots<S>(curve, merged));
+    return controls;
+}
+
+// The columns of the net, [j * sections + s], are interpolated across: all share the means of their chord parameters.
+template <Scalar S>
+Status interpolate_across(const Skin& skin, std::vector<Point<S>>& net, DescribedSurface& surface) {
+    const std::size_t count = skin.sections.size();
+    const std::size_t along = net.size() / count;
+    const double unit = parameter_unit<S>(1.0);
+    std::vector<S> params(count);
+    std::vector<S> knots(open_knot_count(count, skin.degree_v));
+    std::vector<Point<S>> row(std::max(along, count));
+    std::vector<S> row_parameters(row.size());
+    SurfaceStorage<S> storage;
     storage.row = row;
     storage.row_parameters = row_parameters;
-    const Status status = grid_parameters<double>({surface.axes, along, count, surface.net}, SurfaceDirection::v,
-                                                  Parameterization::chordal, 1.0, storage, surface.params_v);
+    const Status status = grid_parameters<S>({skin.axes, along, count, net}, SurfaceDirection::v,
+                                             Parameterization::chordal, from_double<S>(1.0 / unit), storage, params);
     if (status.error() == Error::coincident_points) {
         throw DescriptionError("two successive sections of \"sections\" are the same; leave one out");
     }
     require(status);
-    require(open_knots<double>(KnotRule::average, surface.params_v, surface.degree_v, false, surface.knots_v));
-    const InterpolationKind kind{surface.degree_v};
-    std::vector<double> entries(kind.band(count).entries());
-    BsplineInterpolation<double> system;
-    require(system.prepare(kind, surface.params_v, surface.knots_v, entries, {}));
+    require(open_knots<S>(KnotRule::average, params, skin.degree_v, false, knots));
+    const InterpolationKind kind{skin.degree_v};
+    std::vector<S> entries(kind.band(count).entries());
+    BsplineInterpolation<S> system;
+    require(system.prepare(kind, params, knots, entries, {}));
+    surface.params_v = out_of_units(params, unit);
+    surface.knots_v = out_of_units(knots, unit);
     for (std::size_t j = 0; j < along; ++j) {
-        require(system.solve(surface.net, surface.axes, j * count, 1));
+        if (const Status solved = system.solve(net, skin.axes, j * count, 1); !solved.ok()) {
+            return solved;
+        }
     }
+    return {};
+}
+
+template <Scalar S>
+DescribedSurface through(const Skin& skin, const Unit<S>& unit, Error& error) {
+    const double unit_u = parameter_unit<S>(skin.domain);
+    const S domain = from_double<S>(skin.domain / unit_u);
+    std::vector<Section<S>> sections = with_parameters(skin, unit, domain);
+    const std::vector<S> merged = merge_knots(sections, static_cast<std::size_t>(skin.degree_u), domain);
+    DescribedSurface surface;
+    surface.axes = skin.axes;
+    surface.degree_u = skin.degree_u;
+    surface.degree_v = skin.degree_v;
+    surface.knots_u = out_of_units(merged, unit_u);
+    const std::size_t count = sections.size();
+    std::vector<Point<S>> net((merged.size() - static_cast<std::size_t>(skin.degree_u) - 1) * count);
+    ordered_json section_knots = ordered_json::array();
+    ordered_json section_controls = ordered_json::array();
+    ordered_json refined_controls = ordered_json::array();
+    for (std::size_t s = 0; s < count; ++s) {
+        error = interpolate(sections[s], skin.degree_u, skin.axes).error();
+        if (error != Error::none) {
+            return surface;
+        }
+        const std::vector<Point<S>> controls = refined(sections[s], skin.degree_u, skin.axes, merged);
+        for (std::size_t j = 0; j < controls.size(); ++j) {
+            net[j * count + s] = controls[j];
+        }
+        section_knots.push_back(out_of_units(sections[s].knots, unit_u));
+        section_controls.push_back(to_json(sections[s].controls, skin.axes, unit));
+        refined_controls.push_back(to_json(controls, skin.axes, unit));
+    }
+    error = interpolate_across(skin, net, surface).error();
+    surface.net = unit.out(net);
     surface.results["section_knots"] = section_knots;
     surface.results["section_control_points"] = section_controls;
     surface.results["merged_knots_u"] = surface.knots_u;
     surface.results["refined_control_points"] = refined_controls;
     return surface;
+}
+
+template <Scalar S>
+DescribedSurface skin_surface(const Skin& skin) {
+    double largest = 0.0;
+    for (const PointList& list : skin.sections) {
+        largest = std::max(largest, list.largest());
+    }
+    return in_fitting_unit<S>(largest, [&](const Unit<S>& unit, Error& error) { return through(skin, unit, error); });
+}
+
+} // namespace
+
+DescribedSurface describe_skin(const json& input, ScalarKind scalar) {
+    Skin skin;
+    skin.sections = read_sections(input, 2);
+    std::size_t fewest = skin.sections.front().points.size();
+    for (const PointList& list : skin.sections) {
+        fewest = std::min(fewest, list.points.size());
+    }
+    skin.degree_u = degree_in(input, "degree_u", fewest, "points of the shortest section");
+    skin.degree_v = degree_in(input, "degree_v", skin.sections.size(), "sections");
+    skin.domain = number_in(input, "domain_length", 1.0);
+    if (!(skin.domain > 0.0)) {
+        throw DescriptionError("\"domain_length\" must be greater than 0");
+    }
+    carry_along_spine(input, skin.sections);
+    skin.axes = skin.sections.front().axes;
+    switch (scalar) {
+    case ScalarKind::fixed: return skin_surface<Fixed>(skin);
+    case ScalarKind::single: return skin_surface<float>(skin);
+    case ScalarKind::dual: return skin_surface<double>(skin);
+    }
+    return {};
 }
 
 } // namespace splinefeed::host

@@ -2,6 +2,7 @@
 // SurfaceArguments: the options of `splinefeed surface` as they were typed, and what they ask for.
 #pragma once
 
+#include "host_sim/scalar_kind.hpp"
 #include "host_sim/surface/raster.hpp"
 
 #include <optional>
@@ -32,6 +33,6 @@ void add_surface_options(CLI::App& app, SurfaceArguments& arguments);
 [[nodiscard]] std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments);
 
 /// Carries the command out. Throws InputError, OutputError. Returns the exit status.
-int run_surface(const std::string& input, const SurfaceArguments& arguments);
+int run_surface(const std::string& input, const SurfaceArguments& arguments, ScalarKind scalar);
 
 } // namespace splinefeed::host

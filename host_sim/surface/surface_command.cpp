@@ -31,7 +31,7 @@ json read_json(const std::string& file) {
     }
 }
 
-DescribedSurface read_surface(const std::string& file) {
+DescribedSurface read_surface(const std::string& file, ScalarKind scalar) {
     const json description = read_json(file);
     const bool object = description.is_object();
     const auto method = object ? description.find("method") : description.end();
@@ -40,7 +40,7 @@ DescribedSurface read_surface(const std::string& file) {
         !input->is_object()) {
         throw DescriptionError("there must be \"method\", bspline_surface or bspline_skin, and an object \"input\"");
     }
-    return describe_surface(method->get<std::string>(), *input);
+    return describe_surface(method->get<std::string>(), *input, scalar);
 }
 
 void require_place(const Point<double>& point) {
@@ -79,10 +79,10 @@ void write_curve(OutputFile& file, const std::vector<BezierPiece<double>>& piece
 
 } // namespace
 
-int run_surface(const std::string& input, const SurfaceArguments& arguments) {
+int run_surface(const std::string& input, const SurfaceArguments& arguments, ScalarKind scalar) {
     const std::optional<RasterOptions> options = choose_raster(arguments);
     try {
-        const DescribedSurface surface = read_surface(input);
+        const DescribedSurface surface = read_surface(input, scalar);
         OutputFile file(arguments.output.empty() ? "-" : arguments.output);
         if (!options) {
             file.append(surface_report(surface).dump());

@@ -222,9 +222,9 @@ Status BetaJoints<S>::check() const noexcept {
 
 // 1 / (1 + (beta2 / 2) omega h_{i-1} / h_i)
 template <Scalar S>
-S BetaJoints<S>::gamma(S earlier, S later) const noexcept {
+S BetaJoints<S>::gamma(S span, S next) const noexcept {
     const S one = from_integer<S>(1);
-    return one / (one + scale2(beta2, -1) * (earlier / (earlier + later)) * (earlier / later));
+    return one / (one + scale2(beta2, -1) * (span / (span + next)) * (span / next));
 }
 
 template <Scalar S>

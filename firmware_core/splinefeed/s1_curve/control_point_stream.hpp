@@ -57,7 +57,7 @@ struct BetaJoints {
     [[nodiscard]] SpansAround<S> around(S outer_before, S before, S after, S outer_after) const noexcept;
 
 private:
-    [[nodiscard]] S gamma(S earlier, S later) const noexcept;
+    [[nodiscard]] S gamma(S span, S next) const noexcept;
 };
 
 /// Look-ahead: 16 waypoints past the end of the segment. Cost per waypoint: one elimination step (one division by the
