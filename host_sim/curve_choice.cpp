@@ -115,7 +115,9 @@ Parameterization read_parameterization(std::string_view text) {
     return static_cast<Parameterization>(found - names.begin());
 }
 
-Tangent read_tangent(std::string_view option, std::string_view text) {
+// A direction in units of the end chord; or, for methods of all points, the derivative itself, which may be zero: a
+// cusp.
+Tangent read_tangent(std::string_view option, std::string_view text, bool derivative) {
     Tangent tangent;
     bool zero = true;
     for (std::string_view rest = text;;) {
@@ -123,7 +125,8 @@ Tangent read_tangent(std::string_view option, std::string_view text) {
         if (tangent.components == max_axes) {
             throw UsageError(fmt::format("{} {} has more than {} components", option, in_quotes(text), max_axes));
         }
-        const double value = read(option, rest.substr(0, comma), -100.0, 100.0, "each component of an end tangent");
+        const double most = derivative ? 1e6 : 100.0;
+        const double value = read(option, rest.substr(0, comma), -most, most, "each component of an end tangent");
         tangent.value[static_cast<unsigned>(tangent.components++)] = value;
         zero = zero && value == 0.0;
         if (comma == std::string_view::npos) {
@@ -131,7 +134,7 @@ Tangent read_tangent(std::string_view option, std::string_view text) {
         }
         rest.remove_prefix(comma + 1);
     }
-    if (zero) {
+    if (zero && !derivative) {
         throw UsageError(fmt::format("{} {} has no direction; give a vector like 1,0,0", option, in_quotes(text)));
     }
     return tangent;
@@ -228,7 +231,7 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
         if (choice.closed) {
             throw UsageError(fmt::format("{} and --closed exclude each other: a closed curve has no ends", option));
         }
-        *tangent = read_tangent(option, **text);
+        *tangent = read_tangent(option, **text, needs_all_points(choice.method));
     }
     return choice;
 }

@@ -6,7 +6,9 @@
 
 #include "host_sim/methods/points_description.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
@@ -17,6 +19,11 @@ namespace splinefeed::host {
 namespace {
 
 const std::vector<std::string> every_axis{"x", "y", "z", "a", "b", "c"};
+
+/// Whether two waypoints are one, as WaypointCurve::push has it for the streaming methods: 0.1 um on every axis.
+bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::fabs(x - y) < 1e-4; });
+}
 
 /// A waypoint file or a pipe.
 class TableRows final : public WaypointRows {
@@ -76,9 +83,14 @@ void PathInput::compute_from_points(const Job& job) {
                                          "and corner",
                                          method_name(choice_.method)));
         }
-        points.push_back(row.position);
+        if (points.empty() || !merged(points.back(), row.position)) {
+            points.push_back(row.position);
+        }
+        ++points_read_;
     }
-    points_read_ = points.size();
+    if (choice_.closed && points.size() > 1 && merged(points.front(), points.back())) {
+        points.pop_back();
+    }
     opened_.reset();
     const int axes = static_cast<int>(axes_.size());
     try {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/methods/joint_report.hpp"
 
+#include "splinefeed/splines/beta_joint.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -136,6 +138,9 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
     joint["d2_jump"] = d2_jump;
     joint["K_jump"] = curvature_jump;
     joint["abs_kappa_jump"] = modulus_jump;
+    const Result<BetaMeasure<double>> measured = g1 ? measure_joint(before, after) : Error::tangent_vanishes;
+    joint["beta1"] = measured.has_value() ? nlohmann::ordered_json(measured->beta.beta1) : nullptr;
+    joint["beta2"] = measured.has_value() ? nlohmann::ordered_json(measured->beta.beta2) : nullptr;
     return joint;
 }
 

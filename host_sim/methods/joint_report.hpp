@@ -31,9 +31,9 @@ template <>
 inline constexpr Agreement agreement_of<float>{1e-3, 2e-6};
 
 /// An array with one object a joint: from, to, C0, C1, C2, regular, G1, G2, abs_kappa (only the modulus of curvature
-/// has to agree), length_ratio_d1, the jumps, and class: C2, C1+G2, G2, C1+|k|, G1+|k|, C1, G1, C0, with +singular
-/// where a first derivative is zero. C1 and C2 are by the curve's parameter where it has intervals, by that of the
-/// pieces else.
+/// has to agree), length_ratio_d1, the jumps, beta1 and beta2 of joints with G1 (Barsky & DeRose), and class: C2,
+/// C1+G2, G2, C1+|k|, G1+|k|, C1, G1, C0, with +singular where a first derivative is zero. C1 and C2 are by the curve's
+/// parameter where it has intervals, by that of the pieces else.
 [[nodiscard]] nlohmann::ordered_json joint_report(const DescribedCurve& curve, const Agreement& agreement = {});
 
 /// An array with one object for u = 0, 1/4, 1/2, 3/4, 1: u, p, d1, d2, kappa, K; null where undefined.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tool.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "support/catch.hpp"
 
 #include <algorithm>
@@ -56,19 +58,29 @@ TEST_CASE("A run writes its outputs and says what it did") {
 
 TEST_CASE("Warnings go to standard error, a line each, unless --quiet") {
     const Tool tool;
-    tool.write("twice.csv", "0,0,0\n10,5,0\n10,5,0\n20,0,0\n30,5,0\n");
     tool.write("twice.json", R"({"method": "ferguson", "input": {"points": [[0, 0], [10, 5], [10, 5], [20, 0]]}})");
-    for (const std::string input : {"twice.csv --curve ferguson", "twice.json"}) {
-        for (const std::string command : {"curve ", "run ", "plan "}) {
-            const Call call = tool(command + input);
-            CAPTURE(command, input, call.error);
-            CHECK(call.status == 0);
-            CHECK(call.error == input.substr(0, input.find(' ')) +
-                                    ": warning: points 2 and 3 are the same: the curve makes a small loop there\n");
-            CHECK(tool(command + input + " --quiet").error.empty());
-        }
-        CHECK(contains(tool("curve --quiet " + input).output, "\"warnings\""));
+    for (const std::string command : {"curve ", "run ", "plan "}) {
+        const Call call = tool(command + "twice.json");
+        CAPTURE(command, call.error);
+        CHECK(call.status == 0);
+        CHECK(call.error == "twice.json: warning: points 2 and 3 are the same: the curve makes a small loop there\n");
+        CHECK(tool(command + "twice.json --quiet").error.empty());
     }
+    CHECK(contains(tool("curve --quiet twice.json").output, "\"warnings\""));
+}
+
+TEST_CASE("Waypoints within 0.1 um are one for curves of all points, too") {
+    const Tool tool;
+    tool.write("near.csv", "0,0,0\n10,5,0\n10.00005,5,0\n20,0,0\n30,5,0\n0.00005,0,0\n");
+    for (const std::string method : {"ferguson", "bspline-interpolation", "g2 --corner-angle 180"}) {
+        const Call call = tool("curve near.csv --closed --curve " + method);
+        CAPTURE(method, call.error);
+        REQUIRE(call.status == 0);
+        CHECK(nlohmann::json::parse(call.output)["segments"].size() == 4);
+    }
+    const Call cusp = tool("curve near.csv --curve ferguson --start-tangent 0,0 --end-tangent 500,0");
+    CAPTURE(cusp.error);
+    CHECK(cusp.status == 0);
 }
 
 TEST_CASE("A B-spline of control points runs, open and closed, and has no waypoint error") {
