@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace splinefeed::host {
 
@@ -148,13 +147,10 @@ std::vector<Stretch> raster(const ToolSurface& surface) {
     const std::vector<double> lines = line_parameters(surface);
     const double first = surface.first_along();
     const double last = surface.last_along();
-    double highest = -std::numeric_limits<double>::infinity();
     for (const double across : lines) {
         require_fit(surface, across);
-        for (int i = 0; !surface.options().zigzag && i <= looks; ++i) {
-            highest = std::max(highest, surface.tool(first + (last - first) * i / looks, across)[2]);
-        }
     }
+    const double way_back = surface.highest_mm() + surface.options().lift_mm;
     std::vector<Stretch> path;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const bool back = surface.options().zigzag && i % 2 == 1;
@@ -172,7 +168,7 @@ std::vector<Stretch> raster(const ToolSurface& surface) {
         const Vector next = surface.tool(from, lines[i + 1]);
         Vector up = end;
         Vector over = next;
-        up[2] = over[2] = highest + surface.options().lift_mm;
+        up[2] = over[2] = way_back;
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, end, up});
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, up, over});
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, over, next});

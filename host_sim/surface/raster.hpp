@@ -16,7 +16,7 @@ struct RasterOptions {
     double ball_radius_mm = 0.0;                  ///< 0: the path lies on the surface
     bool tip = false;                             ///< the path is that of the ball's lowest point, not of its centre
     bool zigzag = true;                           ///< else one way, lifted for the way back
-    double lift_mm = 5.0;                         ///< above the highest point of the path
+    double lift_mm = 5.0;                         ///< above ToolSurface::highest_mm
     double step_mm = 1.0;                         ///< largest distance of waypoints along a line
 };
 
@@ -43,6 +43,9 @@ public:
     [[nodiscard]] Point<double> tool(double along, double across) const;
     /// The centre of the ball.
     [[nodiscard]] Point<double> centre(double along, double across) const;
+    /// A height that the tool exceeds nowhere, on the lines or between them: that of the highest control point, as the
+    /// surface lies in the hull of its net; the centre of a ball is a radius above it at most, its tip not at all.
+    [[nodiscard]] double highest_mm() const noexcept;
     /// The largest curvature of the surface towards the tool there [1/mm]; nothing at a pole.
     [[nodiscard]] std::optional<double> hollow(double along, double across) const;
     /// Height of the ridge that balls on two neighbouring lines leave between them, the largest along the lines, as

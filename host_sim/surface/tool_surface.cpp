@@ -91,6 +91,14 @@ Point<double> ToolSurface::tool(double along, double across) const {
     return at;
 }
 
+double ToolSurface::highest_mm() const noexcept {
+    const auto lower = [](const Vector& a, const Vector& b) {
+        return a[2] < b[2];
+    };
+    const double top = (*std::max_element(view_.net.begin(), view_.net.end(), lower))[2];
+    return options_->tip ? top : top + options_->ball_radius_mm;
+}
+
 // The principal curvatures are the eigenvalues of the second fundamental form (L M N) against the first (E F G).
 std::optional<double> ToolSurface::hollow(double along, double across) const {
     const SurfaceJet<double> s = jet(along, across);
