@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/surface/raster.hpp"
 
+#include "host_sim/surface/span_places.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -13,7 +15,6 @@ using Vector = Point<double>;
 
 constexpr int most_lines = 100000;
 constexpr double same_point_mm = 1e-4; // as the core merges waypoints
-constexpr int looks = 48;              // along each line for hollows
 
 double apart(const Vector& a, const Vector& b) {
     return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
@@ -27,19 +28,8 @@ Vector at(const ToolSurface& surface, const Stretch& stretch, double t) {
     return stretch.kind == Stretch::Kind::along ? surface.tool(t, stretch.constant) : surface.tool(stretch.constant, t);
 }
 
-void require_fit(const ToolSurface& surface, double across) {
-    const double r = surface.options().ball_radius_mm;
-    for (int i = 0; r > 0.0 && i <= looks; ++i) {
-        const double along = surface.first_along() + (surface.last_along() - surface.first_along()) * i / looks;
-        const auto hollow = surface.hollow(along, across);
-        if (hollow && *hollow * r > 1.0 + 1e-9) {
-            const Vector p = surface.jet(along, across).position;
-            throw DescriptionError(
-                fmt::format("a ball of radius {:g} mm does not fit into the hollow at x={:.3f} y={:.3f} z={:.3f}, "
-                            "whose radius is {:.4f} mm; take a smaller --ball-radius",
-                            r, p[0], p[1], p[2], 1.0 / *hollow));
-        }
-    }
+SurfaceDirection direction(const ToolSurface& surface, const Stretch& stretch) {
+    return stretch.kind == Stretch::Kind::along ? surface.along() : surface.across();
 }
 
 // Parameters along a stretch so that neighbours are at most step_mm apart; those of creases are among them.
@@ -50,7 +40,8 @@ struct Places {
 
 Places places_of(const ToolSurface& surface, const Stretch& stretch) {
     const BSplineSurface<double>& view = surface.view();
-    const bool u = (stretch.kind == Stretch::Kind::along) == (surface.options().along == SurfaceDirection::u);
+    const SurfaceDirection along = direction(surface, stretch);
+    const bool u = along == SurfaceDirection::u;
     const double low = std::min(stretch.from, stretch.to);
     const double high = std::max(stretch.from, stretch.to);
     std::vector<double> ends{low};
@@ -62,11 +53,12 @@ Places places_of(const ToolSurface& surface, const Stretch& stretch) {
     ends.push_back(high);
     Places places{{low}, {false}};
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        constexpr int fine = 256; // the length as of a polygon; a waypoint each step of it
+        // The length as of a polygon; a waypoint each step of it.
+        const std::vector<double> fine = span_places(view, along, ends[i], ends[i + 1], 16, 256);
         std::vector<double> length{0.0};
-        Vector before = at(surface, stretch, ends[i]);
-        for (int j = 1; j <= fine; ++j) {
-            const Vector here = at(surface, stretch, ends[i] + (ends[i + 1] - ends[i]) * j / fine);
+        Vector before = at(surface, stretch, fine.front());
+        for (std::size_t j = 1; j < fine.size(); ++j) {
+            const Vector here = at(surface, stretch, fine[j]);
             length.push_back(length.back() + apart(before, here));
             before = here;
         }
@@ -78,7 +70,7 @@ Places places_of(const ToolSurface& surface, const Stretch& stretch) {
                 ++slot;
             }
             const double part = (target - length[slot]) / (length[slot + 1] - length[slot]);
-            places.parameters.push_back(ends[i] + (ends[i + 1] - ends[i]) * (static_cast<double>(slot) + part) / fine);
+            places.parameters.push_back(fine[slot] + (fine[slot + 1] - fine[slot]) * part);
             places.creases.push_back(false);
         }
         places.parameters.push_back(ends[i + 1]);
@@ -89,6 +81,30 @@ Places places_of(const ToolSurface& surface, const Stretch& stretch) {
         std::reverse(places.creases.begin(), places.creases.end());
     }
     return places;
+}
+
+void require_fit(const ToolSurface& surface, double along, double across) {
+    const double r = surface.options().ball_radius_mm;
+    const auto hollow = surface.hollow(along, across);
+    if (hollow && *hollow * r > 1.0 + 1e-9) {
+        const Vector p = surface.jet(along, across).position;
+        throw DescriptionError(
+            fmt::format("a ball of radius {:g} mm does not fit into the hollow at x={:.3f} y={:.3f} z={:.3f}, "
+                        "whose radius is {:.4f} mm; take a smaller --ball-radius",
+                        r, p[0], p[1], p[2], 1.0 / *hollow));
+    }
+}
+
+// In every knot span, as a hollow may be narrower than a step, and at every place the path will have.
+void require_fit(const ToolSurface& surface, const Stretch& stretch) {
+    std::vector<double> looks = places_of(surface, stretch).parameters;
+    const auto [low, high] = std::minmax(stretch.from, stretch.to);
+    const std::vector<double> within = span_places(surface.view(), direction(surface, stretch), low, high, 8, 48);
+    looks.insert(looks.end(), within.begin(), within.end());
+    for (const double t : looks) {
+        const bool along = stretch.kind == Stretch::Kind::along;
+        require_fit(surface, along ? t : stretch.constant, along ? stretch.constant : t);
+    }
 }
 
 } // namespace
@@ -147,9 +163,6 @@ std::vector<Stretch> raster(const ToolSurface& surface) {
     const std::vector<double> lines = line_parameters(surface);
     const double first = surface.first_along();
     const double last = surface.last_along();
-    for (const double across : lines) {
-        require_fit(surface, across);
-    }
     const double way_back = surface.highest_mm() + surface.options().lift_mm;
     std::vector<Stretch> path;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -172,6 +185,11 @@ std::vector<Stretch> raster(const ToolSurface& surface) {
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, end, up});
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, up, over});
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, over, next});
+    }
+    for (const Stretch& stretch : path) {
+        if (surface.options().ball_radius_mm > 0.0 && stretch.kind != Stretch::Kind::straight) {
+            require_fit(surface, stretch);
+        }
     }
     return path;
 }

@@ -36,6 +36,14 @@ public:
     [[nodiscard]] double first_across() const noexcept { return along_u_ ? view_.first_v() : view_.first_u(); }
     [[nodiscard]] double last_across() const noexcept { return along_u_ ? view_.last_v() : view_.last_u(); }
 
+    /// The parameter of the surface that runs along a line (or across).
+    [[nodiscard]] SurfaceDirection along() const noexcept {
+        return along_u_ ? SurfaceDirection::u : SurfaceDirection::v;
+    }
+    [[nodiscard]] SurfaceDirection across() const noexcept {
+        return along_u_ ? SurfaceDirection::v : SurfaceDirection::u;
+    }
+
     [[nodiscard]] SurfaceJet<double> jet(double along, double across) const noexcept;
     /// Unit vector away from the surface, towards the tool. Throws DescriptionError where there is none.
     [[nodiscard]] Point<double> normal(double along, double across) const;
@@ -77,7 +85,8 @@ struct Stretch {
 /// Parameters of the lines. Throws DescriptionError: more than 100000 lines.
 [[nodiscard]] std::vector<double> line_parameters(const ToolSurface& surface);
 
-/// The whole path in order. Throws DescriptionError: the ball does not fit into a hollow of the surface.
+/// The whole path in order. Throws DescriptionError: the ball does not fit into a hollow of the surface, looked for at
+/// every waypoint and at 9 places in every knot span that the path runs through.
 [[nodiscard]] std::vector<Stretch> raster(const ToolSurface& surface);
 
 /// Parameters of the waypoints of a stretch that is not straight, both ends included.

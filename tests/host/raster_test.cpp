@@ -236,6 +236,55 @@ TEST_CASE("raster: the way back is above every peak, however narrow", "[surface]
     }
 }
 
+TEST_CASE("raster: hollows are seen in every knot span, along the lines and at the edge", "[surface]") {
+    // A notch of radius 0.06 mm at its bottom, between places evenly spread over the 60 mm of a line.
+    const auto notched = [](double place) {
+        json grid = json::array();
+        for (int i = 0; i <= 120; ++i) {
+            const double x = 0.5 * i;
+            const double z = -2.0 * std::exp(-4.0 * (x - place) * (x - place));
+            grid.push_back({{x, 0.0, z}, {x, 5.0, z}, {x, 10.0, z}, {x, 15.0, z}});
+        }
+        return describe_surface("bspline_surface", {{"grid", grid}});
+    };
+    RasterOptions options;
+    options.lines = 2;
+    options.ball_radius_mm = 6.0;
+    options.step_mm = 5.0;
+    for (const double place : {25.6, 25.0, 30.4}) {
+        const DescribedSurface surface = notched(place);
+        CAPTURE(place);
+        options.along = SurfaceDirection::u;
+        CHECK_THROWS_AS(raster(ToolSurface(surface, options)), DescriptionError);
+        // Lines beside the notch pass it only where a zigzag goes over to the next one.
+        options.along = SurfaceDirection::v;
+        options.zigzag = true;
+        CHECK_THROWS_AS(raster(ToolSurface(surface, options)), DescriptionError);
+        options.zigzag = false;
+        CHECK_FALSE(raster(ToolSurface(surface, options)).empty());
+        options.zigzag = true;
+    }
+}
+
+TEST_CASE("raster: waypoints keep their distance whatever the number of knot spans", "[surface]") {
+    json grid = json::array();
+    for (int i = 0; i <= 400; ++i) {
+        const double z = i % 2 == 0 ? 0.0 : 0.2;
+        grid.push_back({{0.5 * i, 0.0, z}, {0.5 * i, 5.0, z}});
+    }
+    const DescribedSurface surface = describe_surface("bspline_surface", {{"grid", grid}});
+    RasterOptions options;
+    options.lines = 2;
+    options.step_mm = 0.25;
+    const ToolSurface tool(surface, options);
+    const auto points = waypoints(tool, raster(tool));
+    double most = 0.0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        most = std::max(most, apart(points[i].position, points[i + 1].position));
+    }
+    CHECK(most <= 0.25);
+}
+
 TEST_CASE("skin: frames turn least, and sections that cannot be skinned are refused", "[surface]") {
     // Along a circle in a plane the frame keeps its angle to the plane, exactly.
     std::vector<Frame> frames;
