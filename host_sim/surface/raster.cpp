@@ -126,22 +126,22 @@ std::vector<double> line_parameters(const ToolSurface& surface) {
     while (lines.back() < last) {
         const double from = lines.back();
         double bad = last - from;
-        if ((lines.size() == 1 || bad < 4.0 * step) && surface.scallop_mm(from, last) <= highest) {
+        if ((lines.size() == 1 || bad < 4.0 * step) && surface.scallop_mm(from, last, highest) <= highest) {
             lines.push_back(last);
             break;
         }
         step = std::min(step, bad / 2.0);
-        double ridge = surface.scallop_mm(from, from + step);
+        double ridge = surface.scallop_mm(from, from + step, highest);
         while (ridge > highest && step > 1e-12 * (last - first)) {
             bad = step;
             step /= 2.0;
-            ridge = surface.scallop_mm(from, from + step);
+            ridge = surface.scallop_mm(from, from + step, highest);
         }
         // The ridge grows about as the square of the step: aimed for a little below, halved where that fails.
-        for (int tries = 0; tries < 40 && bad - step > 1e-6 * step && ridge < (1.0 - 4e-6) * highest; ++tries) {
-            const double aimed = step * std::min(2.0, (1.0 - 1e-6) * std::sqrt(highest / std::max(ridge, 1e-300)));
+        for (int tries = 0; tries < 40 && bad - step > 1e-3 * step && ridge < 0.995 * highest; ++tries) {
+            const double aimed = step * std::min(2.0, std::sqrt(0.998 * highest / std::max(ridge, 1e-300)));
             const double next = aimed > step && aimed < bad ? aimed : 0.5 * (step + bad);
-            const double height = surface.scallop_mm(from, from + next);
+            const double height = surface.scallop_mm(from, from + next, highest);
             if (height <= highest) {
                 step = next;
                 ridge = height;

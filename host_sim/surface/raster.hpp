@@ -4,6 +4,7 @@
 
 #include "host_sim/surface/described_surface.hpp"
 
+#include <limits>
 #include <optional>
 
 namespace splinefeed::host {
@@ -22,6 +23,13 @@ struct RasterOptions {
 
 /// Inner knots at which a surface may have a crease: as many times there as its degree.
 [[nodiscard]] std::vector<double> creases(std::span<const double> knots, int degree);
+
+/// Where a ball touches the surface.
+struct Contact {
+    Point<double> position{};
+    Point<double> direction{}; ///< of the line, its derivative
+    Point<double> normal{};    ///< unit vector towards the tool
+};
 
 /// Points of the surface offset for the tool. Its normal is the side of the surface that looks up (z) on the whole.
 class ToolSurface {
@@ -45,6 +53,8 @@ public:
     }
 
     [[nodiscard]] SurfaceJet<double> jet(double along, double across) const noexcept;
+    /// Throws DescriptionError where there is no normal.
+    [[nodiscard]] Contact contact(double along, double across) const;
     /// Unit vector away from the surface, towards the tool. Throws DescriptionError where there is none.
     [[nodiscard]] Point<double> normal(double along, double across) const;
     /// Where the tool's centre or tip is. Throws DescriptionError.
@@ -56,10 +66,13 @@ public:
     [[nodiscard]] double highest_mm() const noexcept;
     /// The largest curvature of the surface towards the tool there [1/mm]; nothing at a pole.
     [[nodiscard]] std::optional<double> hollow(double along, double across) const;
-    /// Height of the ridge that balls on two neighbouring lines leave between them, the largest along the lines, as
-    /// their spheres intersect. To first order w^2/8 (1/r + kappa), kappa > 0 where the surface bulges towards the
-    /// tool. Infinite where the balls do not touch.
-    [[nodiscard]] double scallop_mm(double across, double next_across) const;
+    /// Height of the ridge that balls on two lines leave between them, or depth to which they cut there, the largest
+    /// found along the lines. At each place that is looked at the ray along the normal ends at the nearer of the two
+    /// balls. Looked at are 65 places along at least and 7 between the lines, 5 in every knot span of both, and where
+    /// the balls meet. To first order w^2/8 (1/r + kappa), kappa > 0 where the surface bulges towards the tool. The
+    /// radius at least where the balls do not touch. The search ends at the first ridge above `enough`.
+    [[nodiscard]] double scallop_mm(double across, double next_across,
+                                    double enough = std::numeric_limits<double>::infinity()) const;
 
     [[nodiscard]] const BSplineSurface<double>& view() const noexcept { return view_; }
     [[nodiscard]] const RasterOptions& options() const noexcept { return *options_; }

@@ -49,7 +49,8 @@ void add_surface_options(CLI::App& app, SurfaceArguments& arguments) {
            "of a ball-nosed cutter [mm] (default 0: the path is on the surface)");
     option("--tool", arguments.tool, "centre or tip: what of the ball the path is that of (default tip)");
     option("--pattern", arguments.pattern, "zigzag or one-way, lifted for the way back (default zigzag)");
-    option("--lift", arguments.lift, "one-way: height of the way back above the highest control point [mm] (default 5)");
+    option("--lift", arguments.lift,
+           "one-way: height of the way back above the highest control point [mm] (default 5)");
     option("--step", arguments.step, "largest distance of waypoints [mm] (default 1)");
     app.add_option("-o,--output", arguments.output,
                    "WAYPOINTS.csv or CURVE.json (default: standard output, waypoints)");

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace splinefeed::host {
 
 namespace {
 
 using Vector = Point<double>;
-
-constexpr int looks_along = 64; // where the height of a ridge is measured along a line
 
 double dot(const Vector& a, const Vector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -66,21 +63,29 @@ SurfaceJet<double> ToolSurface::jet(double along, double across) const noexcept 
     return along_u_ ? evaluate(view_, along, across) : evaluate(view_, across, along);
 }
 
-Point<double> ToolSurface::normal(double along, double across) const {
+Contact ToolSurface::contact(double along, double across) const {
     const double u = along_u_ ? along : across;
     const double v = along_u_ ? across : along;
-    const auto found = normal_at(view_, u, v);
+    const SurfaceJet<double> here = evaluate(view_, u, v);
+    const auto found = normal_of(view_, here, !(u < view_.last_u()), !(v < view_.last_v()));
     if (!found.has_value()) {
         throw DescriptionError(fmt::format("the surface has no normal at u = {:.6g}, v = {:.6g}: a ball has no place "
                                            "there; leave out --ball-radius, or move the points apart",
                                            u, v));
     }
-    return plus({}, side_, found->direction);
+    return {here.position, along_u_ ? here.u : here.v, plus({}, side_, found->direction)};
+}
+
+Point<double> ToolSurface::normal(double along, double across) const {
+    return contact(along, across).normal;
 }
 
 Point<double> ToolSurface::centre(double along, double across) const {
-    const Vector position = jet(along, across).position;
-    return options_->ball_radius_mm > 0.0 ? plus(position, options_->ball_radius_mm, normal(along, across)) : position;
+    if (!(options_->ball_radius_mm > 0.0)) {
+        return jet(along, across).position;
+    }
+    const Contact here = contact(along, across);
+    return plus(here.position, options_->ball_radius_mm, here.normal);
 }
 
 Point<double> ToolSurface::tool(double along, double across) const {
@@ -116,30 +121,6 @@ std::optional<double> ToolSurface::hollow(double along, double across) const {
     const double mean = (e * k - 2.0 * f * m + g * l) / (2.0 * area_sq);
     const double product = (l * k - m * m) / area_sq;
     return mean + std::sqrt(std::max(0.0, mean * mean - product));
-}
-
-double ToolSurface::scallop_mm(double across, double next_across) const {
-    const double r = options_->ball_radius_mm;
-    const double middle = 0.5 * (across + next_across);
-    double most = 0.0;
-    for (int i = 0; i <= looks_along; ++i) {
-        const double along = first_along() + (last_along() - first_along()) * i / looks_along;
-        const SurfaceJet<double> between = jet(along, middle);
-        const Vector& direction = along_u_ ? between.u : between.v;
-        const Vector a = centre(along, across);
-        Vector apart = plus(centre(along, next_across), -1.0, a);
-        const Vector half = plus(a, 0.5, apart);
-        if (const double size_sq = dot(direction, direction); size_sq > 0.0) { // across the line
-            apart = plus(apart, -dot(apart, direction) / size_sq, direction);
-        }
-        const double inside_sq = r * r - 0.25 * dot(apart, apart);
-        if (!(inside_sq > 0.0)) {
-            return std::numeric_limits<double>::infinity();
-        }
-        const double above = dot(plus(half, -1.0, between.position), normal(along, middle));
-        most = std::max(most, above - std::sqrt(inside_sq));
-    }
-    return most;
 }
 
 } // namespace splinefeed::host

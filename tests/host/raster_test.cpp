@@ -107,6 +107,49 @@ TEST_CASE("raster: the ridges have the height asked for, on flat, bulging and ho
     }
 }
 
+TEST_CASE("raster: ridges are judged in every knot span, across and along the lines", "[surface]") {
+    const auto lines_on = [](int rows, double dx, int columns, double dy, double radius, double h, auto z) {
+        json grid = json::array();
+        for (int i = 0; i < rows; ++i) {
+            json row = json::array();
+            for (int j = 0; j < columns; ++j) {
+                row.push_back({dx * i, dy * j, z(dx * i, dy * j)});
+            }
+            grid.push_back(row);
+        }
+        const DescribedSurface surface = describe_surface("bspline_surface", {{"grid", grid}});
+        RasterOptions options;
+        options.scallop_mm = h;
+        options.ball_radius_mm = radius;
+        const ToolSurface tool(surface, options);
+        std::vector<Point<double>> touched;
+        std::vector<Point<double>> centres;
+        const double along = tool.first_along() + 14.5 / 60.0 * (tool.last_along() - tool.first_along());
+        for (const double line : line_parameters(tool)) {
+            touched.push_back(tool.jet(along, line).position);
+            centres.push_back(tool.centre(along, line));
+        }
+        return std::pair{touched, centres};
+    };
+    // A whole wave between the first line and the last, level at both and in the middle.
+    const auto wave = [](double, double y) {
+        return 0.5 * std::sin(y / 3.0 * 6.283185307179586);
+    };
+    CHECK(lines_on(11, 1.0, 21, 0.15, 6.0, 0.3, wave).first.size() > 3);
+    // Ripples on a stretch of half a millimetre of a line of 60, between evenly spread looks.
+    const auto ripples = [](double x, double y) {
+        return 0.012 * std::exp(-(x - 14.5) * (x - 14.5) / 0.09) * std::cos(y / 1.26 * 6.283185307179586);
+    };
+    const auto [touched, centres] = lines_on(121, 0.5, 21, 0.126, 3.0, 0.005, ripples);
+    for (std::size_t i = 0; i + 1 < touched.size(); ++i) {
+        const double ridge = measured_ridge(centres, touched[i][1], touched[i + 1][1], 3.0, [](double, double y) {
+            return 0.012 * std::cos(y / 1.26 * 6.283185307179586);
+        });
+        CAPTURE(i, ridge);
+        CHECK(ridge < 1.03 * 0.005);
+    }
+}
+
 TEST_CASE("raster: the ball touches the surface, its tip is a radius lower", "[surface]") {
     const DescribedSurface surface = height_field(hill);
     RasterOptions options;
