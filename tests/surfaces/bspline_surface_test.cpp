@@ -242,6 +242,23 @@ TEMPLATE_TEST_CASE("surface: the normal, its limit at a pole, and where there is
     CHECK(normal_at(line.surface, S{}, S{}).error() == Error::axes_out_of_range);
 }
 
+TEMPLATE_TEST_CASE("surface: a derivative is measured by the net of its span, not by the whole net", "[surface]", double,
+                   float, Fixed) {
+    using S = TestType;
+    const double fine = std::same_as<S, double> ? 1e-10 : 1e-3;
+    Interpolated<S> uneven; // fine near the origin, coarse beyond
+    for (const double x : {0.0, fine, 1000.0}) {
+        for (const double y : {0.0, fine, 1000.0}) {
+            uneven.grid.push_back({from_double<S>(x), from_double<S>(y), S{}});
+        }
+    }
+    REQUIRE(uneven.make(3, 3, {1, 1, Parameterization::uniform, KnotRule::uniform}, 2.0, 2.0).ok());
+    const auto normal = normal_at(uneven.surface, from_double<S>(0.5), from_double<S>(0.5));
+    REQUIRE(normal.has_value());
+    CHECK_FALSE(normal->limit);
+    CHECK(to_double(normal->direction[2]) == Approx(1.0).margin(1e-6));
+}
+
 TEST_CASE("surface: parameters are means over the rows that have chords", "[surface]") {
     // Three rows along v; the first one is a pole.
     Interpolated<double> pole;

@@ -13,7 +13,7 @@ S limited(S value, S low, S high) noexcept {
     return larger(low, smaller(value, high));
 }
 
-// What is zero beside a net of size 1.
+// What is zero beside points that are 1 apart.
 template <Scalar S>
 constexpr S none() noexcept {
     return std::same_as<S, double> ? literal<S>(0x1p-40) : literal<S>(0x1p-18);
@@ -33,18 +33,38 @@ Point<S> unit(const Point<S>& vector, S size) noexcept {
     return out;
 }
 
-// The largest difference within the (k_u + 1) (k_v + 1) points of the span, per axis: what a derivative is compared to.
+// What rounding leaves of zero beside a coordinate of 1: a few tens of ulp, in Fixed what a solved net is good to.
 template <Scalar S>
-S net_size(const BSplineSurface<S>& surface) noexcept {
-    Point<S> low = surface.net[0];
+constexpr S rounding() noexcept {
+    return std::same_as<S, double>  ? literal<S>(0x1p-46)
+           : std::same_as<S, float> ? literal<S>(0x1p-19)
+                                    : literal<S>(0x1p-26);
+}
+
+// Up to which length a derivative is none: compared to the extent of the (k_u + 1) (k_v + 1) points of the span, and to
+// their coordinates, as points that should be one, a pole, are apart by the rounding of these.
+template <Scalar S>
+S no_derivative(const BSplineSurface<S>& surface, const SurfaceJet<S>& jet) noexcept {
+    const std::size_t first_u = jet.span_u - static_cast<std::size_t>(surface.degree_u);
+    const std::size_t first_v = jet.span_v - static_cast<std::size_t>(surface.degree_v);
+    Point<S> low = surface.net[first_u * surface.count_v() + first_v];
     Point<S> high = low;
-    for (const Point<S>& point : surface.net) {
-        for (unsigned k = 0; k < 3; ++k) {
-            low[k] = smaller(low[k], point[k]);
-            high[k] = larger(high[k], point[k]);
+    for (std::size_t i = first_u; i <= jet.span_u; ++i) {
+        for (std::size_t j = first_v; j <= jet.span_v; ++j) {
+            const Point<S>& point = surface.net[i * surface.count_v() + j];
+            for (unsigned k = 0; k < 3; ++k) {
+                low[k] = smaller(low[k], point[k]);
+                high[k] = larger(high[k], point[k]);
+            }
         }
     }
-    return larger(high[0] - low[0], larger(high[1] - low[1], high[2] - low[2]));
+    S extent{};
+    S place{};
+    for (unsigned k = 0; k < 3; ++k) {
+        extent = larger(extent, high[k] - low[k]);
+        place = larger(place, larger(high[k], -low[k]));
+    }
+    return larger(extent * none<S>(), place * rounding<S>());
 }
 
 } // namespace
@@ -90,6 +110,8 @@ SurfaceJet<S> evaluate(const BSplineSurface<S>& surface, S u, S v) noexcept {
                             surface.axes);
     };
     SurfaceJet<S> jet;
+    jet.span_u = span_u;
+    jet.span_v = span_v;
     jet.length_u = surface.knots_u[span_u + 1U] - surface.knots_u[span_u];
     jet.length_v = surface.knots_v[span_v + 1U] - surface.knots_v[span_v];
     jet.position = across(basis_u.value, false, value);
@@ -130,7 +152,7 @@ Result<SurfaceNormal<S>> normal_of(const BSplineSurface<S>& surface, const Surfa
     if (surface.axes < 3) {
         return Error::axes_out_of_range;
     }
-    const S zero = net_size(surface) * none<S>();
+    const S zero = no_derivative(surface, jet);
     SurfaceNormal<S> out;
     Point<S> along = jet.u;
     Point<S> across = jet.v;

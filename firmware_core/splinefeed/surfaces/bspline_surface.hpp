@@ -45,6 +45,8 @@ Status check_surface(const BSplineSurface<S>& surface) noexcept;
 /// divide by the lengths: u / length_u, uv / (length_u length_v), uu / length_u^2.
 template <Scalar S>
 struct SurfaceJet {
+    std::size_t span_u = 0;
+    std::size_t span_v = 0;
     S length_u{};
     S length_v{};
     Point<S> position{};
@@ -75,7 +77,7 @@ struct SurfaceNormal {
 
 /// The normal at a point that was evaluated. Where S_u = 0 (an edge drawn together into a pole) the limit is that of
 /// S_uv x S_v, S_u growing by S_uv into the domain, and likewise for S_v; the sign is that of the side on which the
-/// domain lies. Errors: axes_out_of_range (not three axes at least), tangent_vanishes (both derivatives zero, or
+/// domain lies. A derivative is zero beside the net of its span and the rounding of its coordinates. Errors: axes_out_of_range (not three axes at least), tangent_vanishes (both derivatives zero, or
 /// parallel: no normal).
 /// @param at_end_u,at_end_v  the domain lies before u (v), not behind it
 template <Scalar S>
