@@ -106,7 +106,14 @@ double ToolSurface::highest_mm() const noexcept {
 
 // The principal curvatures are the eigenvalues of the second fundamental form (L M N) against the first (E F G).
 std::optional<double> ToolSurface::hollow(double along, double across) const {
-    const SurfaceJet<double> s = jet(along, across);
+    const double at_u = along_u_ ? along : across;
+    const double at_v = along_u_ ? across : along;
+    const SurfaceJet<double> s = evaluate(view_, at_u, at_v);
+    const auto found = normal_of(view_, s, !(at_u < view_.last_u()), !(at_v < view_.last_v()));
+    if (!found.has_value() || found->limit) { // what is left of a derivative is rounding
+        return std::nullopt;
+    }
+    const Vector n = plus({}, side_, found->direction);
     const double e = dot(s.u, s.u);
     const double f = dot(s.u, s.v);
     const double g = dot(s.v, s.v);
@@ -114,7 +121,6 @@ std::optional<double> ToolSurface::hollow(double along, double across) const {
     if (!(area_sq > 1e-18 * e * g) || !(e * g > 0.0)) {
         return std::nullopt;
     }
-    const Vector n = normal(along, across);
     const double l = dot(s.uu, n);
     const double m = dot(s.uv, n);
     const double k = dot(s.vv, n);

@@ -242,8 +242,8 @@ TEMPLATE_TEST_CASE("surface: the normal, its limit at a pole, and where there is
     CHECK(normal_at(line.surface, S{}, S{}).error() == Error::axes_out_of_range);
 }
 
-TEMPLATE_TEST_CASE("surface: a derivative is measured by the net of its span, not by the whole net", "[surface]", double,
-                   float, Fixed) {
+TEMPLATE_TEST_CASE("surface: a derivative is measured by the net of its span, not by the whole net", "[surface]",
+                   double, float, Fixed) {
     using S = TestType;
     const double fine = std::same_as<S, double> ? 1e-10 : 1e-3;
     Interpolated<S> uneven; // fine near the origin, coarse beyond

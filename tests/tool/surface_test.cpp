@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 using splinefeed::test::Call;
@@ -41,6 +42,29 @@ TEST_CASE("surface: the examples become tool paths that run as they are") {
         const Call run = tool("run " + options.substr(options.rfind("blade")) + " --summary json");
         CAPTURE(run.error);
         CHECK(run.status == 0);
+    }
+}
+
+TEST_CASE("surface: a pole is no hollow, wherever it lies") {
+    const Tool tool;
+    for (const double z : {0.0, 3.0, 7.3, 500.1}) {
+        nlohmann::json grid = nlohmann::json::array();
+        for (int i = 0; i < 6; ++i) {
+            nlohmann::json row = nlohmann::json::array();
+            for (int j = 0; j < 5; ++j) {
+                const double a = 0.2 * i;
+                const double b = 0.4 * j;
+                row.push_back(
+                    {20.0 * std::sin(a) * std::cos(b), 20.0 * std::sin(a) * std::sin(b), z + 20.0 * std::cos(a)});
+            }
+            grid.push_back(row);
+        }
+        tool.write("pole.json", nlohmann::json{{"method", "bspline_surface"}, {"input", {{"grid", grid}}}}.dump());
+        for (const std::string along : {"u", "v"}) {
+            const Call call = tool("surface pole.json --along " + along + " --lines 5 --ball-radius 3 -o pole.csv");
+            CAPTURE(z, along, call.error);
+            CHECK(call.status == 0);
+        }
     }
 }
 

@@ -77,8 +77,8 @@ struct SurfaceNormal {
 
 /// The normal at a point that was evaluated. Where S_u = 0 (an edge drawn together into a pole) the limit is that of
 /// S_uv x S_v, S_u growing by S_uv into the domain, and likewise for S_v; the sign is that of the side on which the
-/// domain lies. A derivative is zero beside the net of its span and the rounding of its coordinates. Errors: axes_out_of_range (not three axes at least), tangent_vanishes (both derivatives zero, or
-/// parallel: no normal).
+/// domain lies. A derivative is zero beside the net of its span and the rounding of its coordinates. Errors:
+/// axes_out_of_range (not three axes at least), tangent_vanishes (both derivatives zero, or parallel: no normal).
 /// @param at_end_u,at_end_v  the domain lies before u (v), not behind it
 template <Scalar S>
 [[nodiscard]] Result<SurfaceNormal<S>> normal_of(const BSplineSurface<S>& surface, const SurfaceJet<S>& jet,
