@@ -34,8 +34,8 @@ struct Contact {
 /// Points of the surface offset for the tool. Its normal is the side of the surface that looks up (z) on the whole.
 class ToolSurface {
 public:
-    /// Throws DescriptionError where the points have not three coordinates, or a ball would jump at a crease. `surface`
-    /// must outlive it.
+    /// Throws DescriptionError where the points have not three coordinates, a ball would jump at a crease, or has no
+    /// side: the mean of the normals is level within 1e-6. `surface` must outlive it.
     ToolSurface(const DescribedSurface& surface, const RasterOptions& options);
 
     /// Domain of the parameter along a line, and across.

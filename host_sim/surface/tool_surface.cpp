@@ -45,6 +45,7 @@ ToolSurface::ToolSurface(const DescribedSurface& surface, const RasterOptions& o
             "leave out --ball-radius");
     }
     double up = 0.0;
+    int normals = 0;
     constexpr int looks = 16;
     for (int i = 0; i <= looks; ++i) {
         for (int j = 0; j <= looks; ++j) {
@@ -54,7 +55,13 @@ ToolSurface::ToolSurface(const DescribedSurface& surface, const RasterOptions& o
             const auto found =
                 normal_at(view_, at(i, view_.first_u(), view_.last_u()), at(j, view_.first_v(), view_.last_v()));
             up += found.has_value() ? found->direction[2] : 0.0;
+            normals += found.has_value() ? 1 : 0;
         }
+    }
+    if (options.ball_radius_mm > 0.0 && std::fabs(up) < 1e-6 * normals) {
+        throw DescriptionError("the surface stands upright: its normals look neither up nor down on the whole, so that "
+                               "no side is the ball's; tilt it so that the side to be cut looks up, or leave out "
+                               "--ball-radius");
     }
     side_ = up < 0.0 ? -1.0 : 1.0;
 }

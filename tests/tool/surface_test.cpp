@@ -127,4 +127,5 @@ TEST_CASE("surface: what is wrong is told in one line, and nothing is written") 
     file(head + "[[[0,0],[1,0]], [[0,1],[1,1]]]}}", "a tool path needs x, y and z", "--along u --lines 3");
     file(head + "[[[0,0,0],[1,0,0],[2,0,1]], [[0,1,0],[1,1,0],[2,1,1]]], \"degree_v\": 1}}", "creases",
          "--along u --lines 3 --ball-radius 1");
+    file(head + "[[[0,0,0],[1,0,0]], [[0,0,1],[1,0,1]]]}}", "stands upright", "--along u --lines 3 --ball-radius 1");
 }
