@@ -14,6 +14,7 @@ namespace {
 using Vector = Point<double>;
 
 constexpr int most_lines = 100000;
+constexpr double most_waypoints = 1e8;
 constexpr double same_point_mm = 1e-4; // as the core merges waypoints
 
 double apart(const Vector& a, const Vector& b) {
@@ -62,7 +63,9 @@ Places places_of(const ToolSurface& surface, const Stretch& stretch) {
             length.push_back(length.back() + apart(before, here));
             before = here;
         }
-        const int count = std::max(1, static_cast<int>(std::ceil(length.back() * 1.001 / surface.options().step_mm)));
+        const double steps = std::ceil(length.back() * 1.001 / surface.options().step_mm);
+        require_count(static_cast<double>(places.parameters.size()) + steps);
+        const int count = std::max(1, static_cast<int>(steps));
         std::size_t slot = 0;
         for (int j = 1; j < count; ++j) {
             const double target = length.back() * j / count;
@@ -96,8 +99,10 @@ void require_fit(const ToolSurface& surface, double along, double across) {
 }
 
 // In every knot span, as a hollow may be narrower than a step, and at every place the path will have.
-void require_fit(const ToolSurface& surface, const Stretch& stretch) {
+// Returns how many the latter are.
+std::size_t require_fit(const ToolSurface& surface, const Stretch& stretch) {
     std::vector<double> looks = places_of(surface, stretch).parameters;
+    const std::size_t count = looks.size();
     const auto [low, high] = std::minmax(stretch.from, stretch.to);
     const std::vector<double> within = span_places(surface.view(), direction(surface, stretch), low, high, 8, 48);
     looks.insert(looks.end(), within.begin(), within.end());
@@ -105,9 +110,17 @@ void require_fit(const ToolSurface& surface, const Stretch& stretch) {
         const bool along = stretch.kind == Stretch::Kind::along;
         require_fit(surface, along ? t : stretch.constant, along ? stretch.constant : t);
     }
+    return count;
 }
 
 } // namespace
+
+void require_count(double count) {
+    if (!(count <= most_waypoints)) { // not a number, too
+        throw DescriptionError(fmt::format(
+            "the path needs more than {:.0f} waypoints; take a larger --step, or fewer lines", most_waypoints));
+    }
+}
 
 std::vector<double> line_parameters(const ToolSurface& surface) {
     const double first = surface.first_across();
@@ -186,9 +199,11 @@ std::vector<Stretch> raster(const ToolSurface& surface) {
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, up, over});
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, over, next});
     }
+    double count = 0.0;
     for (const Stretch& stretch : path) {
         if (surface.options().ball_radius_mm > 0.0 && stretch.kind != Stretch::Kind::straight) {
-            require_fit(surface, stretch);
+            count += static_cast<double>(require_fit(surface, stretch));
+            require_count(count);
         }
     }
     return path;
@@ -214,6 +229,7 @@ std::vector<ToolPoint> waypoints(const ToolSurface& surface, const std::vector<S
             continue;
         }
         const Places places = places_of(surface, stretch);
+        require_count(static_cast<double>(points.size() + places.parameters.size()));
         for (std::size_t i = 0; i < places.parameters.size(); ++i) {
             const bool end = i == 0 || i + 1 == places.parameters.size();
             add(at(surface, stretch, places.parameters[i]), end || places.creases[i]);

@@ -99,8 +99,11 @@ struct Stretch {
 [[nodiscard]] std::vector<double> line_parameters(const ToolSurface& surface);
 
 /// The whole path in order. Throws DescriptionError: the ball does not fit into a hollow of the surface, looked for at
-/// every waypoint and at 9 places in every knot span that the path runs through.
+/// every waypoint and at 9 places in every knot span that the path runs through; more than 100 million waypoints.
 [[nodiscard]] std::vector<Stretch> raster(const ToolSurface& surface);
+
+/// Throws DescriptionError: so many waypoints are more than 100 million.
+void require_count(double count);
 
 /// Parameters of the waypoints of a stretch that is not straight, both ends included.
 [[nodiscard]] std::vector<double> stretch_parameters(const ToolSurface& surface, const Stretch& stretch);

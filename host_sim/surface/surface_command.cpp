@@ -43,12 +43,18 @@ DescribedSurface read_surface(const std::string& file, ScalarKind scalar) {
     return describe_surface(method->get<std::string>(), *input, scalar);
 }
 
-void require_place(const Point<double>& point) {
+void require_place(const Point<double>& point, std::string_view what = "the path goes to") {
     for (const double x : point) {
         if (!position_representable(x)) {
-            throw DescriptionError(
-                fmt::format("the path goes to {:.6g} mm; a position must lie within +-1048576 mm", x));
+            throw DescriptionError(fmt::format("{} {:.6g} mm; a position must lie within +-1048576 mm", what, x));
         }
+    }
+}
+
+// Before lengths and counts are made of them: the surface lies in the hull of its net.
+void require_places(const std::vector<Point<double>>& net) {
+    for (const Point<double>& point : net) {
+        require_place(point, "a control point of the surface lies at");
     }
 }
 
@@ -88,6 +94,7 @@ int run_surface(const std::string& input, const SurfaceArguments& arguments, Sca
             file.append(surface_report(surface).dump());
             file.append("\n");
         } else {
+            require_places(surface.net);
             const ToolSurface tool(surface, *options);
             const std::vector<Stretch> path = raster(tool);
             const std::string suffix = ".json";

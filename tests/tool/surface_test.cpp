@@ -127,5 +127,11 @@ TEST_CASE("surface: what is wrong is told in one line, and nothing is written") 
     file(head + "[[[0,0],[1,0]], [[0,1],[1,1]]]}}", "a tool path needs x, y and z", "--along u --lines 3");
     file(head + "[[[0,0,0],[1,0,0],[2,0,1]], [[0,1,0],[1,1,0],[2,1,1]]], \"degree_v\": 1}}", "creases",
          "--along u --lines 3 --ball-radius 1");
+    file(head + "[[[0,0,0],[2e9,0,0]], [[0,1,0],[2e9,1,0]]]}}", "lies at 2e+09 mm; a position must lie within",
+         "--along v --lines 2");
+    const char* const countless = "more than 100000000 waypoints";
+    file(head + "[[[0,0,0],[1e6,0,0]], [[0,1,0],[1e6,1,0]]]}}", countless,
+         "--along v --lines 2 --step 0.001 --ball-radius 1");
+    refused("g.json -o out.csv --along v --lines 2 --step 0.001", countless); // a .json has no waypoints without a ball
     file(head + "[[[0,0,0],[1,0,0]], [[0,0,1],[1,0,1]]]}}", "stands upright", "--along u --lines 3 --ball-radius 1");
 }
