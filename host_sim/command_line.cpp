@@ -241,7 +241,9 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
     CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
     surface->add_option("FILE", job.input, "a grid or sections (.json); - reads standard input")->required();
+    surface->add_option("--format", typed.format, "json: what the input is, whatever its name");
     add_surface_options(*surface, job.surface);
+    surface->add_flag("--quiet", job.quiet, "no warnings on standard error")->disable_flag_override();
     surface->add_option("--scalar", typed.scalar,
                         "fixed, float or double: what parameters, knots and control points are computed in (default "
                         "double)");
@@ -301,6 +303,9 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (command.get_name() == "surface") {
         job.command = Command::surface;
         static_cast<void>(choose_raster(job.surface));
+        if (!typed.format.empty() && typed.format != "json") {
+            throw UsageError(fmt::format("--format {}: a surface is described in json", in_quotes(typed.format)));
+        }
         take_scalar(job, typed.scalar.value_or("double"));
         return job;
     }

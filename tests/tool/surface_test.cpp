@@ -45,6 +45,20 @@ TEST_CASE("surface: the examples become tool paths that run as they are") {
     }
 }
 
+TEST_CASE("surface: standard input is read as json, by name or without") {
+    const Tool tool;
+    const Call named = tool("surface '" + examples + "dome.json'");
+    for (const std::string options : {"-", "- --format json", "--format json --quiet -"}) {
+        const Call piped = tool.shell("'" SPLINEFEED_TOOL "' surface " + options + " < '" + examples + "dome.json'");
+        CAPTURE(options, piped.error);
+        CHECK(piped.status == 0);
+        CHECK(piped.output == named.output);
+    }
+    const Call csv = tool("surface '" + examples + "dome.json' --format csv");
+    CHECK(csv.status == 2);
+    CHECK(contains(csv.error, "--format 'csv': a surface is described in json"));
+}
+
 TEST_CASE("surface: a pole is no hollow, wherever it lies") {
     const Tool tool;
     for (const double z : {0.0, 3.0, 7.3, 500.1}) {
