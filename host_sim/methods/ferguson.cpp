@@ -45,7 +45,7 @@ std::vector<FergusonJoint<double>> joints_in(const json& input, const PointList&
     }
     for (std::size_t i = 0; is_auto(input, "mu") && i < count; ++i) {
         const double before = i > 0 || closed ? joints[(i + count - 1) % count].lambda : 1.0;
-        joints[i].mu = stable_mu(0.0, joints[i].delta, joints[i].lambda, before, closed);
+        joints[i].mu = stable_mu(0.0, joints[i].delta, joints[i].lambda, before);
     }
     return joints;
 }
@@ -155,9 +155,10 @@ DescribedCurve describe_ferguson(const json& input) {
     const Status status = ferguson<S>({points, joints, curve.closed, unit.in(ends[0]), unit.in(ends[1])},
                                       {in, out, pieces, system}, report);
     if (status.error() == Error::system_singular) {
-        throw DescriptionError(fmt::format("the system for the tangents is singular, or nearly so, at point {}; use "
-                                           "another \"mu\" or \"delta\" there, or \"mu\": \"auto\"",
-                                           report.weakest_knot + 1));
+        throw DescriptionError(fmt::format(
+            "the system for the tangents is singular, or nearly so, at point {}; use {}", report.weakest_knot + 1,
+            is_auto(input, "mu") ? "a \"lambda\" nearer to 1 there"
+                                 : "another \"mu\" or \"delta\" there, or \"mu\": \"auto\""));
     }
     require(status);
     pieces.resize(report.segments);

@@ -103,11 +103,11 @@ void estimate_end_tangents(std::span<const Point<S>> points, std::span<const Fer
 template <Scalar S>
 [[nodiscard]] int automatic_sign(std::span<const Point<S>> points, std::size_t knot, bool closed) noexcept;
 
-/// The mu nearest to `wish` for which the system is known to be regular. Open: |2(mu/4 + delta lambda^2 + lambda)| >= 2
-/// lambda^(3/2) max(1, (lambda/lambda_before)^(1/2)), so that by induction every pivot keeps half of its diagonal
-/// entry; with one lambda that is mu >= 4 lambda^(3/2) - 4 delta lambda^2 - 4 lambda or mu <= -4 lambda^(3/2) - 4 delta
-/// lambda^2 - 4 lambda, sharper than dominance. Closed: dominance, lambda^2 lambda_before + 1, and a little more.
+/// The mu nearest to `wish` with which the row dominates by a sixteenth: |2(mu/4 + delta lambda^2 + lambda)| >= 17/16
+/// (lambda^2 lambda_before + 1), (10) as corrected. Where all rows do, open or closed, the influence of a point fades
+/// along the curve, and with one lambda the condition is at most 33. The weaker 2 lambda^(3/2) only keeps pivots from
+/// zero: unless lambda is 1 errors may still grow from knot to knot.
 template <Scalar S>
-[[nodiscard]] S stable_mu(S wish, int delta, S lambda, S lambda_before, bool closed) noexcept;
+[[nodiscard]] S stable_mu(S wish, int delta, S lambda, S lambda_before) noexcept;
 
 } // namespace splinefeed

@@ -78,16 +78,12 @@ int automatic_sign(std::span<const Point<S>> points, std::size_t knot, bool clos
 }
 
 template <Scalar S>
-S stable_mu(S wish, int delta, S lambda, S lambda_before, bool closed) noexcept {
+S stable_mu(S wish, int delta, S lambda, S lambda_before) noexcept {
     const FergusonJoint<S> joint{lambda, wish, delta};
-    const S diagonal = ferguson_row(joint, lambda_before).on;
-    const S square = lambda * lambda;
-    S bound = square * lambda_before + literal<S>(1.0625);
-    if (!closed) {
-        const S root = square_root(lambda);
-        const S ratio = larger(literal<S>(1), root / square_root(lambda_before));
-        bound = (lambda * root + lambda * root) * ratio;
-    }
+    const CyclicRow<S> row = ferguson_row(joint, lambda_before);
+    const S diagonal = row.on;
+    const S others = absolute(row.below) + row.above;
+    const S bound = others + scale2(others, -4);
     if (absolute(diagonal) >= bound) {
         return wish;
     }
@@ -100,7 +96,7 @@ S stable_mu(S wish, int delta, S lambda, S lambda_before, bool closed) noexcept 
     template void estimate_end_tangents<S>(std::span<const Point<S>>, std::span<const FergusonJoint<S>>, Point<S>&,    \
                                            Point<S>&) noexcept;                                                        \
     template int automatic_sign<S>(std::span<const Point<S>>, std::size_t, bool) noexcept;                             \
-    template S stable_mu<S>(S, int, S, S, bool) noexcept;
+    template S stable_mu<S>(S, int, S, S) noexcept;
 SPLINEFEED_INSTANTIATE(double)
 SPLINEFEED_INSTANTIATE(float)
 SPLINEFEED_INSTANTIATE(Fixed)
