@@ -38,7 +38,8 @@ std::vector<FergusonJoint<double>> joints_in(const json& input, const PointList&
         if (!(lambda[i] > 0.0)) {
             throw DescriptionError(fmt::format("\"lambda\", number {}: it must be positive", i + 1));
         }
-        joints[i] = {lambda[i], mu[i], delta[i] > 0.0 ? 1 : -1};
+        // What is out of the range of every scalar stays so, and the end tangents that follow from it within theirs.
+        joints[i] = {std::clamp(lambda[i], 0x1p-21, 0x1p21), mu[i], delta[i] > 0.0 ? 1 : -1};
         if (is_auto(input, "delta")) {
             joints[i].delta = automatic_sign<double>(list.points, closed ? i : i + 1, closed);
         }
@@ -140,10 +141,8 @@ DescribedCurve describe_ferguson(const json& input) {
     const Unit<S> unit(scale.largest(), 128.0); // 2^17 to 2^18 in Fixed
     std::vector<FergusonJoint<S>> joints;
     for (const FergusonJoint<double>& joint : exact) {
-        if (std::same_as<S, Fixed> && !(std::fabs(joint.mu) < 1e9 && joint.lambda < 1e9)) {
-            require(Error::parameters_invalid);
-        }
-        joints.push_back({from_double<S>(joint.lambda), from_double<S>(joint.mu), joint.delta});
+        const double far = std::same_as<S, Fixed> ? 0x1p17 : 0x1p61; // beyond the range, and S can hold it
+        joints.push_back({from_double<S>(joint.lambda), from_double<S>(std::clamp(joint.mu, -far, far)), joint.delta});
     }
     const std::vector<Point<S>> points = unit.in(list);
     const std::size_t n = points.size();

@@ -41,6 +41,9 @@ const char* describe(Error error) noexcept {
     case Error::closed_chain_overlaps:
         return "a closed chain needs polygons of degree 2 order + 1 at least (5 for G2), or its joints overlap";
     case Error::lambda_not_positive: return "lambda must be greater than 0";
+    case Error::lambda_or_mu_out_of_range:
+        return "lambda must lie between 2^-20 and 2^20 and mu between -2^60 and 2^60, in fixed-point numbers lambda "
+               "between 1/16 and 16 and mu between -65536 and 65536";
     case Error::curvature_sign_invalid: return "a curvature sign must be 1 or -1";
     case Error::system_singular:
         return "the system of equations is singular for these points and parameters; change a parameter or a point";

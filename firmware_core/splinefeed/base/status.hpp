@@ -41,6 +41,7 @@ enum class Error : std::uint8_t {
     beta2_out_of_range,
     closed_chain_overlaps,
     lambda_not_positive,
+    lambda_or_mu_out_of_range,
     curvature_sign_invalid,
     system_singular,
     schoenberg_whitney,

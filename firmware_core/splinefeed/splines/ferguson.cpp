@@ -28,7 +28,7 @@ Status check(const FergusonJoint<S>& joint) noexcept {
         return Error::curvature_sign_invalid;
     }
     if (joint.lambda > most_lambda || joint.lambda < least_lambda || !within(joint.mu, most_mu)) {
-        return Error::parameters_invalid;
+        return Error::lambda_or_mu_out_of_range;
     }
     return {};
 }

@@ -83,8 +83,9 @@ template <Scalar S>
 /// least, a repeated closing point is dropped. Parameters are uniform: neighbours at distance 0 are a loop, not an
 /// error. Fixed: |coordinates|, |tangents| <= 2^18. Tangents are accurate to condition * rounding. Errors:
 /// too_few_points, position_out_of_range, tangent_out_of_range (NaN, infinity, out of range), lambda_not_positive (or
-/// NaN), curvature_sign_invalid, parameters_invalid (lambda, mu out of range, number of joints), storage_too_small,
-/// system_singular (report.weakest_knot), result_out_of_range. Cost: solve_cyclic and 12 products per point and axis.
+/// NaN), curvature_sign_invalid, lambda_or_mu_out_of_range (FergusonJoint; a mu that is NaN), parameters_invalid
+/// (number of joints), storage_too_small, system_singular (report.weakest_knot), result_out_of_range. Cost:
+/// solve_cyclic and 12 products per point and axis.
 template <Scalar S>
 [[nodiscard]] Status ferguson(const FergusonInput<S>& input, const FergusonOutput<S>& out,
                               FergusonReport<S>& report) noexcept;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// What a description is refused for, in the words that name the reason and the limits.
+#include "host_sim/methods/method_table.hpp"
+
+#include "support/catch.hpp"
+
+using namespace splinefeed::host;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::array every_scalar{ScalarKind::fixed, ScalarKind::single, ScalarKind::dual};
+
+/// The sentence; empty where the curve is made.
+std::string refusal(const char* method, const json& input, ScalarKind scalar) {
+    try {
+        static_cast<void>(describe_curve(method, input, scalar));
+    } catch (const DescriptionError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool mentions(const std::string& sentence, const char* words) {
+    INFO(sentence);
+    return sentence.find(words) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("Refusals: lambda and mu of Ferguson curves by their limits", "[methods][refusals]") {
+    const json points = {{0, 0}, {1, 2}, {3, 2}, {4, 0}, {6, 1}};
+    for (const ScalarKind scalar : every_scalar) {
+        const double usual_mu = 0.0;
+        for (const double lambda : {1e7, 1e-7, 1e200, 1e-200}) {
+            const json input{{"points", points}, {"lambda", lambda}, {"mu", usual_mu}};
+            CHECK(mentions(refusal("ferguson", input, scalar), "lambda between 1/16 and 16 and mu between"));
+        }
+        for (const double mu : {1e19, -1e19, 1e300}) {
+            CHECK(mentions(refusal("ferguson", {{"points", points}, {"mu", mu}}, scalar), "lambda must lie between"));
+        }
+    }
+    CHECK(refusal("ferguson", {{"points", points}, {"lambda", 1e5}}, ScalarKind::dual).find("lie between") ==
+          std::string::npos);
+}
+
+TEST_CASE("Refusals: automatic mu is not advised to whom it did not help", "[methods][refusals]") {
+    json points;
+    for (int i = 0; i < 60; ++i) {
+        points.push_back({i, (i * 7) % 5});
+    }
+    for (const ScalarKind scalar : every_scalar) {
+        for (const double lambda : {0.0625, 0.5, 1.0, 2.0, 4.0, 16.0}) {
+            for (const int delta : {1, -1}) {
+                CAPTURE(lambda, delta);
+                const json input{{"points", points}, {"lambda", lambda}, {"delta", delta}, {"mu", "auto"}};
+                CHECK(refusal("ferguson", input, scalar).empty());
+            }
+        }
+    }
+    const json singular{{"points", {{0, 0}, {1, 2}, {3, 2}}}, {"delta", -1}, {"mu", 0}};
+    CHECK(mentions(refusal("ferguson", singular, ScalarKind::dual), "or \"mu\": \"auto\""));
+}
