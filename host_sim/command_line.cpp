@@ -68,7 +68,8 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
            "of bspline, 2 or 3, bspline-interpolation, 1 to 9, beta-chain, 2 to 9 (default 3)");
     option("--knots", curve.knots, "of bspline-interpolation: uniform or averaged (default averaged)");
     option("--tension", curve.tension,
-           "of catmull-rom, 0 to 10 (default 0.5); factor of catmull-rom-modified (default 1)");
+           "of catmull-rom, 0 to 10 (default 0.5); factor of catmull-rom-modified, 0 to 2, constant 0 to 65536 mm "
+           "(default 1)");
     option("--factor", curve.factor,
            "of catmull-rom-modified: chord, the tension times each chord, or constant, the tension in mm (default "
            "chord)");

@@ -4,7 +4,7 @@
 
 #include "splinefeed/splines/catmull_rom_modified.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -25,6 +25,20 @@ nlohmann::ordered_json joints_in_s(const DescribedCurve& curve, const std::vecto
         classes.push_back(joint["class"]);
     }
     return classes;
+}
+
+// As the core has them, in mm.
+template <Scalar S>
+void require_in_range(double factor, bool chord_mode, const Unit<S>& unit) {
+    const double most = chord_mode ? 2.0 : std::same_as<S, Fixed> ? std::ldexp(1.0, 20 + unit.exponent()) : 0x1p20;
+    if (factor < 0.0 || factor > most) {
+        throw DescriptionError(fmt::format("\"factor\" is {:g}; {} must lie between 0 and {:.10g}{}", factor,
+                                           chord_mode ? "with \"mode\": \"chord\" it" : "as a constant length it", most,
+                                           chord_mode ? ""
+                                           : std::same_as<S, Fixed>
+                                               ? " mm in fixed-point numbers with these points; use --scalar double"
+                                               : " mm"));
+    }
 }
 
 } // namespace
@@ -52,7 +66,8 @@ DescribedCurve describe_catmull_rom_modified(const nlohmann::json& input) {
     const Unit<S> unit(list.largest(), 128.0);
     ModifiedTangents<S> tangents;
     tangents.mode = chord_mode ? ChordFactor::chord : ChordFactor::constant;
-    tangents.factor = chord_mode ? from_double<S>(std::clamp(factor, -1.0, 3.0)) : unit.in(factor);
+    require_in_range(factor, chord_mode, unit);
+    tangents.factor = chord_mode ? from_double<S>(factor) : unit.in(factor);
     const std::vector<Point<S>> points = unit.in(list);
     std::vector<S> chords(points.size());
     std::vector<Point<S>> derivatives(points.size());

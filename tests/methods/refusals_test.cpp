@@ -62,3 +62,22 @@ TEST_CASE("Refusals: automatic mu is not advised to whom it did not help", "[met
     const json singular{{"points", {{0, 0}, {1, 2}, {3, 2}}}, {"delta", -1}, {"mu", 0}};
     CHECK(mentions(refusal("ferguson", singular, ScalarKind::dual), "or \"mu\": \"auto\""));
 }
+
+TEST_CASE("Refusals: the factor of modified Catmull-Rom curves by its limits", "[methods][refusals]") {
+    const json points = {{0, 0}, {1, 1}, {3, 4}};
+    const auto with = [&](const char* mode, double factor, ScalarKind scalar) {
+        return refusal("catmull_rom_modified", {{"points", points}, {"mode", mode}, {"factor", factor}}, scalar);
+    };
+    for (const ScalarKind scalar : every_scalar) {
+        CHECK(with("chord", 2.0, scalar).empty());
+        CHECK(mentions(with("chord", 2.5, scalar), "\"chord\" it must lie between 0 and 2"));
+        CHECK(mentions(with("chord", -1e300, scalar), "\"chord\" it must lie between 0 and 2"));
+        CHECK(mentions(with("constant", -1.0, scalar), "as a constant length it must lie between 0 and"));
+        CHECK(mentions(with("constant", 1e300, scalar), "as a constant length it must lie between 0 and"));
+        CHECK(with("constant", 16.0, scalar).empty());
+    }
+    // A coordinate of 4 becomes 2^17 units, the limit is 2^20 of them.
+    CHECK(mentions(with("constant", 50.0, ScalarKind::fixed), "between 0 and 32 mm in fixed-point numbers"));
+    CHECK(with("constant", 32.0, ScalarKind::fixed).empty());
+    CHECK(with("constant", 50.0, ScalarKind::dual).empty());
+}

@@ -211,14 +211,14 @@ TEMPLATE_TEST_CASE("modified catmull-rom: degenerate inputs", "[splines][catmull
             auto points = good;
             points[2][1] = bad;
             REQUIRE(make<S>(points, false).error == Error::position_out_of_range);
-            REQUIRE(make<S>(good, false, {ChordFactor::chord, bad}).error == Error::tension_out_of_range);
+            REQUIRE(make<S>(good, false, {ChordFactor::chord, bad}).error == Error::factor_out_of_range);
         }
     }
     auto far = good;
     far[3][0] = from_double<S>(std::same_as<S, Fixed> ? 0x1.1p18 : 0x1.1p40);
     REQUIRE(make<S>(far, false).error == Error::position_out_of_range);
-    REQUIRE(make<S>(good, false, {ChordFactor::chord, from_double<S>(-0.5)}).error == Error::tension_out_of_range);
-    REQUIRE(make<S>(good, false, {ChordFactor::chord, from_double<S>(2.5)}).error == Error::tension_out_of_range);
+    REQUIRE(make<S>(good, false, {ChordFactor::chord, from_double<S>(-0.5)}).error == Error::factor_out_of_range);
+    REQUIRE(make<S>(good, false, {ChordFactor::chord, from_double<S>(2.5)}).error == Error::factor_out_of_range);
     // Storage.
     std::vector<S> chords(4);
     std::vector<Point<S>> derivatives(4);

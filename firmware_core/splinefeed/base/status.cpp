@@ -24,6 +24,9 @@ const char* describe(Error error) noexcept {
     case Error::steps_out_of_range: return "steps_per_mm must lie between 0.001 and 1000000";
     case Error::corner_angle_out_of_range: return "the corner angle must lie between 0 and 180 degrees";
     case Error::tension_out_of_range: return "the tension must lie between 0 and 10";
+    case Error::factor_out_of_range:
+        return "the factor of a modified Catmull-Rom curve must lie between 0 and 2, a constant one between 0 and "
+               "1048576";
     case Error::tangent_out_of_range: return "each component of an end tangent must lie between -100 and 100";
     case Error::too_few_waypoints: return "a path needs two different waypoints, a closed one three";
     case Error::degree_out_of_range: return "a Bezier segment has degree 1 to 9";

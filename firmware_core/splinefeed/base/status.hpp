@@ -28,6 +28,7 @@ enum class Error : std::uint8_t {
     steps_out_of_range,
     corner_angle_out_of_range,
     tension_out_of_range,
+    factor_out_of_range,
     tangent_out_of_range,
     too_few_waypoints,
     degree_out_of_range,

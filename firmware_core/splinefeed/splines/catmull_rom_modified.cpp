@@ -80,7 +80,7 @@ Result<std::size_t> modified_catmull_rom(std::span<const Point<S>> points, bool 
     // The doubles of the point list's limits: a leg is at most factor * h, h at most sqrt(6) times a chord.
     const S most = tangents.mode == ChordFactor::chord ? literal<S>(2) : literal<S>(0x1p20);
     if (!(tangents.factor >= S{} && tangents.factor <= most)) {
-        return Error::tension_out_of_range;
+        return Error::factor_out_of_range;
     }
     const std::size_t count = closed ? closed_count(points) : points.size();
     if (count < (closed ? 3U : 2U)) {

@@ -78,7 +78,7 @@ struct ModifiedCurve {
 /// 1), three points give one parabola, two a straight line. Closed: three points at least; a repeated closing point is
 /// dropped.
 /// Errors: too_few_points, position_out_of_range (NaN, infinity, beyond farthest_coordinate), coincident_points (two
-/// neighbours at distance 0: the difference divides by it; merge them before), tension_out_of_range, storage_too_small.
+/// neighbours at distance 0: the difference divides by it; merge them before), factor_out_of_range, storage_too_small.
 /// Cost: per point two divisions per axis and a square root.
 template <Scalar S>
 [[nodiscard]] Result<std::size_t> modified_catmull_rom(std::span<const Point<S>> points, bool closed,
