@@ -72,17 +72,27 @@ double length_of(const DescribedCurve& curve, std::size_t piece) {
     return curve.intervals.empty() ? 1.0 : curve.intervals[piece].to - curve.intervals[piece].from;
 }
 
+/// Of the position and the first two derivatives of a piece by its parameter: a small piece is not blurred by a large
+/// neighbour.
+struct Rounding {
+    double position;
+    double first;
+    double second;
+};
+
+Rounding rounding_of(const BezierPiece<double>& piece, const Agreement& agreement) {
+    const double e = agreement.rounding * magnitude(piece);
+    return {e, 2.0 * piece.degree * e, 4.0 * piece.degree * std::max(piece.degree - 1, 1) * e};
+}
+
 nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& agreement, std::size_t from,
                                 std::size_t to) {
     const BezierPiece<double>& before = curve.pieces[from];
     const BezierPiece<double>& after = curve.pieces[to];
     const CurveSample end = sample_of(before, curve.axes, 1.0);
     const CurveSample start = sample_of(after, curve.axes, 0.0);
-    // Rounding of positions and of the first two derivatives by the local parameters.
-    const double e = agreement.rounding * std::max(magnitude(before), magnitude(after));
-    const int degree = std::max(before.degree, after.degree);
-    const double e1 = 2.0 * degree * e;
-    const double e2 = 4.0 * degree * std::max(degree - 1, 1) * e;
+    const Rounding e0 = rounding_of(before, agreement);
+    const Rounding e1 = rounding_of(after, agreement);
     const double h0 = length_of(curve, from);
     const double h1 = length_of(curve, to);
     const Vector q1 = times(1.0 / h0, end.first);
@@ -94,10 +104,10 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
     };
     const double d1_jump = size(minus(r1, q1));
     const double d2_jump = size(minus(r2, q2));
-    const bool c0 = size(minus(start.point, end.point)) <= 10.0 * e;
-    const bool c1 = c0 && agree(d1_jump, size(q1), size(r1), e1 * (1.0 / h0 + 1.0 / h1));
-    const bool c2 = c1 && agree(d2_jump, size(q2), size(r2), e2 * (1.0 / (h0 * h0) + 1.0 / (h1 * h1)));
-    const bool regular = end.regular && start.regular && size(end.first) > e1 && size(start.first) > e1;
+    const bool c0 = size(minus(start.point, end.point)) <= 10.0 * std::max(e0.position, e1.position);
+    const bool c1 = c0 && agree(d1_jump, size(q1), size(r1), e0.first / h0 + e1.first / h1);
+    const bool c2 = c1 && agree(d2_jump, size(q2), size(r2), e0.second / (h0 * h0) + e1.second / (h1 * h1));
+    const bool regular = end.regular && start.regular && size(end.first) > e0.first && size(start.first) > e1.first;
     nlohmann::ordered_json joint;
     joint["from"] = from;
     joint["to"] = to;
@@ -114,10 +124,11 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
         const double n0 = size(end.first);
         const double n1 = size(start.first);
         const Vector turn = minus(times(1.0 / n1, start.first), times(1.0 / n0, end.first));
-        g1 = c0 && size(turn) <= agreement.relative + e1 / n0 + e1 / n1;
+        g1 = c0 && size(turn) <= agreement.relative + e0.first / n0 + e1.first / n1;
         const double k0 = size(end.curvature);
         const double k1 = size(start.curvature);
-        const double noise = e2 * (1.0 / (n0 * n0) + 1.0 / (n1 * n1)) + 3.0 * e1 * (k0 / n0 + k1 / n1);
+        const double noise =
+            e0.second / (n0 * n0) + e1.second / (n1 * n1) + 3.0 * (e0.first * k0 / n0 + e1.first * k1 / n1);
         const double jump = size(minus(start.curvature, end.curvature));
         g2 = g1 && agree(jump, k0, k1, noise);
         abs_kappa = c0 && agree(std::fabs(k1 - k0), k0, k1, noise);

@@ -112,3 +112,14 @@ TEST_CASE("beta_chain: a bad description is refused in a sentence", "[methods][b
     CHECK_THROWS_AS(describe_curve("beta_chain", wide, ScalarKind::fixed), DescriptionError);
     CHECK_NOTHROW(describe_curve("beta_chain", wide, ScalarKind::dual));
 }
+
+// The second segment is 3e7 times as large as the first, which has a tangent all the same.
+TEST_CASE("beta_chain: a small segment beside a large one is regular in every scalar", "[methods][beta_chain]") {
+    const auto input = nlohmann::json::parse(R"({"degree": 3, "first_polygon": [[0, 0], [1, 2], [3, 2], [4, 0]],
+                                       "free_points": [[[9, 0]]], "betas": [{"beta1": 8000, "beta2": 0}]})");
+    for (const ScalarKind scalar : {ScalarKind::fixed, ScalarKind::single, ScalarKind::dual}) {
+        const DescribedCurve curve = describe_curve("beta_chain", input, scalar);
+        CHECK(curve.results["joints"][0]["class"] == "G2");
+        CHECK(curve.results["joints"][0]["regular"] == true);
+    }
+}
