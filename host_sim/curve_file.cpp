@@ -55,9 +55,18 @@ private:
         }
         const auto& name = method.get_ref<const std::string&>();
         if (name == "bezier") {
+            require_known_keys(*input);
             segments(*input);
         } else {
             curve_ = compute_curve(name, *input, scalar_, file_);
+        }
+    }
+
+    void require_known_keys(const json& input) const {
+        try {
+            require_known(input, {"segments", "closed"});
+        } catch (const DescriptionError& error) {
+            fail(error.what());
         }
     }
 

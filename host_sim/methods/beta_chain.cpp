@@ -50,6 +50,7 @@ void take(Chain& chain, std::vector<PerAxis<double>>& out, const json& array, co
 }
 
 Chain read(const json& input) {
+    require_known(input, {"degree", "order", "first_polygon", "free_points", "betas", "closed"});
     Chain chain;
     chain.degree = integer_in(input, "degree", 1, max_degree);
     chain.order = integer_in(input, "order", 1, 2, 2);
@@ -80,6 +81,7 @@ Chain read(const json& input) {
             throw DescriptionError(
                 fmt::format("\"betas\", joint {} must be an object with \"beta1\" and \"beta2\"", j + 1));
         }
+        require_known(betas[j], {"beta1", "beta2"}, fmt::format("\"betas\", joint {}", j + 1));
         chain.betas.push_back({number_in(betas[j], "beta1"), number_in(betas[j], "beta2", 0.0)});
     }
     return chain;

@@ -10,6 +10,7 @@ namespace splinefeed::host {
 template <Scalar S>
 DescribedCurve describe_boehm(const nlohmann::json& input) {
     DescribedCurve curve;
+    require_known(input, {"vertices", "degree", "closed"});
     curve.closed = flag_in(input, "closed", false);
     const int degree = integer_in(input, "degree", 2, 3, 3);
     const std::size_t fewest = curve.closed ? 3 : static_cast<std::size_t>(degree) + 1;

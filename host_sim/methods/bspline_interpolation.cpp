@@ -59,6 +59,8 @@ void read_degree(const json& input, Request& request) {
 }
 
 Request read_request(const json& input) {
+    require_known(input, {"points", "degree", "parameters", "knots", "domain_length", "derivative_start",
+                          "derivative_end", "closed"});
     Request request;
     request.list = points_in(input, "points", 2);
     request.kind.closed = flag_in(input, "closed", false);

@@ -8,6 +8,7 @@ namespace splinefeed::host {
 template <Scalar S>
 DescribedCurve describe_catmull_rom(const nlohmann::json& input) {
     DescribedCurve curve;
+    require_known(input, {"points", "tension", "closed"});
     curve.closed = flag_in(input, "closed", false);
     PointList list = points_in(input, "points", 2);
     if (curve.closed) {

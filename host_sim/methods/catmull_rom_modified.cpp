@@ -46,6 +46,7 @@ void require_in_range(double factor, bool chord_mode, const Unit<S>& unit) {
 template <Scalar S>
 DescribedCurve describe_catmull_rom_modified(const nlohmann::json& input) {
     DescribedCurve curve;
+    require_known(input, {"points", "mode", "factor", "closed"});
     curve.closed = flag_in(input, "closed", false);
     PointList list = points_in(input, "points", 2);
     if (curve.closed) {

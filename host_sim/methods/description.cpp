@@ -34,6 +34,15 @@ void require_present(const json& value, const char* key, std::string_view kind) 
 
 } // namespace
 
+void require_known(const json& object, std::initializer_list<std::string_view> known, std::string_view what) {
+    for (const auto& [key, value] : object.items()) {
+        if (std::find(known.begin(), known.end(), key) == known.end()) {
+            fail(fmt::format("{} has an unknown key {}{}", what, in_quotes(key),
+                             suggestion(key, {known.begin(), known.size()})));
+        }
+    }
+}
+
 double number_of(const json& value, std::string_view what) {
     double result = 0.0;
     if (value.is_number()) {

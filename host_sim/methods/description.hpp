@@ -4,6 +4,7 @@
 
 #include "splinefeed/splines/bezier_piece.hpp"
 
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -31,6 +32,11 @@ struct DescribedCurve {
     nlohmann::ordered_json results = nlohmann::ordered_json::object(); ///< keyed as the contract names them
     std::vector<std::string> warnings; ///< sentences: valid input whose curve is hardly what was meant
 };
+
+/// Throws DescriptionError, with the nearest name, where an object has a key that is not known: a misspelt one would
+/// leave its default without a word. `what` names the object.
+void require_known(const nlohmann::json& object, std::initializer_list<std::string_view> known,
+                   std::string_view what = "\"input\"");
 
 /// A finite number, or one as a text, as exact data is written. Throws DescriptionError naming `what`.
 [[nodiscard]] double number_of(const nlohmann::json& value, std::string_view what);

@@ -116,6 +116,7 @@ json classes_of(const std::vector<FergusonJoint<S>>& joints, const std::vector<P
 template <Scalar S>
 DescribedCurve describe_ferguson(const json& input) {
     DescribedCurve curve;
+    require_known(input, {"points", "delta", "lambda", "mu", "t_start", "t_end", "closed"});
     curve.closed = flag_in(input, "closed", false);
     PointList list = points_in(input, "points", 2);
     if (curve.closed) {

@@ -150,6 +150,7 @@ int degree_in(const json& input, const char* key, std::size_t points, std::strin
 }
 
 DescribedSurface describe_grid(const json& input, ScalarKind scalar) {
+    require_known(input, {"grid", "degree_u", "degree_v", "parameters", "knots"});
     Grid grid;
     grid.list = read_grid(input, grid.rows);
     grid.columns = grid.list.points.size() / grid.rows;

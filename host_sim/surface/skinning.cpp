@@ -222,6 +222,7 @@ DescribedSurface skin_surface(const Skin& skin) {
 } // namespace
 
 DescribedSurface describe_skin(const json& input, ScalarKind scalar) {
+    require_known(input, {"sections", "degree_u", "degree_v", "domain_length", "spine"});
     Skin skin;
     skin.sections = read_sections(input, 2);
     std::size_t fewest = skin.sections.front().points.size();

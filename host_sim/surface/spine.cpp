@@ -150,6 +150,7 @@ void carry_along_spine(const json& input, std::vector<PointList>& sections) {
     if (!description->is_object()) {
         throw DescriptionError("\"spine\" must be an object with \"points\"");
     }
+    require_known(*description, {"points", "stations", "normal"}, "\"spine\"");
     if (sections.front().axes != 2 && sections.front().axes != 3) {
         throw DescriptionError("sections on a spine must have points of 2 or 3 numbers");
     }

@@ -2,6 +2,7 @@
 //
 // What a description is refused for, in the words that name the reason and the limits.
 #include "host_sim/methods/method_table.hpp"
+#include "host_sim/surface/described_surface.hpp"
 
 #include "support/catch.hpp"
 
@@ -80,4 +81,47 @@ TEST_CASE("Refusals: the factor of modified Catmull-Rom curves by its limits", "
     CHECK(mentions(with("constant", 50.0, ScalarKind::fixed), "between 0 and 32 mm in fixed-point numbers"));
     CHECK(with("constant", 32.0, ScalarKind::fixed).empty());
     CHECK(with("constant", 50.0, ScalarKind::dual).empty());
+}
+
+TEST_CASE("Refusals: a key that the method does not know, with the nearest one", "[methods][refusals]") {
+    const json points = {{0, 0}, {1, 1}, {3, 4}, {4, 4}};
+    const auto with = [](const char* method, json input, const char* key) {
+        CHECK(refusal(method, input, ScalarKind::dual).empty());
+        input[key] = 2;
+        return refusal(method, input, ScalarKind::dual);
+    };
+    CHECK(with("bspline_interpolation", {{"points", points}}, "degre") ==
+          "\"input\" has an unknown key 'degre'; did you mean 'degree'?");
+    CHECK(mentions(with("catmull_rom", {{"points", points}}, "tensoin"), "did you mean 'tension'?"));
+    CHECK(mentions(with("catmull_rom_modified", {{"points", points}}, "facter"), "did you mean 'factor'?"));
+    CHECK(mentions(with("ferguson", {{"points", points}}, "lamda"), "did you mean 'lambda'?"));
+    CHECK(mentions(with("bspline", {{"vertices", points}}, "points"), "known are vertices, degree, closed"));
+    json chain = json::parse(R"({"degree": 3, "first_polygon": [[0, 0], [1, 1], [3, 4], [4, 4]],
+                                 "free_points": [[[5, 5]]], "betas": [{"beta1": 1}]})");
+    CHECK(mentions(with("beta_chain", chain, "ordre"), "did you mean 'order'?"));
+    chain["betas"][0]["beta3"] = 1;
+    CHECK(mentions(refusal("beta_chain", chain, ScalarKind::dual), "\"betas\", joint 1 has an unknown key 'beta3'"));
+}
+
+TEST_CASE("Refusals: a key that a surface does not know, with the nearest one", "[methods][refusals]") {
+    const json row = {{0, 0, 0}, {1, 0, 1}, {2, 0, 0}};
+    const json next = {{0, 1, 0}, {1, 1, 2}, {2, 1, 0}};
+    const auto with = [](const char* method, json input, const char* key) {
+        CHECK_NOTHROW(describe_surface(method, input));
+        input[key] = 2;
+        try {
+            static_cast<void>(describe_surface(method, input));
+        } catch (const DescriptionError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(mentions(with("bspline_surface", {{"grid", {row, next}}}, "degreeu"), "did you mean 'degree_u'?"));
+    CHECK(mentions(with("bspline_skin", {{"sections", {row, next}}}, "domain"), "unknown key 'domain'"));
+    json skin = json::parse(R"({"sections": [[[0, 0], [1, 1], [2, 0]], [[0, 0], [1, 2], [2, 0]]],
+                                "spine": {"points": [[0, 0, 0], [0, 9, 0]]}})");
+    CHECK(mentions(with("bspline_skin", skin, "spin"), "did you mean 'spine'?"));
+    skin["spine"]["station"] = 1;
+    CHECK_THROWS_WITH(describe_surface("bspline_skin", skin),
+                      "\"spine\" has an unknown key 'station'; did you mean 'stations'?");
 }
