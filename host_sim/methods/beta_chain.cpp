@@ -112,6 +112,10 @@ Built<S> build(const Chain& chain, const Unit<S>& unit) {
                                                j + 1));
         }
         betas.push_back({from_double<S>(beta1), from_double<S>(beta2)});
+        if (beta1 > 0.0 && !(betas.back().beta1 > S{})) {
+            throw DescriptionError(
+                fmt::format("joint {}: beta1 is {:g}, which is 0 in these numbers; use --scalar double", j + 1, beta1));
+        }
     }
     const BetaChain<S> described{chain.degree, chain.order, chain.closed, first, free, betas};
     Built<S> built;

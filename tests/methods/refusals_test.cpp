@@ -125,3 +125,30 @@ TEST_CASE("Refusals: a key that a surface does not know, with the nearest one", 
     CHECK_THROWS_WITH(describe_surface("bspline_skin", skin),
                       "\"spine\" has an unknown key 'station'; did you mean 'stations'?");
 }
+
+TEST_CASE("Refusals: a closed curve of even degree with its knots at the points", "[methods][refusals]") {
+    const json input = json::parse(R"({"points": [[0, 0], [1, 2], [3, 2], [4, 0], [6, -1], [2, -3]], "degree": 2,
+                                       "closed": true, "knots": "uniform", "parameters": "uniform"})");
+    for (const ScalarKind scalar : every_scalar) {
+        CHECK(mentions(refusal("bspline_interpolation", input, scalar), "cannot have its knots at the points"));
+    }
+}
+
+TEST_CASE("Refusals: points that are too near, not only the same", "[methods][refusals]") {
+    const json near = {{0, 0}, {1e-170, 0}, {2e-170, 1e-170}, {3e-170, 0}};
+    const json points = {{0, 0}, {1, 2}, {3, 2}, {4, 0}};
+    const json steep{{"points", points}, {"derivative_start", {1e29, 0}}, {"derivative_end", {0, 1}}};
+    for (const ScalarKind scalar : every_scalar) {
+        CHECK(mentions(refusal("bspline_interpolation", {{"points", near}}, scalar), "or too near beside"));
+    }
+    CHECK(mentions(refusal("bspline_interpolation", steep, ScalarKind::fixed), "largest coordinate or derivative"));
+}
+
+TEST_CASE("Refusals: a bias that is 0 in the numbers of the scalar", "[methods][refusals]") {
+    const json input = json::parse(R"({"degree": 3, "first_polygon": [[0, 0], [1, 2], [3, 2], [4, 0]],
+                                       "free_points": [[[9, 0]]], "betas": [{"beta1": 1e-300}]})");
+    for (const ScalarKind scalar : {ScalarKind::fixed, ScalarKind::single}) {
+        CHECK(mentions(refusal("beta_chain", input, scalar), "joint 1: beta1 is 1e-300, which is 0 in these numbers"));
+    }
+    CHECK(refusal("beta_chain", input, ScalarKind::dual).find("must be greater") == std::string::npos);
+}

@@ -166,6 +166,15 @@ TEMPLATE_TEST_CASE("closed, even degree, even count, knots at the points: refuse
     }
 }
 
+// The triple knot at the first point suits no numbering of the control points; the other points are between knots.
+TEMPLATE_TEST_CASE("closed, even degree, unsuited knots: not taken for knots at the points", "[splines]", double, float,
+                   Fixed) {
+    Job job = ring(4, 2, KnotRule::params, Parameterization::uniform, 1);
+    job.parameters = {0, 1, 2, 3};
+    job.knots = {-4, -3.5, 0, 0, 0, 0.5, 4, 4, 4};
+    REQUIRE(error_of<TestType>(job) == Error::schoenberg_whitney);
+}
+
 TEMPLATE_TEST_CASE("interpolation: what is refused", "[splines]", double, float, Fixed) {
     using S = TestType;
     const auto line = [](int degree, std::size_t count) {

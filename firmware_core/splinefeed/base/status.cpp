@@ -33,7 +33,9 @@ const char* describe(Error error) noexcept {
     case Error::gap_in_curve: return "each segment must start where the one before it ends";
     case Error::window_too_small: return "the feed plan needs a window of at least 16 cells";
     case Error::too_few_points: return "there are too few points for the method and its degree";
-    case Error::coincident_points: return "two successive points are the same; merge them, or use uniform parameters";
+    case Error::coincident_points:
+        return "two successive points are the same, or too near beside the largest coordinate or derivative; merge "
+               "them, or use uniform parameters";
     case Error::storage_too_small: return "the storage given is smaller than the method needs for these points";
     case Error::beta1_not_positive: return "beta1 (bias) must be greater than 0";
     case Error::beta1_out_of_range:

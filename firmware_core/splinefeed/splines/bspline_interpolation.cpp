@@ -120,7 +120,17 @@ Status BsplineInterpolation<S>::prepare_closed(std::span<const S> parameters) no
         }
         return t;
     };
-    bool all_at_knots = true;
+    if (kind_.degree % 2 == 0 && points_ % 2U == 0) {
+        bool all_at_knots = true;
+        for (std::size_t i = 0; i < points_ && all_at_knots; ++i) {
+            const S t = inside(parameters[i]);
+            const std::size_t span = find_span(knots_, kind_.degree, t);
+            all_at_knots = smaller(t - knots_[span], knots_[span + 1U] - t) <= closed_knot_tolerance(period);
+        }
+        if (all_at_knots) {
+            return Error::even_degree_closed;
+        }
+    }
     // The span of point i without taking it modulo the period: it increases with i.
     const std::size_t first_span = find_span(knots_, kind_.degree, inside(parameters[0]));
     S best{};
@@ -130,7 +140,6 @@ Status BsplineInterpolation<S>::prepare_closed(std::span<const S> parameters) no
         bool regular = true;
         for (std::size_t i = 0; i < points_ && regular; ++i) {
             const S t = inside(parameters[i]);
-            all_at_knots = all_at_knots && t == knots_[find_span(knots_, kind_.degree, t)];
             const bool turned = t < inside(parameters[0]); // in the next turn
             std::size_t control = candidate + i;           // its support is knots[control] ... knots[control+k+1]
             S turns = turned ? period : S{};
@@ -149,9 +158,6 @@ Status BsplineInterpolation<S>::prepare_closed(std::span<const S> parameters) no
             shift_ = candidate % points_;
             found = true;
         }
-    }
-    if (all_at_knots && kind_.degree % 2 == 0 && points_ % 2U == 0) {
-        return Error::even_degree_closed;
     }
     if (!found) {
         return Error::schoenberg_whitney;

@@ -210,7 +210,7 @@ Status check_closed_knots(std::span<const S> knots, int degree) noexcept {
     const auto k = static_cast<std::size_t>(degree);
     const std::size_t count = knots.size() - 2U * k - 1U;
     const S period = knots[k + count] - knots[k];
-    const S tolerance = scale2(period, std::same_as<S, double> ? -46 : std::same_as<S, float> ? -18 : -40);
+    const S tolerance = closed_knot_tolerance(period);
     for (std::size_t i = 0; i + count < knots.size(); ++i) {
         if (!(absolute(knots[i + count] - knots[i] - period) <= tolerance)) {
             return Error::knots_invalid;

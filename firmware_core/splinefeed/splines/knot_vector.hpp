@@ -58,6 +58,13 @@ Status closed_knots(KnotRule rule, std::span<const S> parameters, int degree, S 
 template <Scalar S>
 Status check_knots(std::span<const S> knots, int degree) noexcept;
 
+/// Up to this far apart a knot of a closed curve and a parameter, or the same knot one turn later, are one: what
+/// rounding makes of multiples and sums.
+template <Scalar S>
+[[nodiscard]] S closed_knot_tolerance(S period) noexcept {
+    return scale2(period, std::same_as<S, double> ? -46 : std::same_as<S, float> ? -18 : -40);
+}
+
 /// Whether knots (closed_knot_count of them) continue periodically. Errors: as check_knots.
 template <Scalar S>
 Status check_closed_knots(std::span<const S> knots, int degree) noexcept;
