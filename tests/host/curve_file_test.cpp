@@ -109,6 +109,8 @@ TEST_CASE("Every malformed curve file is refused in one line") {
         {R"({"closed": 1, "segments": [{"control_points": [[0], [1]]}]})", "c.json: ", "true or false"},
         {R"({"closed": true, "segments": [{"control_points": [[0], [1]]}]})", "c.json: ", "closed"},
         {R"({"method": "catmul_rom", "input": {}})", "c.json: ", "did you mean 'catmull_rom'"},
+        {R"({"method": "bezier", "input": {"segment": []}})",
+         "c.json: ", "unknown key 'segment'; did you mean 'segments'?"},
         {R"({"method": 3, "input": {}})", "c.json: ", "in quotes"},
         {R"({"method": "bezier"})", "c.json: ", "\"input\""},
         {rom(""), "c.json: ", "points"},
