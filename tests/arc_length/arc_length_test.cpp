@@ -252,7 +252,7 @@ TEMPLATE_TEST_CASE("long straight lines", "[arc_length]", double, float, Fixed) 
     // The sources refuse moves of more than 512 mm in float: shorter cells of them would be as coarse as control points
     Worst worst;
     const double longest = std::same_as<TestType, float> ? 500.0 : 60000.0;
-    for (const int degree : {1, 3, 9}) {
+    for (const int degree : {1, 9}) {
         check_path<TestType>({line_shape(3, degree, {longest, 0.0, 0.0})}, worst);
         check_path<TestType>({line_shape(3, degree, {-0.6 * longest, 0.6 * longest, 1.0})}, worst);
         check_path<TestType>({line_shape(1, degree, {-12.5})}, worst);
