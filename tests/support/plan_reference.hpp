@@ -1,15 +1,73 @@
 // SPDX-License-Identifier: MIT
 //
-// The largest feasible speed of a whole path, by brute force: from above, every constraint is applied until none bites.
+// The fastest plan of a whole path by its definition: which speeds can still stop, found by bisection; then the largest
+// of them, node by node.
 #pragma once
 
 #include "pipeline.hpp"
 
 namespace splinefeed_test {
 
-/// b = v^2 at the nodes 0 ... n of n cells.
+/// One of the half-planes that a cell allows: entry * entry_sq + exit * exit_sq <= limit.
+struct HalfPlane {
+    Real entry = 0.0L;
+    Real exit = 0.0L;
+    Real limit = 0.0L;
+};
+
 template <Scalar S>
-std::vector<Real> largest_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimits<S>& limits) {
+std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>& limits) {
+    std::vector<HalfPlane> planes;
+    const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
+    for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
+        const AxisShape<S>& shape = cell.shape[k];
+        const Real limit = 2.0L * exact(cell.length_mm) * exact(limits.acceleration_mm_s2[k]);
+        const std::array<Real, 3> c{exact(shape.bend[0]) * unit, exact(shape.bend[1]) * unit,
+                                    exact(shape.bend[2]) * unit};
+        const Real t0 = exact(shape.tangent[0]) * unit;
+        const Real t3 = exact(shape.tangent[1]) * unit;
+        const std::array<Real, 4> t{t0, t0 + c[0] / 6.0L, t3 - c[2] / 6.0L, t3}; // Bezier points of q', below of q'' b
+        const std::array<Real, 4> entry{c[0], 2.0L * c[1] / 3.0L, c[2] / 3.0L, 0.0L};
+        const std::array<Real, 4> exit{0.0L, c[0] / 3.0L, 2.0L * c[1] / 3.0L, c[2]};
+        for (unsigned j = 0; j < 4; ++j) {
+            for (const Real sign : {1.0L, -1.0L}) {
+                const Real spread = exact(shape.spread) * unit;
+                planes.push_back({spread + sign * (entry[j] - t[j]), spread + sign * (exit[j] + t[j]), limit});
+            }
+        }
+    }
+    return planes;
+}
+
+/// The exits that a cell allows for an entry: from low to high. Nothing if low > high.
+struct Exits {
+    Real low = 0.0L;
+    Real high = 0.0L;
+};
+
+inline Exits exits_of(const std::vector<HalfPlane>& planes, Real entry_sq, Real at_most) {
+    Exits exits{0.0L, at_most};
+    for (const HalfPlane& plane : planes) {
+        const Real left = plane.limit - plane.entry * entry_sq;
+        if (plane.exit > 0.0L) {
+            exits.high = std::min(exits.high, left / plane.exit);
+        } else if (plane.exit < 0.0L) {
+            exits.low = std::max(exits.low, left / plane.exit);
+        } else if (left < 0.0L) {
+            exits.high = -1.0L;
+        }
+    }
+    return exits;
+}
+
+/// b = v^2 at the nodes 0 ... n of n cells, and the largest from which the path can still be travelled to its end.
+struct Speeds {
+    std::vector<Real> b;
+    std::vector<Real> largest;
+};
+
+template <Scalar S>
+Speeds largest_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimits<S>& limits) {
     const std::size_t n = cells.size();
     const auto axes = static_cast<unsigned>(limits.axes);
     std::vector<Real> cap(n);
@@ -29,7 +87,9 @@ std::vector<Real> largest_speeds(const std::vector<PlannedCell<S>>& cells, const
             const Real q1 = exact(cell.tangent_max[k]);
             const Real q2 = exact(cell.curvature_max[k]);
             speed = q1 > 0.0L ? std::min(speed, exact(limits.velocity_mm_s[k]) / q1) : speed;
-            cap_sq = q2 > 0.0L ? std::min(cap_sq, exact(limits.acceleration_mm_s2[k]) / q2) : cap_sq;
+            if (2.0L * exact(cell.length_mm) * q2 > real(Cell<S>::sharp_turn)) {
+                cap_sq = std::min(cap_sq, exact(limits.acceleration_mm_s2[k]) / (2.0L * q2));
+            }
             bend_sq += q2 * q2;
         }
         for (const Real limit : {exact(limits.centripetal_mm_s2), exact(limits.chord_mm_s2)}) {
@@ -39,43 +99,31 @@ std::vector<Real> largest_speeds(const std::vector<PlannedCell<S>>& cells, const
         }
         cap[i] = std::max(std::min(cap_sq, speed * speed), 1e-6L);
     }
-    std::vector<Real> b(n + 1, 1e30L);
-    b[0] = b[n] = 0.0L;
+    Speeds speeds{std::vector<Real>(n + 1, 0.0L), std::vector<Real>(n + 1, 0.0L)};
+    for (std::size_t i = n; i-- > 1;) {
+        const Cell<S>& cell = cells[i].cell;
+        const Real beyond = speeds.largest[i + 1];
+        Real high = cells[i - 1].cell.stop_at_end ? 0.0L : std::min(cap[i - 1], cap[i]);
+        const auto planes = half_planes_of(cell, limits);
+        const auto allowed = [&](Real entry) {
+            const Exits exits = exits_of(planes, entry, beyond);
+            return exits.low <= exits.high;
+        };
+        Real low = 0.0L;
+        if (!allowed(high)) {
+            for (int step = 0; step < 100; ++step) {
+                const Real middle = (low + high) / 2.0L;
+                (allowed(middle) ? low : high) = middle;
+            }
+            high = low;
+        }
+        speeds.largest[i] = high;
+    }
     for (std::size_t i = 0; i < n; ++i) {
-        b[i] = std::min(b[i], cap[i]);
-        b[i + 1] = cells[i].cell.stop_at_end ? 0.0L : std::min(b[i + 1], cap[i]);
+        const auto planes = half_planes_of(cells[i].cell, limits);
+        speeds.b[i + 1] = std::max(0.0L, exits_of(planes, speeds.b[i], speeds.largest[i + 1]).high);
     }
-    const auto reach = [&](std::size_t i, Real from) {
-        const Real twice = 2.0L * exact(cells[i].cell.length_mm);
-        Real best = cap[i];
-        for (unsigned k = 0; k < axes; ++k) {
-            const Real q1 = exact(cells[i].cell.tangent_max[k]);
-            const Real inertia = q1 + twice * exact(cells[i].cell.curvature_max[k]);
-            if (inertia > 0.0L) {
-                best = std::min(best, (twice * exact(limits.acceleration_mm_s2[k]) + q1 * from) / inertia);
-            }
-        }
-        return best;
-    };
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (std::size_t i = 0; i < n; ++i) { // in an order of its own: the fixed point does not depend on it
-            const std::size_t j = n - 1 - i;
-            for (const std::size_t c : {i, j}) {
-                const Real up = reach(c, b[c]);
-                const Real down = reach(c, b[c + 1]);
-                if (up < b[c + 1]) {
-                    b[c + 1] = up;
-                    changed = true;
-                }
-                if (down < b[c]) {
-                    b[c] = down;
-                    changed = true;
-                }
-            }
-        }
-    }
-    return b;
+    return speeds;
 }
 
 /// How much of its limits a plan uses at dense points, 1 being all. Limits are those of the machine, not the planner's.

@@ -176,11 +176,33 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
         // What is left of the inverse's error looks like c x^3 (1-x)^3 (x-1/2): with the slope e its second derivative
         // reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, e being an
         // estimate. Rounding of the control points bends the curve.
-        out.curvature_max[k] = smaller(PieceMeasure<S>::bound(m_.second, k) + out.tangent_max[k] * ripple + noise,
-                                       from_integer<S>(PieceMeasure<S>::sharpest));
+        const S rounding = out.tangent_max[k] * ripple + noise;
+        out.curvature_max[k] =
+            smaller(PieceMeasure<S>::bound(m_.second, k) + rounding, from_integer<S>(PieceMeasure<S>::sharpest));
+        out.shape[k] = shape_of(k, rounding, out);
     }
     out.inverse = m_.inverse;
     out.direction_noise = from_integer<S>(current().degree) * point_noise<S> / m_.slowest;
+}
+
+// The shape of an axis without curvature that moves as much as it does anywhere in the cell.
+template <Scalar S>
+AxisShape<S> ArcLength<S>::largest_shape(unsigned axis, const Cell<S>& cell) const noexcept {
+    const S tangent = scale2(cell.tangent_max[axis], refinement_.shape_log2);
+    return {{tangent, tangent}, {}, S{}};
+}
+
+// A piece that was taken as it is may turn by more than cells do. There the largest values stand for all of the cell,
+// and so that Fixed cannot overflow the plan holds its speed down as well (FeedPlan::bound).
+template <Scalar S>
+AxisShape<S> ArcLength<S>::shape_of(unsigned axis, S rounding, const Cell<S>& cell) const noexcept {
+    const S twice = cell.length_mm + cell.length_mm;
+    const S turn = twice * cell.curvature_max[axis];
+    const bool sharp = turn > literal<S>(Cell<S>::sharp_turn);
+    AxisShape<S> shape = sharp ? largest_shape(axis, cell) : m_.shape(axis, refinement_.shape_log2);
+    shape.spread = sharp ? scale2(smaller(turn, from_integer<S>(2)), refinement_.shape_log2)
+                         : scale2(twice, refinement_.shape_log2) * rounding;
+    return shape;
 }
 
 // Adds a piece to the cusp that is being passed.
@@ -202,6 +224,7 @@ void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
         out.power[k][1] = chord[k];
         out.tangent_max[k] = from_integer<S>(1);
         out.curvature_max[k] = S{};
+        out.shape[k] = largest_shape(k, out);
     }
     // Not zero, so that time passes.
     out.length_mm = larger(scale2(norm(chord.data(), current().axes), current().unit_log2), literal<S>(1e-8));

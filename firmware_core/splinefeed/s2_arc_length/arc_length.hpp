@@ -15,6 +15,7 @@ struct Refinement {
     S longest_mm{};        ///< longest cell (the resolution of the parameter w in Fixed and float)
     S max_feed_mm_s{};     ///< feed of segments that program none
     S grade_per_feed_sq{}; ///< cells next to a joint are at most feed^2 times this: a fraction of the braking distance
+    int shape_log2 = 0;    ///< unit of AxisShape: 2^-shape_log2
     S direction_jump{};    ///< a larger change of dq/ds at a joint is a corner, and a stop
     S turn = literal<S>(0.0613);             ///< largest change of direction within a cell [rad]
     S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
@@ -58,6 +59,8 @@ private:
     void split() noexcept;
     void leave() noexcept;
     void fill(const Piece<S>& piece, Cell<S>& out) noexcept;
+    [[nodiscard]] AxisShape<S> largest_shape(unsigned axis, const Cell<S>& cell) const noexcept;
+    [[nodiscard]] AxisShape<S> shape_of(unsigned axis, S rounding, const Cell<S>& cell) const noexcept;
     void extend_cusp(const Piece<S>& piece) noexcept;
     void fill_chord(bool at_end, Cell<S>& out) noexcept;
     void fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out) noexcept;

@@ -11,8 +11,19 @@
 
 namespace splinefeed {
 
+/// How an axis moves along a cell of length L, all times 2^Refinement::shape_log2: dq/ds, a cubic known by its ends and
+/// their slopes, and 2 L d2q/ds2, a parabola.
+template <Scalar S>
+struct AxisShape {
+    std::array<S, 2> tangent{}; ///< dq/ds at both ends
+    std::array<S, 3> bend{};    ///< Bezier points of 2 L d2q/ds2
+    S spread{};                 ///< what either leaves its polynomial by, per v0^2 + v1^2 in 2 L times an acceleration
+};
+
 template <Scalar S>
 struct Cell {
+    static constexpr double sharp_turn = 0.5003; ///< 2 length_mm curvature_max of a cell that is not fine
+
     int axes = 0;
     int degree = 0;
     int unit_log2 = 0;
@@ -23,9 +34,10 @@ struct Cell {
     S length_mm{};
     PerAxis<S> tangent_max{};   ///< bound of |dq/ds| over the cell, at most 1
     PerAxis<S> curvature_max{}; ///< bound of |d2q/ds2| over the cell [1/mm]
-    S feed_mm_s{};              ///< programmed feed; 0: the machine's
-    S direction_noise{};        ///< rounding of the direction and speed at its ends, relative
-    bool stop_before = false;   ///< a cusp lies before it: the cell before has to end at rest
+    PerAxis<AxisShape<S>> shape{};
+    S feed_mm_s{};            ///< programmed feed; 0: the machine's
+    S direction_noise{};      ///< rounding of the direction and speed at its ends, relative
+    bool stop_before = false; ///< a cusp lies before it: the cell before has to end at rest
     bool stop_at_end = false;
     std::uint32_t waypoint = 0;
 

@@ -136,6 +136,15 @@ S PieceMeasure<S>::bound(const std::array<PerAxis<S>, points>& f, unsigned axis)
            scale2(second_difference, -2);
 }
 
+template <Scalar S>
+AxisShape<S> PieceMeasure<S>::shape(unsigned axis, int log2) const noexcept {
+    const S twice = scale2(length_mm, log2 + 1);
+    const S c0 = twice * second[0][axis];
+    const S c2 = twice * second[2][axis];
+    const S c1 = times(2, twice * second[1][axis]) - half(c0 + c2); // through the value in the middle
+    return {{scale2(first[0][axis], log2), scale2(first[2][axis], log2)}, {c0, c1, c2}, S{}};
+}
+
 template struct PieceMeasure<double>;
 template struct PieceMeasure<float>;
 template struct PieceMeasure<Fixed>;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/s1_curve/curve_segment.hpp"
+#include "splinefeed/s2_arc_length/cell.hpp"
 
 namespace splinefeed {
 
@@ -43,6 +44,8 @@ struct PieceMeasure {
     void measure_length(int axes, int unit_log2) noexcept;
     void invert() noexcept;
     void measure_curvature(int axes, int unit_log2) noexcept;
+    /// The shape of one axis, without its spread.
+    [[nodiscard]] AxisShape<S> shape(unsigned axis, int log2) const noexcept;
     /// Largest magnitude over the piece of a function known at its three points.
     [[nodiscard]] static S bound(const std::array<PerAxis<S>, points>& f, unsigned axis) noexcept;
 };

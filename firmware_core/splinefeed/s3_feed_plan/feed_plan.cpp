@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// With b = v^2 = (ds/dt)^2 and a = d2s/dt2, db/ds = 2 a; b is linear in s within a cell of length L, so
-// a = (b1 - b0) / (2 L). An axis accelerates by q' a + q'' b. With cell maxima Q1 >= |q'|, Q2 >= |q''|,
+// b = v^2 = (ds/dt)^2 is linear in s within a cell. Which pairs of b at its ends keep every axis within its
+// acceleration is a convex polygon P that holds (0, 0) (acceleration_bound.cpp). Time-optimal by reachability
+// (TOPP-RA):
 //
-//   |q' a + q'' b| <= Q1 |b1 - b0| / (2 L) + Q2 max(b0, b1) <= A
+// - backward: K_i, the largest b at node i from which rest at the end of the window can be reached: the largest entry
+// of P
+//   with an exit up to K_i+1, and no larger than the caps beside the node. As (0, 0) is in P, all of 0 ... K_i will do.
+// - forward: the largest exit that P allows for the entry and K_i+1. There is one, because the entry is at most K_i.
 //
-// holds at every point of the cell if it holds with the faster end on the right. Solved for the faster end b1:
-//
-//   b1 <= (2 L A + Q1 b0) / (Q1 + 2 L Q2) = reach + carry b0                                    for every axis
-//
-// which grows with b0: the largest feasible profile is found exactly by one backward and one forward pass (a lattice).
-// A node where the backward value reaches its cap cannot be raised by anything behind it: what lies before it is final,
-// equal to the plan with an unlimited window. The window is committed up to the last such node.
+// K_i grows with K_i+1 until it is at a cap or the entry at the peak of P. A longer window can only raise K; so a node
+// where one of the two holds is final, and with it every K before it: what lies before is equal to the plan with an
+// unlimited window. The window is committed up to the last such node. Where an earlier part is committed without being
+// final, K of its last node can only rise afterwards: a stop stays within reach.
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
 
 namespace splinefeed {
@@ -30,7 +31,7 @@ FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::
     SPLINEFEED_ASSERT(window.size() >= smallest_window);
 }
 
-// Caps and reach of a cell. This is the one place where a limit of the speed is stated.
+// Cap and peak of a cell. This is the one place where a limit of the speed is stated.
 template <Scalar S>
 void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
@@ -46,13 +47,15 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
         speed = limits_.jump_mm_s / cell.direction_noise;
     }
     S cap = speed * speed;
+    S reach = cap;
     const S twice = cell.length_mm + cell.length_mm;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         const S limit = limits_.acceleration_mm_s2[k];
-        cap = smaller(cap, quotient_or_max(limit, cell.curvature_max[k]));
-        const S inertia = cell.tangent_max[k] + twice * cell.curvature_max[k];
-        planned.reach[k] = quotient_or_max(twice * limit, inertia);
-        planned.carry[k] = inertia > S{} ? smaller(cell.tangent_max[k] / inertia, from_integer<S>(1)) : S{};
+        const S turn = twice * cell.curvature_max[k];
+        if (turn > literal<S>(Cell<S>::sharp_turn)) {
+            cap = smaller(cap, scale2(limit, -1) / cell.curvature_max[k]);
+        }
+        reach = smaller(reach, quotient_or_max(twice * limit, cell.tangent_max[k] + turn));
     }
     if (limits_.centripetal_mm_s2 > S{} || limits_.chord_mm_s2 > S{}) {
         const S curvature = norm(cell.curvature_max.data(), limits_.axes);
@@ -64,26 +67,14 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
         }
     }
     planned.cap_sq = larger(cap, literal<S>(slowest_sq));
-    // Beyond the cap a reach means nothing; bounded by it, the passes cannot overflow.
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
-        planned.reach[k] = smaller(planned.reach[k], planned.cap_sq);
-    }
-    planned.reach_from_rest = reachable(planned, S{});
-}
-
-template <Scalar S>
-S FeedPlan<S>::reachable(const PlannedCell<S>& planned, S from_sq) const noexcept {
-    S best = planned.cap_sq;
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
-        best = smaller(best, planned.reach[k] + planned.carry[k] * from_sq);
-    }
-    return best;
+    planned.reach_from_rest = smaller(reach, planned.cap_sq);
+    planned.peak = AccelerationBound<S>(cell, limits_).peak(planned.cap_sq);
 }
 
 // Backward over all that is not committed, forward from it, then commits.
 template <Scalar S>
 void FeedPlan<S>::plan(bool ended) noexcept {
-    // exit_sq holds the backward value of the node behind each cell
+    // exit_sq holds K of the node behind each cell, entry_sq the largest entry with which that can be reached
     std::size_t last_final = committed_;
     S beyond{}; // at rest
     for (std::size_t i = size_; i-- > committed_;) {
@@ -94,8 +85,11 @@ void FeedPlan<S>::plan(bool ended) noexcept {
             const PlannedCell<S>& before = at(i - 1);
             cap = before.cell.stop_at_end ? S{} : smaller(cap, before.cap_sq);
         }
-        const S reached = reachable(here, beyond);
-        if (reached >= cap && last_final == committed_) {
+        const bool at_peak = beyond >= here.peak.exit_sq;
+        const S reached = at_peak ? here.peak.entry_sq
+                                  : AccelerationBound<S>(here.cell, limits_).largest_entry(beyond, here.peak.entry_sq);
+        here.entry_sq = reached;
+        if ((at_peak || reached >= cap) && last_final == committed_) {
             last_final = i;
         }
         beyond = smaller(reached, cap);
@@ -110,8 +104,12 @@ void FeedPlan<S>::plan(bool ended) noexcept {
     }
     for (; committed_ < target; ++committed_) {
         PlannedCell<S>& here = at(committed_);
+        // P is convex: what is reached from here.entry_sq tells what is reached from less. Where an axis has next to no
+        // inertia, the largest exit depends on the last digits of the entry, and this does not.
+        const S share = entry_sq_ < here.entry_sq ? entry_sq_ / here.entry_sq : from_integer<S>(1);
+        const S reached = share * smaller(here.peak.exit_sq, here.exit_sq);
         here.entry_sq = entry_sq_;
-        here.exit_sq = smaller(here.exit_sq, reachable(here, entry_sq_));
+        here.exit_sq = larger(reached, AccelerationBound<S>(here.cell, limits_).largest_exit(entry_sq_, here.exit_sq));
         entry_sq_ = here.exit_sq;
     }
 }

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "splinefeed/s2_arc_length/arc_length.hpp"
-#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/acceleration_bound.hpp"
 
 #include <span>
 
@@ -24,10 +24,9 @@ struct PlannedCell {
     Cell<S> cell{};
     S entry_sq{};
     S exit_sq{};
-    S cap_sq{};         ///< largest v^2 anywhere in the cell
-    PerAxis<S> reach{}; ///< v1^2 <= reach + carry v0^2, from either end
-    PerAxis<S> carry{};
-    S reach_from_rest{}; ///< the smallest reach: v1^2 at most when v0 = 0
+    S cap_sq{};          ///< largest v^2 anywhere in the cell
+    EndSpeeds<S> peak{}; ///< the fastest entry whatever comes after the cell, and the exit that it asks for
+    S reach_from_rest{}; ///< an exit_sq that can be reached from rest, and with it all that is below
 };
 
 /// Stage 3. The window is the caller's storage. The plan in the window always ends at rest, so whatever is committed
@@ -36,7 +35,7 @@ struct PlannedCell {
 template <Scalar S>
 class FeedPlan {
 public:
-    static constexpr std::size_t smallest_window = 16;
+    static constexpr std::size_t smallest_window = 12;
 
     /// @pre window.size() >= smallest_window
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept;
@@ -57,7 +56,6 @@ private:
     }
 
     void bound(PlannedCell<S>& planned) const noexcept;
-    [[nodiscard]] S reachable(const PlannedCell<S>& planned, S from_sq) const noexcept;
     void plan(bool ended) noexcept;
 
     ArcLength<S>* source_;

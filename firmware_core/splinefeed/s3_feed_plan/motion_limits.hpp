@@ -130,6 +130,16 @@ constexpr double chord_limit(double error_mm, double period_s) noexcept {
     return limit < 1e9 ? limit : 1e9;
 }
 
+/// Numbers made of a shape are at most 3, and times v^2 they must stay below 2^29; what is left of that Fixed has for
+/// digits.
+constexpr int shape_log2(double feed) noexcept {
+    int n = 0;
+    while (n < 16 && 3.0 * feed * feed * (2 << n) <= 400e6) {
+        ++n;
+    }
+    return n;
+}
+
 constexpr bool within(double x, double low, double high) noexcept {
     return x >= low && x <= high; // false for NaN
 }
@@ -212,6 +222,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     Refinement<S>& refinement = limits.refinement;
     refinement.longest_mm = from_double<S>(longest);
     refinement.max_feed_mm_s = limits.feed_mm_s;
+    refinement.shape_log2 = detail::shape_log2(settings.max_feed_mm_s);
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
     // A jump of direction d asks for the acceleration v d / T: tolerated below 2e-5 of the limit, plus rounding.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// AccelerationBound: which v^2 at the two ends of a cell keep every axis within its acceleration, with signs, at every
+// point of the cell. Derivation: acceleration_bound.cpp.
+#pragma once
+
+#include "splinefeed/s2_arc_length/cell.hpp"
+#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+
+namespace splinefeed {
+
+/// v^2 at both ends of a cell.
+template <Scalar S>
+struct EndSpeeds {
+    S entry_sq{};
+    S exit_sq{};
+};
+
+/// The convex polygon of the pairs (entry_sq, exit_sq) that a cell allows: eight half-planes an axis. It holds (0, 0).
+/// Cost of a function: two products for each of four points and axis, and a division for every time one of them bites.
+template <Scalar S>
+class AccelerationBound {
+public:
+    AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept;
+
+    /// Largest exit_sq up to at_most. @pre some exit_sq up to at_most is allowed together with entry_sq
+    [[nodiscard]] S largest_exit(S entry_sq, S at_most) const noexcept;
+    /// Largest entry_sq up to at_most. @pre exit_sq < peak().exit_sq
+    [[nodiscard]] S largest_entry(S exit_sq, S at_most) const noexcept;
+    /// The largest entry_sq of all where no end is faster than cap_sq, with the smallest exit_sq that goes with it.
+    [[nodiscard]] EndSpeeds<S> peak(S cap_sq) const noexcept;
+
+private:
+    struct Row { // entry * entry_sq + exit * exit_sq <= limit
+        S entry{};
+        S exit{};
+        S limit{};
+    };
+
+    [[nodiscard]] static S crossing_of(const Row& first, const Row& second, S weight) noexcept;
+    template <class Visit>
+    void each_row(Visit&& visit) const noexcept;
+
+    const Cell<S>* cell_;
+    PerAxis<S> limit_{}; // 2 L A
+};
+
+} // namespace splinefeed
