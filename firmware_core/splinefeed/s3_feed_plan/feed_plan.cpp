@@ -31,7 +31,7 @@ FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::
     SPLINEFEED_ASSERT(window.size() >= smallest_window);
 }
 
-// Cap and peak of a cell. This is the one place where a limit of the speed is stated.
+// Cap of a cell. This is the one place where a limit of the speed is stated.
 template <Scalar S>
 void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
@@ -68,7 +68,6 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     }
     planned.cap_sq = larger(cap, literal<S>(slowest_sq));
     planned.reach_from_rest = smaller(reach, planned.cap_sq);
-    planned.peak = AccelerationBound<S>(cell, limits_).peak(planned.cap_sq);
 }
 
 // Backward over all that is not committed, forward from it, then commits.
@@ -128,6 +127,7 @@ Pull FeedPlan<S>::prepare() noexcept {
         }
         if (pull == Pull::item) {
             bound(slot);
+            slot.peak = AccelerationBound<S>(slot.cell, limits_).peak(slot.cap_sq);
             if (slot.cell.stop_before &&
                 size_ > 0) { // the newest cell is never committed before its successor is known
                 Cell<S>& before = at(size_ - 1).cell;
