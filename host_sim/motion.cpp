@@ -14,8 +14,14 @@ namespace splinefeed::host {
 template <Scalar S>
 Motion<S>::Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits,
                   PathInput& input, const PathLimits& path_limits, Outputs& outputs)
-    : job_(&job), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs), feeder_(input),
-      tee_(feeder_, input.name(), {.limits = &path_limits, .writer = outputs.curve(), .error = &error_}),
+    : job_(&job), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs),
+      optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
+      feeder_(input), tee_(feeder_, input.name(),
+                           {.limits = &path_limits,
+                            .writer = outputs.curve(),
+                            .error = &error_,
+                            .optimum = &optimum_,
+                            .share = &share_}),
       window_(job.window_cells), trajectory_(tee_, limits, window_),
       machine_(description, limits.segments_per_sample,
                {.enforce = job.command == Command::run, .trace = outputs.trace()}) {}
@@ -43,6 +49,7 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
         keep_failure(tee_.failure());
     }
     machine_.finish();
+    optimum_.finish();
     if (const auto& fault = machine_.fault()) {
         stopped_ = describe(*fault);
     }
@@ -87,7 +94,11 @@ bool Motion<S>::execute(const FeedSegment& segment) {
     }
     rests_ += rest ? 1U : 0U;
     // The machine executes one segment a poll, in virtual time: it is never behind.
-    return machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
+    const bool done = machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
+    if (done) {
+        share_.segment(segment);
+    }
+    return done;
 }
 
 // Before the first move what is wrong is thrown; after it, it is why the machine stopped.
@@ -137,7 +148,11 @@ Summary Motion<S>::summary() const {
     if (input_->segments() == nullptr && passes_waypoints(summary.curve)) {
         summary.waypoint_error_mm = error_.largest_mm();
     }
-    summary.planning_time_s = std::chrono::duration<double>(planning_).count();
+    if (stopped_.empty()) {
+        summary.optimum_time_s = optimum_.seconds();
+    }
+    summary.limit_share = share_.shares();
+    summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent()).count();
     summary.memory_bytes = {feeder_.bytes(),
                             sizeof(ArcLength<S>) + sizeof(FeedPlan<S>) + window_.size() * sizeof(PlannedCell<S>),
                             sizeof(SegmentStream<S>)};

@@ -46,6 +46,8 @@ private:
     PathInput* input_;
     Outputs* outputs_;
     WaypointError error_;
+    OptimumTime optimum_;
+    LimitShare share_;
     CurveFeeder<S> feeder_;
     PathTee<S> tee_;
     std::vector<PlannedCell<S>> window_;

@@ -41,6 +41,12 @@ void PathTee<S>::look(CurveSegment<S>& segment) {
     if (observers_.writer != nullptr) {
         observers_.writer->segment(segment);
     }
+    if (observers_.optimum != nullptr) {
+        observers_.optimum->segment(segment);
+    }
+    if (observers_.share != nullptr) {
+        observers_.share->programmed(row, to_double(segment.feed_mm_s));
+    }
     segment.waypoint = row;
     ++segments_;
 }

@@ -4,6 +4,8 @@
 
 #include "curve_feeder.hpp"
 #include "curve_writer.hpp"
+#include "limit_share.hpp"
+#include "optimum_time.hpp"
 #include "path_limits.hpp"
 #include "waypoint_error.hpp"
 
@@ -16,6 +18,8 @@ struct PathObservers {
     const PathLimits* limits = nullptr;
     CurveWriter* writer = nullptr;
     WaypointError* error = nullptr;
+    OptimumTime* optimum = nullptr;
+    LimitShare* share = nullptr;
 };
 
 /// A decorator. A segment that leaves the limits, or cannot be written, is kept back and the curve ends before it: the

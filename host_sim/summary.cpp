@@ -2,6 +2,7 @@
 #include "summary.hpp"
 
 #include "curve_choice.hpp"
+#include "limit_advice.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,14 @@ std::string plural(std::uint64_t n, std::string_view thing) {
     return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
 }
 
+// Of the optimum: how much longer the run takes.
+std::string longer(const Summary& summary) {
+    const double optimum = summary.optimum_time_s.value_or(0.0);
+    return optimum > 0.0
+               ? fmt::format("; this run takes {:.2f} % longer)", (summary.cycle_time_s / optimum - 1.0) * 100.0)
+               : ")";
+}
+
 void write_limit_use(Lines out, const Summary& summary) {
     const auto& uses = summary.limit_use;
     const bool any_jerk =
@@ -58,6 +67,14 @@ void write_use_sentence(Lines out, const std::string& axis, std::string_view lim
     }
 }
 
+std::vector<std::string> axis_names(const Summary& summary) {
+    std::vector<std::string> names;
+    for (const Summary::AxisUse& use : summary.limit_use) {
+        names.push_back(use.axis);
+    }
+    return names;
+}
+
 void write_sentences(Lines out, const Summary& summary) {
     if (summary.stopped) {
         fmt::format_to(out, "The run was stopped before the end of the program.\n");
@@ -75,10 +92,38 @@ void write_sentences(Lines out, const Summary& summary) {
         fmt::format_to(out, "The planning window was too short {}: a longer one may be faster.\n",
                        plural(summary.window_limited, "time"));
     }
+    if (summary.limit_share && summary.cycle_time_s > 0.0) {
+        fmt::format_to(out, "{}", advice(axis_names(summary), *summary.limit_share));
+    }
     if (summary.stops > 0) {
         fmt::format_to(out, "The machine stops at {} on the way, where the path turns sharply.\n",
                        plural(summary.stops, "corner"));
     }
+}
+
+nlohmann::ordered_json share_json(const Summary& summary) {
+    using Json = nlohmann::ordered_json;
+    if (!summary.limit_share) {
+        return nullptr;
+    }
+    const LimitShares& shares = *summary.limit_share;
+    Json json;
+    for (const char* limit : {"velocity", "acceleration", "jerk"}) {
+        json[limit] = Json::object();
+    }
+    const std::vector<std::string> names = axis_names(summary);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        json["velocity"][names[k]] = shares.axis[k].velocity;
+        json["acceleration"][names[k]] = shares.axis[k].acceleration;
+        if (shares.axis[k].jerk) {
+            json["jerk"][names[k]] = *shares.axis[k].jerk;
+        }
+    }
+    json["feed"] = shares.feed;
+    json["centripetal"] = shares.centripetal.value_or(0.0);
+    json["chord"] = shares.chord.value_or(0.0);
+    json["none"] = shares.none;
+    return json;
 }
 
 } // namespace
@@ -118,6 +163,7 @@ std::string to_json(const Summary& summary) {
     json["stops"] = summary.stops;
     json["smoothing_bound_mm"] = summary.smoothing_bound_mm;
     json["peak_rss_bytes"] = summary.peak_rss_bytes;
+    json["limit_share"] = share_json(summary);
     return json.dump(2) + "\n";
 }
 
@@ -126,9 +172,8 @@ std::string to_text(const Summary& summary) {
     const Lines out(text);
     row(out, "cycle time", fmt::format("{:.6f}", summary.cycle_time_s), "s");
     if (summary.optimum_time_s) {
-        const double over = (summary.cycle_time_s / *summary.optimum_time_s - 1.0) * 100.0;
-        row(out, "least possible time", fmt::format("{:.6f}", *summary.optimum_time_s),
-            *summary.optimum_time_s > 0.0 ? fmt::format("s ({:+.2f} % taken)", over) : "s");
+        row(out, "optimum", fmt::format("{:.6f}", *summary.optimum_time_s),
+            "s (acceleration-limited" + longer(summary));
     }
     row(out, "path length", fmt::format("{:.6f}", summary.length_mm), "mm");
     row(out, "largest speed", fmt::format("{:.6f}", summary.max_speed_mm_s), "mm/s");
@@ -149,6 +194,9 @@ std::string to_text(const Summary& summary) {
     }
     if (!summary.limit_use.empty()) {
         write_limit_use(out, summary);
+    }
+    if (summary.limit_share && summary.cycle_time_s > 0.0) {
+        text += '\n' + share_table(axis_names(summary), *summary.limit_share);
     }
     std::string sentences;
     write_sentences(Lines(sentences), summary);

@@ -2,6 +2,8 @@
 // Summary: what a run amounts to, for people (text) and programs (JSON).
 #pragma once
 
+#include "limit_share.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -34,7 +36,7 @@ struct Summary {
     double max_speed_mm_s = 0.0;
     std::vector<AxisUse> limit_use;          ///< in the order of the machine file
     std::optional<double> waypoint_error_mm; ///< none: there are no waypoints, or the curve need not pass them
-    std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; none: it was not computed
+    std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; none: the run was stopped
     double planning_time_s = 0.0;
     MemoryBytes memory_bytes;
     bool stopped = false;             ///< the run ended before the program did
@@ -42,11 +44,12 @@ struct Summary {
     std::uint64_t stops = 0;          ///< corners where the feed is zero, ends not counted
     double smoothing_bound_mm = 0.0;  ///< how far the emitted motion may be from the curve
     std::uint64_t peak_rss_bytes = 0; ///< memory of the process; 0: unknown
+    std::optional<LimitShares> limit_share; ///< which limit bound; axes as in limit_use
 };
 
 /// One JSON object with the keys of the contract in its order, then those added since, and a line end. Under
-/// limit_use.jerk an axis without a jerk limit is omitted; waypoint_error_mm and optimum_time_s are null where there is
-/// none.
+/// limit_use.jerk an axis without a jerk limit is omitted; waypoint_error_mm, optimum_time_s and limit_share are null
+/// where there is none; so jerk under limit_share.
 [[nodiscard]] std::string to_json(const Summary& summary);
 
 /// A table with units, then a sentence for everything that is unusual. Ends with a line end.

@@ -56,7 +56,8 @@ TEST_CASE("the JSON summary has the keys of the contract, in order") {
     CHECK(keys == std::vector<std::string>{"cycle_time_s", "length_mm", "waypoints", "curve_segments", "feed_segments",
                                            "scalar", "curve", "max_speed_mm_s", "limit_use", "waypoint_error_mm",
                                            "optimum_time_s", "planning_time_s", "memory_bytes", "stopped",
-                                           "window_limited", "stops", "smoothing_bound_mm", "peak_rss_bytes"});
+                                           "window_limited", "stops", "smoothing_bound_mm", "peak_rss_bytes",
+                                           "limit_share"});
     CHECK(json["cycle_time_s"] == 12.3456789);
     CHECK(json["feed_segments"] == 12346);
     CHECK(json["scalar"] == "fixed");
@@ -80,12 +81,31 @@ TEST_CASE("what is absent is null or empty in JSON") {
     CHECK(json["optimum_time_s"].is_null());
     CHECK(json["limit_use"] == nlohmann::json::parse(R"({"velocity": {}, "acceleration": {}, "jerk": {}})"));
     CHECK(json["stopped"] == true);
+    CHECK(json["limit_share"].is_null());
+}
+
+TEST_CASE("the shares of the limits are in both forms") {
+    Summary summary = sample();
+    summary.limit_share =
+        LimitShares{{{0.5, 0.25, 0.125}, {0.0, 0.75, std::nullopt}}, 0.375, 0.0, std::nullopt, std::nullopt, 0.0625};
+    const auto json = nlohmann::ordered_json::parse(to_json(summary));
+    CHECK(json["limit_share"] == nlohmann::ordered_json::parse(R"({"velocity": {"x": 0.5, "c": 0.0},
+        "acceleration": {"x": 0.25, "c": 0.75}, "jerk": {"x": 0.125}, "feed": 0.375, "centripetal": 0.0, "chord": 0.0,
+        "none": 0.0625})"));
+    const std::string text = to_text(summary);
+    CHECK(contains(text, "\n\nshare of the time at        velocity  acceleration          jerk\n"));
+    CHECK(contains(text, "  axis c                       0.0 %        75.0 %      no limit\n"));
+    CHECK(contains(text, "\n\nThe acceleration limit of axis c binds 75.0 %"));
+    summary.cycle_time_s = 0.0; // nothing moved
+    CHECK_FALSE(contains(to_text(summary), "share of the time"));
+    CHECK_FALSE(contains(to_text(summary), "binds"));
 }
 
 TEST_CASE("the text is a table with units") {
     const std::string text = to_text(sample());
     CHECK(contains(text, "cycle time                 12.345679 s\n"));
-    CHECK(contains(text, "least possible time        12.000000 s (+2.88 % taken)\n"));
+    CHECK(contains(text,
+                   "optimum                    12.000000 s (acceleration-limited; this run takes 2.88 % longer)\n"));
     CHECK(contains(text, "waypoint error              0.000325 mm at most\n"));
     CHECK(contains(text, "curve segments                   999 g2\n"));
     CHECK(contains(text, "planner's memory                1230 bytes (curve 1000, feed plan 200, stream 30)\n"));
@@ -104,7 +124,7 @@ TEST_CASE("columns and rows without content are left out") {
     summary.peak_rss_bytes = 0;
     const std::string text = to_text(summary);
     CHECK_FALSE(contains(text, "jerk"));
-    CHECK_FALSE(contains(text, "least possible"));
+    CHECK_FALSE(contains(text, "optimum"));
     CHECK_FALSE(contains(text, "memory of the process"));
 }
 
