@@ -28,6 +28,11 @@ json run(const Tool& tool, const std::string& arguments) {
             }
         }
     }
+    CHECK(summary["optimum_time_s"].get<double>() > 0.9 * summary["cycle_time_s"].get<double>());
+    CHECK(summary["optimum_time_s"].get<double>() < summary["cycle_time_s"].get<double>());
+    const json& share = summary["limit_share"];
+    CHECK(share["none"].get<double>() < 0.5);
+    CHECK(share["feed"].get<double>() + share["none"].get<double>() <= 1.0);
     return summary;
 }
 

@@ -291,6 +291,7 @@ TEST_CASE("What is wrong in a pipe after the first move ends in a controlled sto
         CHECK(contains(call.error, part));
         CHECK(contains(call.error, "the machine stands at x=95.9"));
         CHECK(contains(call.output, "\"stopped\": true"));
+        CHECK(contains(call.output, "\"optimum_time_s\": null"));
         CHECK(lines(tool.read("t.csv")) > 900);
     }
 }
