@@ -14,8 +14,10 @@ namespace splinefeed {
 template <Scalar S>
 class Trajectory {
 public:
+    /// `curve`, `limits` and `window` must outlive the trajectory.
     Trajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept
         : arc_length_(curve, limits.refinement), plan_(arc_length_, limits, window), stream_(plan_, limits) {}
+    Trajectory(CurveSource<S>& curve, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
     Trajectory(const Trajectory&) = delete;
     Trajectory& operator=(const Trajectory&) = delete;
 

@@ -223,7 +223,8 @@ TEMPLATE_TEST_CASE("starvation changes no cell", "[arc_length]", double, float, 
 
 TEMPLATE_TEST_CASE("lengths and segments are counted", "[arc_length]", double, float, Fixed) {
     ListSource<TestType> source(BezierPath{line_shape(2, 3, {3.0, 4.0}), line_shape(2, 1, {-6.0, 8.0})});
-    ArcLength<TestType> arc_length(source, MotionLimits<TestType>::make({.axes = 2}).value().refinement);
+    const auto limits = MotionLimits<TestType>::make({.axes = 2}).value();
+    ArcLength<TestType> arc_length(source, limits.refinement);
     Cell<TestType> cell;
     REQUIRE(arc_length.segments() == 0);
     while (arc_length.next(cell) == Pull::item) {

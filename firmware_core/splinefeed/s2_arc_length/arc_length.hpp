@@ -34,8 +34,10 @@ struct Refinement {
 template <Scalar S>
 class ArcLength {
 public:
+    /// `source` and `refinement` must outlive it.
     ArcLength(CurveSource<S>& source, const Refinement<S>& refinement) noexcept
         : source_(&source), refinement_(refinement) {}
+    ArcLength(CurveSource<S>& source, const Refinement<S>&& refinement) = delete;
 
     /// Writes the next cell in travel order.
     Pull next(Cell<S>& out) noexcept;
@@ -69,7 +71,7 @@ private:
     [[nodiscard]] const CurveSegment<S>& current() const noexcept { return slots_[current_]; }
 
     CurveSource<S>* source_;
-    Refinement<S> refinement_;
+    const Refinement<S>& refinement_;
     std::array<CurveSegment<S>, 2> slots_{};
     std::array<Piece<S>, deepest + 2> stack_{};
     PieceMeasure<S> m_{}; // of the piece that is being judged

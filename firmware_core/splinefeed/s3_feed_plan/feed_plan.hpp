@@ -37,8 +37,10 @@ class FeedPlan {
 public:
     static constexpr std::size_t smallest_window = 12;
 
+    /// `limits` must outlive the plan: on a microcontroller they stay in ROM.
     /// @pre window.size() >= smallest_window
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept;
+    FeedPlan(ArcLength<S>& source, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
 
     /// Makes sure that front() is a committed cell. `starved`: the window is not full and no cell is committed.
     Pull prepare() noexcept;
@@ -59,7 +61,7 @@ private:
     void plan(bool ended) noexcept;
 
     ArcLength<S>* source_;
-    MotionLimits<S> limits_;
+    const MotionLimits<S>& limits_;
     std::span<PlannedCell<S>> window_;
     std::size_t head_ = 0;
     std::size_t size_ = 0;
