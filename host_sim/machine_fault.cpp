@@ -11,6 +11,7 @@ const char* fault_name(FaultKind kind) noexcept {
     case FaultKind::duration: return "duration";
     case FaultKind::velocity: return "velocity";
     case FaultKind::acceleration: return "acceleration";
+    case FaultKind::braking: return "braking";
     case FaultKind::jerk: return "jerk";
     case FaultKind::feed: return "feed";
     case FaultKind::travel: return "travel";
@@ -31,6 +32,7 @@ std::string describe(const Fault& fault) {
     case FaultKind::duration: what = "a segment lasts no time"; break;
     case FaultKind::velocity:
     case FaultKind::acceleration:
+    case FaultKind::braking:
     case FaultKind::jerk:
     case FaultKind::feed:
         what = fmt::format("{}: {} {:.9g} {} is above the limit of {:.9g} {}", where, fault_name(fault.kind),

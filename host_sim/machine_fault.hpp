@@ -12,6 +12,7 @@ enum class FaultKind : std::uint8_t {
     duration, ///< a segment lasts no time
     velocity,
     acceleration,
+    braking, ///< acceleration against the velocity
     jerk,
     feed, ///< speed along the path
     travel,

@@ -154,8 +154,8 @@ private:
 
     void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
         require_known(table,
-                      {"name", "travel_mm", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_jerk_mm_s3",
-                       "steps_per_mm", "drive"},
+                      {"name", "travel_mm", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2",
+                       "max_jerk_mm_s3", "steps_per_mm", "drive"},
                       " in [[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
@@ -178,6 +178,9 @@ private:
         }
         axis.max_velocity_mm_s = required(table, "max_velocity_mm_s", velocity_range, where);
         axis.max_acceleration_mm_s2 = required(table, "max_acceleration_mm_s2", acceleration_range, where);
+        if (const toml::node* braking = table.get("max_braking_mm_s2")) {
+            axis.max_braking_mm_s2 = number(*braking, "max_braking_mm_s2", acceleration_range);
+        }
         if (const toml::node* steps = table.get("steps_per_mm")) { // without: a count is 1 um, as AxisSettings has it
             axis.steps_per_mm = number(*steps, "steps_per_mm", steps_range);
         }

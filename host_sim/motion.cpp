@@ -142,7 +142,7 @@ Summary Motion<S>::summary() const {
         const bool has_jerk = axis.max_jerk_mm_s3 > 0.0;
         summary.limit_use.push_back({description_->axis_name[static_cast<unsigned>(k)], use.velocity, use.acceleration,
                                      has_jerk ? std::optional(use.jerk) : std::nullopt});
-        acceleration_sq += axis.max_acceleration_mm_s2 * axis.max_acceleration_mm_s2;
+        acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
     }
     // Segments that came whole are not measured against the points they were made of.
     if (input_->segments() == nullptr && passes_waypoints(summary.curve)) {

@@ -7,6 +7,10 @@
 // and at u = j / n the numerator over n^3 is an integer below 2^67 * 2^30: exact in 128 bits.
 #include "segment_cubic.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace splinefeed::host {
@@ -58,6 +62,35 @@ SegmentCubic::SegmentCubic(const FeedSegment& segment, unsigned axis, double uni
 std::int64_t SegmentCubic::travelled(int j, int n) const noexcept {
     const std::int64_t square = std::int64_t{n} * n;
     return nearest_quotient(((a3_ * j + a2_ * n) * j + a1_ * square) * j, square * n);
+}
+
+// Between the zeros of velocity and acceleration both keep their signs, and |acceleration|, linear, is largest at an
+// end.
+Accelerations SegmentCubic::accelerations(double from, double to) const noexcept {
+    std::array<double, 5> places{from, to}; // in order
+    std::size_t count = 2;
+    const auto add = [&](double u) {
+        if (u > from && u < to) { // false for NaN
+            std::size_t i = count++;
+            for (; places[i - 1] > u; --i) {
+                places[i] = places[i - 1];
+            }
+            places[i] = u;
+        }
+    };
+    add(peak_u_);
+    // b1 + b2 u + b3 u^2 = 0, without cancellation
+    const double root = std::sqrt(b2_ * b2_ - 4.0 * b1_ * b3_);
+    const double sum = -0.5 * (b2_ + std::copysign(root, b2_));
+    add(sum / b3_);
+    add(b1_ / sum);
+    Accelerations largest;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        const double middle = 0.5 * (places[i] + places[i + 1]);
+        double& most = velocity(middle) * acceleration(middle) < 0.0 ? largest.braking : largest.speeding;
+        most = std::max({most, std::fabs(acceleration(places[i])), std::fabs(acceleration(places[i + 1]))});
+    }
+    return largest;
 }
 
 } // namespace splinefeed::host

@@ -13,6 +13,12 @@ __extension__ using Wide128 = __int128;
 /// The whole count nearest to a position, ties upwards. Exact for every position.
 [[nodiscard]] std::int64_t nearest_count(std::int64_t units) noexcept;
 
+/// Largest |acceleration| [mm/s^2] in the direction of the velocity, from rest included, and against it.
+struct Accelerations {
+    double speeding = 0.0;
+    double braking = 0.0;
+};
+
 class SegmentCubic {
 public:
     SegmentCubic() = default; ///< not usable until assigned
@@ -26,6 +32,8 @@ public:
     [[nodiscard]] double velocity(double u) const noexcept { return b1_ + u * (b2_ + u * b3_); }
     [[nodiscard]] double acceleration(double u) const noexcept { return (b2_ + 2.0 * u * b3_) * per_duration_; }
     [[nodiscard]] double jerk() const noexcept { return 2.0 * b3_ * per_duration_ * per_duration_; }
+    /// The largest accelerations between two places, 0 <= from <= to <= 1.
+    [[nodiscard]] Accelerations accelerations(double from, double to) const noexcept;
     /// Where the velocity has its extreme strictly inside the segment; -1: nowhere.
     [[nodiscard]] double peak_u() const noexcept { return peak_u_; }
 

@@ -57,6 +57,8 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
         };
         axis.velocity = with_tolerance(settings.max_velocity_mm_s, e);
         axis.acceleration = with_tolerance(settings.max_acceleration_mm_s2, 4.0 * e);
+        axis.braking = with_tolerance(settings.braking_mm_s2(), 4.0 * e);
+        axis.brakes_differently = axis.braking.limit != axis.acceleration.limit;
         axis.jerk = with_tolerance(settings.max_jerk_mm_s3, 8.0 * e);
         axis.travel = machine.travel[k];
         if (axis.travel) {
@@ -222,6 +224,15 @@ bool SimulatedMachine::execute(const FeedSegment& segment) {
     return true;
 }
 
+// Where one limit holds for both, signs do not matter: acceleration is linear, its largest at an end.
+Accelerations SimulatedMachine::accelerations_of(const Axis& axis, const SegmentCubic& cubic, double from,
+                                                 double to) noexcept {
+    if (axis.brakes_differently) {
+        return cubic.accelerations(from, to);
+    }
+    return {std::max(std::fabs(cubic.acceleration(from)), std::fabs(cubic.acceleration(to))), 0.0};
+}
+
 // Coefficients, and the extremes over the whole segment in closed form.
 void SimulatedMachine::survey(Motion& motion) noexcept {
     const FeedSegment& segment = *motion.segment;
@@ -237,7 +248,7 @@ void SimulatedMachine::survey(Motion& motion) noexcept {
             velocity = std::max(velocity, std::fabs(cubic.velocity(cubic.peak_u())));
         }
         const double start = cubic.acceleration(0.0);
-        const double acceleration = std::max(std::fabs(start), std::fabs(cubic.acceleration(1.0)));
+        const Accelerations found = accelerations_of(axis, cubic, 0.0, 1.0);
         // Where acceleration jumps, the sampled jerk is the jump over a segment; a stream that chains in C2 has none.
         motion.jump[k] = (start - acceleration_[k]) / duration;
         const bool jerk_limited = axis.jerk.limit > 0.0;
@@ -245,11 +256,13 @@ void SimulatedMachine::survey(Motion& motion) noexcept {
 
         LimitUse& use = use_[k];
         use.velocity = std::max(use.velocity, velocity / axis.velocity.limit);
-        use.acceleration = std::max(use.acceleration, acceleration / axis.acceleration.limit);
+        use.acceleration =
+            std::max({use.acceleration, found.speeding / axis.acceleration.limit, found.braking / axis.braking.limit});
         use.jerk = jerk_limited ? std::max(use.jerk, jerk / axis.jerk.limit) : 0.0;
         const double square = duration * duration;
         motion.axis_suspicious[k] = velocity > axis.velocity.most + axis.velocity.noise / duration ||
-                                    acceleration > axis.acceleration.most + axis.acceleration.noise / square ||
+                                    found.speeding > axis.acceleration.most + axis.acceleration.noise / square ||
+                                    found.braking > axis.braking.most + axis.braking.noise / square ||
                                     (jerk_limited && jerk > axis.jerk.most + axis.jerk.noise / (square * duration));
         motion.suspicious = motion.suspicious || motion.axis_suspicious[k];
     }
@@ -298,9 +311,12 @@ bool SimulatedMachine::check_axes(const Motion& motion, int j) {
         if (axis.jerk.limit > 0.0 && jerk > axis.jerk.most + axis.jerk.noise / (t * t * t)) {
             return fail(FaultKind::jerk, k, now, jerk, axis.jerk.limit, "mm/s3", waypoint);
         }
-        const double acceleration = std::fabs(cubic.acceleration(u));
-        if (acceleration > axis.acceleration.most + axis.acceleration.noise / (t * t)) {
-            return fail(FaultKind::acceleration, k, now, acceleration, axis.acceleration.limit, "mm/s2", waypoint);
+        const Accelerations found = accelerations_of(axis, cubic, std::max(u - 1.0 / n, 0.0), u);
+        if (found.speeding > axis.acceleration.most + axis.acceleration.noise / (t * t)) {
+            return fail(FaultKind::acceleration, k, now, found.speeding, axis.acceleration.limit, "mm/s2", waypoint);
+        }
+        if (found.braking > axis.braking.most + axis.braking.noise / (t * t)) {
+            return fail(FaultKind::braking, k, now, found.braking, axis.braking.limit, "mm/s2", waypoint);
         }
         const double most = axis.velocity.most + axis.velocity.noise / t;
         const bool peaked = cubic.peak_u() > u - 1.0 / n && cubic.peak_u() <= u;

@@ -7,6 +7,7 @@
 
 #include "machine_description.hpp"
 #include "machine_fault.hpp"
+#include "segment_cubic.hpp"
 
 #include "splinefeed/hal/motion_port.hpp"
 
@@ -42,10 +43,10 @@ struct SimulationOptions {
 };
 
 /// Per segment: velocity, acceleration and jerk of an axis are checked over all of it, not only at ticks (acceleration
-/// is linear, velocity a parabola with a known peak). Per tick, `ticks_per_segment` times: position, counts, travel and
-/// path speed (with its peak between ticks). Tolerance: 1e-6 of the limit (of the travel) plus what rounding the
-/// control points of a segment explains; derivation in the .cpp. Memory: the queue. Cost of a segment: about 0.5 us for
-/// three axes and 8 ticks; no allocation but for a fault.
+/// is linear, velocity a parabola with a known peak). Acceleration against the velocity of that instant is braking. Per
+/// tick, `ticks_per_segment` times: position, counts, travel and path speed (with its peak between ticks). Tolerance:
+/// 1e-6 of the limit (of the travel) plus what rounding the control points of a segment explains; derivation in the
+/// .cpp. Memory: the queue. Cost of a segment: about 0.5 us for three axes and 8 ticks; no allocation but for a fault.
 class SimulatedMachine final : public hal::MotionPort {
 public:
     using Options = SimulationOptions;
@@ -80,7 +81,8 @@ private:
     };
     struct Axis {
         double units_per_mm = 1.0;
-        Limit velocity, acceleration, jerk;
+        Limit velocity, acceleration, braking, jerk;
+        bool brakes_differently = false;
         std::optional<Travel> travel;
         double lowest = 0.0; ///< travel with its tolerance [mm]
         double highest = 0.0;
@@ -88,6 +90,8 @@ private:
     };
     struct Motion;
 
+    [[nodiscard]] static Accelerations accelerations_of(const Axis& axis, const SegmentCubic& cubic, double from,
+                                                        double to) noexcept;
     [[nodiscard]] int do_room() const noexcept override;
     [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
     hal::PortState do_poll() noexcept override;

@@ -58,6 +58,8 @@ TEMPLATE_TEST_CASE("every number of a machine has a range", "[feed_plan][limits]
                        Error::steps_out_of_range);
         check_range<S>([k](MachineSettings& m) -> double& { return m.axis[k].max_acceleration_mm_s2; }, 0.1, 1e6,
                        Error::acceleration_out_of_range);
+        check_range<S>([k](MachineSettings& m) -> double& { return m.axis[k].max_braking_mm_s2; }, 0.1, 1e6,
+                       Error::braking_out_of_range);
     }
     MachineSettings machine;
     for (const int bad : {0, -1, max_axes + 1, 1000, std::numeric_limits<int>::min()}) {
@@ -75,6 +77,7 @@ TEMPLATE_TEST_CASE("zero means no such limit", "[feed_plan][limits]", double, fl
     const auto limits = MotionLimits<TestType>::make({}).value();
     CHECK(limits.centripetal_mm_s2 == TestType{});
     CHECK(limits.chord_mm_s2 == TestType{});
+    CHECK(limits.braking_mm_s2 == limits.acceleration_mm_s2);
 }
 
 TEMPLATE_TEST_CASE("jerk limits are refused", "[feed_plan][limits]", double, float, Fixed) {
@@ -90,7 +93,7 @@ TEMPLATE_TEST_CASE("jerk limits are refused", "[feed_plan][limits]", double, flo
 TEMPLATE_TEST_CASE("axes that the machine lacks are not checked", "[feed_plan][limits]", double, float, Fixed) {
     MachineSettings machine;
     machine.axes = 1;
-    machine.axis[1] = {not_a_number, not_a_number, not_a_number, not_a_number};
+    machine.axis[1] = {not_a_number, not_a_number, not_a_number, not_a_number, not_a_number};
     CHECK(error_of<TestType>(machine) == Error::none);
 }
 
@@ -110,6 +113,7 @@ TEMPLATE_TEST_CASE("derived numbers", "[feed_plan][limits]", double, float, Fixe
     MachineSettings machine = machine_of(3, 80.0, 2000.0, 120.0, 2000, 640.5);
     machine.axis[1].max_acceleration_mm_s2 = 500.0;
     machine.axis[2].max_velocity_mm_s = 7.0;
+    machine.axis[2].max_braking_mm_s2 = 700.0;
     machine.centripetal_mm_s2 = 900.0;
     machine.chord_error_mm = 0.002;
     const auto limits = MotionLimits<TestType>::make(machine).value();
@@ -134,6 +138,7 @@ TEMPLATE_TEST_CASE("derived numbers", "[feed_plan][limits]", double, float, Fixe
         CHECK(usable(machine.axis[k].max_velocity_mm_s, 2.0 * e / segment_s)(limits.velocity_mm_s[k]));
         const double share = 0.02 * machine.axis[1].max_acceleration_mm_s2;
         CHECK(usable(machine.axis[k].max_acceleration_mm_s2, share)(limits.acceleration_mm_s2[k]));
+        CHECK(usable(k == 2 ? 700.0 : machine.axis[k].max_acceleration_mm_s2, share)(limits.braking_mm_s2[k]));
         CHECK(limits.steps_per_mm_q32[k] == (std::uint64_t{1281} << 31));
     }
     CHECK(usable(120.0, 3.0 * 2.0 * e / segment_s)(limits.feed_mm_s));

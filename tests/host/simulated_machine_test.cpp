@@ -54,6 +54,26 @@ TEST_CASE("each limit is kept to 1e-5 and forgiven to 1e-9") {
         CHECK(fault_of(machine, there(50.0 * over, 1000.0 * over, axis)) == "acceleration");
         CHECK(fault_of(machine, there(50.0 * hardly_over, 1000.0 * hardly_over, axis)) == "none");
     }
+    SECTION("braking") {
+        const auto with_braking = [&](double limit, double acceleration) {
+            machine.settings.axis[axis].max_braking_mm_s2 = limit;
+            Motion motion = there(acceleration / 20.0, acceleration, axis);
+            const std::string up = fault_of(machine, motion);
+            for (FeedSegment& segment : motion) { // the same downwards
+                segment.end[axis] = -segment.end[axis];
+                segment.start[axis] = -segment.start[axis];
+                segment.start_velocity[axis] = -segment.start_velocity[axis];
+                segment.end_velocity[axis] = -segment.end_velocity[axis];
+            }
+            CHECK(fault_of(machine, motion) == up);
+            return up;
+        };
+        CHECK(with_braking(500.0, 500.0 * over) == "braking");
+        CHECK(with_braking(500.0, 500.0 * hardly_over) == "none");
+        CHECK(with_braking(5000.0, 1000.0 * over) == "acceleration");
+        machine.settings.axis[axis].max_acceleration_mm_s2 = 100.0;
+        CHECK(with_braking(500.0, 300.0) == "acceleration");
+    }
     SECTION("path speed") {
         machine.settings.max_feed_mm_s = 60.0;
         CHECK(fault_of(machine, there(60.0 * over, 500.0, axis)) == "feed");
@@ -134,6 +154,21 @@ TEST_CASE("acceleration is seen at the start and at the end of a segment") {
     static_cast<void>(late.submit(stroke(10.0, 8000000, units(30.0))));
     late.poll();
     CHECK(late.use(0).acceleration == Approx(0.06).epsilon(1e-9)); // -6 D + 4 m1 = 60, at the start 6 D - 2 m1 = 0
+}
+
+TEST_CASE("braking is seen up to the instant at which the axis turns round") {
+    // From 1 mm/s back to where it was in 1 s: v = 1 - 4 u + 3 u^2, a = -4 + 6 u; it turns round at 1/3, where a = -2
+    FeedSegment segment = stroke(0.0, 8000000);
+    segment.start_velocity[0] = units(1.0);
+    const SegmentCubic cubic(segment, 0, 1000.0 * static_cast<double>(units_per_count), 1.0);
+    const Accelerations all = cubic.accelerations(0.0, 1.0);
+    CHECK(all.braking == Approx(4.0));
+    CHECK(all.speeding == Approx(2.0)); // from 1/3 to 2/3; then it brakes again, with 2 at the end
+    const Accelerations late = cubic.accelerations(0.5, 1.0);
+    CHECK(late.speeding == Approx(1.0));
+    CHECK(late.braking == Approx(2.0));
+    CHECK(cubic.accelerations(0.0, 0.0).braking == Approx(4.0));
+    CHECK(cubic.accelerations(0.25, 0.3).speeding == 0.0);
 }
 
 TEST_CASE("path speed between ticks is seen") {

@@ -6,6 +6,8 @@
 #include "cell_reference.hpp"
 #include "splinefeed/trajectory.hpp"
 
+#include <algorithm>
+
 namespace splinefeed_test {
 
 /// Equal axes.
@@ -104,6 +106,14 @@ inline MachineSettings random_machine(Random& random, int axes) {
     machine.chord_error_mm = random.chance(0.4) ? random.decades(1e-5, 0.1) : 0.0;
     machine.sample_period_us = random.integer(250, 4000);
     return machine;
+}
+
+/// Axes that brake harder or less hard than they accelerate.
+inline void brake_differently(Random& random, MachineSettings& machine) {
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_braking_mm_s2 =
+            random.chance(0.2) ? 0.0 : std::clamp(axis.max_acceleration_mm_s2 * random.decades(0.1, 10.0), 30.0, 1e6);
+    }
 }
 
 } // namespace splinefeed_test

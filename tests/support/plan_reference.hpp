@@ -15,13 +15,43 @@ struct HalfPlane {
     Real limit = 0.0L;
 };
 
+/// Which way the axis goes all along the cell and for four durations T of a segment around it; 0: it may turn round. In
+/// 4 T its speed changes by |q''| v^2 4 T at most, where v^2 is what the feed and, at the turn, the axis allow.
+template <Scalar S>
+int way_of(const Cell<S>& cell, unsigned k, const MotionLimits<S>& limits) {
+    const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
+    const Real bend = exact(cell.curvature_max[k]);
+    if (2.0L * exact(cell.length_mm) * bend > real(Cell<S>::sharp_turn)) {
+        return 0;
+    }
+    const AxisShape<S>& shape = cell.shape[k];
+    const Real t0 = exact(shape.tangent[0]);
+    const Real t3 = exact(shape.tangent[1]);
+    int way = 0;
+    Real slowest = 1e9L;
+    for (const Real t : {t0, t0 + exact(shape.bend[0]) / 6.0L, t3 - exact(shape.bend[2]) / 6.0L, t3}) {
+        const int sign = t > 0.0L ? 1 : t < 0.0L ? -1 : 0;
+        if (sign == 0 || way == -sign) {
+            return 0;
+        }
+        way = sign;
+        slowest = std::min(slowest, (std::fabs(t) - exact(shape.spread)) * unit);
+    }
+    const Real feed = exact(limits.feed_mm_s);
+    const Real most = std::max(exact(limits.acceleration_mm_s2[k]), exact(limits.braking_mm_s2[k]));
+    const Real speed = std::min(feed, bend > 0.0L ? std::sqrt(most / bend) : feed);
+    return slowest > bend * speed * 4.0L / exact(limits.segments_per_s) ? way : 0;
+}
+
 template <Scalar S>
 std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>& limits) {
     std::vector<HalfPlane> planes;
     const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
     for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
         const AxisShape<S>& shape = cell.shape[k];
-        const Real limit = 2.0L * exact(cell.length_mm) * exact(limits.acceleration_mm_s2[k]);
+        const Real speeding = exact(limits.acceleration_mm_s2[k]);
+        const Real braking = exact(limits.braking_mm_s2[k]);
+        const int way = way_of(cell, k, limits);
         const std::array<Real, 3> c{exact(shape.bend[0]) * unit, exact(shape.bend[1]) * unit,
                                     exact(shape.bend[2]) * unit};
         const Real t0 = exact(shape.tangent[0]) * unit;
@@ -32,6 +62,10 @@ std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>
         for (unsigned j = 0; j < 4; ++j) {
             for (const Real sign : {1.0L, -1.0L}) {
                 const Real spread = exact(shape.spread) * unit;
+                const Real most = static_cast<Real>(way) * sign > 0.0L   ? speeding
+                                  : static_cast<Real>(way) * sign < 0.0L ? braking
+                                                                         : std::min(speeding, braking);
+                const Real limit = 2.0L * exact(cell.length_mm) * most;
                 planes.push_back({spread + sign * (entry[j] - t[j]), spread + sign * (exit[j] + t[j]), limit});
             }
         }
@@ -88,7 +122,9 @@ Speeds largest_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimi
             const Real q2 = exact(cell.curvature_max[k]);
             speed = q1 > 0.0L ? std::min(speed, exact(limits.velocity_mm_s[k]) / q1) : speed;
             if (2.0L * exact(cell.length_mm) * q2 > real(Cell<S>::sharp_turn)) {
-                cap_sq = std::min(cap_sq, exact(limits.acceleration_mm_s2[k]) / (2.0L * q2));
+                cap_sq =
+                    std::min(cap_sq, std::min(exact(limits.acceleration_mm_s2[k]), exact(limits.braking_mm_s2[k])) /
+                                         (2.0L * q2));
             }
             bend_sq += q2 * q2;
         }
@@ -169,9 +205,9 @@ Use use_of(const std::vector<PlannedCell<S>>& cells, const MachineSettings& mach
                 use.velocity = std::max(use.velocity, (std::fabs(d.tangent[k]) - tangent_noise) * std::sqrt(b) /
                                                           real(axis.max_velocity_mm_s));
                 const Real noise = tangent_noise * std::fabs(a) + bend_noise * b;
-                use.acceleration =
-                    std::max(use.acceleration, (std::fabs(d.tangent[k] * a + d.curvature[k] * b) - noise) /
-                                                   real(axis.max_acceleration_mm_s2));
+                const Real f = d.tangent[k] * a + d.curvature[k] * b;
+                const double limit = f * d.tangent[k] < 0.0L ? axis.braking_mm_s2() : axis.max_acceleration_mm_s2;
+                use.acceleration = std::max(use.acceleration, (std::fabs(f) - noise) / real(limit));
                 bend_sq += d.curvature[k] * d.curvature[k];
             }
             const Real bend = std::sqrt(bend_sq);

@@ -51,6 +51,23 @@ struct Used {
     Real feed = 0.0L;
 };
 
+/// The part of its limit that an axis uses where braking has one of its own, at 33 places of the segment: |a| against
+/// the limit that the sign of the velocity there says. `scale`: units per segment squared in a mm/s^2.
+inline Real braked(const AxisMotion& m, Real scale, const AxisSettings& axis) {
+    const auto v0 = static_cast<Real>(m.v0);
+    const auto a0 = static_cast<Real>(m.a0);
+    const auto change = static_cast<Real>(m.a1 - m.a0);
+    Real used = 0.0L;
+    for (int i = 0; i <= 32; ++i) {
+        const Real u = static_cast<Real>(i) / 32.0L;
+        const Real v = v0 + u * (a0 + u * change / 2.0L);
+        const Real a = a0 + u * change;
+        const double limit = a * v < 0.0L ? axis.braking_mm_s2() : axis.max_acceleration_mm_s2;
+        used = std::max(used, std::fabs(a) / (scale * real(limit)));
+    }
+    return used;
+}
+
 /// Checks that the segments chain exactly in position, velocity and acceleration from rest to rest, and measures them.
 /// Returns what breaks first, empty if nothing.
 inline const char* check_stream(const std::vector<FeedSegment>& segments, const MachineSettings& machine, Used& used) {
@@ -87,8 +104,12 @@ inline const char* check_stream(const std::vector<FeedSegment>& segments, const 
             const Real scale = units_per_mm(axis) * duration;
             const Real noise = 2.0L * sample_rounding(axis) / duration;
             const Real a = std::fabs(static_cast<Real>(std::max(m.a0 < 0 ? -m.a0 : m.a0, m.a1 < 0 ? -m.a1 : m.a1)));
-            used.acceleration =
-                std::max(used.acceleration, a / (scale * duration * static_cast<Real>(axis.max_acceleration_mm_s2)));
+            if (axis.braking_mm_s2() != axis.max_acceleration_mm_s2) {
+                used.acceleration = std::max(used.acceleration, braked(m, scale * duration, axis));
+            } else {
+                used.acceleration = std::max(used.acceleration,
+                                             a / (scale * duration * static_cast<Real>(axis.max_acceleration_mm_s2)));
+            }
             used.velocity = std::max(used.velocity, (fastest(m) / scale - noise) / real(axis.max_velocity_mm_s));
             const Real v = static_cast<Real>(m.v0) / scale;
             feed_sq += v * v;

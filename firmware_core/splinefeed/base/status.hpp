@@ -20,6 +20,7 @@ enum class Error : std::uint8_t {
     feed_out_of_range,
     velocity_out_of_range,
     acceleration_out_of_range,
+    braking_out_of_range,
     jerk_not_supported,
     centripetal_out_of_range,
     chord_error_out_of_range,

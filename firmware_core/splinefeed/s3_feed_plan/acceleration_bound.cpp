@@ -17,7 +17,8 @@
 //
 // holds A at every point of the cell; spread covers what q' and q'' leave their polynomials by. j = 0 and 3 are the two
 // ends of the cell (the interpolation scheme of TOPP-RA: H. Pham, Q.-C. Pham, IEEE T-RO 34 (2018)); 1 and 2 close the
-// gap between them. The signs matter where an axis turns round: there |q'| |a| + |q''| b would give away several per
+// gap between them. Where the axis does not turn round one sign of f is braking, and A is the braking limit for it. The
+// signs matter where an axis turns round: there |q'| |a| + |q''| b would give away several per
 // cent.
 //
 // The polygon P of these half-planes is convex and holds (0, 0). Hence
@@ -50,9 +51,43 @@ template <Scalar S>
 AccelerationBound<S>::AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept : cell_(&cell) {
     const S twice = cell.length_mm + cell.length_mm;
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
-        limit_[k] = smaller(scale2(twice * limits.acceleration_mm_s2[k], limits.refinement.shape_log2),
-                            from_integer<S>(1 << 30)); // never reached
+        const auto scaled = [&](S acceleration) {
+            return smaller(scale2(twice * acceleration, limits.refinement.shape_log2),
+                           from_integer<S>(1 << 30)); // never reached
+        };
+        const S speeding = scaled(limits.acceleration_mm_s2[k]);
+        const S braking = scaled(limits.braking_mm_s2[k]);
+        const int way = speeding == braking ? 1 : heading(cell, k, limits);
+        upwards_[k] = way > 0 ? speeding : way < 0 ? braking : smaller(speeding, braking);
+        downwards_[k] = way > 0 ? braking : way < 0 ? speeding : upwards_[k];
     }
+}
+
+// Which way an axis moves all along the cell: 1, -1, or 0 where it may turn round, there or within 4 T of it. A segment
+// averages the plan over three durations T: in none of them it may brake with what is meant for accelerating. The
+// axis's speed |q'| v changes by |q''| v^2 t, and v^2 is at most that of the feed and A / |q''|, else it could not turn
+// round: it does not if |q'|^2 > (4 T |q''|)^2 v^2.
+template <Scalar S>
+int AccelerationBound<S>::heading(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept {
+    const S bend = cell.curvature_max[axis];
+    if ((cell.length_mm + cell.length_mm) * bend > literal<S>(Cell<S>::sharp_turn)) {
+        return 0; // the shape has no sign
+    }
+    const AxisShape<S>& shape = cell.shape[axis];
+    const S sixth = literal<S>(1.0 / 6.0);
+    const S t1 = shape.tangent[0] + sixth * shape.bend[0];
+    const S t2 = shape.tangent[1] - sixth * shape.bend[2];
+    const S lowest = smaller(smaller(shape.tangent[0], shape.tangent[1]), smaller(t1, t2));
+    const S highest = larger(larger(shape.tangent[0], shape.tangent[1]), larger(t1, t2));
+    const S slowest = scale2(larger(lowest, -highest) - shape.spread, -limits.refinement.shape_log2); // least |q'|
+    if (!(slowest > S{})) {
+        return 0;
+    }
+    const S feed_sq = limits.feed_mm_s * limits.feed_mm_s;
+    const S most = larger(limits.acceleration_mm_s2[axis], limits.braking_mm_s2[axis]);
+    const S change = bend > quotient_or_max(most, feed_sq) ? most : bend * feed_sq; // |q''| v^2
+    const S time = from_integer<S>(4) / limits.segments_per_s;
+    return quotient_or_max(slowest * slowest, time * change) > time * bend ? (lowest > S{} ? 1 : -1) : 0;
 }
 
 template <Scalar S>
@@ -62,8 +97,8 @@ void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(cell_->axes); ++k) {
         const AxisShape<S>& shape = cell_->shape[k];
         const auto both = [&](S entry, S exit) {
-            visit(Row{shape.spread + entry, shape.spread + exit, limit_[k]});
-            visit(Row{shape.spread - entry, shape.spread - exit, limit_[k]});
+            visit(Row{shape.spread + entry, shape.spread + exit, upwards_[k]});
+            visit(Row{shape.spread - entry, shape.spread - exit, downwards_[k]});
         };
         const S c0 = third * shape.bend[0];
         const S c1 = third * (shape.bend[1] + shape.bend[1]);

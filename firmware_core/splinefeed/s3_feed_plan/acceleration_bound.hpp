@@ -16,6 +16,7 @@ struct EndSpeeds {
 };
 
 /// The convex polygon of the pairs (entry_sq, exit_sq) that a cell allows: eight half-planes an axis. It holds (0, 0).
+/// Half of them bound accelerations in the axis's own direction, half those against it, each by a limit of its own.
 /// Cost of a function: two products for each of four points and axis, and a division for every time one of them bites.
 template <Scalar S>
 class AccelerationBound {
@@ -37,11 +38,13 @@ private:
     };
 
     [[nodiscard]] static S crossing_of(const Row& first, const Row& second, S weight) noexcept;
+    [[nodiscard]] static int heading(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
     template <class Visit>
     void each_row(Visit&& visit) const noexcept;
 
     const Cell<S>* cell_;
-    PerAxis<S> limit_{}; // 2 L A
+    PerAxis<S> upwards_{};   // 2 L A of accelerations > 0
+    PerAxis<S> downwards_{}; // and of those < 0
 };
 
 } // namespace splinefeed

@@ -50,7 +50,7 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     S reach = cap;
     const S twice = cell.length_mm + cell.length_mm;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
-        const S limit = limits_.acceleration_mm_s2[k];
+        const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
         const S turn = twice * cell.curvature_max[k];
         if (turn > literal<S>(Cell<S>::sharp_turn)) {
             cap = smaller(cap, scale2(limit, -1) / cell.curvature_max[k]);

@@ -17,6 +17,17 @@ struct AxisSettings {
     double max_acceleration_mm_s2 = 1000.0;
     double max_jerk_mm_s3 = 0.0; ///< 0: acceleration-limited. Its place; refused until the plan supports it.
     double steps_per_mm = 1000.0;
+    double max_braking_mm_s2 = 0.0; ///< acceleration against the velocity; 0: max_acceleration_mm_s2
+
+    [[nodiscard]] constexpr double braking_mm_s2() const noexcept {
+        return max_braking_mm_s2 == 0.0 ? max_acceleration_mm_s2 : max_braking_mm_s2;
+    }
+    [[nodiscard]] constexpr double smaller_acceleration_mm_s2() const noexcept {
+        return braking_mm_s2() < max_acceleration_mm_s2 ? braking_mm_s2() : max_acceleration_mm_s2;
+    }
+    [[nodiscard]] constexpr double larger_acceleration_mm_s2() const noexcept {
+        return braking_mm_s2() > max_acceleration_mm_s2 ? braking_mm_s2() : max_acceleration_mm_s2;
+    }
 };
 
 /// A machine as its file states it. Zero means "no such limit" for the optional ones.
@@ -37,7 +48,8 @@ template <Scalar S>
 struct MotionLimits {
     int axes = 0;
     PerAxis<S> velocity_mm_s{};
-    PerAxis<S> acceleration_mm_s2{};
+    PerAxis<S> acceleration_mm_s2{};           ///< along the axis's velocity
+    PerAxis<S> braking_mm_s2{};                ///< against it
     PerAxis<std::uint64_t> steps_per_mm_q32{}; ///< counts per mm, 32 fraction bits
     S feed_mm_s{};                             ///< what planning may use of max_feed_mm_s
     S usable{}; ///< the part of a limit that planning may use, but for the noise of positions
@@ -175,14 +187,17 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         if (!detail::within(axis.max_acceleration_mm_s2, 0.1, 1e6)) {
             return Error::acceleration_out_of_range;
         }
+        if (axis.max_braking_mm_s2 != 0.0 && !detail::within(axis.max_braking_mm_s2, 0.1, 1e6)) {
+            return Error::braking_out_of_range;
+        }
         if (axis.max_jerk_mm_s3 != 0.0) {
             return Error::jerk_not_supported;
         }
         if (!detail::within(axis.steps_per_mm, 0.001, 1e6)) {
             return Error::steps_out_of_range;
         }
-        acceleration_sq += axis.max_acceleration_mm_s2 * axis.max_acceleration_mm_s2;
-        softest = axis.max_acceleration_mm_s2 < softest ? axis.max_acceleration_mm_s2 : softest;
+        acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
+        softest = axis.smaller_acceleration_mm_s2() < softest ? axis.smaller_acceleration_mm_s2() : softest;
     }
     const double period_s = settings.sample_period_us * 1e-6;
     const int n = detail::segments_per_sample(period_s, acceleration_sq);
@@ -196,7 +211,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30).
         const double error_mm = longest * detail::parameter_error<S> + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
         const double noise = detail::acceleration_noise(error_mm, segment_s);
-        if (noise > 0.25 * axis.max_acceleration_mm_s2) {
+        if (noise > 0.25 * axis.smaller_acceleration_mm_s2()) {
             return Error::period_too_short;
         }
         const double speed_noise = detail::speed_noise(error_mm, segment_s);
@@ -206,8 +221,11 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         feed_noise += speed_noise;
         limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * usable - speed_noise);
         // Jumps of the speed that are tolerated at joints are accelerations, too.
-        limits.acceleration_mm_s2[k] =
-            from_double<S>(axis.max_acceleration_mm_s2 * usable - noise - detail::jump_share<S> * softest);
+        const auto planned = [&](double acceleration) {
+            return from_double<S>(acceleration * usable - noise - detail::jump_share<S> * softest);
+        };
+        limits.acceleration_mm_s2[k] = planned(axis.max_acceleration_mm_s2);
+        limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
     limits.usable = from_double<S>(usable);
