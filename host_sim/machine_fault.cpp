@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "machine_fault.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace splinefeed::host {
 
@@ -23,11 +25,14 @@ const char* fault_name(FaultKind kind) noexcept {
 
 std::string describe(const Fault& fault) {
     const std::string where = fault.axis.empty() ? "path" : "axis " + fault.axis;
+    const std::string_view mm = fault.unit;
+    const std::string unit =
+        fault.rotary ? fmt::format("degrees{}", mm.substr(std::min<std::size_t>(2, mm.size()))) : std::string(mm);
     std::string what;
     switch (fault.kind) {
     case FaultKind::chain:
         what = fmt::format("{}: a segment does not start where the last one ended: {} is off by {:.6g} {}", where,
-                           fault.unit == std::string_view("mm") ? "position" : "velocity", fault.value, fault.unit);
+                           mm == "mm" ? "position" : "velocity", fault.value, unit);
         break;
     case FaultKind::duration: what = "a segment lasts no time"; break;
     case FaultKind::velocity:
@@ -36,11 +41,11 @@ std::string describe(const Fault& fault) {
     case FaultKind::jerk:
     case FaultKind::feed:
         what = fmt::format("{}: {} {:.9g} {} is above the limit of {:.9g} {}", where, fault_name(fault.kind),
-                           fault.value, fault.unit, fault.limit, fault.unit);
+                           fault.value, unit, fault.limit, unit);
         break;
     case FaultKind::travel:
-        what = fmt::format("{}: position {:.9g} mm is {} the travel limit of {:.9g} mm", where, fault.value,
-                           fault.value < fault.limit ? "below" : "above", fault.limit);
+        what = fmt::format("{}: position {:.9g} {} is {} the travel limit of {:.9g} {}", where, fault.value, unit,
+                           fault.value < fault.limit ? "below" : "above", fault.limit, unit);
         break;
     case FaultKind::underrun:
         what = fmt::format("the segments ran out while the machine moved at {:.6g} mm/s", fault.value);

@@ -154,7 +154,7 @@ private:
 
     void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
         require_known(table,
-                      {"name", "travel_mm", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2",
+                      {"name", "kind", "travel_mm", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2",
                        "max_jerk_mm_s3", "steps_per_mm", "drive"},
                       " in [[axis]]");
         const toml::node* name = table.get("name");
@@ -173,6 +173,9 @@ private:
         const std::string where = fmt::format("axis {}", letter);
         machine.axis_name[k] = letter;
         AxisSettings& axis = machine.settings.axis[k];
+        if (const toml::node* kind = table.get("kind")) {
+            axis.rotary = is_rotary(*kind);
+        }
         if (const toml::node* jerk = table.get("max_jerk_mm_s3")) {
             fail(*jerk, describe(Error::jerk_not_supported));
         }
@@ -190,6 +193,14 @@ private:
         if (const toml::node* drive = table.get("drive")) {
             static_cast<void>(text(*drive, "drive")); // for --target modbus, which reads it when it comes
         }
+    }
+
+    [[nodiscard]] bool is_rotary(const toml::node& node) const {
+        const std::string kind = text(node, "kind");
+        if (kind != "linear" && kind != "rotary") {
+            fail(node, fmt::format("kind is {}; it must be 'linear' or 'rotary'", in_quotes(kind)));
+        }
+        return kind == "rotary";
     }
 
     [[nodiscard]] Travel travel(const toml::node& node, double steps_per_mm) const {

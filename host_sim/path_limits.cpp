@@ -19,7 +19,8 @@ PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settin
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
         const double reach = most_counts / machine.settings.axis[k].steps_per_mm;
         const Travel travel = machine.travel[k].value_or(Travel{-reach, reach});
-        axis_[k] = {machine.axis_name[k], travel.low, travel.high, machine.travel[k].has_value()};
+        const char* const unit = machine.settings.axis[k].rotary ? "degrees" : "mm";
+        axis_[k] = {machine.axis_name[k], unit, travel.low, travel.high, machine.travel[k].has_value()};
     }
 }
 
@@ -39,12 +40,12 @@ std::optional<std::string> PathLimits::violation(const CurveSegment<S>& segment)
         }
         const double value = found.low < limits.low ? found.low : found.high;
         if (axis.travel) {
-            return fmt::format("axis {} goes to {:.6f} mm; its travel_mm is [{}, {}]", axis.name, value, axis.low,
-                               axis.high);
+            return fmt::format("axis {} goes to {:.6f} {}; its travel_mm is [{}, {}]", axis.name, value, axis.unit,
+                               axis.low, axis.high);
         }
         return fmt::format(
-            "axis {} goes to {:.6f} mm; with its steps_per_mm it must stay within +-{:.6f} mm, 2147483647 counts",
-            axis.name, value, axis.high);
+            "axis {} goes to {:.6f} {}; with its steps_per_mm it must stay within +-{:.6f} {}, 2147483647 counts",
+            axis.name, value, axis.unit, axis.high, axis.unit);
     }
     return std::nullopt;
 }

@@ -25,6 +25,7 @@ public:
 private:
     struct Axis {
         std::string name;
+        const char* unit = "mm";
         double low = 0.0; ///< of what is allowed [mm]
         double high = 0.0;
         bool travel = false; ///< from the machine file; else from the range of counts

@@ -38,6 +38,7 @@ struct SimulatedMachine::Motion {
     PerAxis<bool> axis_suspicious; // some limit of the axis is violated somewhere
     bool suspicious;
     double power; // v . a at the last tick
+    bool turning; // rotary axes alone move: the feed is theirs
 };
 
 SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segments_per_sample, const Options& options)
@@ -46,7 +47,13 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
     assert(machine.settings.axes >= 1 && machine.settings.axes <= max_axes && segments_per_sample >= 1);
     assert(options.queue >= 1 && options.ticks_per_segment >= 1 && options.ticks_per_segment <= 1024);
     const bool any_linear = std::any_of(name_.begin(), name_.begin() + axes_, is_linear);
+    const auto rotary = [&](const AxisSettings& axis) {
+        return axis.rotary;
+    };
+    const auto* const first = machine.settings.axis.data();
+    mixed_ = std::any_of(first, first + axes_, rotary) && !std::all_of(first, first + axes_, rotary);
     double path_noise_sq = 0.0;
+    double turning_noise_sq = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
         const AxisSettings& settings = machine.settings.axis[k];
         Axis& axis = axis_[k];
@@ -66,11 +73,13 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
             axis.lowest = axis.travel->low - slack;
             axis.highest = axis.travel->high + slack;
         }
-        axis.on_path = !any_linear || is_linear(name_[k]);
-        path_noise_sq += axis.on_path ? e * e : 0.0;
+        axis.rotary = settings.rotary;
+        axis.on_path = mixed_ ? !axis.rotary : !any_linear || is_linear(name_[k]);
+        (axis.on_path ? path_noise_sq : turning_noise_sq) += e * e;
     }
     feed_ = {machine.settings.max_feed_mm_s, machine.settings.max_feed_mm_s * (1.0 + tolerance),
              std::sqrt(path_noise_sq)};
+    turning_feed_ = {feed_.limit, feed_.most, std::sqrt(turning_noise_sq)};
 }
 
 // ---- the port
@@ -159,7 +168,9 @@ void SimulatedMachine::trace_row() {
 // Always false, for `return fail(...)`.
 bool SimulatedMachine::fail(FaultKind kind, unsigned axis, double time_s, double value, double limit, const char* unit,
                             std::uint32_t waypoint) {
-    fault_ = Fault{kind, axis == no_axis ? std::string{} : name_[axis], time_s, value, limit, unit, waypoint};
+    const bool whole = axis == no_axis;
+    fault_ = Fault{kind,     whole ? std::string{} : name_[axis], time_s, value, limit, unit,
+                   waypoint, !whole && axis_[axis].rotary};
     return false;
 }
 
@@ -238,9 +249,13 @@ void SimulatedMachine::survey(Motion& motion) noexcept {
     const FeedSegment& segment = *motion.segment;
     const double duration = motion.duration_s;
     motion.suspicious = false;
+    motion.turning = mixed_;
     motion.power = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
         const Axis& axis = axis_[k];
+        const bool stands =
+            segment.start[k] == segment.end[k] && segment.start_velocity[k] == 0 && segment.end_velocity[k] == 0;
+        motion.turning = motion.turning && (axis.rotary || stands);
         SegmentCubic& cubic = motion.cubic[k];
         cubic = SegmentCubic(segment, k, axis.units_per_mm, duration);
         double velocity = std::max(std::fabs(cubic.velocity(0.0)), std::fabs(cubic.velocity(1.0)));
@@ -340,7 +355,7 @@ bool SimulatedMachine::check_path(Motion& motion, int j) {
         double speed_sq = 0.0;
         power = 0.0;
         for (unsigned k = 0; k < axes_; ++k) {
-            if (axis_[k].on_path) {
+            if (axis_[k].on_path != motion.turning) {
                 const double v = motion.cubic[k].velocity(u);
                 speed_sq += v * v;
                 power += v * motion.cubic[k].acceleration(u);
@@ -377,10 +392,11 @@ bool SimulatedMachine::check_path(Motion& motion, int j) {
         }
     }
     motion.power = power;
-    max_path_speed_ = std::max(max_path_speed_, speed);
-    if (options_.enforce && speed > feed_.most + feed_.noise / motion.duration_s) {
-        return fail(FaultKind::feed, no_axis, motion.start_s + motion.duration_s * u, speed, feed_.limit, "mm/s",
-                    motion.segment->waypoint);
+    const Limit& feed = motion.turning ? turning_feed_ : feed_;
+    max_path_speed_ = motion.turning ? max_path_speed_ : std::max(max_path_speed_, speed);
+    if (options_.enforce && speed > feed.most + feed.noise / motion.duration_s) {
+        return fail(FaultKind::feed, no_axis, motion.start_s + motion.duration_s * u, speed, feed.limit,
+                    motion.turning ? "degrees/s" : "mm/s", motion.segment->waypoint);
     }
     return true;
 }

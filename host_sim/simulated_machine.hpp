@@ -86,7 +86,8 @@ private:
         std::optional<Travel> travel;
         double lowest = 0.0; ///< travel with its tolerance [mm]
         double highest = 0.0;
-        bool on_path = false;
+        bool rotary = false;
+        bool on_path = false; ///< the feed counts it
     };
     struct Motion;
 
@@ -116,6 +117,8 @@ private:
     PerAxis<Axis> axis_{};
     PerAxis<std::string> name_{};
     Limit feed_{};
+    Limit turning_feed_{}; ///< where rotary axes alone move
+    bool mixed_ = false;   ///< rotary axes beside linear ones
     Options options_;
     unsigned axes_;
     int segments_per_sample_;

@@ -60,6 +60,9 @@ TEST_CASE("A machine file is read") {
     CHECK(machine.travel[0]->high == 310.5);
     CHECK_FALSE(machine.travel[1]);
     CHECK(machine.settings.axis[0].max_braking_mm_s2 == 0.0);
+    CHECK_FALSE(machine.settings.axis[1].rotary);
+    CHECK(parse_machine(with("'a'\n", "'a'\nkind = 'rotary'\n"), "m.toml").settings.axis[1].rotary);
+    CHECK_FALSE(parse_machine(with("'a'\n", "'a'\nkind = 'linear'\n"), "m.toml").settings.axis[1].rotary);
     CHECK(parse_machine(with("= 1e3", "= 1e3\nmax_braking_mm_s2 = 600"), "m.toml").settings.axis[0].max_braking_mm_s2 ==
           600.0);
     CHECK(parse_machine(with("'router'", "'fr\xc3\xa4se'"), "m.toml").name == "fr\xc3\xa4se");
@@ -133,6 +136,8 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("max_velocity_mm_s = 50\n", ""), "m.toml:14: ", "axis a has no max_velocity_mm_s"},
         {with("max_velocity_mm_s = 50", "max_velocity = 50"), "m.toml:16: ", "unknown key"},
         {with("steps_per_mm = 12.5", "steps_per_mm = 12.5\nmax_jerk_mm_s3 = 1"), "m.toml:19: ", "max_jerk_mm_s3"},
+        {with("'a'\n", "'a'\nkind = 'round'\n"), "m.toml:16: ", "kind is 'round'; it must be 'linear' or 'rotary'"},
+        {with("'a'\n", "'a'\nkind = true\n"), "m.toml:16: ", "text"},
         {with("= 1e3", "= 1e3\nmax_braking_mm_s2 = 0"), "m.toml:12: ", "between 0.1 and 1000000 mm/s^2"},
         {with("= 1e3", "= 1e3\nmax_braking_mm_s2 = 'hard'"), "m.toml:12: ", "finite number"},
         {with("= 1e3", "= 1e3\nmax_brake_mm_s2 = 1"), "m.toml:12: ", "did you mean 'max_braking_mm_s2'"},

@@ -186,6 +186,36 @@ TEST_CASE("path speed between ticks is seen") {
     CHECK(with_feed(90.0 * 1.0000001) == std::string("none"));
 }
 
+TEST_CASE("the feed is that of the linear axes, and where they stand that of the rotary ones") {
+    MachineDescription machine = machine_of({"a", "x"}); // which is rotary is the file's word, not the name's
+    machine.settings.axis[0].rotary = true;
+    machine.settings.max_feed_mm_s = 40.0;
+    CHECK(fault_of(machine, there(40.0 * hardly_over, 500.0, 0)) == "none");
+    CHECK(fault_of(machine, there(40.0 * over, 500.0, 0)) == "feed");
+    CHECK(fault_of(machine, there(40.0 * over, 500.0, 1)) == "feed");
+    Motion both = there(80.0, 500.0, 0);
+    for (FeedSegment& segment : both) { // x at half the speed
+        segment.start[1] = segment.start[0] / 2;
+        segment.end[1] = segment.end[0] / 2;
+        segment.start_velocity[1] = segment.start_velocity[0] / 2;
+        segment.end_velocity[1] = segment.end_velocity[0] / 2;
+    }
+    SimulatedMachine simulated(machine, 1);
+    run(simulated, both);
+    CHECK_FALSE(simulated.fault());
+    CHECK(simulated.max_path_speed_mm_s() == Approx(40.0));
+    SimulatedMachine turning(machine, 1);
+    run(turning, there(40.0 * over, 500.0, 0));
+    REQUIRE(turning.fault());
+    CHECK(describe(*turning.fault()).find("degrees/s is above the limit of 40 degrees/s") != std::string::npos);
+    machine.settings.axis[0].max_velocity_mm_s = 30.0;
+    SimulatedMachine slow(machine, 1);
+    run(slow, there(40.0, 500.0, 0));
+    REQUIRE(slow.fault());
+    CHECK(describe(*slow.fault()).find("axis a: velocity 30.") == 0);
+    CHECK(describe(*slow.fault()).find("degrees/s is above the limit of 30 degrees/s") != std::string::npos);
+}
+
 TEST_CASE("the path is made of x, y and z, or of all axes where there are none of these") {
     const auto speed = [](std::vector<std::string> names) {
         SimulatedMachine machine(machine_of(std::move(names)), 1);

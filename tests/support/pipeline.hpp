@@ -108,6 +108,14 @@ inline MachineSettings random_machine(Random& random, int axes) {
     return machine;
 }
 
+/// Some linear axes first, then rotary ones.
+inline void make_rotary(Random& random, MachineSettings& machine) {
+    const int first = random.integer(0, machine.axes);
+    for (int k = first; k < machine.axes; ++k) {
+        machine.axis[static_cast<unsigned>(k)].rotary = true;
+    }
+}
+
 /// Axes that brake harder or less hard than they accelerate.
 inline void brake_differently(Random& random, MachineSettings& machine) {
     for (AxisSettings& axis : machine.axis) {

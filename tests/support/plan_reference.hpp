@@ -37,7 +37,7 @@ int way_of(const Cell<S>& cell, unsigned k, const MotionLimits<S>& limits) {
         way = sign;
         slowest = std::min(slowest, (std::fabs(t) - exact(shape.spread)) * unit);
     }
-    const Real feed = exact(limits.feed_mm_s);
+    const Real feed = exact(limits.path_mm_s);
     const Real most = std::max(exact(limits.acceleration_mm_s2[k]), exact(limits.braking_mm_s2[k]));
     const Real speed = std::min(feed, bend > 0.0L ? std::sqrt(most / bend) : feed);
     return slowest > bend * speed * 4.0L / exact(limits.segments_per_s) ? way : 0;
@@ -94,6 +94,27 @@ inline Exits exits_of(const std::vector<HalfPlane>& planes, Real entry_sq, Real 
     return exits;
 }
 
+/// The part of the path's speed that the feed counts at most, from the Bezier points of q'.
+template <Scalar S>
+Real share_of(const Cell<S>& cell, const MotionLimits<S>& limits) {
+    if (!limits.mixed) {
+        return 1.0L;
+    }
+    const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
+    std::array<Real, 2> largest{};
+    for (unsigned j = 0; j < 4; ++j) {
+        std::array<Real, 2> sum{};
+        for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
+            const AxisShape<S>& shape = cell.shape[k];
+            const Real inner = j == 1 ? exact(shape.bend[0]) : j == 2 ? -exact(shape.bend[2]) : 0.0L;
+            const Real q1 = (exact(shape.tangent[j / 2]) + inner / 6.0L) * unit;
+            sum[limits.rotary[k] ? 1 : 0] += q1 * q1;
+        }
+        largest = {std::max(largest[0], std::sqrt(sum[0])), std::max(largest[1], std::sqrt(sum[1]))};
+    }
+    return std::min(1.0L, largest[0] > 0x1p-17L ? largest[0] : largest[1]);
+}
+
 /// b = v^2 at the nodes 0 ... n of n cells, and the largest from which the path can still be travelled to its end.
 struct Speeds {
     std::vector<Real> b;
@@ -112,6 +133,7 @@ Speeds largest_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimi
         // A programmed feed gives up what the machine's does for rounding, but never more than half.
         const Real usable = std::max(own * exact(limits.usable) - exact(limits.feed_noise_mm_s), own / 2.0L);
         speed = own > 0.0L ? std::min(speed, usable) : speed;
+        speed = std::min(speed / share_of(cell, limits), exact(limits.path_mm_s));
         if (const Real noise = exact(cell.direction_noise); noise > 0.0L) {
             speed = std::min(speed, exact(limits.jump_mm_s) / noise);
         }
@@ -200,7 +222,9 @@ Use use_of(const std::vector<PlannedCell<S>>& cells, const MachineSettings& mach
             Real unused = 0.0L;
             const Direction d = direction_at(planned.cell, inverse_at(planned.cell, x, unused));
             Real bend_sq = 0.0L;
+            std::array<Real, 2> square{}; // of dq/ds, on linear and on rotary axes
             for (unsigned k = 0; k < axes; ++k) {
+                square[machine.axis[k].rotary ? 1 : 0] += d.tangent[k] * d.tangent[k];
                 const AxisSettings& axis = machine.axis[k];
                 use.velocity = std::max(use.velocity, (std::fabs(d.tangent[k]) - tangent_noise) * std::sqrt(b) /
                                                           real(axis.max_velocity_mm_s));
@@ -211,7 +235,8 @@ Use use_of(const std::vector<PlannedCell<S>>& cells, const MachineSettings& mach
                 bend_sq += d.curvature[k] * d.curvature[k];
             }
             const Real bend = std::sqrt(bend_sq);
-            use.feed = std::max(use.feed, std::sqrt(b) / feed);
+            const Real counted = square[0] > 1e-9L ? square[0] : square[1];
+            use.feed = std::max(use.feed, std::sqrt(b * (square[1] > 0.0L ? counted : 1.0L)) / feed);
             if (machine.centripetal_mm_s2 > 0.0) {
                 use.centripetal = std::max(use.centripetal, (bend - bend_noise) * b / real(machine.centripetal_mm_s2));
             }

@@ -84,8 +84,9 @@ inline const char* check_stream(const std::vector<FeedSegment>& segments, const 
         if (i > 0 && s.waypoint < segments[i - 1].waypoint) {
             return "waypoint goes back";
         }
-        Real feed_sq = 0.0L;
+        std::array<Real, 2> feed_sq{}; // of linear and of rotary axes
         Real feed_noise = 0.0L;
+        bool stands = true; // the linear axes
         for (unsigned k = 0; k < axes; ++k) {
             const AxisSettings& axis = machine.axis[k];
             const AxisMotion m = motion_of(s, k);
@@ -112,10 +113,12 @@ inline const char* check_stream(const std::vector<FeedSegment>& segments, const 
             }
             used.velocity = std::max(used.velocity, (fastest(m) / scale - noise) / real(axis.max_velocity_mm_s));
             const Real v = static_cast<Real>(m.v0) / scale;
-            feed_sq += v * v;
+            feed_sq[axis.rotary ? 1 : 0] += v * v;
+            stands = stands && (axis.rotary || (m.p0 == m.p1 && m.v0 == 0 && m.v1 == 0));
             feed_noise += noise * noise;
         }
-        used.feed = std::max(used.feed, (std::sqrt(feed_sq) - std::sqrt(feed_noise)) / real(machine.max_feed_mm_s));
+        used.feed = std::max(used.feed, (std::sqrt(feed_sq[stands ? 1 : 0]) - std::sqrt(feed_noise)) /
+                                            real(machine.max_feed_mm_s));
     }
     return "";
 }

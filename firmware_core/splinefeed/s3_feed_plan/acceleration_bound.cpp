@@ -83,7 +83,7 @@ int AccelerationBound<S>::heading(const Cell<S>& cell, unsigned axis, const Moti
     if (!(slowest > S{})) {
         return 0;
     }
-    const S feed_sq = limits.feed_mm_s * limits.feed_mm_s;
+    const S feed_sq = limits.path_mm_s * limits.path_mm_s;
     const S most = larger(limits.acceleration_mm_s2[axis], limits.braking_mm_s2[axis]);
     const S change = bend > quotient_or_max(most, feed_sq) ? most : bend * feed_sq; // |q''| v^2
     const S time = from_integer<S>(4) / limits.segments_per_s;

@@ -15,6 +15,8 @@
 // final, K of its last node can only rise afterwards: a stop stays within reach.
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
 
+#include "splinefeed/s3_feed_plan/feed_share.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -37,7 +39,11 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
     const S feed =
         cell.feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.feed_mm_s), limits_.feed_mm_s) : limits_.feed_mm_s;
+    // The feed counts the linear axes; the others follow as fast as their own limits allow.
     S speed = feed;
+    if (limits_.mixed) {
+        speed = smaller(quotient_or_max(feed, feed_share(cell, limits_)), limits_.path_mm_s);
+    }
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         if (cell.tangent_max[k] * speed > limits_.velocity_mm_s[k]) {
             speed = limits_.velocity_mm_s[k] / cell.tangent_max[k];

@@ -18,6 +18,7 @@ struct AxisSettings {
     double max_jerk_mm_s3 = 0.0; ///< 0: acceleration-limited. Its place; refused until the plan supports it.
     double steps_per_mm = 1000.0;
     double max_braking_mm_s2 = 0.0; ///< acceleration against the velocity; 0: max_acceleration_mm_s2
+    bool rotary = false;            ///< in degrees where the names say mm; the feed does not count it
 
     [[nodiscard]] constexpr double braking_mm_s2() const noexcept {
         return max_braking_mm_s2 == 0.0 ? max_acceleration_mm_s2 : max_braking_mm_s2;
@@ -52,7 +53,10 @@ struct MotionLimits {
     PerAxis<S> braking_mm_s2{};                ///< against it
     PerAxis<std::uint64_t> steps_per_mm_q32{}; ///< counts per mm, 32 fraction bits
     S feed_mm_s{};                             ///< what planning may use of max_feed_mm_s
-    S usable{}; ///< the part of a limit that planning may use, but for the noise of positions
+    S path_mm_s{}; ///< no speed along the path, over all axes, is above; without rotary axes feed_mm_s
+    PerAxis<bool> rotary{};
+    bool mixed = false; ///< some axes are rotary and some are not
+    S usable{};         ///< the part of a limit that planning may use, but for the noise of positions
     S feed_noise_mm_s{};
     S jump_mm_s{};                   ///< largest jump of the speed that rounding may cause at a joint of cells
     S centripetal_mm_s2{};           ///< 0: none
@@ -152,6 +156,17 @@ constexpr int shape_log2(double feed) noexcept {
     return n;
 }
 
+/// Speed of a path along which the linear axes keep the feed and each rotary axis its velocity; at most what fits into
+/// Fixed, squared, with the numbers of a shape.
+constexpr double fastest_path(double feed, double turning_sq) noexcept {
+    constexpr double fastest = 10000.0;
+    double root = fastest; // Newton's steps end above the root
+    for (int step = 0; step < 64; ++step) {
+        root = 0.5 * (root + (feed * feed + turning_sq) / root);
+    }
+    return root < fastest ? root : fastest;
+}
+
 constexpr bool within(double x, double low, double high) noexcept {
     return x >= low && x <= high; // false for NaN
 }
@@ -179,6 +194,8 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     limits.axes = settings.axes;
     double acceleration_sq = 0.0;
     double softest = 1e9;
+    double turning_sq = 0.0;
+    int rotary = 0;
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
         const AxisSettings& axis = settings.axis[k];
         if (!detail::within(axis.max_velocity_mm_s, 0.001, 10000.0)) {
@@ -197,8 +214,13 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
             return Error::steps_out_of_range;
         }
         acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
+        turning_sq += axis.rotary ? axis.max_velocity_mm_s * axis.max_velocity_mm_s : 0.0;
+        rotary += axis.rotary ? 1 : 0;
         softest = axis.smaller_acceleration_mm_s2() < softest ? axis.smaller_acceleration_mm_s2() : softest;
     }
+    limits.mixed = rotary > 0 && rotary < settings.axes;
+    const double path =
+        limits.mixed ? detail::fastest_path(settings.max_feed_mm_s, turning_sq) : settings.max_feed_mm_s;
     const double period_s = settings.sample_period_us * 1e-6;
     const int n = detail::segments_per_sample(period_s, acceleration_sq);
     const double segment_s = period_s / n;
@@ -226,11 +248,13 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         };
         limits.acceleration_mm_s2[k] = planned(axis.max_acceleration_mm_s2);
         limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
+        limits.rotary[k] = axis.rotary;
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
     limits.usable = from_double<S>(usable);
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
+    limits.path_mm_s = limits.mixed ? from_double<S>(path * usable) : limits.feed_mm_s;
     limits.jump_mm_s = from_double<S>(detail::jump_share<S> * softest * segment_s);
     limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
     limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, period_s));
@@ -240,12 +264,12 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     Refinement<S>& refinement = limits.refinement;
     refinement.longest_mm = from_double<S>(longest);
     refinement.max_feed_mm_s = limits.feed_mm_s;
-    refinement.shape_log2 = detail::shape_log2(settings.max_feed_mm_s);
+    refinement.shape_log2 = detail::shape_log2(path);
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
     // A jump of direction d asks for the acceleration v d / T: tolerated below 2e-5 of the limit, plus rounding.
-    refinement.direction_jump = from_double<S>(2e-5 * softest * segment_s / settings.max_feed_mm_s) +
-                                from_double<S>(detail::direction_noise<S>);
+    refinement.direction_jump =
+        from_double<S>(2e-5 * softest * segment_s / path) + from_double<S>(detail::direction_noise<S>);
     return limits;
 }
 

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+//
+// The feed counts the linear axes; rotary ones follow within limits of their own.
+#include "splinefeed/s3_feed_plan/feed_share.hpp"
+
+#include "support/catch.hpp"
+#include "support/plan_reference.hpp"
+#include "support/stream_reference.hpp"
+
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr std::uint64_t seed = 71;
+
+/// x and y in mm, a in degrees.
+MachineSettings rotary_machine(double feed) {
+    MachineSettings machine = machine_of(3, 500.0, 2000.0, feed);
+    machine.axis[2].rotary = true;
+    machine.axis[2].max_velocity_mm_s = 360.0;
+    machine.axis[2].max_acceleration_mm_s2 = 3600.0;
+    return machine;
+}
+
+double trapezoid_seconds(double length, double feed, double acceleration) {
+    return length >= feed * feed / acceleration ? length / feed + feed / acceleration
+                                                : 2.0 * std::sqrt(length / acceleration);
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("straight moves with a rotary axis", "[feed_plan][rotary]", double, Fixed) {
+    const auto seconds = [](const MachineSettings& machine, const PerAxis<double>& move) {
+        const auto planned = plan_of<TestType>({line_shape(3, 3, move)}, machine, 1U << 14);
+        CHECK(use_of(planned.cells, machine).feed <= 1.0L);
+        CHECK(use_of(planned.cells, machine).velocity <= 1.0L);
+        CHECK(use_of(planned.cells, machine).acceleration <= 1.0L);
+        return planned.seconds();
+    };
+    const MachineSettings machine = rotary_machine(20.0);
+    // The feed is that of (30, 40): 50 mm in 2.5 s, with 200 degrees the acceleration of a leaves 900 mm/s2
+    CHECK(seconds(machine, {30.0, 40.0, 200.0}) == Approx(trapezoid_seconds(50.0, 20.0, 900.0)).epsilon(0.005));
+    // 1800 degrees: the axis needs 5 s, the feed follows
+    CHECK(seconds(machine, {30.0, 40.0, 1800.0}) == Approx(trapezoid_seconds(1800.0, 360.0, 3600.0)).epsilon(0.005));
+    // Nothing but a: the feed is in degrees/s
+    CHECK(seconds(machine, {0.0, 0.0, 90.0}) == Approx(trapezoid_seconds(90.0, 20.0, 3600.0)).epsilon(0.005));
+    // A linear axis that hardly moves is one that moves
+    CHECK(seconds(machine, {0.1, 0.0, 1800.0}) == Approx(trapezoid_seconds(1800.0, 360.0, 3600.0)).epsilon(0.005));
+    // Were a linear, it would count
+    MachineSettings linear = machine;
+    linear.axis[2].rotary = false;
+    CHECK(seconds(linear, {30.0, 40.0, 200.0}) ==
+          Approx(trapezoid_seconds(std::hypot(50.0, 200.0), 20.0, 3600.0)).epsilon(0.005));
+}
+
+TEMPLATE_TEST_CASE("programmed feeds count the linear axes", "[feed_plan][rotary]", double, Fixed) {
+    const MachineSettings machine = rotary_machine(100.0);
+    BezierPath path{line_shape(3, 3, {30.0, 0.0, 60.0}), line_shape(3, 3, {0.0, 0.0, 60.0})};
+    path[0].feed_mm_s = 10.0;
+    path[1].feed_mm_s = 30.0;
+    const auto planned = plan_of<TestType>(path, machine, 1U << 14);
+    const double least = trapezoid_seconds(30.0, 10.0, 1800.0) + trapezoid_seconds(60.0, 30.0, 3600.0);
+    CHECK(planned.seconds() == Approx(least).epsilon(0.005));
+}
+
+TEST_CASE("a machine whose axes are all rotary feeds in degrees a second", "[feed_plan][rotary]") {
+    MachineSettings machine = machine_of(2, 500.0, 2000.0, 20.0);
+    const double linear = plan_of<double>({line_shape(2, 3, {30.0, 40.0})}, machine, 1U << 14).seconds();
+    machine.axis[0].rotary = machine.axis[1].rotary = true;
+    CHECK(plan_of<double>({line_shape(2, 3, {30.0, 40.0})}, machine, 1U << 14).seconds() == linear);
+}
+
+TEMPLATE_TEST_CASE("the share is the largest there is in the cell", "[feed_plan][rotary]", double, float, Fixed) {
+    using S = TestType;
+    Random random(seed);
+    for (int run = 0; run < 20; ++run) {
+        const int axes = random.integer(2, max_axes);
+        MachineSettings machine = random_machine(random, axes);
+        make_rotary(random, machine);
+        const auto limits = MotionLimits<S>::make(machine).value();
+        ListSource<S> source(random_path(random, axes, 6, random.decades(1.0, 50.0), 0.2, 0.0));
+        const bool rounds = std::same_as<S, float>;
+        for (const Cell<S>& cell : cells_of(source, limits.refinement)) {
+            const Real share = exact(feed_share(cell, limits));
+            if (!limits.mixed) {
+                REQUIRE(share == 1.0L);
+                continue;
+            }
+            if (is_chord(cell)) {
+                continue;
+            }
+            Real most = 0.0L;
+            for (int i = 0; i <= 16; ++i) {
+                Real unused = 0.0L;
+                const Direction d = direction_at(cell, inverse_at(cell, i / 16.0L, unused));
+                Real square = 0.0L;
+                for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+                    square += limits.rotary[k] ? 0.0L : d.tangent[k] * d.tangent[k];
+                }
+                most = std::max(most, std::sqrt(square));
+            }
+            CAPTURE(seed, run, static_cast<double>(share), static_cast<double>(most));
+            REQUIRE(share >= most - (rounds ? 1e-4L : 2e-6L));
+            const bool sharp = 2.0L * exact(cell.length_mm) * exact(cell.curvature_max[0]) > 0.4L;
+            REQUIRE((sharp || share <= most + (rounds ? 2e-3L : 1e-3L)));
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("no node can be faster with rotary axes", "[feed_plan][rotary]", double, float, Fixed) {
+    Random random(seed + 1);
+    for (int run = 0; run < 20; ++run) {
+        const int axes = random.integer(2, max_axes);
+        MachineSettings machine = random_machine(random, axes);
+        make_rotary(random, machine);
+        const auto limits = MotionLimits<TestType>::make(machine).value();
+        const BezierPath path = random_path(random, axes, 15, random.decades(1.0, 30.0), 0.15, 0.3);
+        const auto planned = plan_of<TestType>(path, machine, 8192);
+        REQUIRE(planned.limited == 0);
+        const Use use = use_of(planned.cells, machine);
+        CAPTURE(seed, run, scalar_name<TestType>());
+        CHECK(use.feed <= 1.0L);
+        CHECK(use.velocity <= 1.0L);
+        CHECK(use.acceleration <= 1.0L + 2e-5L);
+        const std::vector<Real> best = largest_speeds(planned.cells, limits).b;
+        const auto cells = static_cast<Real>(planned.cells.size());
+        for (std::size_t i = 0; i < planned.cells.size(); ++i) {
+            const Real b = exact(planned.cells[i].exit_sq);
+            // A fast path leaves Fixed fewer digits
+            const Real rounded =
+                2048.0L * cells * rounding<TestType>() * (best[i + 1] + (std::same_as<TestType, Fixed> ? 1.0L : 0.0L));
+            CAPTURE(i, static_cast<double>(b), static_cast<double>(best[i + 1]));
+            REQUIRE(std::fabs(b - best[i + 1]) <= std::max(rounded, 1e-6L * best[i + 1]));
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("what is emitted keeps the feed on the linear axes", "[feed_plan][rotary]", double, Fixed) {
+    Random random(seed + 2);
+    Real most = 0.0L;
+    for (int run = 0; run < 60; ++run) {
+        const int axes = random.integer(2, max_axes);
+        MachineSettings machine = random_machine(random, axes);
+        make_rotary(random, machine);
+        const Program program = random_program(random, axes);
+        if (!MotionLimits<TestType>::make(machine).has_value()) {
+            continue;
+        }
+        const Stream stream = stream_of<TestType>(program, machine, random.chance(0.5) ? 16 : 512);
+        Used used;
+        CAPTURE(seed, run);
+        REQUIRE_FALSE(stream.endless);
+        REQUIRE(std::string(check_stream(stream.segments, machine, used)).empty());
+        CHECK(used.acceleration <= 1.0L);
+        CHECK(used.velocity <= 1.0L);
+        CHECK(used.feed <= 1.0L);
+        most = std::max(most, used.feed);
+    }
+    CHECK(most > 0.999L);
+}
