@@ -51,7 +51,7 @@ bool BezierSource<S>::deliver(std::size_t segment, CurveSegment<S>& out) noexcep
     out.axes = axes_;
     out.degree = from.degree;
     out.origin = out.end = here_;
-    out.feed_mm_s = S{};
+    out.feed_mm_s = out.max_feed_mm_s = S{};
     out.stop_at_end = false; // the arc-length stage finds the corners
     out.waypoint = static_cast<std::uint32_t>(segment);
     PerAxis<PerDegree<S>> offsets{};

@@ -168,6 +168,7 @@ bool CurveFeeder<S>::more(Pushed& pushed) {
             waypoint.position[k] = position_from_mm(row.position[k]);
         }
         waypoint.feed_mm_s = from_double<S>(row.feed_mm_s);
+        waypoint.max_feed_mm_s = from_double<S>(row.max_feed_mm_s);
         waypoint.corner = row.corner;
         if (const Status status = waypoints_->push(waypoint, role); !status.ok()) {
             throw InputError(input_->name(), row.line, describe(status.error()));

@@ -41,6 +41,7 @@ void LimitShare::segment(const FeedSegment& segment) {
         return binds;
     };
     double speed_sq = 0.0;
+    double linear_sq = 0.0;
     double acceleration_sq = 0.0;
     double power = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
@@ -54,14 +55,16 @@ void LimitShare::segment(const FeedSegment& segment) {
         const double jerk = (6.0 * (m0 + m1) - 12.0 * distance) * per_s / (duration_s * duration_s);
         const AxisSettings& limits = machine_.axis[k];
         count(axis.velocity, std::fabs(velocity), limits.max_velocity_mm_s);
-        count(axis.acceleration, std::fabs(acceleration), limits.max_acceleration_mm_s2);
+        count(axis.acceleration, std::fabs(acceleration),
+              velocity * acceleration < 0.0 ? limits.braking_mm_s2() : limits.max_acceleration_mm_s2);
         count(axis.jerk, std::fabs(jerk), limits.max_jerk_mm_s3);
         speed_sq += velocity * velocity;
+        linear_sq += limits.rotary ? 0.0 : velocity * velocity;
         acceleration_sq += acceleration * acceleration;
         power += velocity * acceleration;
     }
     const double feed = feeds_.empty() ? machine_.max_feed_mm_s : feeds_.front().mm_s;
-    if (count(feed_, std::sqrt(speed_sq), feed) && feed < machine_.max_feed_mm_s) {
+    if (count(feed_, std::sqrt(linear_sq > 0.0 ? linear_sq : speed_sq), feed) && feed < machine_.max_feed_mm_s) {
         programmed_ += ticks;
     }
     const double across_sq = speed_sq > 0.0 ? acceleration_sq - power * power / speed_sq : 0.0;

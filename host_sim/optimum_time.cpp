@@ -4,12 +4,12 @@
 // accelerations in integrated form. With the speed w = q' v of an axis, d(w^2)/dt = 2 w dw/dt, so over an interval in
 // which the axis travels D (to and fro)
 //
-//   |q'_1^2 b_1 - q'_0^2 b_0| <= 2 A D
+//   -2 B D <= q'_1^2 b_1 - q'_0^2 b_0 <= 2 A D
 //
-// follows from |dw/dt| <= A whatever happens within: no derivative is replaced by a difference, and a coarse grid
-// cannot make the bound too large. b_1 as a function of b_0 grows with it, from either end, so the largest b at every
-// node is found by one backward and one forward pass; q'' enters by the speed limits of the nodes (path_grid.cpp). The
-// sets of TOPP-RA are the intervals [0, reach].
+// follows from -B <= d|w|/dt <= A, A for speeding up and B for braking, whatever happens within: no derivative is
+// replaced by a difference, and a coarse grid cannot make the bound too large. b_1 as a function of b_0 grows with it,
+// from either end, so the largest b at every node is found by one backward and one forward pass; q'' enters by the
+// speed limits of the nodes (path_grid.cpp). The sets of TOPP-RA are the intervals [0, reach].
 //
 // The time of an interval: each axis needs at least what it takes from w_0 to w_1 over D, at full acceleration up to a
 // peak and down from it; the slowest axis counts, unless b linear in s is faster, 2 L / (v_0 + v_1): it is the case
@@ -44,13 +44,16 @@ private:
 };
 
 // Least time of one axis over `travel` from the speed w0 to w1, never above `most` (not below w0 and w1).
-double axis_time(double travel, double w0, double w1, double most, double acceleration) noexcept {
-    const double ends = 0.5 * (w0 * w0 + w1 * w1);
-    const double peak_sq = acceleration * travel + ends;
+double axis_time(double travel, double w0, double w1, double most, double speeding, double braking) noexcept {
+    const double up = 0.5 / speeding; // path per speed squared
+    const double down = 0.5 / braking;
+    const double peak_sq = (travel + up * w0 * w0 + down * w1 * w1) / (up + down);
+    const double peak = peak_sq <= most * most ? std::sqrt(peak_sq) : most;
+    const double ramps = (peak - w0) / speeding + (peak - w1) / braking;
     if (peak_sq <= most * most) {
-        return (2.0 * std::sqrt(peak_sq) - w0 - w1) / acceleration;
+        return ramps;
     }
-    return (2.0 * most - w0 - w1) / acceleration + (travel - (most * most - ends) / acceleration) / most;
+    return ramps + (travel - up * (most * most - w0 * w0) - down * (most * most - w1 * w1)) / most;
 }
 
 } // namespace
@@ -59,7 +62,8 @@ OptimumTime::OptimumTime(const MachineSettings& machine, double direction_jump, 
     : grid_(machine, direction_jump), axes_(static_cast<unsigned>(machine.axes)), window_(window) {
     assert(window >= 4);
     for (unsigned k = 0; k < axes_; ++k) {
-        acceleration_[k] = machine.axis[k].max_acceleration_mm_s2;
+        speeding_[k] = machine.axis[k].max_acceleration_mm_s2;
+        braking_[k] = machine.axis[k].braking_mm_s2();
     }
 }
 
@@ -95,7 +99,7 @@ double OptimumTime::before(const Stage& stage, double end_sq) const noexcept {
         const double entry = stage.interval.entry_slope[k];
         const double exit = stage.interval.exit_slope[k];
         const double most =
-            exit * exit * end_sq + 2.0 * acceleration_[k] * (stage.interval.travel_mm[k] + stage.interval.noise_mm);
+            exit * exit * end_sq + 2.0 * braking_[k] * (stage.interval.travel_mm[k] + stage.interval.noise_mm);
         if (entry * entry * start_sq > most) {
             start_sq = most / (entry * entry);
         }
@@ -109,8 +113,7 @@ double OptimumTime::after(const PathInterval& interval, double start_sq) const n
     for (unsigned k = 0; k < axes_; ++k) {
         const double entry = interval.entry_slope[k];
         const double exit = interval.exit_slope[k];
-        const double most =
-            entry * entry * start_sq + 2.0 * acceleration_[k] * (interval.travel_mm[k] + interval.noise_mm);
+        const double most = entry * entry * start_sq + 2.0 * speeding_[k] * (interval.travel_mm[k] + interval.noise_mm);
         if (exit * exit * end_sq > most) {
             end_sq = most / (exit * exit);
         }
@@ -137,7 +140,7 @@ double OptimumTime::time(const PathInterval& interval, double start_sq, double e
         const double most_w = std::max({entry, exit, middle}) * most;
         if (most_w > 0.0) {
             const double travel = std::max(interval.travel_mm[k] - interval.noise_mm, 0.0);
-            least = std::max(least, axis_time(travel, entry * v0, exit * v1, most_w, acceleration_[k]));
+            least = std::max(least, axis_time(travel, entry * v0, exit * v1, most_w, speeding_[k], braking_[k]));
         }
     }
     return std::min(linear, least);

@@ -59,7 +59,8 @@ private:
 
     PathGrid grid_;
     unsigned axes_;
-    PerAxis<double> acceleration_{};
+    PerAxis<double> speeding_{};
+    PerAxis<double> braking_{};
     std::size_t window_;
     std::vector<PathInterval> fresh_; // of one segment
     std::vector<Stage> stages_;       // from the committed node on

@@ -47,14 +47,33 @@ PathGrid::PathGrid(const MachineSettings& machine, double direction_jump)
     : machine_(machine), axes_(static_cast<unsigned>(machine.axes)), direction_jump_(direction_jump) {
     const double period_s = machine.sample_period_us * 1e-6;
     chord_mm_s2_ = 8.0 * machine.chord_error_mm / (period_s * period_s);
-    softest_mm_s2_ = machine.axis[0].max_acceleration_mm_s2;
-    for (unsigned k = 1; k < axes_; ++k) {
-        softest_mm_s2_ = std::min(softest_mm_s2_, machine.axis[k].max_acceleration_mm_s2);
+    softest_mm_s2_ = machine.axis[0].smaller_acceleration_mm_s2();
+    for (unsigned k = 0; k < axes_; ++k) {
+        softest_mm_s2_ = std::min(softest_mm_s2_, machine.axis[k].smaller_acceleration_mm_s2());
+        const double turning = machine.axis[k].rotary ? machine.axis[k].max_velocity_mm_s : 0.0;
+        turning_sq_ += turning * turning;
     }
 }
 
+// At the instant at which an axis turns round it may do either.
+double PathGrid::acceleration(unsigned k, double slope, bool speeding) const noexcept {
+    const AxisSettings& axis = machine_.axis[k];
+    return slope == 0.0 ? axis.larger_acceleration_mm_s2()
+           : speeding   ? axis.max_acceleration_mm_s2
+                        : axis.braking_mm_s2();
+}
+
+// The feed counts linear axes, and rotary ones in a segment in which these stand.
+double PathGrid::feed_cap_sq(const PerAxis<double>& q1) const noexcept {
+    double linear_sq = 0.0;
+    for (unsigned k = 0; k < axes_; ++k) {
+        linear_sq += machine_.axis[k].rotary ? 0.0 : q1[k] * q1[k];
+    }
+    return linear_sq * fastest_sq_ > feed_sq_ ? feed_sq_ / linear_sq : fastest_sq_;
+}
+
 double PathGrid::cap_sq(const PerAxis<double>& q1, const PerAxis<double>& q2) const noexcept {
-    double cap = feed_sq_;
+    double cap = fastest_sq_ > feed_sq_ ? feed_cap_sq(q1) : feed_sq_;
     double curvature_sq = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
         const double limit = machine_.axis[k].max_velocity_mm_s;
@@ -63,9 +82,12 @@ double PathGrid::cap_sq(const PerAxis<double>& q1, const PerAxis<double>& q2) co
         }
         curvature_sq += q2[k] * q2[k];
         for (unsigned j = 0; j < k; ++j) {
-            const double room = machine_.axis[j].max_acceleration_mm_s2 * std::fabs(q1[k]) +
-                                machine_.axis[k].max_acceleration_mm_s2 * std::fabs(q1[j]);
-            const double demand = std::fabs(q1[j] * q2[k] - q1[k] * q2[j]);
+            // Positive: forward along k and against the motion of j; seen from axes that move forward
+            const double turn = std::fabs(q1[j]) * std::copysign(1.0, q1[k]) * q2[k] -
+                                std::fabs(q1[k]) * std::copysign(1.0, q1[j]) * q2[j];
+            const double room = acceleration(j, q1[j], turn < 0.0) * std::fabs(q1[k]) +
+                                acceleration(k, q1[k], turn > 0.0) * std::fabs(q1[j]);
+            const double demand = std::fabs(turn);
             if (demand * cap > room) {
                 cap = room / demand;
             }
@@ -105,7 +127,7 @@ PathGrid::Node PathGrid::node(double u) const noexcept {
     }
     node.sigma = std::sqrt(sigma_sq);
     if (!(node.sigma > relative_noise * size_mm_)) {
-        node.cap_sq = feed_sq_; // nothing is known of the direction
+        node.cap_sq = fastest_sq_; // nothing is known of the direction
         return node;
     }
     node.slope = product / node.sigma;
@@ -148,7 +170,7 @@ PathInterval PathGrid::interval(const Node& from, const Node& to) const noexcept
         out.exit_slope[k] = exit;
         out.travel_mm[k] = travel;
     }
-    out.middle_cap_sq = out.length_mm > 0.0 ? cap_sq(direction, curvature) : feed_sq_;
+    out.middle_cap_sq = out.length_mm > 0.0 ? cap_sq(direction, curvature) : fastest_sq_;
     out.noise_mm = travel_noise_mm + relative_noise * size_mm_;
     return out;
 }
@@ -254,9 +276,16 @@ void PathGrid::append(const CurveSegment<S>& segment, std::vector<PathInterval>&
     };
     normalise(start, start_sq);
     normalise(end, end_sq);
-    const double programmed = to_double(segment.feed_mm_s);
+    const double programmed = to_double(segment.block_feed_mm_s());
     const double feed = programmed > 0.0 ? std::min(programmed, machine_.max_feed_mm_s) : machine_.max_feed_mm_s;
     feed_sq_ = feed * feed;
+    bool linear_moves = false;
+    for (unsigned k = 0; k < axes_; ++k) {
+        for (unsigned i = 1; i <= degree_; ++i) {
+            linear_moves = linear_moves || (!machine_.axis[k].rotary && power_[k][i] != 0.0);
+        }
+    }
+    fastest_sq_ = linear_moves ? feed_sq_ + turning_sq_ : feed_sq_;
     double chord_sq = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
         double chord = 0.0;

@@ -56,6 +56,8 @@ private:
 
     void append_pieces(std::vector<PathInterval>& out);
     [[nodiscard]] Node node(double u) const noexcept;
+    [[nodiscard]] double acceleration(unsigned k, double slope, bool speeding) const noexcept;
+    [[nodiscard]] double feed_cap_sq(const PerAxis<double>& q1) const noexcept;
     [[nodiscard]] double cap_sq(const PerAxis<double>& q1, const PerAxis<double>& q2) const noexcept;
     [[nodiscard]] PathInterval interval(const Node& from, const Node& to) const noexcept;
     [[nodiscard]] double bend(const Node& from, const Node& to, double length_mm) const noexcept;
@@ -66,12 +68,14 @@ private:
     double direction_jump_;
     double chord_mm_s2_; ///< largest kappa v^2 for the chord error; 0: no limit
     double softest_mm_s2_;
+    double turning_sq_ = 0.0; ///< of all rotary axes at their velocities
     // the segment that is being cut
     PerAxis<PerDegree<double>> power_{}; ///< position = sum power u^i [mm]
     unsigned degree_ = 1;
     double size_mm_ = 0.0; ///< largest coordinate
     double feed_sq_ = 0.0;
-    int least_level_ = 0; ///< halvings
+    double fastest_sq_ = 0.0; ///< above every cap; feed_sq_ where the feed counts all that moves
+    int least_level_ = 0;     ///< halvings
     // the end of the one before
     PerAxis<double> last_direction_{}; ///< zero: the tangent vanishes
     bool stop_ = false;

@@ -77,10 +77,10 @@ void PathInput::compute_from_points(const Job& job) {
     std::vector<PerAxis<double>> points;
     WaypointRow row;
     while (opened_->next(row)) {
-        if (row.feed_mm_s > 0.0 || row.corner != Corner::automatic) {
+        if (row.feed_mm_s > 0.0 || row.max_feed_mm_s > 0.0 || row.corner != Corner::automatic) {
             throw InputError(name_, row.line,
-                             fmt::format("--curve {} takes all points as one smooth curve; leave out the columns feed "
-                                         "and corner",
+                             fmt::format("--curve {} takes all points as one smooth curve; leave out the columns "
+                                         "feed, max_feed and corner",
                                          method_name(choice_.method)));
         }
         if (points.empty() || !merged(points.back(), row.position)) {

@@ -45,7 +45,7 @@ void PathTee<S>::look(CurveSegment<S>& segment) {
         observers_.optimum->segment(segment);
     }
     if (observers_.share != nullptr) {
-        observers_.share->programmed(row, to_double(segment.feed_mm_s));
+        observers_.share->programmed(row, to_double(segment.block_feed_mm_s()));
     }
     segment.waypoint = row;
     ++segments_;

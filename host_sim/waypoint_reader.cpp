@@ -193,25 +193,29 @@ bool WaypointReader::is_header(std::string_view line) {
 
 int WaypointReader::axis_index(std::string_view name) const {
     const auto found = std::find(axes_.begin(), axes_.end(), name);
-    return found != axes_.end() ? static_cast<int>(found - axes_.begin()) : -3;
+    return found != axes_.end() ? static_cast<int>(found - axes_.begin()) : no_column;
 }
 
 std::string WaypointReader::column_name(int column) const {
-    return column == feed_column     ? "feed"
-           : column == corner_column ? "corner"
-                                     : axes_[static_cast<std::size_t>(column)];
+    return column == feed_column       ? "feed"
+           : column == max_feed_column ? "max_feed"
+           : column == corner_column   ? "corner"
+                                       : axes_[static_cast<std::size_t>(column)];
 }
 
 void WaypointReader::read_header(std::string_view line) {
     std::vector<std::string_view> known(axes_.begin(), axes_.end());
-    known.insert(known.end(), {"feed", "corner"});
+    known.insert(known.end(), {"feed", "max_feed", "corner"});
     std::string_view field;
     bool more = true;
     bool has_axis = false;
     while (take_field(line, more, field)) {
         const std::string name = lower(field);
-        const int column = name == "feed" ? feed_column : name == "corner" ? corner_column : axis_index(name);
-        if (column < corner_column) {
+        const int column = name == "feed"       ? feed_column
+                           : name == "max_feed" ? max_feed_column
+                           : name == "corner"   ? corner_column
+                                                : axis_index(name);
+        if (column == no_column) {
             if (name.size() == 1 && all_axes.find(name.front()) != std::string_view::npos) {
                 fail(fmt::format("there is a column {}, but the machine has no such axis; it has {}", name,
                                  fmt::join(axes_, ", ")));
@@ -296,25 +300,27 @@ void WaypointReader::parse_field(std::string_view field, int column, WaypointRow
         row.corner = field.empty() ? Corner::automatic : field == "1" ? Corner::forced : Corner::forbidden;
         return;
     }
-    if (column == feed_column && field.empty()) {
+    const bool is_feed = column == feed_column || column == max_feed_column;
+    if (is_feed && field.empty()) {
         return;
     }
     double value = 0.0;
     const NumberText result = read_number(field, value);
     if (result != NumberText::number) {
-        if (const std::string name = lower(field); name == "feed" || name == "corner" || axis_index(name) >= 0) {
+        if (const std::string name = lower(field);
+            name == "feed" || name == "max_feed" || name == "corner" || axis_index(name) >= 0) {
             fail(fmt::format("{} is a name where a number must be; only the first row can be a header",
                              in_quotes(field)));
         }
         fail(fmt::format("{} {} {}", column_name(column), field.empty() ? "is empty and" : in_quotes(field),
                          why_no_number(result)));
     }
-    if (column == feed_column) {
+    if (is_feed) {
         if (value < slowest_feed || value > fastest_feed) {
-            fail(fmt::format("feed {} is out of range; it must lie between {} and {} mm/s", in_quotes(field),
-                             slowest_feed, fastest_feed));
+            fail(fmt::format("{} {} is out of range; it must lie between {} and {} mm/s", column_name(column),
+                             in_quotes(field), slowest_feed, fastest_feed));
         }
-        row.feed_mm_s = value;
+        (column == feed_column ? row.feed_mm_s : row.max_feed_mm_s) = value;
         return;
     }
     if (!position_representable(value)) {

@@ -17,6 +17,7 @@ namespace splinefeed::host {
 struct WaypointRow {
     PerAxis<double> position{}; ///< axes without a column stay 0
     double feed_mm_s = 0.0;     ///< 0: the machine's
+    double max_feed_mm_s = 0.0; ///< 0: none
     Corner corner = Corner::automatic;
     std::uint64_t line = 0;
 };
@@ -46,6 +47,8 @@ public:
 private:
     static constexpr int feed_column = -1;
     static constexpr int corner_column = -2;
+    static constexpr int max_feed_column = -3;
+    static constexpr int no_column = -4;
 
     bool fill();
     bool next_line(std::string_view& line);
@@ -64,7 +67,7 @@ private:
     std::streambuf* source_;
     std::string file_;
     std::vector<std::string> axes_;
-    std::vector<int> columns_; // axis index, feed_column or corner_column
+    std::vector<int> columns_; // axis index, or one of those below 0
     std::vector<char> buffer_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;

@@ -97,12 +97,14 @@ TEMPLATE_TEST_CASE("cells carry feed and waypoint of their segment", "[arc_lengt
     for (int i = 0; i < 10; ++i) {
         path.push_back(random_shape(random, 2, 3, 10.0));
         path.back().feed_mm_s = i % 3 == 0 ? 0.0 : 10.0 + i;
+        path.back().max_feed_mm_s = i % 2 == 0 ? 0.0 : 20.0 + i;
     }
     std::uint32_t last = 0;
     for (const auto& cell : cut<TestType>(path)) {
         REQUIRE((cell.waypoint == last || cell.waypoint == last + 1));
         last = cell.waypoint;
         REQUIRE(to_double(cell.feed_mm_s) == path[last].feed_mm_s);
+        REQUIRE(to_double(cell.max_feed_mm_s) == path[last].max_feed_mm_s);
     }
     REQUIRE(last == 9);
 }

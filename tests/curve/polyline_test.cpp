@@ -43,6 +43,7 @@ TEMPLATE_TEST_CASE("polyline: only forced corners are flagged, feeds belong to t
     feeds[2].point.corner = Corner::forbidden;
     for (int i = 0; i < 6; ++i) {
         feeds[static_cast<unsigned>(i)].point.feed_mm_s = from_integer<S>(10 * i);
+        feeds[static_cast<unsigned>(i)].point.max_feed_mm_s = from_integer<S>(15 * i);
     }
     Polyline<S> curve(CurveOptions<S>{2});
     const auto segments = run_curve<S>(curve, feeds);
@@ -50,6 +51,7 @@ TEMPLATE_TEST_CASE("polyline: only forced corners are flagged, feeds belong to t
     for (std::size_t i = 0; i < 5; ++i) {
         REQUIRE(segments[i].stop_at_end == (i == 2));
         REQUIRE(segments[i].feed_mm_s == from_integer<S>(10 * (static_cast<int>(i) + 1)));
+        REQUIRE(segments[i].max_feed_mm_s == from_integer<S>(15 * (static_cast<int>(i) + 1)));
     }
 }
 

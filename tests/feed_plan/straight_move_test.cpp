@@ -94,6 +94,26 @@ TEMPLATE_TEST_CASE("programmed feeds change where the segments meet", "[feed_pla
     CHECK(planned.seconds() == Approx(seconds).epsilon(0.005));
 }
 
+TEMPLATE_TEST_CASE("a block's maximum holds with and without a feed of its own", "[feed_plan]", double, Fixed) {
+    MachineSettings machine = machine_of(1, 1000.0, 1000.0, 200.0);
+    const auto seconds = [&](double feed, double most) {
+        BezierPath path{line_shape(1, 3, {100.0})};
+        path[0].feed_mm_s = feed;
+        path[0].max_feed_mm_s = most;
+        return plan_of<TestType>(path, machine, 1U << 14).seconds();
+    };
+    CHECK(seconds(0.0, 50.0) == Approx(trapezoid_seconds(100.0, 50.0, 1000.0)).epsilon(0.005));
+    CHECK(seconds(80.0, 50.0) == Approx(trapezoid_seconds(100.0, 50.0, 1000.0)).epsilon(0.005));
+    CHECK(seconds(30.0, 50.0) == Approx(trapezoid_seconds(100.0, 30.0, 1000.0)).epsilon(0.005));
+    CHECK(seconds(0.0, 500.0) == Approx(trapezoid_seconds(100.0, 200.0, 1000.0)).epsilon(0.005));
+    // The move before it is not held down
+    BezierPath path{line_shape(1, 3, {100.0}), line_shape(1, 3, {100.0})};
+    path[1].max_feed_mm_s = 20.0;
+    const double down = (40000.0 - 400.0) / 2000.0;
+    CHECK(plan_of<TestType>(path, machine, 1U << 14).seconds() ==
+          Approx(0.2 + (80.0 - down) / 200.0 + 0.18 + 99.8 / 20.0 + 0.02).epsilon(0.005));
+}
+
 TEMPLATE_TEST_CASE("a circle runs at the speed that its curvature allows", "[feed_plan]", double, Fixed) {
     // A quarter circle of 10 mm as a cubic: its radius is right within 3e-4, its curvature within 1 %
     const double h = 10.0 * 0.5522847498;

@@ -243,6 +243,44 @@ TEMPLATE_TEST_CASE("the least time is below the time of every run", "", double, 
     }
 }
 
+TEMPLATE_TEST_CASE("the same with axes that brake differently and rotary ones", "", double, Fixed) {
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        Random random(seed);
+        const int axes = random.integer(1, 6);
+        MachineSettings machine = random_machine(random, axes);
+        brake_differently(random, machine);
+        make_rotary(random, machine);
+        const BezierPath path = random_path(random, axes, random.integer(1, 12), random.decades(0.1, 50.0), 0.1, 0.3);
+        if (!MotionLimits<TestType>::make(machine).has_value()) {
+            continue;
+        }
+        CAPTURE(seed, axes);
+        const auto segments = segments_of<TestType>(path);
+        const double least = optimum<TestType>(segments, machine);
+        const double taken = cycle_time<TestType>(segments, machine);
+        CHECK(least > 0.0);
+        CHECK(least <= taken * (1.0 + 1e-4));
+    }
+}
+
+TEST_CASE("an axis with two limits takes a ramp of each") {
+    MachineSettings machine = machine_of(2, 1000.0, 1000.0, 1000.0);
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_braking_mm_s2 = 300.0;
+    }
+    // Of a slope of 0.8: 1250 mm/s2 up, 375 down
+    CHECK(optimum(line(40.0, 1, 4), machine) == Approx(std::sqrt(80.0 * (1.0 / 1250.0 + 1.0 / 375.0))).epsilon(1e-6));
+    machine.max_feed_mm_s = 50.0;
+    CHECK(optimum(line(40.0, 1, 4), machine) == Approx(0.8 + 25.0 / 1250.0 + 25.0 / 375.0).epsilon(1e-6));
+}
+
+TEST_CASE("the feed of the least time counts linear axes") {
+    MachineSettings machine = machine_of(2, 1000.0, 1000.0, 30.0);
+    machine.axis[1].rotary = true;
+    CHECK(optimum(line(100.0), machine) == Approx(trapezoid(100.0, 50.0, 1250.0)).epsilon(1e-6));
+    CHECK(optimum({line_shape(2, 1, {0.0, 100.0})}, machine) == Approx(trapezoid(100.0, 30.0, 1000.0)).epsilon(1e-6));
+}
+
 TEST_CASE("a finer grid changes the least time by less than it promises") {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         Random random(seed);

@@ -87,6 +87,16 @@ TEST_CASE("A header names the columns in any order and case") {
     CHECK(rows[2].line == 6);
 }
 
+TEST_CASE("A row may hold a maximum for the feed, with a feed or without") {
+    const auto rows = read("x,feed,MAX_feed,y\n0,,,0\n1,50,60,1\n2,,30.5,2\n");
+    CHECK(rows[0].max_feed_mm_s == 0.0);
+    CHECK(rows[1].feed_mm_s == 50.0);
+    CHECK(rows[1].max_feed_mm_s == 60.0);
+    CHECK(rows[2].feed_mm_s == 0.0);
+    CHECK(rows[2].max_feed_mm_s == 30.5);
+    CHECK(rows[2].position[1] == 2.0);
+}
+
 TEST_CASE("What editors do to a file does not matter") {
     const auto rows = read("\xef\xbb\xbfx,y\r\n\r\n# comment\r\n  1.5 ,\t2\r\n   # another\n3,4");
     REQUIRE(rows.size() == 2);
@@ -163,6 +173,10 @@ TEST_CASE("Every malformed waypoint file is refused in one line that names the p
         {"x,y,feed\n1,2,0\n", "w.csv:2: ", "feed '0' is out of range"},
         {"x,y,feed\n1,2,-1\n", "w.csv:2: ", "between 0.001 and 10000"},
         {"x,y,feed\n1,2,10001\n", "w.csv:2: ", "between 0.001 and 10000"},
+        {"x,y,max_feed\n1,2,0\n",
+         "w.csv:2: ", "max_feed '0' is out of range; it must lie between 0.001 and 10000 mm/s"},
+        {"x,y,max_feed\n1,2,fast\n", "w.csv:2: ", "max_feed 'fast'"},
+        {"x,y,maxfeed\n1,2,3\n", "w.csv:1: ", "did you mean 'max_feed'"},
         {"x,y,corner\n1,2,2\n", "w.csv:2: ", "corner is '2'"},
         {"x,y,corner\n1,2,yes\n", "w.csv:2: ", "corner is 'yes'"},
         {"x,y\n1,2\nx,y\n3,4\n", "w.csv:3: ", "only the first row"},

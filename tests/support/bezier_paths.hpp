@@ -29,6 +29,7 @@ struct BezierShape {
     int degree = 3;
     PerAxis<PerDegree<double>> offset{};
     double feed_mm_s = 0.0;
+    double max_feed_mm_s = 0.0;
     bool stop_at_end = false;
 };
 
@@ -76,6 +77,7 @@ std::vector<CurveSegment<S>> segments_of(const BezierPath& path, const PerAxis<d
         segment.degree = shape.degree;
         segment.origin = here;
         segment.feed_mm_s = from_double<S>(shape.feed_mm_s);
+        segment.max_feed_mm_s = from_double<S>(shape.max_feed_mm_s);
         segment.stop_at_end = shape.stop_at_end;
         segment.waypoint = static_cast<std::uint32_t>(segments.size());
         PerAxis<PerDegree<S>> chords{};

@@ -128,11 +128,12 @@ Speeds largest_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimi
     std::vector<Real> cap(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Cell<S>& cell = cells[i].cell;
-        const Real own = exact(cell.feed_mm_s);
         Real speed = exact(limits.feed_mm_s);
-        // A programmed feed gives up what the machine's does for rounding, but never more than half.
-        const Real usable = std::max(own * exact(limits.usable) - exact(limits.feed_noise_mm_s), own / 2.0L);
-        speed = own > 0.0L ? std::min(speed, usable) : speed;
+        for (const Real own : {exact(cell.feed_mm_s), exact(cell.max_feed_mm_s)}) {
+            // A programmed feed gives up what the machine's does for rounding, but never more than half.
+            const Real usable = std::max(own * exact(limits.usable) - exact(limits.feed_noise_mm_s), own / 2.0L);
+            speed = own > 0.0L ? std::min(speed, usable) : speed;
+        }
         speed = std::min(speed / share_of(cell, limits), exact(limits.path_mm_s));
         if (const Real noise = exact(cell.direction_noise); noise > 0.0L) {
             speed = std::min(speed, exact(limits.jump_mm_s) / noise);
@@ -208,8 +209,8 @@ Use use_of(const std::vector<PlannedCell<S>>& cells, const MachineSettings& mach
         const Real b1 = exact(planned.exit_sq);
         const Real a = (b1 - b0) / (2.0L * exact(planned.cell.length_mm));
         Real feed = real(machine.max_feed_mm_s);
-        if (const Real own = exact(planned.cell.feed_mm_s); own > 0.0L) {
-            feed = std::min(feed, own);
+        for (const Real own : {exact(planned.cell.feed_mm_s), exact(planned.cell.max_feed_mm_s)}) {
+            feed = own > 0.0L ? std::min(feed, own) : feed;
         }
         const Real sigma = slowest_units(planned.cell);
         const auto n = static_cast<Real>(planned.cell.degree);

@@ -20,6 +20,7 @@ void BSplineCurve<S>::emit(std::uint64_t end, int degree, CurveSegment<S>& out) 
     const Knot<S>& leads_to = this->knot(last ? end : degree == 2 ? at + 1 : origin + 1);
     out.end = leads_to.position;
     out.feed_mm_s = leads_to.feed_mm_s;
+    out.max_feed_mm_s = leads_to.max_feed_mm_s;
     out.stop_at_end = last;
     out.waypoint = leads_to.waypoint;
     BoehmPoints<S> points{};

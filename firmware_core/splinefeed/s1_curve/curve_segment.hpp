@@ -22,8 +22,15 @@ struct CurveSegment {
     PerAxis<Position> end{};         ///< the exact target; meaningful where the machine stops at the end
     PerAxis<PerDegree<S>> control{}; ///< control[axis][i], offset of Bezier point i from origin
     S feed_mm_s{};                   ///< programmed feed; 0: the machine's
+    S max_feed_mm_s{};               ///< that no feed override goes beyond; 0: none
     bool stop_at_end = false;        ///< the feed is zero at the end (a corner)
     std::uint32_t waypoint = 0;      ///< index of the waypoint (or segment of a file) it leads to
+
+    /// The feed without an override: the programmed one, not above its maximum; 0: the machine's.
+    [[nodiscard]] constexpr S block_feed_mm_s() const noexcept {
+        return feed_mm_s > S{} && max_feed_mm_s > S{} ? smaller(feed_mm_s, max_feed_mm_s)
+                                                      : larger(feed_mm_s, max_feed_mm_s);
+    }
 
     /// Takes offsets in chord units (2^-12 mm) into `control`, choosing the unit. Cost: one pass.
     /// @pre axes, degree, origin are set; |offset| < 2^30 chord units

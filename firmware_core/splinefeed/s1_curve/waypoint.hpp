@@ -23,6 +23,7 @@ struct Waypoint {
     PerAxis<Position> position{};
     S feed_mm_s{}; ///< programmed feed of the move that ends here; 0: the machine's max_feed_mm_s
     Corner corner = Corner::automatic;
+    S max_feed_mm_s{}; ///< no feed override takes that move beyond it, e.g. by the spindle's speed; 0: no such limit
 };
 
 /// What a pushed waypoint is for. A closed curve is streamed as lead-in (the points before the seam), path, lead-out

@@ -70,6 +70,7 @@ Status WaypointCurve<S>::push(const Waypoint<S>& waypoint, Role role) noexcept {
     Knot<S>& fresh = knot(known_);
     fresh.position = waypoint.position;
     fresh.feed_mm_s = waypoint.feed_mm_s;
+    fresh.max_feed_mm_s = waypoint.max_feed_mm_s;
     fresh.corner = waypoint.corner;
     fresh.role = role;
     fresh.breaks = false;
@@ -120,6 +121,7 @@ void WaypointCurve<S>::describe_segment(std::uint64_t i, int degree, CurveSegmen
     out.origin = knot(i).position;
     out.end = to.position;
     out.feed_mm_s = to.feed_mm_s;
+    out.max_feed_mm_s = to.max_feed_mm_s;
     out.stop_at_end = to.breaks;
     out.waypoint = to.waypoint;
 }

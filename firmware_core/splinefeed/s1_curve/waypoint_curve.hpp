@@ -45,6 +45,7 @@ struct Knot {
     S length{};
     S span{}; ///< interval of the curve parameter
     S feed_mm_s{};
+    S max_feed_mm_s{};
     Corner corner = Corner::automatic;
     Role role = Role::path;
     bool breaks = false; ///< a smooth run ends here and the next begins

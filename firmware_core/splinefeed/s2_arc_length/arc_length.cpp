@@ -132,6 +132,7 @@ void ArcLength<S>::fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out
     out.axes = segment.axes;
     out.unit_log2 = segment.unit_log2;
     out.feed_mm_s = segment.feed_mm_s;
+    out.max_feed_mm_s = segment.max_feed_mm_s;
     out.waypoint = segment.waypoint;
     out.stop_at_end = at_end && stop_after_;
     out.end = segment.end;
@@ -278,8 +279,8 @@ Pull ArcLength<S>::load() noexcept {
     }
     has_ahead_ = pull == Pull::item;
     stop_after_ = current().stop_at_end || !has_ahead_ || jumps(current(), ahead);
-    const S feed =
-        current().feed_mm_s > S{} ? smaller(current().feed_mm_s, refinement_.max_feed_mm_s) : refinement_.max_feed_mm_s;
+    const S block = current().block_feed_mm_s();
+    const S feed = block > S{} ? smaller(block, refinement_.max_feed_mm_s) : refinement_.max_feed_mm_s;
     // Not below 2 nm, which still resolves in Fixed.
     nothing_ = larger(nothing<S>, scale2(literal<S>(2e-8), -current().unit_log2));
     grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));

@@ -36,6 +36,7 @@ struct Cell {
     PerAxis<S> curvature_max{}; ///< bound of |d2q/ds2| over the cell [1/mm]
     PerAxis<AxisShape<S>> shape{};
     S feed_mm_s{};            ///< programmed feed; 0: the machine's
+    S max_feed_mm_s{};        ///< that no feed override goes beyond; 0: none
     S direction_noise{};      ///< rounding of the direction and speed at its ends, relative
     bool stop_before = false; ///< a cusp lies before it: the cell before has to end at rest
     bool stop_at_end = false;

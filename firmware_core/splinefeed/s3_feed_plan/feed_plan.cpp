@@ -39,10 +39,12 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
     const S feed =
         cell.feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.feed_mm_s), limits_.feed_mm_s) : limits_.feed_mm_s;
+    // Whatever the override, the feed keeps the block's own maximum.
+    const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), feed) : feed;
     // The feed counts the linear axes; the others follow as fast as their own limits allow.
-    S speed = feed;
+    S speed = most;
     if (limits_.mixed) {
-        speed = smaller(quotient_or_max(feed, feed_share(cell, limits_)), limits_.path_mm_s);
+        speed = smaller(quotient_or_max(most, feed_share(cell, limits_)), limits_.path_mm_s);
     }
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         if (cell.tangent_max[k] * speed > limits_.velocity_mm_s[k]) {
