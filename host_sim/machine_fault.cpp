@@ -16,6 +16,7 @@ const char* fault_name(FaultKind kind) noexcept {
     case FaultKind::braking: return "braking";
     case FaultKind::jerk: return "jerk";
     case FaultKind::feed: return "feed";
+    case FaultKind::travel_end: return "travel end";
     case FaultKind::travel: return "travel";
     case FaultKind::underrun: return "underrun";
     case FaultKind::trace: return "trace";
@@ -46,6 +47,10 @@ std::string describe(const Fault& fault) {
     case FaultKind::travel:
         what = fmt::format("{}: position {:.9g} {} is {} the travel limit of {:.9g} {}", where, fault.value, unit,
                            fault.value < fault.limit ? "below" : "above", fault.limit, unit);
+        break;
+    case FaultKind::travel_end:
+        what = fmt::format("{}: velocity {:.9g} {} is above the limit of {:.9g} {} near the end of the travel", where,
+                           fault.value, unit, fault.limit, unit);
         break;
     case FaultKind::underrun:
         what = fmt::format("the segments ran out while the machine moved at {:.6g} mm/s", fault.value);

@@ -16,8 +16,9 @@ enum class FaultKind : std::uint8_t {
     jerk,
     feed, ///< speed along the path
     travel,
-    underrun, ///< the queue ran empty in motion
-    trace,    ///< the trace could not be written; finish() throws the reason
+    travel_end, ///< too fast near an end of the travel
+    underrun,   ///< the queue ran empty in motion
+    trace,      ///< the trace could not be written; finish() throws the reason
 };
 
 /// "chain", "velocity", ...

@@ -31,6 +31,7 @@ struct Range {
 constexpr Range velocity_range{0.001, 10000.0, "mm/s"};
 constexpr Range acceleration_range{0.1, 1e6, "mm/s^2"};
 constexpr Range chord_error_range{1e-6, 1.0, "mm"};
+constexpr Range zone_range{0.001, 1e6, "mm"};
 constexpr Range steps_range{0.001, 1e6, "counts per mm"};
 
 /// Checks one file; remembers its name for messages.
@@ -154,8 +155,9 @@ private:
 
     void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
         require_known(table,
-                      {"name", "kind", "travel_mm", "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2",
-                       "max_jerk_mm_s3", "steps_per_mm", "drive"},
+                      {"name", "kind", "travel_mm", "travel_end_zone_mm", "travel_end_velocity_mm_s",
+                       "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2", "max_jerk_mm_s3",
+                       "steps_per_mm", "drive"},
                       " in [[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
@@ -190,6 +192,7 @@ private:
         if (const toml::node* node = table.get("travel_mm")) {
             machine.travel[k] = travel(*node, axis.steps_per_mm);
         }
+        travel_end(table, where, machine.travel[k], axis);
         if (const toml::node* drive = table.get("drive")) {
             static_cast<void>(text(*drive, "drive")); // for --target modbus, which reads it when it comes
         }
@@ -201,6 +204,29 @@ private:
             fail(node, fmt::format("kind is {}; it must be 'linear' or 'rotary'", in_quotes(kind)));
         }
         return kind == "rotary";
+    }
+
+    void travel_end(const toml::table& table, std::string_view where, const std::optional<Travel>& travel,
+                    AxisSettings& axis) const {
+        const toml::node* zone = table.get("travel_end_zone_mm");
+        const toml::node* velocity = table.get("travel_end_velocity_mm_s");
+        if (zone == nullptr && velocity == nullptr) {
+            return;
+        }
+        const toml::node& given = zone != nullptr ? *zone : *velocity;
+        if (zone == nullptr || velocity == nullptr) {
+            fail(given,
+                 fmt::format("{} must have both travel_end_zone_mm and travel_end_velocity_mm_s, or neither", where));
+        }
+        if (!travel) {
+            fail(given,
+                 fmt::format("{} has a travel_end_zone_mm, but no travel_mm; give both, like travel_mm = [-10, 310]",
+                             where));
+        }
+        axis.travel_end_zone_mm = number(*zone, "travel_end_zone_mm", zone_range);
+        axis.travel_end_velocity_mm_s = number(*velocity, "travel_end_velocity_mm_s", velocity_range);
+        axis.travel_low_mm = travel->low;
+        axis.travel_high_mm = travel->high;
     }
 
     [[nodiscard]] Travel travel(const toml::node& node, double steps_per_mm) const {

@@ -72,6 +72,9 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
             const double slack = tolerance * (axis.travel->high - axis.travel->low) + e;
             axis.lowest = axis.travel->low - slack;
             axis.highest = axis.travel->high + slack;
+            axis.end_velocity = with_tolerance(settings.travel_end_velocity_mm_s, e);
+            axis.open_low = axis.travel->low + settings.travel_end_zone_mm;
+            axis.open_high = axis.travel->high - settings.travel_end_zone_mm;
         }
         axis.rotary = settings.rotary;
         axis.on_path = mixed_ ? !axis.rotary : !any_linear || is_linear(name_[k]);
@@ -404,12 +407,18 @@ bool SimulatedMachine::check_path(Motion& motion, int j) {
 bool SimulatedMachine::check_travel(const Motion& motion, unsigned k, std::int64_t position, double u) {
     const Axis& axis = axis_[k];
     const double mm = static_cast<double>(position) / axis.units_per_mm;
+    const double now = motion.start_s + motion.duration_s * u;
     if (mm >= axis.lowest && mm <= axis.highest) {
+        const Limit& end = axis.end_velocity;
+        const double velocity = std::fabs(motion.cubic[k].velocity(u));
+        if (end.limit > 0.0 && (mm < axis.open_low || mm > axis.open_high) &&
+            velocity > end.most + end.noise / motion.duration_s) {
+            return fail(FaultKind::travel_end, k, now, velocity, end.limit, "mm/s", motion.segment->waypoint);
+        }
         return true;
     }
     const double limit = mm < axis.lowest ? axis.travel->low : axis.travel->high;
-    return fail(FaultKind::travel, k, motion.start_s + motion.duration_s * u, mm, limit, "mm",
-                motion.segment->waypoint);
+    return fail(FaultKind::travel, k, now, mm, limit, "mm", motion.segment->waypoint);
 }
 
 } // namespace splinefeed::host

@@ -86,6 +86,9 @@ private:
         std::optional<Travel> travel;
         double lowest = 0.0; ///< travel with its tolerance [mm]
         double highest = 0.0;
+        Limit end_velocity; ///< beyond open_low and open_high; 0: none
+        double open_low = 0.0;
+        double open_high = 0.0;
         bool rotary = false;
         bool on_path = false; ///< the feed counts it
     };

@@ -60,6 +60,14 @@ TEST_CASE("A machine file is read") {
     CHECK(machine.travel[0]->high == 310.5);
     CHECK_FALSE(machine.travel[1]);
     CHECK(machine.settings.axis[0].max_braking_mm_s2 == 0.0);
+    const AxisSettings ends =
+        parse_machine(with("310.5]\n", "310.5]\ntravel_end_zone_mm = 5\ntravel_end_velocity_mm_s = 7\n"), "m.toml")
+            .settings.axis[0];
+    CHECK(ends.travel_low_mm == -10.0);
+    CHECK(ends.travel_high_mm == 310.5);
+    CHECK(ends.travel_end_zone_mm == 5.0);
+    CHECK(ends.travel_end_velocity_mm_s == 7.0);
+    CHECK(machine.settings.axis[0].travel_end_zone_mm == 0.0);
     CHECK_FALSE(machine.settings.axis[1].rotary);
     CHECK(parse_machine(with("'a'\n", "'a'\nkind = 'rotary'\n"), "m.toml").settings.axis[1].rotary);
     CHECK_FALSE(parse_machine(with("'a'\n", "'a'\nkind = 'linear'\n"), "m.toml").settings.axis[1].rotary);
@@ -138,6 +146,12 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("steps_per_mm = 12.5", "steps_per_mm = 12.5\nmax_jerk_mm_s3 = 1"), "m.toml:19: ", "max_jerk_mm_s3"},
         {with("'a'\n", "'a'\nkind = 'round'\n"), "m.toml:16: ", "kind is 'round'; it must be 'linear' or 'rotary'"},
         {with("'a'\n", "'a'\nkind = true\n"), "m.toml:16: ", "text"},
+        {with("310.5]\n", "310.5]\ntravel_end_zone_mm = 5\n"), "m.toml:10: ", "travel_end_velocity_mm_s, or neither"},
+        {with("310.5]\n", "310.5]\ntravel_end_velocity_mm_s = 5\n"), "m.toml:10: ", "both travel_end_zone_mm"},
+        {with("310.5]\n", "310.5]\ntravel_end_zone_mm = 0\ntravel_end_velocity_mm_s = 5\n"), "m.toml:10: ", "between"},
+        {with("310.5]\n", "310.5]\ntravel_end_zone_mm = 5\ntravel_end_velocity_mm_s = 0\n"), "m.toml:11: ", "between"},
+        {with("= 12.5\n", "= 12.5\ntravel_end_zone_mm = 5\ntravel_end_velocity_mm_s = 5\n"),
+         "m.toml:19: ", "no travel_mm"},
         {with("= 1e3", "= 1e3\nmax_braking_mm_s2 = 0"), "m.toml:12: ", "between 0.1 and 1000000 mm/s^2"},
         {with("= 1e3", "= 1e3\nmax_braking_mm_s2 = 'hard'"), "m.toml:12: ", "finite number"},
         {with("= 1e3", "= 1e3\nmax_brake_mm_s2 = 1"), "m.toml:12: ", "did you mean 'max_braking_mm_s2'"},

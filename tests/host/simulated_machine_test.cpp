@@ -54,6 +54,19 @@ TEST_CASE("each limit is kept to 1e-5 and forgiven to 1e-9") {
         CHECK(fault_of(machine, there(50.0 * over, 1000.0 * over, axis)) == "acceleration");
         CHECK(fault_of(machine, there(50.0 * hardly_over, 1000.0 * hardly_over, axis)) == "none");
     }
+    SECTION("velocity near the end of the travel") {
+        const Motion motion = there(20.0, 500.0, axis); // to 1 mm, 20 mm/s from 0.4 to 0.6 mm
+        machine.travel[axis] = Travel{-10.0, 10.5};
+        machine.settings.axis[axis].travel_end_zone_mm = 10.0;
+        machine.settings.axis[axis].travel_end_velocity_mm_s = 20.0 / hardly_over;
+        CHECK(fault_of(machine, motion) == "none");
+        machine.settings.axis[axis].travel_end_velocity_mm_s = 20.0 / over;
+        CHECK(fault_of(machine, motion) == "travel end");
+        machine.travel[axis] = Travel{-10.0, 10.9};
+        CHECK(fault_of(machine, motion) == "none");
+        machine.travel[axis] = Travel{-9.5, 90.0};
+        CHECK(fault_of(machine, motion) == "travel end");
+    }
     SECTION("braking") {
         const auto with_braking = [&](double limit, double acceleration) {
             machine.settings.axis[axis].max_braking_mm_s2 = limit;

@@ -14,6 +14,9 @@ const char* describe(Error error) noexcept {
     case Error::velocity_out_of_range: return "max_velocity_mm_s must lie between 0.001 and 10000";
     case Error::acceleration_out_of_range: return "max_acceleration_mm_s2 must lie between 0.1 and 1000000";
     case Error::braking_out_of_range: return "max_braking_mm_s2 must lie between 0.1 and 1000000";
+    case Error::travel_end_out_of_range:
+        return "travel_end_zone_mm must lie between 0.001 and 1000000 with travel limits that increase, and "
+               "travel_end_velocity_mm_s between 0.001 and 10000";
     case Error::jerk_not_supported:
         return "max_jerk_mm_s3 is not supported yet: the feed plan is acceleration-limited; remove the key";
     case Error::centripetal_out_of_range: return "centripetal_mm_s2 must lie between 0.1 and 1000000";

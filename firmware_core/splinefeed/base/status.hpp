@@ -21,6 +21,7 @@ enum class Error : std::uint8_t {
     velocity_out_of_range,
     acceleration_out_of_range,
     braking_out_of_range,
+    travel_end_out_of_range,
     jerk_not_supported,
     centripetal_out_of_range,
     chord_error_out_of_range,

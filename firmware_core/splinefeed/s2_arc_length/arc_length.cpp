@@ -63,12 +63,35 @@ bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
     return (stop_before_ && coarse(distance_mm(0, 0))) || (stop_after_ && coarse(distance_mm(n, n)));
 }
 
+// Whether an end of an axis's open travel lies within the hull of the piece.
+template <Scalar S>
+bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
+    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+        S least = piece.control[k][0];
+        S most = least;
+        for (unsigned i = 1; i <= static_cast<unsigned>(current().degree); ++i) {
+            least = smaller(least, piece.control[k][i]);
+            most = larger(most, piece.control[k][i]);
+        }
+        const std::int64_t low = displaced(current().origin[k], least, current().unit_log2).raw;
+        const std::int64_t high = displaced(current().origin[k], most, current().unit_log2).raw;
+        const OpenTravel& open = refinement_.open[k];
+        if ((low < open.low.raw && high > open.low.raw) || (low < open.high.raw && high > open.high.raw)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // The speed changes near joints, most of all near stops. Halving grades cells geometrically away from a stop. Where
 // nothing stops three halvings do, lest a slow feed cut every segment into crumbs. Between two stops there are at least
 // eight cells: room to start and to brake even in the shortest move.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
     if (m_.length_mm > refinement_.longest_mm || (stop_before_ && stop_after_ && piece.level < 3)) {
+        return true;
+    }
+    if (refinement_.end_piece_mm > S{} && m_.length_mm > refinement_.end_piece_mm && leaves_open_travel(piece)) {
         return true;
     }
     if (!(m_.length_mm > grade_mm_)) {

@@ -6,7 +6,15 @@
 #include "splinefeed/s2_arc_length/cell.hpp"
 #include "splinefeed/s2_arc_length/piece.hpp"
 
+#include <limits>
+
 namespace splinefeed {
+
+/// Where an axis may go at its full speed; closer to the ends of its travel it has another limit.
+struct OpenTravel {
+    Position low{std::numeric_limits<std::int64_t>::min()};
+    Position high{std::numeric_limits<std::int64_t>::max()};
+};
 
 /// How fine the cells are. Thresholds are odd numbers on purpose: no exact input sits on one, so that all scalars
 /// decide alike and their traces stay comparable.
@@ -16,7 +24,9 @@ struct Refinement {
     S max_feed_mm_s{};     ///< feed of segments that program none
     S grade_per_feed_sq{}; ///< cells next to a joint are at most feed^2 times this: a fraction of the braking distance
     int shape_log2 = 0;    ///< unit of AxisShape: 2^-shape_log2
-    S direction_jump{};    ///< a larger change of dq/ds at a joint is a corner, and a stop
+    PerAxis<OpenTravel> open{};
+    S end_piece_mm{};                        ///< longest cell across an end of open travel; 0: no axis has one
+    S direction_jump{};                      ///< a larger change of dq/ds at a joint is a corner, and a stop
     S turn = literal<S>(0.0613);             ///< largest change of direction within a cell [rad]
     S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
     S curvature_bend = literal<S>(0.0037);   ///< the same for the second difference of curvature
@@ -56,6 +66,7 @@ private:
     [[nodiscard]] bool vanishes(const Piece<S>& piece) const noexcept;
     Verdict judge(const Piece<S>& piece) noexcept;
     [[nodiscard]] bool too_long(const Piece<S>& piece) const noexcept;
+    [[nodiscard]] bool leaves_open_travel(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool bends_too_much() const noexcept;
     [[nodiscard]] bool near_stop(const Piece<S>& piece) const noexcept;
     void split() noexcept;

@@ -15,6 +15,7 @@
 // final, K of its last node can only rise afterwards: a stop stays within reach.
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
 
+#include "splinefeed/s3_feed_plan/axis_velocity.hpp"
 #include "splinefeed/s3_feed_plan/feed_share.hpp"
 
 namespace splinefeed {
@@ -47,8 +48,9 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
         speed = smaller(quotient_or_max(most, feed_share(cell, limits_)), limits_.path_mm_s);
     }
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
-        if (cell.tangent_max[k] * speed > limits_.velocity_mm_s[k]) {
-            speed = limits_.velocity_mm_s[k] / cell.tangent_max[k];
+        const S velocity = axis_velocity(cell, limits_, k);
+        if (cell.tangent_max[k] * speed > velocity) {
+            speed = velocity / cell.tangent_max[k];
         }
     }
     if (cell.direction_noise * speed > limits_.jump_mm_s) {

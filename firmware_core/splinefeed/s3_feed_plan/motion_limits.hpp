@@ -19,6 +19,10 @@ struct AxisSettings {
     double steps_per_mm = 1000.0;
     double max_braking_mm_s2 = 0.0; ///< acceleration against the velocity; 0: max_acceleration_mm_s2
     bool rotary = false;            ///< in degrees where the names say mm; the feed does not count it
+    double travel_low_mm = 0.0;     ///< of use with an end zone only
+    double travel_high_mm = 0.0;
+    double travel_end_zone_mm = 0.0;       ///< as near to the ends of the travel the axis has another limit; 0: nowhere
+    double travel_end_velocity_mm_s = 0.0; ///< this one
 
     [[nodiscard]] constexpr double braking_mm_s2() const noexcept {
         return max_braking_mm_s2 == 0.0 ? max_acceleration_mm_s2 : max_braking_mm_s2;
@@ -55,8 +59,9 @@ struct MotionLimits {
     S feed_mm_s{};                             ///< what planning may use of max_feed_mm_s
     S path_mm_s{}; ///< no speed along the path, over all axes, is above; without rotary axes feed_mm_s
     PerAxis<bool> rotary{};
-    bool mixed = false; ///< some axes are rotary and some are not
-    S usable{};         ///< the part of a limit that planning may use, but for the noise of positions
+    PerAxis<S> end_velocity_mm_s{}; ///< of an axis beyond Refinement::open; 0: no such limit
+    bool mixed = false;             ///< some axes are rotary and some are not
+    S usable{};                     ///< the part of a limit that planning may use, but for the noise of positions
     S feed_noise_mm_s{};
     S jump_mm_s{};                   ///< largest jump of the speed that rounding may cause at a joint of cells
     S centripetal_mm_s2{};           ///< 0: none
@@ -171,6 +176,24 @@ constexpr bool within(double x, double low, double high) noexcept {
     return x >= low && x <= high; // false for NaN
 }
 
+/// false for NaN
+constexpr bool travel_end_valid(const AxisSettings& axis) noexcept {
+    return within(axis.travel_end_zone_mm, 0.001, 1e6) && within(axis.travel_end_velocity_mm_s, 0.001, 10000.0) &&
+           position_representable(axis.travel_low_mm) && position_representable(axis.travel_high_mm) &&
+           axis.travel_low_mm < axis.travel_high_mm;
+}
+
+/// Travel at full speed. What is emitted averages the plan over two segments to either side, which the axis passes at
+/// its end velocity, and the position is off by T^2 A / 6: the zone begins that much earlier.
+constexpr OpenTravel open_travel(const AxisSettings& axis, double segment_s) noexcept {
+    const double zone = axis.travel_end_zone_mm + 2.0 * segment_s * axis.travel_end_velocity_mm_s +
+                        segment_s * segment_s * axis.larger_acceleration_mm_s2() / 6.0;
+    const auto position = [](double mm) {
+        return position_from_mm(mm < -1048576.0 ? -1048576.0 : mm > 1048576.0 ? 1048576.0 : mm);
+    };
+    return {position(axis.travel_low_mm + zone), position(axis.travel_high_mm - zone)};
+}
+
 } // namespace detail
 
 template <Scalar S>
@@ -207,6 +230,9 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         if (axis.max_braking_mm_s2 != 0.0 && !detail::within(axis.max_braking_mm_s2, 0.1, 1e6)) {
             return Error::braking_out_of_range;
         }
+        if (axis.travel_end_zone_mm != 0.0 && !detail::travel_end_valid(axis)) {
+            return Error::travel_end_out_of_range;
+        }
         if (axis.max_jerk_mm_s3 != 0.0) {
             return Error::jerk_not_supported;
         }
@@ -241,6 +267,16 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
             return Error::period_too_short;
         }
         feed_noise += speed_noise;
+        if (axis.travel_end_zone_mm != 0.0) {
+            if (speed_noise > 0.25 * axis.travel_end_velocity_mm_s) {
+                return Error::period_too_short;
+            }
+            limits.end_velocity_mm_s[k] = from_double<S>(axis.travel_end_velocity_mm_s * usable - speed_noise);
+            limits.refinement.open[k] = detail::open_travel(axis, segment_s);
+            const S piece = from_double<S>(axis.travel_end_zone_mm / 64.0);
+            S& longest_piece = limits.refinement.end_piece_mm;
+            longest_piece = longest_piece > S{} ? smaller(longest_piece, piece) : piece;
+        }
         limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * usable - speed_noise);
         // Jumps of the speed that are tolerated at joints are accelerations, too.
         const auto planned = [&](double acceleration) {
