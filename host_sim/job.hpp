@@ -20,6 +20,7 @@ struct Job {
     std::string input; ///< a path, or "-"
     InputFormat format = InputFormat::csv;
     std::string machine; ///< empty: the default machine
+    std::string events;  ///< empty: nobody steers
     CurveArguments curve;
     SurfaceArguments surface;
     ScalarKind scalar = ScalarKind::fixed;

@@ -24,13 +24,15 @@ Motion<S>::Motion(const Job& job, const MachineDescription& description, const M
                             .share = &share_}),
       window_(job.window_cells), trajectory_(tee_, limits, window_),
       machine_(description, limits.segments_per_sample,
-               {.enforce = job.command == Command::run, .trace = outputs.trace()}) {}
+               {.enforce = job.command == Command::run, .trace = outputs.trace()}),
+      events_(job.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(job.events)) {}
 
 template <Scalar S>
 std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     Progress progress({.quiet = job_->quiet, .waypoints = waypoints});
     FeedSegment segment;
     for (;;) {
+        operate();
         if (pull(segment)) {
             if (segments_ == 0 && tee_.failure()) {
                 std::rethrow_exception(tee_.failure());
@@ -41,12 +43,21 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
             progress.update(feeder_.rows(), machine_.cycle_time_s());
         } else if (trajectory_.state() == Pull::finished) {
             break;
+        } else if (trajectory_.state() == Pull::held) {
+            if (!stand()) {
+                break;
+            }
         } else {
             read();
         }
     }
     if (tee_.failure()) {
         keep_failure(tee_.failure());
+    }
+    if (trajectory_.activity() == Activity::aborted) {
+        stopped_ = "aborted by an event";
+    } else if (trajectory_.activity() == Activity::held && trajectory_.state() == Pull::held) {
+        stopped_ = "held, and no event resumes it";
     }
     machine_.finish();
     optimum_.finish();
@@ -62,6 +73,31 @@ bool Motion<S>::pull(FeedSegment& segment) {
     const bool item = trajectory_.next(segment);
     planning_ += Clock::now() - start;
     return item;
+}
+
+// What the operator does up to now. An event between two segments acts with the second.
+template <Scalar S>
+void Motion<S>::operate() {
+    constexpr double same_s = 1e-9;
+    for (; operated_ < events_.size() && events_[operated_].time_s <= machine_.cycle_time_s() + same_s; ++operated_) {
+        switch (events_[operated_].operation) {
+        case Operation::hold: trajectory_.hold(); break;
+        case Operation::resume: trajectory_.resume(); break;
+        case Operation::abort: trajectory_.abort(); break;
+        case Operation::override_feed: trajectory_.override_feed(from_double<S>(events_[operated_].value)); break;
+        }
+    }
+}
+
+// Time passes while the machine is held; false where nothing will ever move it.
+template <Scalar S>
+bool Motion<S>::stand() {
+    if (operated_ == events_.size()) {
+        return false;
+    }
+    FeedSegment segment;
+    trajectory_.stand(segment);
+    return execute(segment);
 }
 
 // Gives the curve one more waypoint, or tells it that there are none.
@@ -88,10 +124,13 @@ bool Motion<S>::execute(const FeedSegment& segment) {
         writer->segment(segment);
     }
     ++segments_;
-    bool rest = true;
+    bool rest = trajectory_.activity() == Activity::running;
+    bool moves = false;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         rest = rest && segment.end_velocity[k] == 0;
+        moves = moves || segment.start_velocity[k] != 0;
     }
+    rest = rest && moves;
     rests_ += rest ? 1U : 0U;
     // The machine executes one segment a poll, in virtual time: it is never behind.
     const bool done = machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
@@ -148,7 +187,7 @@ Summary Motion<S>::summary() const {
     if (input_->segments() == nullptr && passes_waypoints(summary.curve)) {
         summary.waypoint_error_mm = error_.largest_mm();
     }
-    if (stopped_.empty()) {
+    if (stopped_.empty() && operated_ == 0) { // an override may be faster than what was programmed
         summary.optimum_time_s = optimum_.seconds();
     }
     summary.limit_share = share_.shares();
@@ -157,6 +196,7 @@ Summary Motion<S>::summary() const {
                             sizeof(ArcLength<S>) + sizeof(FeedPlan<S>) + window_.size() * sizeof(PlannedCell<S>),
                             sizeof(SegmentStream<S>)};
     summary.stopped = !stopped_.empty();
+    summary.events = operated_;
     summary.window_limited = trajectory_.feed_plan().window_limited();
     summary.stops = rests_ > 0 ? rests_ - 1 : 0;
     const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);

@@ -2,6 +2,7 @@
 // Motion: the curve's way through the planner into the machine, and what is measured on it.
 #pragma once
 
+#include "event_file.hpp"
 #include "outputs.hpp"
 #include "path_tee.hpp"
 #include "summary.hpp"
@@ -36,6 +37,8 @@ private:
 
     bool pull(FeedSegment& segment);
     void read();
+    void operate();
+    bool stand();
     bool execute(const FeedSegment& segment);
     void keep_failure(const std::exception_ptr& failure);
     [[nodiscard]] std::string where() const;
@@ -53,6 +56,8 @@ private:
     std::vector<PlannedCell<S>> window_;
     Trajectory<S> trajectory_;
     SimulatedMachine machine_;
+    std::vector<OperatorEvent> events_;
+    std::size_t operated_ = 0; // events so far
     Clock::duration planning_{};
     std::string stopped_; // why, if it was before the end
     std::uint64_t segments_ = 0;

@@ -79,6 +79,9 @@ void write_sentences(Lines out, const Summary& summary) {
     if (summary.stopped) {
         fmt::format_to(out, "The run was stopped before the end of the program.\n");
     }
+    if (summary.events > 0) {
+        fmt::format_to(out, "It was steered: {} of the operator.\n", plural(summary.events, "event"));
+    }
     if (!passes_waypoints(summary.curve)) {
         fmt::format_to(out,
                        "The waypoints are control points: the curve is drawn towards them and need not pass them.\n");

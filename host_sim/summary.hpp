@@ -40,6 +40,7 @@ struct Summary {
     double planning_time_s = 0.0;
     MemoryBytes memory_bytes;
     bool stopped = false;             ///< the run ended before the program did
+    std::uint64_t events = 0;         ///< of the operator
     std::uint64_t window_limited = 0; ///< how often the planning window was too short to tell the plan from the best
     std::uint64_t stops = 0;          ///< corners where the feed is zero, ends not counted
     double smoothing_bound_mm = 0.0;  ///< how far the emitted motion may be from the curve

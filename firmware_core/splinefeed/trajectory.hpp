@@ -22,12 +22,48 @@ public:
     Trajectory& operator=(const Trajectory&) = delete;
 
     /// Writes the next segment; false when there is none: see state().
-    bool next(FeedSegment& out) noexcept {
-        state_ = stream_.next(out);
+    /// @param starvation  goes_on: for a machine that moves and has no segment left, while the input is late. The
+    /// motion
+    ///                    goes on with what is known, brakes to rest at its end, and starts again when more comes.
+    bool next(FeedSegment& out, Starvation starvation = Starvation::waits) noexcept {
+        state_ = stream_.next(out, starvation);
         return state_ == Pull::item;
     }
-    /// Why the last next() answered as it did: `starved` (push waypoints or finish) or `finished`.
+    /// Why the last next() answered as it did: `starved` (push waypoints or finish), `held` (stands until resume() or a
+    /// larger override) or `finished` (also: aborted).
     [[nodiscard]] Pull state() const noexcept { return state_; }
+
+    /// Steering, at any time between two next(): it acts with the next segment. The path in space stays the same.
+    /// Factor of the programmed feed, 0 to 2, taken as the nearest of these; 0 stops. The machine's limits stay.
+    void override_feed(S ratio) noexcept { plan_.steering().override_feed(ratio); }
+    /// Brakes to rest on the path, as hard as the axes allow.
+    void hold() noexcept { plan_.steering().hold(); }
+    /// Goes on from where it was held; before it stands, at once.
+    void resume() noexcept { plan_.steering().resume(); }
+    /// Brakes like hold(), for good: what is left of the program is not travelled. Then start() takes another.
+    void abort() noexcept { plan_.steering().abort(); }
+    /// What the motion does about all that.
+    [[nodiscard]] Activity activity() const noexcept {
+        const Steering<S>& steering = plan_.steering();
+        if (!steering.stops()) {
+            return Activity::running;
+        }
+        const bool stands = plan_.standing() && stream_.at_rest();
+        return steering.aborts() ? (stands ? Activity::aborted : Activity::aborting)
+                                 : (stands ? Activity::held : Activity::holding);
+    }
+    /// Writes a segment of standing still, for a machine that is to have one. @pre the motion is at rest: held,
+    /// aborted, finished or not begun
+    void stand(FeedSegment& out) noexcept { stream_.stand(out); }
+    /// Where the machine stands once it is at rest.
+    [[nodiscard]] const PerAxis<Position>& position() const noexcept { return stream_.position(); }
+    /// A new program, whose first waypoint is position(). The override stays as it is.
+    /// @pre the one before is finished or aborted, and the machine at rest
+    void start(CurveSource<S>& curve) noexcept {
+        plan_.clear();
+        arc_length_.start(curve);
+        state_ = Pull::starved;
+    }
 
     [[nodiscard]] const ArcLength<S>& arc_length() const noexcept { return arc_length_; }
     [[nodiscard]] const FeedPlan<S>& feed_plan() const noexcept { return plan_; }

@@ -96,6 +96,7 @@ private:
 enum class Pull : std::uint8_t {
     item,     ///< one was delivered
     starved,  ///< none now: push more waypoints, or finish
+    held,     ///< none now: the machine stands until it is resumed (FeedPlan and what comes after it)
     finished, ///< none ever again
 };
 

@@ -49,6 +49,15 @@ public:
         : source_(&source), refinement_(refinement) {}
     ArcLength(CurveSource<S>& source, const Refinement<S>&& refinement) = delete;
 
+    /// Forgets the source before, and begins with this one.
+    void start(CurveSource<S>& source) noexcept {
+        source_ = &source;
+        travelled_ = {};
+        segments_ = 0;
+        depth_ = 0;
+        has_current_ = has_ahead_ = in_cusp_ = after_cusp_ = false;
+        stop_before_ = stop_after_ = true;
+    }
     /// Writes the next cell in travel order.
     Pull next(Cell<S>& out) noexcept;
 

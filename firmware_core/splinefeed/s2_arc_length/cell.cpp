@@ -24,6 +24,22 @@ void Cell<S>::position_at(S x, PerAxis<Position>& out) const noexcept {
     }
 }
 
+template <Scalar S>
+void Cell<S>::direction_at(S x, PerAxis<S>& out) const noexcept {
+    const S w = parameter_at(x);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        S slope{};
+        for (int i = degree; i > 0; --i) {
+            slope = slope * w + from_integer<S>(i) * power[k][static_cast<unsigned>(i)];
+        }
+        out[k] = slope;
+    }
+    const S sigma = norm(out.data(), axes);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        out[k] = sigma > S{} ? out[k] / sigma : S{};
+    }
+}
+
 template struct Cell<double>;
 template struct Cell<float>;
 template struct Cell<Fixed>;

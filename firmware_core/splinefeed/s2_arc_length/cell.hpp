@@ -44,6 +44,8 @@ struct Cell {
 
     /// Position at the fraction x in [0, 1] of the cell's length. Cost: 6 + degree * axes products.
     void position_at(S x, PerAxis<Position>& out) const noexcept;
+    /// dq/ds there, by the polynomial. Cost: a root and as many products again.
+    void direction_at(S x, PerAxis<S>& out) const noexcept;
     /// Curve parameter w at the fraction x of the cell's length.
     [[nodiscard]] S parameter_at(S x) const noexcept;
 };

@@ -48,8 +48,11 @@ constexpr int least_step_log2 = std::same_as<S, double>  ? -50
 } // namespace
 
 template <Scalar S>
-AccelerationBound<S>::AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept : cell_(&cell) {
-    const S twice = cell.length_mm + cell.length_mm;
+AccelerationBound<S>::AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits,
+                                        const Stretch<S>& stretch) noexcept
+    : cell_(&cell), stretch_(stretch) {
+    const S length = stretch.whole() ? cell.length_mm : cell.length_mm * stretch.length();
+    const S twice = length + length;
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
         const auto scaled = [&](S acceleration) {
             return smaller(scale2(twice * acceleration, limits.refinement.shape_log2),
@@ -97,18 +100,26 @@ void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(cell_->axes); ++k) {
         const AxisShape<S>& shape = cell_->shape[k];
         const auto both = [&](S entry, S exit) {
-            visit(Row{shape.spread + entry, shape.spread + exit, upwards_[k]});
-            visit(Row{shape.spread - entry, shape.spread - exit, downwards_[k]});
+            visit(Row{shape.spread + entry, shape.spread + exit, upwards_[k]}, shape.spread);
+            visit(Row{shape.spread - entry, shape.spread - exit, downwards_[k]}, shape.spread);
         };
-        const S c0 = third * shape.bend[0];
-        const S c1 = third * (shape.bend[1] + shape.bend[1]);
-        const S c2 = third * shape.bend[2];
-        const S t1 = shape.tangent[0] + scale2(c0, -1);
-        const S t2 = shape.tangent[1] - scale2(c2, -1);
-        both(shape.bend[0] - shape.tangent[0], shape.tangent[0]);
-        both(c1 - t1, t1 + c0);
-        both(c2 - t2, t2 + c1);
-        both(-shape.tangent[1], shape.tangent[1] + shape.bend[2]);
+        std::array<S, 3> bend = shape.bend;
+        std::array<S, 4> t{shape.tangent[0], shape.tangent[0] + scale2(third * bend[0], -1),
+                           shape.tangent[1] - scale2(third * bend[2], -1), shape.tangent[1]};
+        if (!stretch_.whole()) {
+            t = points_on(stretch_, t);
+            bend = points_on(stretch_, bend);
+            for (S& b : bend) {
+                b = b * stretch_.length(); // 2 L q'' of the shorter length
+            }
+        }
+        const S c0 = third * bend[0];
+        const S c1 = third * (bend[1] + bend[1]);
+        const S c2 = third * bend[2];
+        both(bend[0] - t[0], t[0]);
+        both(c1 - t[1], t[1] + c0);
+        both(c2 - t[2], t[2] + c1);
+        both(-t[3], t[3] + bend[2]);
     }
 }
 
@@ -116,7 +127,7 @@ void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
 template <Scalar S>
 S AccelerationBound<S>::largest_exit(S entry_sq, S at_most) const noexcept {
     S best = at_most;
-    each_row([&](const Row& row) {
+    each_row([&](const Row& row, S) {
         const S excess = row.entry * entry_sq + row.exit * best - row.limit;
         if (excess > S{} && row.exit > S{}) {
             best = excess < row.exit * best ? best - excess / row.exit : S{};
@@ -128,13 +139,34 @@ S AccelerationBound<S>::largest_exit(S entry_sq, S at_most) const noexcept {
 template <Scalar S>
 S AccelerationBound<S>::largest_entry(S exit_sq, S at_most) const noexcept {
     S best = at_most;
-    each_row([&](const Row& row) {
+    each_row([&](const Row& row, S) {
         const S excess = row.entry * best + row.exit * exit_sq - row.limit;
         if (excess > S{} && row.entry > S{}) {
             best = excess < row.entry * best ? best - excess / row.entry : S{};
         }
     });
     return best;
+}
+
+// What violates a half-plane is added to the exit. The spread goes with |v^2|: below zero it takes from the other side.
+template <Scalar S>
+S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept {
+    const bool below_zero = exit_sq < S{};
+    S best = exit_sq;
+    each_row([&](const Row& row, S spread) {
+        const S exit = below_zero ? row.exit - (spread + spread) : row.exit;
+        const S excess = row.entry * entry_sq + exit * best - row.limit;
+        if (excess > S{} && exit < S{}) {
+            best = best + smaller(quotient_or_max(excess, -exit), at_most - best);
+        }
+    });
+    return best;
+}
+
+template <Scalar S>
+S AccelerationBound<S>::smallest_exit(S entry_sq, S at_least, S at_most) const noexcept {
+    const S best = lifted(entry_sq, at_least, at_most);
+    return at_least < S{} && best > S{} ? lifted(entry_sq, S{}, larger(at_most, S{})) : best;
 }
 
 // The entry where two half-planes meet, the exits of which cancel with the weight 0 ... 1 of the second.
@@ -155,7 +187,7 @@ EndSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
         Row below{S{}, -one, S{}};   // exit >= 0
         S high = cap_sq;
         S low{};
-        each_row([&](const Row& row) {
+        each_row([&](const Row& row, S) {
             if (row.exit > S{} && high > -cap_sq) {
                 const S excess = row.entry * entry + row.exit * high - row.limit;
                 if (excess > S{}) {

@@ -13,6 +13,14 @@
 // where one of the two holds is final, and with it every K before it: what lies before is equal to the plan with an
 // unlimited window. The window is committed up to the last such node. Where an earlier part is committed without being
 // final, K of its last node can only rise afterwards: a stop stays within reach.
+//
+// Steering. There are two K: that of the machine, with its own caps, and that of the wish, with the programmed feed
+// times the override among the caps. The machine's speed is at most the first at every node, whatever was wished
+// before; so a change of the wish can always be followed within the limits. Forward, one cell at a time as the machine
+// enters it: the wish's K, clamped to the exits that P allows for the entry and the machine's K at the exit. A machine
+// that is not faster than the wish needs no clamp from below, which is the plan without steering. A change computes the
+// wish's K again, drops what was committed beyond final nodes, and chooses a new passage from where the machine is
+// (passage.cpp).
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
 
 #include "splinefeed/s3_feed_plan/axis_velocity.hpp"
@@ -38,15 +46,10 @@ FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::
 template <Scalar S>
 void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
-    const S feed =
-        cell.feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.feed_mm_s), limits_.feed_mm_s) : limits_.feed_mm_s;
-    // Whatever the override, the feed keeps the block's own maximum.
-    const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), feed) : feed;
-    // The feed counts the linear axes; the others follow as fast as their own limits allow.
-    S speed = most;
-    if (limits_.mixed) {
-        speed = smaller(quotient_or_max(most, feed_share(cell, limits_)), limits_.path_mm_s);
-    }
+    // Whatever is programmed and overridden, the feed keeps the block's own maximum.
+    const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), limits_.feed_mm_s)
+                                            : limits_.feed_mm_s;
+    S speed = path_speed(cell, most);
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         const S velocity = axis_velocity(cell, limits_, k);
         if (cell.tangent_max[k] * speed > velocity) {
@@ -80,87 +83,263 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     planned.reach_from_rest = smaller(reach, planned.cap_sq);
 }
 
-// Backward over all that is not committed, forward from it, then commits.
+// The feed counts the linear axes; the others follow as fast as their own limits allow.
 template <Scalar S>
-void FeedPlan<S>::plan(bool ended) noexcept {
-    // exit_sq holds K of the node behind each cell, entry_sq the largest entry with which that can be reached
-    std::size_t last_final = committed_;
-    S beyond{}; // at rest
-    for (std::size_t i = size_; i-- > committed_;) {
+S FeedPlan<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
+    return limits_.mixed ? smaller(quotient_or_max(feed, feed_share(cell, limits_)), limits_.path_mm_s) : feed;
+}
+
+// And of the wish in it.
+template <Scalar S>
+S FeedPlan<S>::wanted_sq(const PlannedCell<S>& planned) const noexcept {
+    const S programmed = planned.cell.feed_mm_s;
+    const S ratio = steering_.ratio();
+    const S feed = programmed > S{} ? limits_.usable_feed(programmed * ratio) : limits_.feed_mm_s * ratio;
+    if (!(feed < limits_.feed_mm_s)) {
+        return planned.cap_sq;
+    }
+    const S speed = path_speed(planned.cell, feed);
+    return larger(smaller(planned.cap_sq, speed * speed), literal<S>(slowest_sq));
+}
+
+// Backward over the window: entry_sq becomes the largest entry from which the machine's K behind the cell can be
+// reached, exit_sq the wish's K there. Returns the last final node of the wish, or 0.
+template <Scalar S>
+std::size_t FeedPlan<S>::look_back() noexcept {
+    std::size_t last_final = 0;
+    S hard{}; // at rest
+    S soft{};
+    S wanted = size_ > 0 ? wanted_sq(at(size_ - 1)) : S{};
+    for (std::size_t i = size_; i-- > 0;) {
         PlannedCell<S>& here = at(i);
-        here.exit_sq = beyond;
-        S cap = here.cap_sq;
-        if (i > committed_) {
+        S hard_cap = here.cap_sq;
+        S soft_cap = wanted;
+        S wanted_before{};
+        if (i > 0) {
             const PlannedCell<S>& before = at(i - 1);
-            cap = before.cell.stop_at_end ? S{} : smaller(cap, before.cap_sq);
+            wanted_before = wanted_sq(before);
+            const bool stop = before.cell.stop_at_end;
+            hard_cap = stop ? S{} : smaller(hard_cap, before.cap_sq);
+            soft_cap = stop ? S{} : smaller(soft_cap, wanted_before);
         }
-        const bool at_peak = beyond >= here.peak.exit_sq;
-        const S reached = at_peak ? here.peak.entry_sq
-                                  : AccelerationBound<S>(here.cell, limits_).largest_entry(beyond, here.peak.entry_sq);
-        here.entry_sq = reached;
-        if ((at_peak || reached >= cap) && last_final == committed_) {
+        const AccelerationBound<S> bound(here.cell, limits_);
+        const auto reached_from = [&](S beyond, S at_most) {
+            return beyond >= here.peak.exit_sq ? at_most : bound.largest_entry(beyond, at_most);
+        };
+        const S hard_reach = reached_from(hard, here.peak.entry_sq);
+        const bool alike = soft == hard && wanted == here.cap_sq;
+        const S soft_reach = alike ? hard_reach : reached_from(soft, smaller(wanted, here.peak.entry_sq));
+        if ((soft >= here.peak.exit_sq || soft_reach >= soft_cap) && last_final == 0) {
             last_final = i;
         }
-        beyond = smaller(reached, cap);
+        here.entry_sq = hard_reach;
+        here.exit_sq = soft;
+        hard = smaller(hard_reach, hard_cap);
+        soft = smaller(soft_reach, soft_cap);
+        wanted = wanted_before;
     }
-    std::size_t target = size_;
+    planned_ = true;
+    return last_final;
+}
+
+template <Scalar S>
+void FeedPlan<S>::commit(bool ended) noexcept {
+    const std::size_t last_final = look_back();
+    committed_ = size_;
     if (!ended) {
-        const std::size_t quarter = committed_ + (size_ - committed_ + 3) / 4;
+        const std::size_t quarter = (size_ + 3) / 4;
         if (last_final < quarter) {
             ++window_limited_;
         }
-        target = last_final < quarter ? quarter : last_final;
+        committed_ = last_final < quarter ? quarter : last_final;
     }
-    for (; committed_ < target; ++committed_) {
-        PlannedCell<S>& here = at(committed_);
-        // P is convex: what is reached from here.entry_sq tells what is reached from less. Where an axis has next to no
-        // inertia, the largest exit depends on the last digits of the entry, and this does not.
-        const S share = entry_sq_ < here.entry_sq ? entry_sq_ / here.entry_sq : from_integer<S>(1);
-        const S reached = share * smaller(here.peak.exit_sq, here.exit_sq);
-        here.entry_sq = entry_sq_;
-        here.exit_sq = larger(reached, AccelerationBound<S>(here.cell, limits_).largest_exit(entry_sq_, here.exit_sq));
-        entry_sq_ = here.exit_sq;
+}
+
+// The steering changed. What is committed gets new speeds, or is no longer committed.
+template <Scalar S>
+void FeedPlan<S>::replan() noexcept {
+    steering_.taken();
+    steered_ = true;
+    const std::size_t last_final = look_back();
+    committed_ = size_ == 0 || last_final > 0 ? last_final : 1;
+    wanted_exit_ = size_ == 0 ? S{} : smaller(at(0).exit_sq, reachable_exit());
+}
+
+// The machine's K behind the front cell.
+template <Scalar S>
+S FeedPlan<S>::reachable_exit() const noexcept {
+    const PlannedCell<S>& here = at(0);
+    return here.cell.stop_at_end || size_ == 1 ? S{} : smaller(at(1).entry_sq, here.cap_sq);
+}
+
+template <Scalar S>
+void FeedPlan<S>::choose(S known_sq) noexcept {
+    PlannedCell<S>& here = at(0);
+    const S one = from_integer<S>(1);
+    chosen_ = true;
+    if (at_ == S{}) {
+        here.entry_sq = speed_sq_;
+    }
+    if (hopping_) {
+        hopping_ = false;
+        passage_ = {{at_}, speed_sq_, {}, here.cell.stop_at_end};
+    } else if (steered_ || at_ > S{}) {
+        choose_steered(known_sq);
+    } else {
+        const S exit = AccelerationBound<S>(here.cell, limits_).largest_exit(speed_sq_, wanted_exit_);
+        passage_ = {{}, speed_sq_, larger(exit, smaller(known_sq, wanted_exit_)), false};
+    }
+    Stretch<S>& stretch = passage_.stretch;
+    const bool to_end = stretch.to == one;
+    here.exit_sq = to_end ? passage_.exit_sq : wanted_exit_;
+    if (to_end && !(passage_.entry_sq + passage_.exit_sq > S{}) && !passage_.stops) {
+        // From rest to rest (a crumb between cusps, as a rule): accelerated over half of the length and braked over the
+        // other. From rest the whole length would reach v^2 = reach, half of it reach / 2; half of that is used, since
+        // a crumb's length has few digits in Fixed.
+        const S reach = smaller(here.reach_from_rest, wanted_sq(here));
+        passage_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
+        stretch.to = stretch.from + scale2(stretch.length(), -1);
+        hopping_ = true;
+    } else if (to_end && !(passage_.exit_sq > S{})) {
+        passage_.stops = passage_.stops || here.cell.stop_at_end || size_ == 1;
     }
 }
 
 template <Scalar S>
-Pull FeedPlan<S>::prepare() noexcept {
-    if (committed_ > 0) {
-        return Pull::item;
-    }
-    bool ended = false;
-    while (size_ < window_.size() && !ended) {
+void FeedPlan<S>::choose_steered(S known_sq) noexcept {
+    const PlannedCell<S>& here = at(0);
+    const S reachable = reachable_exit();
+    passage_ = steered_passage(here.cell, limits_,
+                               Aim<S>{.from = at_,
+                                      .entry_sq = speed_sq_,
+                                      .level_sq = wanted_sq(here),
+                                      .exit_sq = wanted_exit_,
+                                      .most_sq = reachable,
+                                      .known_sq = known_sq < S{} ? known_sq : smaller(known_sq, reachable),
+                                      .rest = steering_.stops()});
+    steered_ = steering_.stops() || !(passage_.exit_sq == wanted_exit_);
+}
+
+// P is convex: what is reached from the largest entry tells what is reached from less. Where an axis has next to no
+// inertia, the largest exit depends on the last digits of the entry, and this does not.
+template <Scalar S>
+S FeedPlan<S>::known_exit() const noexcept {
+    const PlannedCell<S>& here = at(0);
+    const S share = speed_sq_ < here.entry_sq ? speed_sq_ / here.entry_sq : from_integer<S>(1);
+    return share * smaller(here.peak.exit_sq, reachable_exit());
+}
+
+template <Scalar S>
+Pull FeedPlan<S>::fill() noexcept {
+    while (size_ < window_.size()) {
         PlannedCell<S>& slot = at(size_);
         const Pull pull = source_->next(slot.cell);
-        if (pull == Pull::starved) {
-            return Pull::starved;
+        if (pull != Pull::item) {
+            return pull;
         }
-        if (pull == Pull::item) {
-            bound(slot);
-            slot.peak = AccelerationBound<S>(slot.cell, limits_).peak(slot.cap_sq);
-            if (slot.cell.stop_before &&
-                size_ > 0) { // the newest cell is never committed before its successor is known
-                Cell<S>& before = at(size_ - 1).cell;
-                before.stop_at_end = true;
-                before.end = slot.cell.origin;
-            }
-            ++size_;
+        bound(slot);
+        slot.peak = AccelerationBound<S>(slot.cell, limits_).peak(slot.cap_sq);
+        if (slot.cell.stop_before && size_ > 0) {
+            Cell<S>& before = at(size_ - 1).cell;
+            before.stop_at_end = true;
+            before.end = slot.cell.origin;
         }
-        ended = pull == Pull::finished;
+        ++size_;
+        planned_ = false;
     }
-    if (size_ == 0) {
-        return Pull::finished;
-    }
-    plan(ended);
     return Pull::item;
 }
 
 template <Scalar S>
+Pull FeedPlan<S>::prepare(Starvation starvation) noexcept {
+    if (chosen_) {
+        return Pull::item;
+    }
+    if (steering_.stops() && !(speed_sq_ > S{})) {
+        if (steering_.aborts()) {
+            return Pull::finished;
+        }
+        const Pull pull = size_ == 0 ? fill() : Pull::item; // where a motion is to begin that is held before
+        return size_ == 0 ? pull : Pull::held;
+    }
+    if (committed_ == 0) {
+        const Pull pull = fill();
+        if (size_ == 0) {
+            return pull;
+        }
+        if (pull == Pull::starved && starvation == Starvation::waits && !steering_.stops()) {
+            return pull;
+        }
+        if (pull == Pull::starved) {
+            if (!planned_ || steering_.news()) {
+                look_back();
+            }
+            committed_ = 1;
+        } else {
+            commit(pull == Pull::finished);
+        }
+        steered_ = steered_ || steering_.news();
+        steering_.taken();
+        wanted_exit_ = smaller(at(0).exit_sq, reachable_exit());
+    } else if (steering_.news()) {
+        replan();
+    } else if (at_ == S{}) {
+        wanted_exit_ = smaller(at(0).exit_sq, reachable_exit());
+    }
+    const S known = at_ == S{} ? known_exit() : from_integer<S>(-1);
+    choose(known);
+    return Pull::item;
+}
+
+template <Scalar S>
+void FeedPlan<S>::steer(S fraction, S speed_sq) noexcept {
+    const bool whole_path = passage_.stretch.to == from_integer<S>(1);
+    const S known = whole_path ? passage_.exit_sq : from_integer<S>(-1);
+    at_ = fraction;
+    speed_sq_ = speed_sq;
+    hopping_ = chosen_ = false;
+    replan();
+    if (speed_sq_ > S{} || !steering_.stops()) {
+        choose(known);
+    }
+}
+
+template <Scalar S>
+void FeedPlan<S>::advance() noexcept {
+    if (passage_.stretch.to == from_integer<S>(1)) {
+        pop();
+        return;
+    }
+    at_ = passage_.stretch.to;
+    speed_sq_ = passage_.exit_sq;
+    chosen_ = false;
+}
+
+template <Scalar S>
+void FeedPlan<S>::rest_at(S fraction) noexcept {
+    at_ = fraction;
+    speed_sq_ = S{};
+    chosen_ = false;
+}
+
+template <Scalar S>
 void FeedPlan<S>::pop() noexcept {
-    SPLINEFEED_ASSERT(committed_ > 0);
+    SPLINEFEED_ASSERT(committed_ > 0 && chosen_);
+    speed_sq_ = front().exit_sq;
+    at_ = S{};
+    chosen_ = hopping_ = false;
     head_ = (head_ + 1) % window_.size();
     --size_;
     --committed_;
+}
+
+template <Scalar S>
+void FeedPlan<S>::clear() noexcept {
+    SPLINEFEED_ASSERT(standing());
+    size_ = committed_ = 0;
+    at_ = S{};
+    steered_ = planned_ = false;
+    steering_.start();
 }
 
 template class FeedPlan<double>;

@@ -12,41 +12,66 @@
 #pragma once
 
 #include "splinefeed/s2_arc_length/arc_length.hpp"
-#include "splinefeed/s3_feed_plan/acceleration_bound.hpp"
+#include "splinefeed/s3_feed_plan/passage.hpp"
+#include "splinefeed/s3_feed_plan/steering.hpp"
 
 #include <span>
 
 namespace splinefeed {
 
-/// A cell with its speeds. `entry_sq`, `exit_sq` are v^2 at its ends, valid once it is committed.
+/// A cell with its speeds. `entry_sq`, `exit_sq` are v^2 at its ends, valid once it is the front of the plan.
 template <Scalar S>
 struct PlannedCell {
     Cell<S> cell{};
     S entry_sq{};
     S exit_sq{};
-    S cap_sq{};          ///< largest v^2 anywhere in the cell
+    S cap_sq{};          ///< largest v^2 anywhere in the cell that the machine allows, whatever feed is programmed
     EndSpeeds<S> peak{}; ///< the fastest entry whatever comes after the cell, and the exit that it asks for
     S reach_from_rest{}; ///< an exit_sq that can be reached from rest, and with it all that is below
 };
 
-/// Stage 3. The window is the caller's storage. The plan in the window always ends at rest, so whatever is committed
-/// can stop within what is known. Committed values never change. Cost: amortised at most four visits a cell, each one
-/// product and sum per axis; independent of the program's length.
+/// What the plan does where the input is starved.
+enum class Starvation : std::uint8_t {
+    waits,  ///< it asks for more: what is planned does not depend on when the input comes
+    goes_on ///< it goes on with what is known, and to rest at its end: for a machine that cannot wait
+};
+
+/// Stage 3. The window is the caller's storage. The plan in the window always ends at rest, so whatever is travelled
+/// can stop within what is known. Cost: amortised at most four visits a cell, each two products and sums per axis;
+/// independent of the program's length. A change of the steering, and a cell that comes in while the input is starved,
+/// cost a visit to every cell of the window.
 template <Scalar S>
 class FeedPlan {
 public:
-    static constexpr std::size_t smallest_window = 12;
+    static constexpr std::size_t smallest_window = 10;
 
     /// `limits` must outlive the plan: on a microcontroller they stay in ROM.
     /// @pre window.size() >= smallest_window
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept;
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
 
-    /// Makes sure that front() is a committed cell. `starved`: the window is not full and no cell is committed.
-    Pull prepare() noexcept;
-    /// @pre the last prepare() answered item
+    /// Makes sure that front() is a cell to be travelled, and passage() how. `starved`: the window is not full and
+    /// nothing is committed (Starvation::goes_on: there is nothing at all). `held`: the machine stands and is to stand.
+    Pull prepare(Starvation starvation = Starvation::waits) noexcept;
+    /// @pre the last prepare() answered item, as for all below
     [[nodiscard]] const PlannedCell<S>& front() const noexcept { return at(0); }
+    [[nodiscard]] const Passage<S>& passage() const noexcept { return passage_; }
+    /// The passage is done: with its cell, or with a part of it.
+    void advance() noexcept;
+    /// The machine stopped there, on its last passage.
+    void rest_at(S fraction) noexcept;
+    /// The cell is done.
     void pop() noexcept;
+
+    [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
+    [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
+    /// Takes a change of the steering into account at once, from where the machine is on its passage. Without the call
+    /// it is taken into account with the next passage.
+    void steer(S fraction, S speed_sq) noexcept;
+    /// The machine stands where its last passage ended.
+    [[nodiscard]] bool standing() const noexcept { return !chosen_ && !(speed_sq_ > S{}); }
+    /// Forgets every cell: for a new program. @pre standing()
+    void clear() noexcept;
 
     /// How often the window was too short to tell the plan from that of an unlimited one (0: the plan is the same).
     [[nodiscard]] std::uint32_t window_limited() const noexcept { return window_limited_; }
@@ -58,16 +83,33 @@ private:
     }
 
     void bound(PlannedCell<S>& planned) const noexcept;
-    void plan(bool ended) noexcept;
+    [[nodiscard]] S path_speed(const Cell<S>& cell, S feed) const noexcept;
+    [[nodiscard]] S wanted_sq(const PlannedCell<S>& planned) const noexcept;
+    Pull fill() noexcept;
+    std::size_t look_back() noexcept;
+    void commit(bool ended) noexcept;
+    void replan() noexcept;
+    [[nodiscard]] S reachable_exit() const noexcept;
+    void choose(S known_sq) noexcept;
+    void choose_steered(S known_sq) noexcept;
+    [[nodiscard]] S known_exit() const noexcept;
 
     ArcLength<S>* source_;
     const MotionLimits<S>& limits_;
     std::span<PlannedCell<S>> window_;
+    Steering<S> steering_;
+    Passage<S> passage_;
     std::size_t head_ = 0;
     std::size_t size_ = 0;
     std::size_t committed_ = 0;
-    S entry_sq_{}; // v^2 at the first cell that is not committed
+    S at_{};          // where the next passage starts in the front cell
+    S speed_sq_{};    // v^2 there
+    S wanted_exit_{}; // at the end of the front cell, once a passage is chosen
     std::uint32_t window_limited_ = 0;
+    bool planned_ = false; // the window, as it is
+    bool chosen_ = false;  // passage_ is the front's
+    bool hopping_ = false; // passage_ is the first half of one from rest to rest
+    bool steered_ = false; // not yet back on the plan that the steering asks for
 };
 
 } // namespace splinefeed

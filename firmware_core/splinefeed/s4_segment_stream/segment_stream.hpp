@@ -14,36 +14,51 @@
 namespace splinefeed {
 
 /// Stage 4. Memory: constant. Cost of next(): one evaluation of the curve, plus one division per cell that is passed:
-/// amortised constant, at most the cells of the window.
+/// amortised constant, at most the cells of the window; and
+/// after a change of the steering a visit to every cell of the window.
 template <Scalar S>
 class SegmentStream {
 public:
     SegmentStream(FeedPlan<S>& plan, const MotionLimits<S>& limits) noexcept;
 
-    /// Writes the next feed segment. `starved`: the plan has none yet; nothing was lost.
-    Pull next(FeedSegment& out) noexcept;
+    /// Writes the next feed segment. `starved`: the plan has none yet; nothing was lost. `held`: the machine stands.
+    Pull next(FeedSegment& out, Starvation starvation = Starvation::waits) noexcept;
+    /// Writes a segment in which the machine stands where it is. @pre at_rest()
+    void stand(FeedSegment& out) noexcept;
+
+    /// The last segment ended at rest, or there was none.
+    [[nodiscard]] bool at_rest() const noexcept { return !in_passage_ && repeats_ == 0 && !advanced_; }
+    /// Of the last control point: where the machine stands once it is at rest.
+    [[nodiscard]] const PerAxis<Position>& position() const noexcept { return position_; }
 
 private:
-    Pull sample() noexcept;
-    Pull enter_cell() noexcept;
-    [[nodiscard]] S position_in_cell() const noexcept;
-    void push_control(const PerAxis<Position>& position) noexcept;
+    Pull sample(Starvation starvation) noexcept;
+    Pull enter_passage(Starvation starvation) noexcept;
+    void follow_steering() noexcept;
+    [[nodiscard]] S braked(S x, S speed) const noexcept;
+    bool arrive() noexcept;
+    [[nodiscard]] S fraction() const noexcept;
+    void push_control() noexcept;
+    void repeat_control() noexcept;
+    void write(FeedSegment& out) noexcept;
 
     FeedPlan<S>* plan_;
     PerAxis<std::uint64_t> steps_per_mm_q32_{};
+    PerAxis<S> acceleration_mm_s2_{};
     S segments_per_s_{};
-    S elapsed_{};                                    // time since the start of the cell [segment durations]
-    S duration_{};                                   // time for the cell [segment durations]
-    S entry_{};                                      // 2 v0 / (v0 + v1), see position_in_cell
+    S elapsed_{};                  // time since the start of the passage [segment durations]
+    S duration_{};                 // time for the passage [segment durations]
+    S entry_{};                    // 2 v0 / (v0 + v1), v the speeds at its ends, see fraction
+    PerAxis<Position> position_{}; // of the last control point, and of the one before
+    PerAxis<Position> previous_{};
     std::array<PerAxis<std::int64_t>, 4> control_{}; // the window of control points [6 units]
     std::uint64_t index_ = 0;
     std::uint32_t segment_ticks_ = 0;
     std::uint32_t waypoint_ = 0;
     int axes_ = 0;
-    int hold_ = 0; // control points still to repeat at a stop
+    int repeats_ = 0; // control points still to repeat at a stop
     bool started_ = false;
-    bool in_cell_ = false;
-    bool hop_ = false;      // the cell is entered and left at rest
+    bool in_passage_ = false;
     bool advanced_ = false; // elapsed_ already holds the next sample's time
 };
 

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+//
+// Motions that are steered while they run, and an independent view of them: where on the path every sample is, and how
+// long braking takes from there.
+#pragma once
+
+#include "stream_reference.hpp"
+
+#include <functional>
+
+namespace splinefeed_test {
+
+enum class Order { hold, resume, abort, override_feed };
+
+/// What is asked for before a segment is made.
+struct Event {
+    std::size_t segment = 0;
+    Order order = Order::hold;
+    double value = 0.0;
+};
+
+struct SteeredRun {
+    std::vector<FeedSegment> segments;
+    Activity activity = Activity::running;
+    bool finished = false;
+    bool endless = false;
+    PerAxis<Position> position{};
+};
+
+template <Scalar S>
+void give(Trajectory<S>& trajectory, const Event& event) {
+    switch (event.order) {
+    case Order::hold: trajectory.hold(); break;
+    case Order::resume: trajectory.resume(); break;
+    case Order::abort: trajectory.abort(); break;
+    case Order::override_feed: trajectory.override_feed(from_double<S>(event.value)); break;
+    }
+}
+
+/// Runs to the end of the program, or to where the machine stands with no event left. While it stands and events are to
+/// come, segments of standing still pass the time. @param supply  called when the input is starved
+template <Scalar S>
+void run_steered(Trajectory<S>& trajectory, const std::vector<Event>& events, SteeredRun& run,
+                 const std::function<void()>& supply = {}, Starvation starvation = Starvation::waits) {
+    FeedSegment segment;
+    std::size_t next = 0;
+    for (;;) {
+        while (next < events.size() && events[next].segment <= run.segments.size()) {
+            give(trajectory, events[next++]);
+        }
+        if (trajectory.next(segment, starvation)) {
+            run.segments.push_back(segment);
+        } else if (trajectory.state() == Pull::starved && supply) {
+            supply();
+            continue;
+        } else if (trajectory.state() == Pull::held && next < events.size()) {
+            trajectory.stand(segment);
+            run.segments.push_back(segment);
+        } else {
+            break;
+        }
+        if (run.segments.size() >= 400'000) {
+            run.endless = true;
+            break;
+        }
+    }
+    run.finished = trajectory.state() == Pull::finished;
+    run.activity = trajectory.activity();
+    run.position = trajectory.position();
+}
+
+template <Scalar S>
+SteeredRun run_steered(const BezierPath& path, const MachineSettings& machine, std::size_t window_size,
+                       const std::vector<Event>& events) {
+    const auto limits = MotionLimits<S>::make(machine).value();
+    ListSource<S> source(segments_of<S>(path, {}), 0, 0);
+    std::vector<PlannedCell<S>> window(window_size);
+    Trajectory<S> trajectory(source, limits, window);
+    SteeredRun run;
+    run_steered<S>(trajectory, events, run);
+    return run;
+}
+
+/// The sample, in units, that a segment starts next to.
+inline Real sample_units(const FeedSegment& s, unsigned k) {
+    const AxisMotion m = motion_of(s, k);
+    return static_cast<Real>(m.p0) - static_cast<Real>(m.a0) / 6.0L;
+}
+
+inline bool ends_at_rest(const FeedSegment& s, unsigned axes) {
+    bool rest = true;
+    for (unsigned k = 0; k < axes; ++k) {
+        const AxisMotion m = motion_of(s, k);
+        rest = rest && m.v1 == 0 && m.a1 == 0;
+    }
+    return rest;
+}
+
+/// The path as the planner's cells have it, to be looked at from outside.
+template <Scalar S>
+class Track {
+public:
+    struct Place {
+        std::size_t cell = 0;
+        Real x = 0.0L; ///< fraction of its length
+    };
+
+    Track(const BezierPath& path, const MachineSettings& machine) : machine_(&machine) {
+        ListSource<S> source(path);
+        cells_ = cells_of<S>(source, MotionLimits<S>::make(machine)->refinement);
+        Real s = 0.0L;
+        for (const Cell<S>& cell : cells_) {
+            start_.push_back(s);
+            s += exact(cell.length_mm);
+        }
+        length_ = s;
+    }
+
+    [[nodiscard]] Real s_of(const Place& place) const {
+        return start_[place.cell] + place.x * exact(cells_[place.cell].length_mm);
+    }
+    [[nodiscard]] Real length() const { return length_; }
+
+    /// Finds the sample on the path, at `place` or further on; its distance from the path [mm].
+    Real find(const FeedSegment& segment, Place& place) const {
+        PerAxis<Real> p{};
+        for (unsigned k = 0; k < static_cast<unsigned>(machine_->axes); ++k) {
+            p[k] = sample_units(segment, k) / units_per_mm(machine_->axis[k]);
+        }
+        Real best = 1e30L;
+        Place found = place;
+        for (std::size_t i = place.cell; i < cells_.size() && i < place.cell + 400; ++i) {
+            const Real x = nearest(cells_[i], p);
+            const Real d = distance(cells_[i], x, p);
+            if (d < best) {
+                best = d;
+                found = {i, x};
+            }
+            if (best < 1e-10L || (best < 1e-6L && d > 1e-3L)) {
+                break;
+            }
+        }
+        place = found;
+        return best;
+    }
+
+    /// Least time to rest from a speed: braking as hard as the axes allow, in steps of time.
+    [[nodiscard]] Real braking_s(const Place& place, Real speed) const {
+        Real s = s_of(place);
+        Real t = 0.0L;
+        const Real step = 2e-6L;
+        std::size_t cell = place.cell;
+        while (speed > 0.0L && s < length_) {
+            const Real a = least_acceleration(cell, s, speed * speed);
+            const Real middle = speed + a * step / 2.0L;
+            const Real am = middle > 0.0L ? least_acceleration(cell, s + speed * step / 2.0L, middle * middle) : a;
+            if (speed + am * step <= 0.0L) {
+                return t + speed / -am;
+            }
+            s += (speed + am * step / 2.0L) * step;
+            speed += am * step;
+            t += step;
+        }
+        return t;
+    }
+
+private:
+    Real distance(const Cell<S>& cell, Real x, const PerAxis<Real>& p) const {
+        Real unused = 0.0L;
+        const Jet jet = evaluate(cell, inverse_at(cell, x, unused));
+        Real sum = 0.0L;
+        for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+            const Real d = exact_mm(cell.origin[k]) + jet.r[k] - p[k];
+            sum += d * d;
+        }
+        return std::sqrt(sum);
+    }
+    Real nearest(const Cell<S>& cell, const PerAxis<Real>& p) const {
+        const auto ahead = [&](Real x) { // of the foot of p, along the path
+            Real unused = 0.0L;
+            const Jet jet = evaluate(cell, inverse_at(cell, x, unused));
+            Real sum = 0.0L;
+            for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+                sum += (exact_mm(cell.origin[k]) + jet.r[k] - p[k]) * jet.d1[k];
+            }
+            return sum;
+        };
+        if (ahead(0.0L) >= 0.0L) {
+            return 0.0L;
+        }
+        if (ahead(1.0L) <= 0.0L) {
+            return 1.0L;
+        }
+        Real low = 0.0L;
+        Real high = 1.0L;
+        for (int i = 0; i < 60; ++i) {
+            const Real middle = (low + high) / 2.0L;
+            (ahead(middle) < 0.0L ? low : high) = middle;
+        }
+        return (low + high) / 2.0L;
+    }
+    Real least_acceleration(std::size_t& i, Real s, Real b) const {
+        while (i + 1 < cells_.size() && start_[i + 1] <= s) {
+            ++i;
+        }
+        Real unused = 0.0L;
+        const Real x = std::min(1.0L, (s - start_[i]) / exact(cells_[i].length_mm));
+        const Direction d = direction_at(cells_[i], inverse_at(cells_[i], x, unused));
+        Real least = -1e30L;
+        for (unsigned k = 0; k < static_cast<unsigned>(machine_->axes); ++k) {
+            const Real limit = real(machine_->axis[k].max_acceleration_mm_s2);
+            if (std::fabs(d.tangent[k]) > 1e-12L) {
+                const Real sign = d.tangent[k] > 0.0L ? 1.0L : -1.0L;
+                least = std::max(least, (-limit - sign * d.curvature[k] * b) / std::fabs(d.tangent[k]));
+            }
+        }
+        return least;
+    }
+
+    const MachineSettings* machine_;
+    std::vector<Cell<S>> cells_;
+    std::vector<Real> start_;
+    Real length_ = 0.0L;
+};
+
+} // namespace splinefeed_test
