@@ -52,8 +52,12 @@ constexpr int control_shift = Position::fraction_bits + 32 - 29;
 
 template <Scalar S>
 SegmentStream<S>::SegmentStream(FeedPlan<S>& plan, const MotionLimits<S>& limits) noexcept
-    : plan_(&plan), steps_per_mm_q32_(limits.steps_per_mm_q32), acceleration_mm_s2_(limits.acceleration_mm_s2),
-      segments_per_s_(limits.segments_per_s), segment_ticks_(limits.segment_ticks), axes_(limits.axes) {}
+    : plan_(&plan), steps_per_mm_q32_(limits.steps_per_mm_q32), segments_per_s_(limits.segments_per_s),
+      segment_ticks_(limits.segment_ticks), axes_(limits.axes) {
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        braking_mm_s2_[k] = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
+    }
+}
 
 template <Scalar S>
 void SegmentStream<S>::repeat_control() noexcept {
@@ -112,7 +116,7 @@ S SegmentStream<S>::braked(S x, S speed) const noexcept {
     const S way = scale2(speed, fine) / segments_per_s_;
     S less = way;
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
-        const S half = scale2(acceleration_mm_s2_[k] / segments_per_s_, fine - 1) / segments_per_s_;
+        const S half = scale2(braking_mm_s2_[k] / segments_per_s_, fine - 1) / segments_per_s_;
         const bool forward = direction[k] > S{};
         const S along = absolute(direction[k]);
         const S last = distance<S>(previous_[k], position_[k], -fine);

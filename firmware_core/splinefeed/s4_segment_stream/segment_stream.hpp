@@ -44,7 +44,7 @@ private:
 
     FeedPlan<S>* plan_;
     PerAxis<std::uint64_t> steps_per_mm_q32_{};
-    PerAxis<S> acceleration_mm_s2_{};
+    PerAxis<S> braking_mm_s2_{};
     S segments_per_s_{};
     S elapsed_{};                  // time since the start of the passage [segment durations]
     S duration_{};                 // time for the passage [segment durations]
