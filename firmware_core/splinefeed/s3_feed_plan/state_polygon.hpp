@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// StatePolygon: a convex set of states of motion along the path, of those from which a cell and all behind it can be
+// travelled within the limits.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace splinefeed {
+
+/// How the path is travelled at a node: b = v^2 and its slope db/ds, twice the acceleration along the path.
+struct SpeedState {
+    double b;     ///< [mm^2/s^2]
+    double slope; ///< [mm/s^2]
+};
+
+/// of_b * b + of_slope * slope <= limit.
+struct StateBound {
+    double of_b;
+    double of_slope;
+    double limit;
+
+    /// How far a state is beyond the bound; negative: within it.
+    [[nodiscard]] constexpr double excess(const SpeedState& state) const noexcept {
+        return of_b * state.b + of_slope * state.slope - limit;
+    }
+};
+
+/// Corners in counter-clockwise order; one or two corners are a point or a line. A plain value.
+class StatePolygon {
+public:
+    static constexpr std::size_t capacity = 64; ///< corners while it is being cut
+    static constexpr std::size_t kept = 12;     ///< corners that simplify() leaves
+
+    StatePolygon() noexcept {} // its corners are nothing yet
+    /// @pre convex and counter-clockwise, at most `capacity`
+    explicit StatePolygon(std::span<const SpeedState> corners) noexcept;
+    /// All states with 0 <= b <= largest and |slope| <= steepest.
+    StatePolygon(double largest_b, double steepest) noexcept;
+
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+    [[nodiscard]] bool full() const noexcept { return size_ + 2 > capacity; } ///< one more cut might not fit
+    [[nodiscard]] std::span<const SpeedState> corners() const noexcept { return {corner_.data(), size_}; }
+
+    void clear() noexcept { size_ = 0; }
+    /// @pre fewer corners than capacity; the corners stay convex and counter-clockwise
+    void append(const SpeedState& state) noexcept { corner_[size_++] = state; }
+    /// Keeps what is within the bound. Returns how many corners before the first that is beyond it, which stay where
+    /// they are. Cost: two products a corner.
+    std::size_t cut(const StateBound& bound) noexcept;
+    /// Leaves out the corners that cost the least area until no more than `kept` are left: a part of what it was.
+    void simplify() noexcept;
+    /// The smallest polygon that holds this one and the state. @pre three corners or more, fewer than capacity
+    void include(const SpeedState& state) noexcept;
+    /// The half-planes that it is made of: one a side, and one at each end of a line, four for a point. Returns
+    /// how many.
+    std::size_t bounds(std::span<StateBound> out) const noexcept;
+
+private:
+    std::array<SpeedState, capacity> corner_;
+    std::size_t size_ = 0;
+};
+
+} // namespace splinefeed

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// Cells along a curve whose direction is known everywhere, and what a motion asks of them, in long double.
+#pragma once
+
+#include "splinefeed/s3_feed_plan/jerk_cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace splinefeed_test {
+
+struct JerkLimits {
+    double acceleration = 2000.0;
+    double jerk = 50000.0;
+    double cap_sq = 10000.0;
+};
+
+inline long double wide(double x) {
+    return static_cast<long double>(x);
+}
+
+/// Two axes with the direction angle(s) = sum of two waves.
+struct Wave {
+    double size[2];
+    double per_mm[2];
+    [[nodiscard]] splinefeed::AxisEnd end(unsigned axis, double s, const JerkLimits& limits) const {
+        double angle = 0.3;
+        double bend = 0.0;
+        double change = 0.0;
+        for (int i = 0; i < 2; ++i) {
+            const double w = per_mm[i];
+            angle += size[i] * std::sin(w * s);
+            bend += size[i] * w * std::cos(w * s);
+            change -= size[i] * w * w * std::sin(w * s);
+        }
+        const double c = axis == 0 ? std::cos(angle) : std::sin(angle);
+        const double d = axis == 0 ? -std::sin(angle) : std::cos(angle);
+        splinefeed::AxisEnd out;
+        out.first = c;
+        out.second = d * bend;
+        out.third = d * change - c * bend * bend;
+        out.most_forward = out.most_backward = limits.acceleration;
+        return out;
+    }
+    [[nodiscard]] splinefeed::JerkCell cell(double s, double length, const JerkLimits& limits) const {
+        splinefeed::JerkCell cell;
+        cell.axes = 2;
+        cell.length_mm = length;
+        cell.cap_sq = limits.cap_sq;
+        for (unsigned k = 0; k < 2; ++k) {
+            cell.end[0][k] = end(k, s, limits);
+            cell.end[1][k] = end(k, s + length, limits);
+            cell.jerk_mm_s3[k] = limits.jerk;
+        }
+        return cell;
+    }
+};
+
+struct Use {
+    long double acceleration = 0; ///< of the limits
+    long double jerk = 0;
+    long double speed_sq = 0;
+    long double least_sq = 0;
+};
+
+/// Largest use of the limits at many points of a cell that begins with b, slope and has the curvature u of b; dq/ds is
+/// the cubic through the values and slopes at the ends.
+inline Use use_of(const splinefeed::JerkCell& cell, long double b0, long double slope, long double u) {
+    Use use;
+    use.least_sq = b0 / wide(cell.cap_sq);
+    constexpr int points = 40;
+    const long double l = wide(cell.length_mm);
+    for (int i = 0; i <= points; ++i) {
+        const long double x = static_cast<long double>(i) / points;
+        const long double b = b0 + x * l * (slope + x * l * u / 2);
+        const long double db = slope + x * l * u;
+        use.speed_sq = std::max(use.speed_sq, b / wide(cell.cap_sq));
+        use.least_sq = std::min(use.least_sq, b / wide(cell.cap_sq));
+        for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+            const auto& p = cell.end[0][k];
+            const auto& q = cell.end[1][k];
+            const long double d0 = wide(p.second) * l;
+            const long double d1 = wide(q.second) * l;
+            const long double c2 = 3.0L * (wide(q.first) - wide(p.first)) - 2 * d0 - d1;
+            const long double c3 = 2.0L * (wide(p.first) - wide(q.first)) + d0 + d1;
+            const long double first = wide(p.first) + x * (d0 + x * (c2 + x * c3));
+            const long double second = (d0 + x * (2 * c2 + x * 3 * c3)) / l;
+            const long double third = (2 * c2 + x * 6 * c3) / (l * l);
+            const long double a = std::abs(first * db / 2 + second * b) / wide(p.most_forward);
+            const long double j =
+                std::sqrt(std::max(b, 0.0L)) * std::abs(first * u / 2 + 3 * second * db / 2 + third * b);
+            use.acceleration = std::max(use.acceleration, a);
+            use.jerk = std::max(use.jerk, j / wide(cell.jerk_mm_s3[k]));
+        }
+    }
+    return use;
+}
+
+} // namespace splinefeed_test
