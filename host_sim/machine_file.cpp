@@ -33,6 +33,7 @@ constexpr Range acceleration_range{0.1, 1e6, "mm/s^2"};
 constexpr Range chord_error_range{1e-6, 1.0, "mm"};
 constexpr Range zone_range{0.001, 1e6, "mm"};
 constexpr Range steps_range{0.001, 1e6, "counts per mm"};
+constexpr Range jerk_range{1.0, 1e9, "mm/s^3"};
 
 /// Checks one file; remembers its name for messages.
 class Checker {
@@ -120,13 +121,20 @@ private:
         if (table == nullptr) {
             fail(*node, "path must be a table: [path] and its keys below");
         }
-        require_known(*table, {"max_feed_mm_s", "centripetal_mm_s2", "chord_error_mm"}, " in [path]");
+        require_known(*table, {"max_feed_mm_s", "centripetal_mm_s2", "chord_error_mm", "jerk_plan"}, " in [path]");
         settings.max_feed_mm_s = required(*table, "max_feed_mm_s", velocity_range, "[path]");
         if (const toml::node* limit = table->get("centripetal_mm_s2")) {
             settings.centripetal_mm_s2 = number(*limit, "centripetal_mm_s2", acceleration_range);
         }
         if (const toml::node* limit = table->get("chord_error_mm")) {
             settings.chord_error_mm = number(*limit, "chord_error_mm", chord_error_range);
+        }
+        if (const toml::node* tier = table->get("jerk_plan")) {
+            const std::string name = tier->value_or(std::string{});
+            if (name != "optimal" && name != "bounded") {
+                fail(*tier, R"(jerk_plan must be "optimal" or "bounded")");
+            }
+            settings.jerk_tier = name == "bounded" ? JerkTier::bounded : JerkTier::optimal;
         }
     }
 
@@ -178,13 +186,13 @@ private:
         if (const toml::node* kind = table.get("kind")) {
             axis.rotary = is_rotary(*kind);
         }
-        if (const toml::node* jerk = table.get("max_jerk_mm_s3")) {
-            fail(*jerk, describe(Error::jerk_not_supported));
-        }
         axis.max_velocity_mm_s = required(table, "max_velocity_mm_s", velocity_range, where);
         axis.max_acceleration_mm_s2 = required(table, "max_acceleration_mm_s2", acceleration_range, where);
         if (const toml::node* braking = table.get("max_braking_mm_s2")) {
             axis.max_braking_mm_s2 = number(*braking, "max_braking_mm_s2", acceleration_range);
+        }
+        if (const toml::node* jerk = table.get("max_jerk_mm_s3")) { // without: acceleration-limited
+            axis.max_jerk_mm_s3 = number(*jerk, "max_jerk_mm_s3", jerk_range);
         }
         if (const toml::node* steps = table.get("steps_per_mm")) { // without: a count is 1 um, as AxisSettings has it
             axis.steps_per_mm = number(*steps, "steps_per_mm", steps_range);

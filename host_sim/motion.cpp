@@ -22,7 +22,7 @@ Motion<S>::Motion(const Job& job, const MachineDescription& description, const M
                             .error = &error_,
                             .optimum = &optimum_,
                             .share = &share_}),
-      window_(job.window_cells), trajectory_(tee_, limits, window_),
+      planner_(tee_, limits, job.window_cells), trajectory_(planner_.trajectory()),
       machine_(description, limits.segments_per_sample,
                {.enforce = job.command == Command::run, .trace = outputs.trace()}),
       events_(job.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(job.events)) {}
@@ -192,9 +192,7 @@ Summary Motion<S>::summary() const {
     }
     summary.limit_share = share_.shares();
     summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent()).count();
-    summary.memory_bytes = {feeder_.bytes(),
-                            sizeof(ArcLength<S>) + sizeof(FeedPlan<S>) + window_.size() * sizeof(PlannedCell<S>),
-                            sizeof(SegmentStream<S>)};
+    summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};
     summary.stopped = !stopped_.empty();
     summary.events = operated_;
     summary.window_limited = trajectory_.feed_plan().window_limited();

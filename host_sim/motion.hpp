@@ -5,9 +5,8 @@
 #include "event_file.hpp"
 #include "outputs.hpp"
 #include "path_tee.hpp"
+#include "planner.hpp"
 #include "summary.hpp"
-
-#include "splinefeed/trajectory.hpp"
 
 #include <chrono>
 #include <string>
@@ -53,8 +52,8 @@ private:
     LimitShare share_;
     CurveFeeder<S> feeder_;
     PathTee<S> tee_;
-    std::vector<PlannedCell<S>> window_;
-    Trajectory<S> trajectory_;
+    Planner<S> planner_;
+    Trajectory<S>& trajectory_; // the planner's
     SimulatedMachine machine_;
     std::vector<OperatorEvent> events_;
     std::size_t operated_ = 0; // events so far

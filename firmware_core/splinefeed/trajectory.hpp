@@ -2,6 +2,7 @@
 // Trajectory: the pipeline in one object: curve source -> arc length -> feed plan -> segment stream.
 #pragma once
 
+#include "splinefeed/s3_feed_plan/feed_plan.hpp"
 #include "splinefeed/s4_segment_stream/segment_stream.hpp"
 
 namespace splinefeed {
@@ -16,7 +17,8 @@ class Trajectory {
 public:
     /// `curve`, `limits` and `window` must outlive the trajectory.
     Trajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept
-        : arc_length_(curve, limits.refinement), plan_(arc_length_, limits, window), stream_(plan_, limits) {}
+        : arc_length_(curve, limits.refinement), feed_plan_(arc_length_, limits, window), plan_(&feed_plan_),
+          stream_(feed_plan_, limits) {}
     Trajectory(CurveSource<S>& curve, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
     Trajectory(const Trajectory&) = delete;
     Trajectory& operator=(const Trajectory&) = delete;
@@ -35,20 +37,20 @@ public:
 
     /// Steering, at any time between two next(): it acts with the next segment. The path in space stays the same.
     /// Factor of the programmed feed, 0 to 2, taken as the nearest of these; 0 stops. The machine's limits stay.
-    void override_feed(S ratio) noexcept { plan_.steering().override_feed(ratio); }
+    void override_feed(S ratio) noexcept { plan_->steering().override_feed(ratio); }
     /// Brakes to rest on the path, as hard as the axes allow.
-    void hold() noexcept { plan_.steering().hold(); }
+    void hold() noexcept { plan_->steering().hold(); }
     /// Goes on from where it was held; before it stands, at once.
-    void resume() noexcept { plan_.steering().resume(); }
+    void resume() noexcept { plan_->steering().resume(); }
     /// Brakes like hold(), for good: what is left of the program is not travelled. Then start() takes another.
-    void abort() noexcept { plan_.steering().abort(); }
+    void abort() noexcept { plan_->steering().abort(); }
     /// What the motion does about all that.
     [[nodiscard]] Activity activity() const noexcept {
-        const Steering<S>& steering = plan_.steering();
+        const Steering<S>& steering = plan_->steering();
         if (!steering.stops()) {
             return Activity::running;
         }
-        const bool stands = plan_.standing() && stream_.at_rest();
+        const bool stands = plan_->standing() && stream_.at_rest();
         return steering.aborts() ? (stands ? Activity::aborted : Activity::aborting)
                                  : (stands ? Activity::held : Activity::holding);
     }
@@ -60,17 +62,26 @@ public:
     /// A new program, whose first waypoint is position(). The override stays as it is.
     /// @pre the one before is finished or aborted, and the machine at rest
     void start(CurveSource<S>& curve) noexcept {
-        plan_.clear();
+        plan_->clear();
         arc_length_.start(curve);
         state_ = Pull::starved;
     }
 
     [[nodiscard]] const ArcLength<S>& arc_length() const noexcept { return arc_length_; }
-    [[nodiscard]] const FeedPlan<S>& feed_plan() const noexcept { return plan_; }
+    [[nodiscard]] const FeedPlan<S>& feed_plan() const noexcept { return feed_plan_; }
+
+protected:
+    [[nodiscard]] FeedPlan<S>& speeds() noexcept { return feed_plan_; }
+    /// The stream follows another plan, made of the feed plan's. @pre nothing was asked of it yet
+    void refine(MotionPlan<S>& plan) noexcept {
+        plan_ = &plan;
+        stream_.follow(plan);
+    }
 
 private:
     ArcLength<S> arc_length_;
-    FeedPlan<S> plan_;
+    FeedPlan<S> feed_plan_;
+    MotionPlan<S>* plan_;
     SegmentStream<S> stream_;
     Pull state_ = Pull::starved;
 };

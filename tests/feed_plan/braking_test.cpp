@@ -3,6 +3,7 @@
 // Axes that brake with another limit than they accelerate with.
 #include "support/catch.hpp"
 #include "support/plan_reference.hpp"
+#include "support/rounds.hpp"
 #include "support/stream_reference.hpp"
 
 using namespace splinefeed_test;
@@ -50,7 +51,7 @@ TEMPLATE_TEST_CASE("ramps to and from the feed have a limit each", "[feed_plan][
 TEMPLATE_TEST_CASE("every limit holds at dense points, braking apart", "[feed_plan][braking]", double, float, Fixed) {
     Random random(seed);
     Real most = 0.0L;
-    for (int run = 0; run < 40; ++run) {
+    for (int run = 0; run < rounds(10); ++run) {
         const int axes = random.integer(1, max_axes);
         MachineSettings machine = random_machine(random, axes);
         brake_differently(random, machine);
@@ -68,7 +69,7 @@ TEMPLATE_TEST_CASE("every limit holds at dense points, braking apart", "[feed_pl
 
 TEMPLATE_TEST_CASE("no node can be faster, braking apart", "[feed_plan][braking]", double, float, Fixed) {
     Random random(seed + 1);
-    for (int run = 0; run < 25; ++run) {
+    for (int run = 0; run < rounds(10); ++run) {
         const int axes = random.integer(1, max_axes);
         MachineSettings machine = random_machine(random, axes);
         brake_differently(random, machine);
@@ -114,7 +115,7 @@ TEMPLATE_TEST_CASE("what is emitted brakes within its limit, axes that turn roun
         }
     }
     Random random(seed + 2);
-    for (int run = 0; run < 60; ++run) {
+    for (int run = 0; run < rounds(12); ++run) {
         const int axes = random.integer(1, max_axes);
         MachineSettings machine = random_machine(random, axes);
         brake_differently(random, machine);
@@ -129,7 +130,7 @@ TEMPLATE_TEST_CASE("what is emitted brakes within its limit, axes that turn roun
 
 TEMPLATE_TEST_CASE("where the curvature jumps an axis may turn round at once", "[feed_plan][braking]", double, Fixed) {
     Random random(seed + 3);
-    for (int run = 0; run < 60; ++run) {
+    for (int run = 0; run < rounds(12); ++run) {
         const int axes = random.integer(2, max_axes);
         MachineSettings machine = random_machine(random, axes);
         brake_differently(random, machine);

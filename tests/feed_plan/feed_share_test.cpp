@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/plan_reference.hpp"
+#include "support/rounds.hpp"
 #include "support/stream_reference.hpp"
 
 using namespace splinefeed_test;
@@ -73,7 +74,7 @@ TEST_CASE("a machine whose axes are all rotary feeds in degrees a second", "[fee
 TEMPLATE_TEST_CASE("the share is the largest there is in the cell", "[feed_plan][rotary]", double, float, Fixed) {
     using S = TestType;
     Random random(seed);
-    for (int run = 0; run < 20; ++run) {
+    for (int run = 0; run < rounds(6); ++run) {
         const int axes = random.integer(2, max_axes);
         MachineSettings machine = random_machine(random, axes);
         make_rotary(random, machine);
@@ -109,7 +110,7 @@ TEMPLATE_TEST_CASE("the share is the largest there is in the cell", "[feed_plan]
 
 TEMPLATE_TEST_CASE("no node can be faster with rotary axes", "[feed_plan][rotary]", double, float, Fixed) {
     Random random(seed + 1);
-    for (int run = 0; run < 20; ++run) {
+    for (int run = 0; run < rounds(6); ++run) {
         const int axes = random.integer(2, max_axes);
         MachineSettings machine = random_machine(random, axes);
         make_rotary(random, machine);
@@ -138,7 +139,7 @@ TEMPLATE_TEST_CASE("no node can be faster with rotary axes", "[feed_plan][rotary
 TEMPLATE_TEST_CASE("what is emitted keeps the feed on the linear axes", "[feed_plan][rotary]", double, Fixed) {
     Random random(seed + 2);
     Real most = 0.0L;
-    for (int run = 0; run < 60; ++run) {
+    for (int run = 0; run < rounds(12); ++run) {
         const int axes = random.integer(2, max_axes);
         MachineSettings machine = random_machine(random, axes);
         make_rotary(random, machine);

@@ -80,14 +80,37 @@ TEMPLATE_TEST_CASE("zero means no such limit", "[feed_plan][limits]", double, fl
     CHECK(limits.braking_mm_s2 == limits.acceleration_mm_s2);
 }
 
-TEMPLATE_TEST_CASE("jerk limits are refused", "[feed_plan][limits]", double, float, Fixed) {
-    for (const double jerk : {1e-300, 1.0, 1e6, -1.0, not_a_number, infinity}) {
+TEMPLATE_TEST_CASE("jerk limits out of range are refused", "[feed_plan][limits]", double, float, Fixed) {
+    for (const double jerk : {1e-300, 0.999, 1.001e9, -1.0, not_a_number, infinity}) {
         MachineSettings machine;
         machine.axis[2].max_jerk_mm_s3 = jerk;
-        CHECK(error_of<TestType>(machine) == Error::jerk_not_supported);
+        CHECK(error_of<TestType>(machine) == Error::jerk_out_of_range);
         machine.axes = 2; // an axis that the machine does not have says nothing
         CHECK(error_of<TestType>(machine) == Error::none);
     }
+}
+
+TEST_CASE("float cannot limit the jerk", "[feed_plan][limits]") {
+    MachineSettings machine;
+    machine.axis[1].max_jerk_mm_s3 = 3e4;
+    CHECK(error_of<float>(machine) == Error::jerk_in_float);
+}
+
+TEMPLATE_TEST_CASE("a jerk limit shortens cells and their grades", "[feed_plan][limits]", double, Fixed) {
+    MachineSettings machine;
+    const MotionLimits<TestType> without = MotionLimits<TestType>::make(machine).value();
+    CHECK_FALSE(without.jerk_limited);
+    machine.axis[1].max_jerk_mm_s3 = 3e4;
+    const MotionLimits<TestType> with = MotionLimits<TestType>::make(machine).value();
+    CHECK(with.jerk_limited);
+    CHECK(with.refinement.longest_mm < without.refinement.longest_mm);
+    CHECK(with.refinement.finest_grade_log2 > without.refinement.finest_grade_log2);
+    CHECK(to_double(with.jerk_mm_s3[1]) <= 3e4);
+    CHECK(to_double(with.jerk_mm_s3[1]) >= 0.99 * 3e4);
+    CHECK(to_double(with.jerk_mm_s3[0]) > 1e9); // none
+    machine.sample_period_us = 50;              // its rounding would be a jerk of its own
+    machine.axis[1].max_jerk_mm_s3 = 1.0;
+    CHECK(error_of<TestType>(machine) == Error::period_too_short);
 }
 
 TEMPLATE_TEST_CASE("axes that the machine lacks are not checked", "[feed_plan][limits]", double, float, Fixed) {

@@ -143,7 +143,7 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("= 100\n", "= 0\n"), "m.toml:10: ", "between"},
         {with("max_velocity_mm_s = 50\n", ""), "m.toml:14: ", "axis a has no max_velocity_mm_s"},
         {with("max_velocity_mm_s = 50", "max_velocity = 50"), "m.toml:16: ", "unknown key"},
-        {with("steps_per_mm = 12.5", "steps_per_mm = 12.5\nmax_jerk_mm_s3 = 1"), "m.toml:19: ", "max_jerk_mm_s3"},
+        {with("steps_per_mm = 12.5", "steps_per_mm = 12.5\nmax_jerk_mm_s3 = 0.5"), "m.toml:19: ", "max_jerk_mm_s3"},
         {with("'a'\n", "'a'\nkind = 'round'\n"), "m.toml:16: ", "kind is 'round'; it must be 'linear' or 'rotary'"},
         {with("'a'\n", "'a'\nkind = true\n"), "m.toml:16: ", "text"},
         {with("310.5]\n", "310.5]\ntravel_end_zone_mm = 5\n"), "m.toml:10: ", "travel_end_velocity_mm_s, or neither"},

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "cell_reference.hpp"
-#include "splinefeed/trajectory.hpp"
+#include "splinefeed/jerk_trajectory.hpp"
+
+#include <memory>
 
 #include <algorithm>
 
@@ -78,6 +80,29 @@ Planned<S> plan_of(const BezierPath& path, const MachineSettings& machine, std::
     ListSource<S> source(path);
     return plan_of<S>(source, MotionLimits<S>::make(machine).value(), window_size);
 }
+
+/// The pipeline that the limits ask for, with its memory.
+template <Scalar S>
+class AnyTrajectory {
+public:
+    AnyTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::size_t window_size)
+        : window_(window_size), cells_(window_size), nodes_(window_size + 1) {
+        if (limits.jerk_limited) {
+            jerk_limited_ = std::make_unique<JerkTrajectory<S>>(curve, limits, window_, JerkStorage<S>{cells_, nodes_});
+        } else {
+            plain_ = std::make_unique<Trajectory<S>>(curve, limits, window_);
+        }
+    }
+    [[nodiscard]] Trajectory<S>& trajectory() { return plain_ ? *plain_ : *jerk_limited_; }
+    [[nodiscard]] std::uint32_t slow_legs() const { return jerk_limited_ ? jerk_limited_->jerk_plan().slow_legs() : 0; }
+
+private:
+    std::vector<PlannedCell<S>> window_;
+    std::vector<Cell<S>> cells_;
+    std::vector<JerkNode> nodes_;
+    std::unique_ptr<Trajectory<S>> plain_;
+    std::unique_ptr<JerkTrajectory<S>> jerk_limited_;
+};
 
 /// A path of smooth runs and corners, with feeds of its own.
 inline BezierPath random_path(Random& random, int axes, int segments, double size_mm, double corners, double feeds) {

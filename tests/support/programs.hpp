@@ -119,6 +119,7 @@ struct Stream {
     std::vector<FeedSegment> segments;
     std::uint32_t limited = 0;
     bool endless = false;
+    std::uint32_t slow_legs = 0; ///< JerkPlan::slow_legs
 };
 
 constexpr std::size_t most_segments = 400'000;
@@ -127,8 +128,8 @@ constexpr std::size_t most_starvations = 100'000;
 template <class S, class Curve>
 Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& limits, std::size_t window_size,
                  Random* interleaving) {
-    std::vector<PlannedCell<S>> window(window_size);
-    Trajectory<S> trajectory(curve, limits, window);
+    AnyTrajectory<S> any(curve, limits, window_size);
+    Trajectory<S>& trajectory = any.trajectory();
     Feeder<S, Curve> feeder(curve, program);
     Stream stream;
     FeedSegment segment;
@@ -147,6 +148,7 @@ Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& li
         }
     }
     stream.limited = trajectory.feed_plan().window_limited();
+    stream.slow_legs = any.slow_legs();
     return stream;
 }
 
@@ -171,8 +173,8 @@ Stream stream_of(const BezierPath& path, const MachineSettings& machine, std::si
                  const PerAxis<double>& start = {}, std::uint64_t seed = 0, int patience = 0) {
     const auto limits = MotionLimits<S>::make(machine).value();
     ListSource<S> source(segments_of<S>(path, start), seed, patience);
-    std::vector<PlannedCell<S>> window(window_size);
-    Trajectory<S> trajectory(source, limits, window);
+    AnyTrajectory<S> any(source, limits, window_size);
+    Trajectory<S>& trajectory = any.trajectory();
     Stream stream;
     FeedSegment segment;
     while (trajectory.state() != Pull::finished && !stream.endless) {
@@ -182,6 +184,7 @@ Stream stream_of(const BezierPath& path, const MachineSettings& machine, std::si
         }
     }
     stream.limited = trajectory.feed_plan().window_limited();
+    stream.slow_legs = any.slow_legs();
     return stream;
 }
 

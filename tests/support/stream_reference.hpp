@@ -49,6 +49,7 @@ struct Used {
     Real velocity = 0.0L;
     Real acceleration = 0.0L;
     Real feed = 0.0L;
+    Real jerk = 0.0L; ///< of axes that have a limit
 };
 
 /// The part of its limit that an axis uses where braking has one of its own, at 33 places of the segment: |a| against
@@ -112,6 +113,11 @@ inline const char* check_stream(const std::vector<FeedSegment>& segments, const 
                                              a / (scale * duration * static_cast<Real>(axis.max_acceleration_mm_s2)));
             }
             used.velocity = std::max(used.velocity, (fastest(m) / scale - noise) / real(axis.max_velocity_mm_s));
+            if (axis.max_jerk_mm_s3 > 0.0) {
+                const Real jerk = std::fabs(static_cast<Real>(m.a1 - m.a0)) / (scale * duration * duration);
+                const Real rounding = 8.0L * sample_rounding(axis) / (duration * duration * duration);
+                used.jerk = std::max(used.jerk, (jerk - rounding) / real(axis.max_jerk_mm_s3));
+            }
             const Real v = static_cast<Real>(m.v0) / scale;
             feed_sq[axis.rotary ? 1 : 0] += v * v;
             stands = stands && (axis.rotary || (m.p0 == m.p1 && m.v0 == 0 && m.v1 == 0));

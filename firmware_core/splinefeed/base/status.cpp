@@ -17,8 +17,10 @@ const char* describe(Error error) noexcept {
     case Error::travel_end_out_of_range:
         return "travel_end_zone_mm must lie between 0.001 and 1000000 with travel limits that increase, and "
                "travel_end_velocity_mm_s between 0.001 and 10000";
-    case Error::jerk_not_supported:
-        return "max_jerk_mm_s3 is not supported yet: the feed plan is acceleration-limited; remove the key";
+    case Error::jerk_out_of_range:
+        return "max_jerk_mm_s3 is out of range: 1 to 1e9, or no such key for an axis without a jerk limit";
+    case Error::jerk_in_float:
+        return "float has too few digits for a jerk limit; --scalar fixed or double, or no max_jerk_mm_s3";
     case Error::centripetal_out_of_range: return "centripetal_mm_s2 must lie between 0.1 and 1000000";
     case Error::chord_error_out_of_range: return "chord_error_mm must lie between 0.000001 and 1";
     case Error::sample_period_out_of_range: return "sample_period_us must be a whole number from 50 to 100000";

@@ -94,10 +94,10 @@ bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
     if (refinement_.end_piece_mm > S{} && m_.length_mm > refinement_.end_piece_mm && leaves_open_travel(piece)) {
         return true;
     }
-    if (!(m_.length_mm > grade_mm_)) {
-        return false;
+    if (m_.length_mm > grade_mm_ && (piece.at_start || piece.at_end) && piece.level < 3) {
+        return true;
     }
-    return ((piece.at_start || piece.at_end) && piece.level < 3) || near_stop(piece);
+    return m_.length_mm > scale2(grade_mm_, -refinement_.finest_grade_log2) && near_stop(piece);
 }
 
 template <Scalar S>

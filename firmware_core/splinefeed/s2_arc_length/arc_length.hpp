@@ -23,7 +23,8 @@ struct Refinement {
     S longest_mm{};        ///< longest cell (the resolution of the parameter w in Fixed and float)
     S max_feed_mm_s{};     ///< feed of segments that program none
     S grade_per_feed_sq{}; ///< cells next to a joint are at most feed^2 times this: a fraction of the braking distance
-    int shape_log2 = 0;    ///< unit of AxisShape: 2^-shape_log2
+    int finest_grade_log2 = 0; ///< next to a stop cells are 2^-this of that: jerk-limited motion starts slowly
+    int shape_log2 = 0;        ///< unit of AxisShape: 2^-shape_log2
     PerAxis<OpenTravel> open{};
     S end_piece_mm{};                        ///< longest cell across an end of open travel; 0: no axis has one
     S direction_jump{};                      ///< a larger change of dq/ds at a joint is a corner, and a stop

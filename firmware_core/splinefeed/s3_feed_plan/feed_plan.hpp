@@ -30,18 +30,12 @@ struct PlannedCell {
     S reach_from_rest{}; ///< an exit_sq that can be reached from rest, and with it all that is below
 };
 
-/// What the plan does where the input is starved.
-enum class Starvation : std::uint8_t {
-    waits,  ///< it asks for more: what is planned does not depend on when the input comes
-    goes_on ///< it goes on with what is known, and to rest at its end: for a machine that cannot wait
-};
-
 /// Stage 3. The window is the caller's storage. The plan in the window always ends at rest, so whatever is travelled
 /// can stop within what is known. Cost: amortised at most four visits a cell, each two products and sums per axis;
 /// independent of the program's length. A change of the steering, and a cell that comes in while the input is starved,
 /// cost a visit to every cell of the window.
 template <Scalar S>
-class FeedPlan {
+class FeedPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 10;
 
@@ -50,28 +44,19 @@ public:
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept;
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
 
-    /// Makes sure that front() is a cell to be travelled, and passage() how. `starved`: the window is not full and
-    /// nothing is committed (Starvation::goes_on: there is nothing at all). `held`: the machine stands and is to stand.
-    Pull prepare(Starvation starvation = Starvation::waits) noexcept;
-    /// @pre the last prepare() answered item, as for all below
+    Pull prepare(Starvation starvation = Starvation::waits) noexcept override;
     [[nodiscard]] const PlannedCell<S>& front() const noexcept { return at(0); }
-    [[nodiscard]] const Passage<S>& passage() const noexcept { return passage_; }
-    /// The passage is done: with its cell, or with a part of it.
-    void advance() noexcept;
-    /// The machine stopped there, on its last passage.
-    void rest_at(S fraction) noexcept;
+    [[nodiscard]] const Cell<S>& cell() const noexcept override { return at(0).cell; }
+    /// Largest v^2 in the front cell, whatever comes before and after it.
+    [[nodiscard]] S cap_sq() const noexcept { return wanted_sq(at(0)); }
+    void advance() noexcept override;
+    void rest_at(S fraction) noexcept override;
     /// The cell is done.
     void pop() noexcept;
 
-    [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
-    [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
-    /// Takes a change of the steering into account at once, from where the machine is on its passage. Without the call
-    /// it is taken into account with the next passage.
-    void steer(S fraction, S speed_sq) noexcept;
-    /// The machine stands where its last passage ended.
-    [[nodiscard]] bool standing() const noexcept { return !chosen_ && !(speed_sq_ > S{}); }
-    /// Forgets every cell: for a new program. @pre standing()
-    void clear() noexcept;
+    void steer(S fraction, S speed_sq) noexcept override;
+    [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
+    void clear() noexcept override;
 
     /// How often the window was too short to tell the plan from that of an unlimited one (0: the plan is the same).
     [[nodiscard]] std::uint32_t window_limited() const noexcept { return window_limited_; }
@@ -97,8 +82,9 @@ private:
     ArcLength<S>* source_;
     const MotionLimits<S>& limits_;
     std::span<PlannedCell<S>> window_;
-    Steering<S> steering_;
-    Passage<S> passage_;
+    using MotionPlan<S>::passage_;
+    using MotionPlan<S>::steering_;
+
     std::size_t head_ = 0;
     std::size_t size_ = 0;
     std::size_t committed_ = 0;

@@ -15,7 +15,7 @@ namespace splinefeed {
 struct AxisSettings {
     double max_velocity_mm_s = 100.0;
     double max_acceleration_mm_s2 = 1000.0;
-    double max_jerk_mm_s3 = 0.0; ///< 0: acceleration-limited. Its place; refused until the plan supports it.
+    double max_jerk_mm_s3 = 0.0; ///< 0: acceleration-limited
     double steps_per_mm = 1000.0;
     double max_braking_mm_s2 = 0.0; ///< acceleration against the velocity; 0: max_acceleration_mm_s2
     bool rotary = false;            ///< in degrees where the names say mm; the feed does not count it
@@ -35,6 +35,12 @@ struct AxisSettings {
     }
 };
 
+/// How much work the jerk-limited plan may do for a shorter time.
+enum class JerkTier : std::uint8_t {
+    bounded, ///< one pass each way: a fixed cost
+    optimal  ///< repeated from what the first came to
+};
+
 /// A machine as its file states it. Zero means "no such limit" for the optional ones.
 struct MachineSettings {
     int axes = 3;
@@ -43,6 +49,7 @@ struct MachineSettings {
     double centripetal_mm_s2 = 0.0;
     double chord_error_mm = 0.0;
     int sample_period_us = 1000;
+    JerkTier jerk_tier = JerkTier::optimal;
 };
 
 /// One tick of a feed segment's duration is 1/8 us.
@@ -61,7 +68,10 @@ struct MotionLimits {
     PerAxis<bool> rotary{};
     PerAxis<S> end_velocity_mm_s{}; ///< of an axis beyond Refinement::open; 0: no such limit
     bool mixed = false;             ///< some axes are rotary and some are not
-    S usable{};                     ///< the part of a limit that planning may use, but for the noise of positions
+    PerAxis<S> jerk_mm_s3{};        ///< meaningful where jerk_limited
+    bool jerk_limited = false;      ///< some axis's jerk is limited: the speeds want a JerkPlan
+    JerkTier jerk_tier = JerkTier::optimal;
+    S usable{}; ///< the part of a limit that planning may use, but for the noise of positions
     S feed_noise_mm_s{};
     S jump_mm_s{};                   ///< largest jump of the speed that rounding may cause at a joint of cells
     S centripetal_mm_s2{};           ///< 0: none
@@ -111,18 +121,28 @@ constexpr double acceleration_noise(double error_mm, double segment_s) noexcept 
     return 4.0 * error_mm / (segment_s * segment_s);
 }
 
+/// The part of a jerk limit that planning leaves to jumps of the curvature.
+inline constexpr double jerk_reserve = 5e-4;
+
+/// The jerk 8 e / T^3 in the third.
+constexpr double jerk_noise(double error_mm, double segment_s) noexcept {
+    return 8.0 * error_mm / (segment_s * segment_s * segment_s);
+}
+
 /// And the speed 2 e / T in the first difference.
 constexpr double speed_noise(double error_mm, double segment_s) noexcept {
     return 2.0 * error_mm / segment_s;
 }
 
 /// Longest cell [mm]: its parameter resolves `error` of it, which must stay below `share` of the acceleration and ten
-/// times that of the feed.
-constexpr double longest_cell_mm(double error, double share, double acceleration, double feed,
+/// times that of the feed; and below a thousandth of the jerk, if that is limited (not 0).
+constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double jerk,
                                  double segment_s) noexcept {
     const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
     const double by_feed = 10.0 * share * feed * segment_s / (2.0 * error);
-    const double length = by_acceleration < by_feed ? by_acceleration : by_feed;
+    double length = by_acceleration < by_feed ? by_acceleration : by_feed;
+    const double by_jerk = 1e-3 * jerk * segment_s * segment_s * segment_s / (8.0 * error);
+    length = jerk > 0.0 && by_jerk < length ? by_jerk : length;
     return length < 0.0625 ? 0.0625 : length > 16.0 ? 16.0 : length;
 }
 
@@ -219,6 +239,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     double softest = 1e9;
     double turning_sq = 0.0;
     int rotary = 0;
+    double smoothest = 0.0; // smallest jerk
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
         const AxisSettings& axis = settings.axis[k];
         if (!detail::within(axis.max_velocity_mm_s, 0.001, 10000.0)) {
@@ -233,8 +254,11 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         if (axis.travel_end_zone_mm != 0.0 && !detail::travel_end_valid(axis)) {
             return Error::travel_end_out_of_range;
         }
-        if (axis.max_jerk_mm_s3 != 0.0) {
-            return Error::jerk_not_supported;
+        if (axis.max_jerk_mm_s3 != 0.0 && !detail::within(axis.max_jerk_mm_s3, 1.0, 1e9)) {
+            return Error::jerk_out_of_range;
+        }
+        if (std::same_as<S, float> && axis.max_jerk_mm_s3 != 0.0) {
+            return Error::jerk_in_float;
         }
         if (!detail::within(axis.steps_per_mm, 0.001, 1e6)) {
             return Error::steps_out_of_range;
@@ -243,6 +267,9 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         turning_sq += axis.rotary ? axis.max_velocity_mm_s * axis.max_velocity_mm_s : 0.0;
         rotary += axis.rotary ? 1 : 0;
         softest = axis.smaller_acceleration_mm_s2() < softest ? axis.smaller_acceleration_mm_s2() : softest;
+        if (axis.max_jerk_mm_s3 > 0.0 && !(smoothest > 0.0 && smoothest < axis.max_jerk_mm_s3)) {
+            smoothest = axis.max_jerk_mm_s3;
+        }
     }
     limits.mixed = rotary > 0 && rotary < settings.axes;
     const double path =
@@ -253,11 +280,13 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     constexpr double usable = 1.0 - detail::usable_margin<S>;
     double feed_noise = 0.0;
     const double longest = detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest,
-                                                   settings.max_feed_mm_s, segment_s);
+                                                   settings.max_feed_mm_s, smoothest, segment_s);
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
         const AxisSettings& axis = settings.axis[k];
         // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30).
-        const double error_mm = longest * detail::parameter_error<S> + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
+        // Where the jerk is limited v^2 is a parabola of s: the parameter is the sum of a series.
+        const double parameter_error = (smoothest > 0.0 ? 4.0 : 1.0) * detail::parameter_error<S>;
+        const double error_mm = longest * parameter_error + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
         const double noise = detail::acceleration_noise(error_mm, segment_s);
         if (noise > 0.25 * axis.smaller_acceleration_mm_s2()) {
             return Error::period_too_short;
@@ -285,8 +314,19 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         limits.acceleration_mm_s2[k] = planned(axis.max_acceleration_mm_s2);
         limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
         limits.rotary[k] = axis.rotary;
+        if (axis.max_jerk_mm_s3 > 0.0) {
+            const double jerk_noise = detail::jerk_noise(error_mm, segment_s);
+            if (jerk_noise > 0.25 * axis.max_jerk_mm_s3) {
+                return Error::period_too_short;
+            }
+            limits.jerk_limited = true;
+            limits.jerk_mm_s3[k] = from_double<S>(axis.max_jerk_mm_s3 * (usable - detail::jerk_reserve) - jerk_noise);
+        } else {
+            limits.jerk_mm_s3[k] = from_integer<S>(1 << 30); // no limit in practice
+        }
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
+    limits.jerk_tier = settings.jerk_tier;
     limits.usable = from_double<S>(usable);
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
@@ -303,6 +343,11 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     refinement.shape_log2 = detail::shape_log2(path);
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
+    if (smoothest > 0.0) {
+        refinement.finest_grade_log2 = 5;
+        refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors
+        refinement.inverse_error = scale2(refinement.inverse_error, -3);
+    }
     // A jump of direction d asks for the acceleration v d / T: tolerated below 2e-5 of the limit, plus rounding.
     refinement.direction_jump =
         from_double<S>(2e-5 * softest * segment_s / path) + from_double<S>(detail::direction_noise<S>);

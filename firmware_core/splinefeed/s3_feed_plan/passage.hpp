@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Passage: how the machine passes a cell, or the part of it that a change of mind leaves: v^2 linear in s.
+// Passages of an acceleration-limited plan that was steered: v^2 is linear in s.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/acceleration_bound.hpp"
+#include "splinefeed/s3_feed_plan/motion_plan.hpp"
 
 namespace splinefeed {
-
-template <Scalar S>
-struct Passage {
-    Stretch<S> stretch{};
-    S entry_sq{};       ///< v^2 where it starts
-    S exit_sq{};        ///< v^2 where it ends
-    bool stops = false; ///< the machine comes to rest at its end and dwells
-};
 
 /// Where a machine is in a cell, and what is wanted of it.
 template <Scalar S>

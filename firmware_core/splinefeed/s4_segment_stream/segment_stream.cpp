@@ -51,7 +51,7 @@ constexpr int control_shift = Position::fraction_bits + 32 - 29;
 } // namespace
 
 template <Scalar S>
-SegmentStream<S>::SegmentStream(FeedPlan<S>& plan, const MotionLimits<S>& limits) noexcept
+SegmentStream<S>::SegmentStream(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept
     : plan_(&plan), steps_per_mm_q32_(limits.steps_per_mm_q32), segments_per_s_(limits.segments_per_s),
       segment_ticks_(limits.segment_ticks), axes_(limits.axes) {
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
@@ -81,28 +81,16 @@ Pull SegmentStream<S>::enter_passage(Starvation starvation) noexcept {
     if (pull != Pull::item) {
         return pull;
     }
-    const PlannedCell<S>& planned = plan_->front();
-    const Passage<S>& passage = plan_->passage();
-    const S v0 = square_root(passage.entry_sq);
-    const S sum = v0 + square_root(passage.exit_sq);
-    S twice = (planned.cell.length_mm + planned.cell.length_mm) * segments_per_s_;
-    if (!passage.stretch.whole()) {
-        twice = twice * passage.stretch.length();
-    }
-    // The mean speed over constant acceleration is (v0 + v1) / 2; never integrate ds / v.
-    duration_ = quotient_or_max(twice, sum);
-    entry_ = quotient_or_max(v0 + v0, sum);
-    waypoint_ = planned.cell.waypoint;
+    motion_ = PassageMotion<S>(plan_->passage(), plan_->cell().length_mm, segments_per_s_);
+    waypoint_ = plan_->cell().waypoint;
     in_passage_ = true;
     return Pull::item;
 }
 
-// Fraction of the cell's length after the fraction y of the passage's time: constant acceleration.
+// Fraction of the cell's length where the machine is.
 template <Scalar S>
 S SegmentStream<S>::fraction() const noexcept {
-    const S one = from_integer<S>(1);
-    const S y = elapsed_ / duration_;
-    const S x = y * (entry_ + (one - entry_) * y);
+    const S x = motion_.at(elapsed_ / motion_.duration());
     const Stretch<S>& stretch = plan_->passage().stretch;
     return stretch.whole() ? x : stretch.from + stretch.length() * x;
 }
@@ -112,7 +100,7 @@ template <Scalar S>
 S SegmentStream<S>::braked(S x, S speed) const noexcept {
     constexpr int fine = 12; // lengths in units of 2^-12 mm
     PerAxis<S> direction{};
-    plan_->front().cell.direction_at(x, direction);
+    plan_->cell().direction_at(x, direction);
     const S way = scale2(speed, fine) / segments_per_s_;
     S less = way;
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
@@ -135,7 +123,7 @@ void SegmentStream<S>::follow_steering() noexcept {
     const S v0 = square_root(plan_->passage().entry_sq);
     const S v1 = square_root(plan_->passage().exit_sq);
     const S x = fraction();
-    S speed = v0 + (v1 - v0) * (elapsed_ / duration_);
+    S speed = v0 + (v1 - v0) * (elapsed_ / motion_.duration());
     if (plan_->steering().stops()) {
         speed = braked(x, speed);
     }
@@ -154,21 +142,21 @@ bool SegmentStream<S>::arrive() noexcept {
     if (!passage.stops) {
         return false;
     }
-    const PlannedCell<S>& planned = plan_->front();
+    const Cell<S>& cell = plan_->cell();
     const bool bound_to_place = !plan_->steering().stops();
     const S early = bound_to_place ? literal<S>(arrival) : literal<S>(0.5);
-    if (elapsed_ + early < duration_) {
+    if (elapsed_ + early < motion_.duration()) {
         return false;
     }
-    if (!bound_to_place && elapsed_ < duration_) {
+    if (!bound_to_place && elapsed_ < motion_.duration()) {
         const S x = fraction();
-        planned.cell.position_at(x, position_);
+        cell.position_at(x, position_);
         plan_->rest_at(x);
     } else {
-        if (planned.cell.stop_at_end && passage.stretch.to == from_integer<S>(1)) {
-            position_ = planned.cell.end;
+        if (cell.stop_at_end && passage.stretch.to == from_integer<S>(1)) {
+            position_ = cell.end;
         } else {
-            planned.cell.position_at(passage.stretch.to, position_);
+            cell.position_at(passage.stretch.to, position_);
         }
         plan_->advance();
     }
@@ -192,7 +180,7 @@ Pull SegmentStream<S>::sample(Starvation starvation) noexcept {
     }
     const Pull entered = in_passage_ ? Pull::item : enter_passage(starvation);
     if (!started_ && (entered == Pull::item || entered == Pull::held)) {
-        plan_->front().cell.position_at(S{}, position_);
+        plan_->cell().position_at(S{}, position_);
         for (int i = 0; i < 3; ++i) {
             push_control();
         }
@@ -210,10 +198,10 @@ Pull SegmentStream<S>::sample(Starvation starvation) noexcept {
         if (arrive()) {
             return Pull::item;
         }
-        if (elapsed_ < duration_) {
+        if (elapsed_ < motion_.duration()) {
             break;
         }
-        elapsed_ -= duration_;
+        elapsed_ -= motion_.duration();
         plan_->advance();
         in_passage_ = false;
         const Pull pull = enter_passage(starvation);
@@ -221,7 +209,7 @@ Pull SegmentStream<S>::sample(Starvation starvation) noexcept {
             return pull;
         }
     }
-    plan_->front().cell.position_at(fraction(), position_);
+    plan_->cell().position_at(fraction(), position_);
     push_control();
     advanced_ = false;
     return Pull::item;

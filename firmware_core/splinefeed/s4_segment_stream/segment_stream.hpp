@@ -8,8 +8,10 @@
 // segment_stream.cpp.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/feed_plan.hpp"
+#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/motion_plan.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
+#include "splinefeed/s4_segment_stream/passage_motion.hpp"
 
 namespace splinefeed {
 
@@ -19,7 +21,10 @@ namespace splinefeed {
 template <Scalar S>
 class SegmentStream {
 public:
-    SegmentStream(FeedPlan<S>& plan, const MotionLimits<S>& limits) noexcept;
+    SegmentStream(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept;
+
+    /// Another plan to follow. @pre nothing was written yet
+    void follow(MotionPlan<S>& plan) noexcept { plan_ = &plan; }
 
     /// Writes the next feed segment. `starved`: the plan has none yet; nothing was lost. `held`: the machine stands.
     Pull next(FeedSegment& out, Starvation starvation = Starvation::waits) noexcept;
@@ -42,13 +47,12 @@ private:
     void repeat_control() noexcept;
     void write(FeedSegment& out) noexcept;
 
-    FeedPlan<S>* plan_;
+    MotionPlan<S>* plan_;
     PerAxis<std::uint64_t> steps_per_mm_q32_{};
     PerAxis<S> braking_mm_s2_{};
     S segments_per_s_{};
-    S elapsed_{};                  // time since the start of the passage [segment durations]
-    S duration_{};                 // time for the passage [segment durations]
-    S entry_{};                    // 2 v0 / (v0 + v1), v the speeds at its ends, see fraction
+    S elapsed_{}; // time since the start of the passage [segment durations]
+    PassageMotion<S> motion_;
     PerAxis<Position> position_{}; // of the last control point, and of the one before
     PerAxis<Position> previous_{};
     std::array<PerAxis<std::int64_t>, 4> control_{}; // the window of control points [6 units]

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Planner: the pipeline for a machine, and the memory that it plans in.
+#pragma once
+
+#include "splinefeed/jerk_trajectory.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace splinefeed::host {
+
+template <Scalar S>
+class Planner {
+public:
+    /// A jerk-limited plan looks a quarter as far: what it plans far ahead is planned again from nearer.
+    static constexpr std::size_t cells_a_jerk_cell = 4;
+
+    /// All arguments must outlive it.
+    Planner(CurveSource<S>& curve, const MotionLimits<S>& limits, std::size_t window_cells) : window_(window_cells) {
+        if (!limits.jerk_limited) {
+            plain_ = std::make_unique<Trajectory<S>>(curve, limits, window_);
+            return;
+        }
+        cells_.resize(std::max(window_cells / cells_a_jerk_cell, JerkPlan<S>::smallest_window));
+        nodes_.resize(cells_.size() + 1);
+        jerk_limited_ = std::make_unique<JerkTrajectory<S>>(curve, limits, window_, JerkStorage<S>{cells_, nodes_});
+    }
+
+    [[nodiscard]] Trajectory<S>& trajectory() noexcept { return plain_ ? *plain_ : *jerk_limited_; }
+    /// Nothing where the plan is acceleration-limited.
+    [[nodiscard]] const JerkPlan<S>* jerk_plan() const noexcept {
+        return jerk_limited_ ? &jerk_limited_->jerk_plan() : nullptr;
+    }
+    /// Memory that it plans in.
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return sizeof(ArcLength<S>) + sizeof(FeedPlan<S>) + window_.size() * sizeof(PlannedCell<S>) +
+               (jerk_limited_ ? sizeof(JerkPlan<S>) : 0) + cells_.size() * sizeof(Cell<S>) +
+               nodes_.size() * sizeof(JerkNode);
+    }
+
+private:
+    std::vector<PlannedCell<S>> window_;
+    std::vector<Cell<S>> cells_;
+    std::vector<JerkNode> nodes_;
+    std::unique_ptr<Trajectory<S>> plain_;
+    std::unique_ptr<JerkTrajectory<S>> jerk_limited_;
+};
+
+} // namespace splinefeed::host

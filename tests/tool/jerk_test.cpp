@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+//
+// Machines with a jerk limit, from the command line.
+#include "support/catch.hpp"
+#include "tool.hpp"
+
+#include <nlohmann/json.hpp>
+
+using nlohmann::json;
+using splinefeed::test::Call;
+using splinefeed::test::Tool;
+
+namespace {
+
+const std::string examples = "'" SPLINEFEED_SOURCE_DIR "/examples/";
+const std::string machine = " -m " + examples + "jerk_limited.toml'";
+
+} // namespace
+
+TEST_CASE("A jerk-limited machine keeps its limits and ends where an acceleration-limited one does") {
+    const Tool tool;
+    for (const char* program : {"path61.csv'", "circle720.csv'", "square.csv'", "star.csv'", "butterfly.json'"}) {
+        for (const char* scalar : {" --scalar fixed", " --scalar double"}) {
+            const Call call = tool("run " + examples + program + machine + scalar + " --summary json --quiet");
+            CAPTURE(program, scalar, call.error);
+            REQUIRE(call.status == 0); // the simulated machine stops where a limit is broken
+            const json summary = json::parse(call.output);
+            double most = 0.0;
+            for (const auto& [axis, use] : summary["limit_use"]["jerk"].items()) {
+                CHECK(use.get<double>() <= 1.0);
+                most = std::max(most, use.get<double>());
+            }
+            CHECK(most > 0.9);
+            const double seconds = summary["cycle_time_s"].get<double>();
+            CHECK(seconds >= summary["optimum_time_s"].get<double>());
+            CHECK(seconds <= 1.25 * summary["optimum_time_s"].get<double>()); // most for the star's 29 stops
+        }
+    }
+}
+
+TEST_CASE("What a jerk-limited machine cannot do is told in one line") {
+    const Tool tool;
+    const Call in_float = tool("run " + examples + "square.csv'" + machine + " --scalar float --quiet");
+    CHECK(in_float.status == 2);
+    CHECK(in_float.error.find("float has too few digits for a jerk limit") != std::string::npos);
+    tool.write("events.csv", "t,event\n0.1,hold\n");
+    const Call steered = tool("run " + examples + "square.csv'" + machine + " --events events.csv --quiet");
+    CHECK(steered.status == 2);
+    CHECK(steered.error.find("cannot be steered yet") != std::string::npos);
+}
