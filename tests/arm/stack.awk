@@ -11,7 +11,8 @@ BEGIN {
     library["__clzdi2"] = 16
     library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
     root = "_ZN12_GLOBAL__N_18on_resetEv"
-    # The one virtual call: the arc length asks the curve, which is a G2Spline here.
+    # Virtual calls: the arc length asks the curve, which is a G2Spline here, and the stream its plan, a FeedPlan.
+    plan = "^_ZNK?10splinefeed8FeedPlanI" (scalar == "float" ? "f" : "NS_5FixedE") "E(4cell|5clear|5steer|7advance|7prepare|7rest_at|8standing)E"
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
                               : "_ZN10splinefeed18ControlPointStreamINS_5FixedENS_11PlainJointsIS1_EEE4nextERNS_12CurveSegmentIS1_EE"
 }
@@ -33,7 +34,9 @@ function quoted(line, key) {
     from = quoted($0, "sourcename")
     to = quoted($0, "targetname")
     if (to == "__indirect_call" && from ~ /ArcLength/) { to = curve }
-    if (!((from, to) in known)) {
+    if (to == "__indirect_call" && from ~ /SegmentStream|Trajectory/) {
+        asks_plan[from] = 1
+    } else if (!((from, to) in known)) {
         known[from, to] = 1
         calls[from] = calls[from] to "\n"
     }
@@ -68,6 +71,11 @@ function depth(name, targets, count, i, d, deepest) {
 
 END {
     if (failed) { exit 1 }
+    for (name in frame) {
+        if (name ~ plan) {
+            for (from in asks_plan) { calls[from] = calls[from] name "\n" }
+        }
+    }
     print "stack bound " depth(root) " bytes:"
     for (name = root; name != ""; name = way[name]) {
         printf "  %5d %s\n", (name in frame) ? frame[name] : library[name], name

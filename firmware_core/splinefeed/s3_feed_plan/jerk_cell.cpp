@@ -38,7 +38,7 @@ Steepness steepness(const JerkCell& cell, unsigned axis) noexcept {
 }
 
 double least_acceleration(const JerkCell& cell, unsigned axis) noexcept {
-    double least = largest<double>();
+    auto least = largest<double>();
     for (const auto& end : cell.end) {
         least = smaller(least, smaller(end[axis].most_forward, end[axis].most_backward));
     }
@@ -84,13 +84,13 @@ MoveLimits JerkCell::move_limits(double most_sq) const noexcept {
         }
     }
     const double v = square_root(v_sq);
-    double a = largest<double>();
+    auto a = largest<double>();
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         const Steepness s = steepness(*this, k);
         a = smaller(a, quotient_or_max(least_acceleration(*this, k) - s.second * v_sq, s.first));
         a = smaller(a, quotient_or_max(jerk_mm_s3[k], 9.0 * s.second * v));
     }
-    double j = largest<double>();
+    auto j = largest<double>();
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         const Steepness s = steepness(*this, k);
         j = smaller(j, quotient_or_max(jerk_mm_s3[k] - (3.0 * s.second * a + s.third * v_sq) * v, s.first));
@@ -101,7 +101,7 @@ MoveLimits JerkCell::move_limits(double most_sq) const noexcept {
 bool JerkCell::straight(double most_sq) const noexcept {
     const double v_sq = smaller(cap_sq, most_sq);
     const double v = square_root(v_sq);
-    double a = largest<double>(); // along the path
+    auto a = largest<double>(); // along the path
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         a = smaller(a, quotient_or_max(least_acceleration(*this, k), steepness(*this, k).first));
     }

@@ -45,6 +45,7 @@ SpeedState mean(const SpeedState& a, const SpeedState& b, double share_of_a) noe
 
 // Plans with the direction of travel, or against it: then nodes are counted from the end, and slopes have the other
 // sign.
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): backward, then forward, with the same lambdas
 bool JerkLeg::sweep(bool backward) noexcept {
     const std::size_t n = cells();
     const auto node = [&](std::size_t i) -> JerkNode& {
@@ -202,7 +203,7 @@ double JerkLeg::time(double share) const noexcept {
 
 bool JerkLeg::plan(JerkTier tier) noexcept {
     const int passes = tier == JerkTier::optimal ? optimal_passes : 1;
-    double best_time = largest<double>();
+    auto best_time = largest<double>();
     for (int pass = 0; pass < passes; ++pass) {
         if (!sweep(false) || !sweep(true)) {
             break;

@@ -164,7 +164,7 @@ void JerkReach::add_acceleration(const CellPassage& passage) noexcept {
 // The line that leaves least at a state. sign: 1 for upper bounds, -1 for lower ones
 std::size_t JerkReach::Lines::closest(const SpeedState& state, double sign) const noexcept {
     std::size_t best = 0;
-    double least = largest<double>();
+    auto least = largest<double>();
     for (std::size_t i = 0; i < size; ++i) {
         const double value = sign * line[i].at(state);
         best = value < least ? i : best;
@@ -191,6 +191,7 @@ void JerkReach::Lines::keep_what_matters(const SpeedState& center, const SpeedSt
     size = n;
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): one pass round the corners
 StatePolygon JerkReach::from(const StatePolygon& exits_of_b) const noexcept {
     const double half_length = 0.5 * length_mm_;
     StatePolygon exits; // (m, b')
@@ -321,8 +322,8 @@ StatePolygon JerkReach::from(const StatePolygon& exits_of_b) const noexcept {
 CurvatureRange JerkReach::range(const SpeedState& entry, const StatePolygon& exits) const noexcept {
     const double half_length = 0.5 * length_mm_;
     const double m = entry.b + half_length * entry.slope;
-    double low = -largest<double>();
-    double high = largest<double>();
+    auto low = -largest<double>();
+    auto high = largest<double>();
     const auto bind = [&](double of_exit, double scale, double limit) {
         if (absolute(of_exit) <= negligible * scale) {
             return; // binds m alone, which the entry keeps

@@ -14,9 +14,9 @@ constexpr double nothing_mm = 1e-12;
 
 // The time after which a length is travelled, within a phase: the way grows with time, so that halving finds it, and
 // Newton's method does faster.
-double LineTravel::time_to(double length_mm, double at_most_s, double jerk_mm_s3) const noexcept {
+double LineTravel::time_to(double length_mm, double longest_s, double jerk_mm_s3) const noexcept {
     double low = 0.0;
-    double high = at_most_s;
+    double high = longest_s;
     double t = 0.5 * high;
     for (int i = 0; i < 60; ++i) {
         const MoveState there = state_.after(t, jerk_mm_s3);
@@ -24,7 +24,7 @@ double LineTravel::time_to(double length_mm, double at_most_s, double jerk_mm_s3
         (beyond > 0.0 ? high : low) = t;
         const double step = there.speed_mm_s > 0.0 ? t - beyond / there.speed_mm_s : low;
         const double next = step > low && step < high ? step : 0.5 * (low + high);
-        if (absolute(next - t) <= 1e-15 * at_most_s) {
+        if (absolute(next - t) <= 1e-15 * longest_s) {
             break;
         }
         t = next;

@@ -29,7 +29,7 @@ public:
     LinePiece next() noexcept;
 
 private:
-    [[nodiscard]] double time_to(double length_mm, double at_most_s, double jerk_mm_s3) const noexcept;
+    [[nodiscard]] double time_to(double length_mm, double longest_s, double jerk_mm_s3) const noexcept;
 
     StraightMove move_{};
     MoveState state_{}; // position from the start of the piece: always 0

@@ -214,24 +214,59 @@ constexpr OpenTravel open_travel(const AxisSettings& axis, double segment_s) noe
     return {position(axis.travel_low_mm + zone), position(axis.travel_high_mm - zone)};
 }
 
-} // namespace detail
-
-template <Scalar S>
-constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& settings) noexcept {
+/// What is wrong with the numbers that are no axis's; none if nothing.
+constexpr Error machine_error(const MachineSettings& settings) noexcept {
     if (settings.axes < 1 || settings.axes > max_axes) {
         return Error::axes_out_of_range;
     }
-    if (!detail::within(settings.max_feed_mm_s, 0.001, 10000.0)) {
+    if (!within(settings.max_feed_mm_s, 0.001, 10000.0)) {
         return Error::feed_out_of_range;
     }
-    if (settings.centripetal_mm_s2 != 0.0 && !detail::within(settings.centripetal_mm_s2, 0.1, 1e6)) {
+    if (settings.centripetal_mm_s2 != 0.0 && !within(settings.centripetal_mm_s2, 0.1, 1e6)) {
         return Error::centripetal_out_of_range;
     }
-    if (settings.chord_error_mm != 0.0 && !detail::within(settings.chord_error_mm, 1e-6, 1.0)) {
+    if (settings.chord_error_mm != 0.0 && !within(settings.chord_error_mm, 1e-6, 1.0)) {
         return Error::chord_error_out_of_range;
     }
     if (settings.sample_period_us < 50 || settings.sample_period_us > 100000) {
         return Error::sample_period_out_of_range;
+    }
+    return Error::none;
+}
+
+/// What is wrong with an axis's numbers; none if nothing.
+template <Scalar S>
+constexpr Error axis_error(const AxisSettings& axis) noexcept {
+    if (!within(axis.max_velocity_mm_s, 0.001, 10000.0)) {
+        return Error::velocity_out_of_range;
+    }
+    if (!within(axis.max_acceleration_mm_s2, 0.1, 1e6)) {
+        return Error::acceleration_out_of_range;
+    }
+    if (axis.max_braking_mm_s2 != 0.0 && !within(axis.max_braking_mm_s2, 0.1, 1e6)) {
+        return Error::braking_out_of_range;
+    }
+    if (axis.travel_end_zone_mm != 0.0 && !travel_end_valid(axis)) {
+        return Error::travel_end_out_of_range;
+    }
+    if (axis.max_jerk_mm_s3 != 0.0 && !within(axis.max_jerk_mm_s3, 1.0, 1e9)) {
+        return Error::jerk_out_of_range;
+    }
+    if (std::same_as<S, float> && axis.max_jerk_mm_s3 != 0.0) {
+        return Error::jerk_in_float;
+    }
+    if (!within(axis.steps_per_mm, 0.001, 1e6)) {
+        return Error::steps_out_of_range;
+    }
+    return Error::none;
+}
+
+} // namespace detail
+
+template <Scalar S>
+constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& settings) noexcept {
+    if (const Error error = detail::machine_error(settings); error != Error::none) {
+        return error;
     }
     MotionLimits limits;
     limits.axes = settings.axes;
@@ -242,26 +277,8 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     double smoothest = 0.0; // smallest jerk
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
         const AxisSettings& axis = settings.axis[k];
-        if (!detail::within(axis.max_velocity_mm_s, 0.001, 10000.0)) {
-            return Error::velocity_out_of_range;
-        }
-        if (!detail::within(axis.max_acceleration_mm_s2, 0.1, 1e6)) {
-            return Error::acceleration_out_of_range;
-        }
-        if (axis.max_braking_mm_s2 != 0.0 && !detail::within(axis.max_braking_mm_s2, 0.1, 1e6)) {
-            return Error::braking_out_of_range;
-        }
-        if (axis.travel_end_zone_mm != 0.0 && !detail::travel_end_valid(axis)) {
-            return Error::travel_end_out_of_range;
-        }
-        if (axis.max_jerk_mm_s3 != 0.0 && !detail::within(axis.max_jerk_mm_s3, 1.0, 1e9)) {
-            return Error::jerk_out_of_range;
-        }
-        if (std::same_as<S, float> && axis.max_jerk_mm_s3 != 0.0) {
-            return Error::jerk_in_float;
-        }
-        if (!detail::within(axis.steps_per_mm, 0.001, 1e6)) {
-            return Error::steps_out_of_range;
+        if (const Error error = detail::axis_error<S>(axis); error != Error::none) {
+            return error;
         }
         acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
         turning_sq += axis.rotary ? axis.max_velocity_mm_s * axis.max_velocity_mm_s : 0.0;

@@ -33,7 +33,7 @@ public:
     static constexpr std::size_t capacity = 64; ///< corners while it is being cut
     static constexpr std::size_t kept = 12;     ///< corners that simplify() leaves
 
-    StatePolygon() noexcept {} // its corners are nothing yet
+    StatePolygon() noexcept = default; // its corners are nothing yet
     /// @pre convex and counter-clockwise, at most `capacity`
     explicit StatePolygon(std::span<const SpeedState> corners) noexcept;
     /// All states with 0 <= b <= largest and |slope| <= steepest.
@@ -55,7 +55,7 @@ public:
     void include(const SpeedState& state) noexcept;
     /// The half-planes that it is made of: one a side, and one at each end of a line, four for a point. Returns
     /// how many.
-    std::size_t bounds(std::span<StateBound> out) const noexcept;
+    [[nodiscard]] std::size_t bounds(std::span<StateBound> out) const noexcept;
 
 private:
     std::array<SpeedState, capacity> corner_;
