@@ -67,7 +67,7 @@ double checked(const std::vector<JerkNode>& nodes, bool moving) {
         // A parabola: the mean of both slopes leads from one end to the other.
         REQUIRE(std::abs(to.b - from.b - 0.5 * l * (from.slope + to.slope)) <= 1e-7 * (1.0 + from.b + to.b));
         const double u = (to.slope - from.slope) / l;
-        const Use use = use_of(cell, wide(from.b), wide(from.slope), wide(u));
+        const JerkUse use = use_of(cell, wide(from.b), wide(from.slope), wide(u));
         REQUIRE(use.jerk <= 1.0L + 1e-5L);
         REQUIRE(use.acceleration <= 1.0L + 1e-7L);
         REQUIRE(use.speed_sq <= 1.0L + 1e-9L);

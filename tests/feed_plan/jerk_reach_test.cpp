@@ -64,7 +64,7 @@ double outside(const StatePolygon& polygon, const SpeedState& state) {
 }
 
 // Of the cell as it lies, for a motion through it in the direction of the passage.
-Use use_of(const Trial& trial, const SpeedState& entry, double u) {
+JerkUse use_of(const Trial& trial, const SpeedState& entry, double u) {
     if (!trial.passage.backward) {
         return splinefeed_test::use_of(trial.cell, wide(entry.b), wide(entry.slope), wide(u));
     }
@@ -92,7 +92,7 @@ TEST_CASE("from every state inside some motion leads to an exit, within the limi
             const CurvatureRange range = reach.range(entry, trial.exits);
             REQUIRE(range.low <= range.high + 1e-9 * std::abs(range.high) + 1e-3);
             for (const double u : {range.low, range.high, 0.5 * (range.low + range.high)}) {
-                const Use use = use_of(trial, entry, u);
+                const JerkUse use = use_of(trial, entry, u);
                 REQUIRE(use.jerk <= 1.0L + 1e-6L);
                 REQUIRE(outside(trial.exits, travelled(entry, u, trial.cell.length_mm)) <= 1.0 + 1e-6);
                 most = std::max(most, use.jerk);

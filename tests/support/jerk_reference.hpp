@@ -58,7 +58,7 @@ struct Wave {
     }
 };
 
-struct Use {
+struct JerkUse {
     long double acceleration = 0; ///< of the limits
     long double jerk = 0;
     long double speed_sq = 0;
@@ -67,8 +67,8 @@ struct Use {
 
 /// Largest use of the limits at many points of a cell that begins with b, slope and has the curvature u of b; dq/ds is
 /// the cubic through the values and slopes at the ends.
-inline Use use_of(const splinefeed::JerkCell& cell, long double b0, long double slope, long double u) {
-    Use use;
+inline JerkUse use_of(const splinefeed::JerkCell& cell, long double b0, long double slope, long double u) {
+    JerkUse use;
     use.least_sq = b0 / wide(cell.cap_sq);
     constexpr int points = 40;
     const long double l = wide(cell.length_mm);
