@@ -225,7 +225,7 @@ AxisShape<S> ArcLength<S>::shape_of(unsigned axis, S rounding, const Cell<S>& ce
     const bool sharp = turn > literal<S>(Cell<S>::sharp_turn);
     AxisShape<S> shape = sharp ? largest_shape(axis, cell) : m_.shape(axis, refinement_.shape_log2);
     shape.spread = sharp ? scale2(smaller(turn, from_integer<S>(2)), refinement_.shape_log2)
-                         : scale2(twice, refinement_.shape_log2) * rounding;
+                         : shape.spread + scale2(twice, refinement_.shape_log2) * rounding;
     return shape;
 }
 

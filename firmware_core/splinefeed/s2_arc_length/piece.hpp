@@ -36,7 +36,8 @@ struct PieceMeasure {
     S length_mm{};
     std::array<S, 6> inverse{}; ///< w = sum inverse[i] x^(i+1), x = fraction of the length
     S shape_error{};            ///< 2^12 times the inverse's relative error as the shape of sigma tells it
-    S middle_slope{};           ///< dw/dx of the inverse at w = 1/2; times sigma/length it should be 1
+    S middle{};                 ///< x at w = 1/2
+    S middle_slope{};           ///< dw/dx of the inverse there; times sigma/length it should be 1
 
     /// Halves the piece and takes dr/dw, d2r/dw2 and sigma.
     void differentiate(const Piece<S>& piece, int degree, int axes) noexcept;

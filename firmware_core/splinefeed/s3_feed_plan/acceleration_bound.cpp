@@ -99,9 +99,10 @@ void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
     const S third = literal<S>(1.0 / 3.0);
     for (unsigned k = 0; k < static_cast<unsigned>(cell_->axes); ++k) {
         const AxisShape<S>& shape = cell_->shape[k];
+        const S spread = stretch_.whole() ? shape.spread : shape.spread * stretch_.length();
         const auto both = [&](S entry, S exit) {
-            visit(Row{shape.spread + entry, shape.spread + exit, upwards_[k]}, shape.spread);
-            visit(Row{shape.spread - entry, shape.spread - exit, downwards_[k]}, shape.spread);
+            visit(Row{spread + entry, spread + exit, upwards_[k]}, spread);
+            visit(Row{spread - entry, spread - exit, downwards_[k]}, spread);
         };
         std::array<S, 3> bend = shape.bend;
         std::array<S, 4> t{shape.tangent[0], shape.tangent[0] + scale2(third * bend[0], -1),

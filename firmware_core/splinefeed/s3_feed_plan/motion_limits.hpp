@@ -364,6 +364,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         refinement.finest_grade_log2 = 5;
         refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors
         refinement.inverse_error = scale2(refinement.inverse_error, -3);
+        refinement.curvature_change = scale2(refinement.curvature_change, -1); // a rest that goes with its cube
     }
     // A jump of direction d asks for the acceleration v d / T: tolerated below 2e-5 of the limit, plus rounding.
     refinement.direction_jump =
