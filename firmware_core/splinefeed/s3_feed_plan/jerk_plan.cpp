@@ -23,6 +23,10 @@ constexpr double ripple = 10.4;
 constexpr double least_known[] = {0.1, 0.3, 0.5, 1.0, 0.02};
 constexpr int attempts = 6;
 constexpr double same_cap = 1e-9;
+// Rounding of q'', times the length of the cell: a unit vector of Fixed is off by 2^-32, and is taken times the change of
+// |dr/dw| in the cell, at most as much as that is.
+template <Scalar S>
+constexpr double bend_noise = std::same_as<S, double> ? 0x1p-48 : 0x1p-30;
 
 /// What a cell asks of the motion: its shape's derivatives at both ends.
 template <Scalar S>
@@ -91,10 +95,11 @@ JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const 
 template <Scalar S>
 bool JerkPlan<S>::bend_jumps(const JerkNode& before, const JerkNode& after) const noexcept {
     const double per_s = 0.75 * to_double(limits_->segments_per_s);
+    const double noise = bend_noise<S> / smaller(before.cell.length_mm, after.cell.length_mm);
     for (unsigned k = 0; k < static_cast<unsigned>(after.cell.axes); ++k) {
         const double jump = absolute(after.cell.end[0][k].second - before.cell.end[1][k].second);
         const double reserve = detail::jerk_reserve * after.cell.jerk_mm_s3[k];
-        if (jump * smaller(after.at_most_sq, after.cell.cap_sq) * per_s > reserve) {
+        if ((jump - noise) * smaller(after.at_most_sq, after.cell.cap_sq) * per_s > reserve) {
             return true;
         }
     }
