@@ -20,6 +20,7 @@ namespace {
 constexpr double most_turn = 0.05;        // of dq/ds in an interval
 constexpr double most_speed_ratio = 0.85; // of the speed limits at the ends of an interval
 constexpr double most_bend = 0.002;       // of dq/ds: what its mean in an interval differs from that of the ends
+constexpr double most_error = 1e-5;       // of the length, by the rule of order 5
 constexpr int least_level = 2;            // halvings of a curved segment
 constexpr int least_level_of_long = 4;    // the same of one longer than a quarter of the braking distance
 constexpr int deepest_for_speed = 8;
@@ -140,13 +141,27 @@ PathGrid::Node PathGrid::node(double u) const noexcept {
     return node;
 }
 
+double PathGrid::sigma(double u) const noexcept {
+    double sigma_sq = 0.0;
+    for (unsigned k = 0; k < axes_; ++k) {
+        double r1 = 0.0;
+        for (unsigned i = degree_; i > 0; --i) {
+            r1 = r1 * u + i * power_[k][i];
+        }
+        sigma_sq += r1 * r1;
+    }
+    return std::sqrt(sigma_sq);
+}
+
 PathInterval PathGrid::interval(const Node& from, const Node& to) const noexcept {
     PathInterval out;
     out.entry_cap_sq = from.cap_sq;
     out.exit_cap_sq = to.cap_sq;
-    // Euler-Maclaurin: the trapezoid rule with its slopes, of order 5; and no shorter than the chord.
+    // The integral of the quartic through |dr/du| at three places and its slopes at the ends, of order 7; and no
+    // shorter than the chord.
     const double step = to.u - from.u;
-    out.length_mm = step * (0.5 * (from.sigma + to.sigma) + step * (from.slope - to.slope) / 12.0);
+    const double ends = 7.0 * (from.sigma + to.sigma);
+    out.length_mm = step * (ends + 16.0 * sigma(from.u + 0.5 * step) + 0.5 * step * (from.slope - to.slope)) / 30.0;
     double chord_sq = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
         const double moved = to.position[k] - from.position[k];
@@ -173,6 +188,13 @@ PathInterval PathGrid::interval(const Node& from, const Node& to) const noexcept
     out.middle_cap_sq = out.length_mm > 0.0 ? cap_sq(direction, curvature) : fastest_sq_;
     out.noise_mm = travel_noise_mm + relative_noise * size_mm_;
     return out;
+}
+
+// By the trapezoid rule with its slopes (Euler-Maclaurin).
+double PathGrid::length_error(const Node& from, const Node& to, double length_mm) noexcept {
+    const double step = to.u - from.u;
+    const double length = step * (0.5 * (from.sigma + to.sigma) + step * (from.slope - to.slope) / 12.0);
+    return std::fabs(length - length_mm) / length_mm;
 }
 
 // What the mean of dq/ds differs from that at the ends: a curve that turns to and fro within an interval.
@@ -208,8 +230,9 @@ void PathGrid::append_pieces(std::vector<PathInterval>& out) {
         if (!coarse) {
             piece = interval(from, top.to);
             const auto [slower, faster] = std::minmax({piece.entry_cap_sq, piece.middle_cap_sq, piece.exit_cap_sq});
-            coarse = top.level < deepest_for_speed && (slower < most_speed_ratio * most_speed_ratio * faster ||
-                                                       bend(from, top.to, piece.length_mm) > most_bend);
+            coarse = (top.level < deepest && length_error(from, top.to, piece.length_mm) > most_error) ||
+                     (top.level < deepest_for_speed && (slower < most_speed_ratio * most_speed_ratio * faster ||
+                                                        bend(from, top.to, piece.length_mm) > most_bend));
         }
         if (coarse) {
             const int level = top.level + 1;

@@ -33,7 +33,7 @@ struct PathInterval {
 ///
 /// An interval turns by less than 0.05 rad and its speed limits, at the ends and in the middle, differ by less than
 /// 15 %, as far as 2^-20 and 2^-8 of a segment allow; a curved segment has at least four, or sixteen if it is longer
-/// than a quarter of the braking distance. Cost: an evaluation with two derivatives a node.
+/// than a quarter of the braking distance. Cost: an evaluation with two derivatives a node, one with one in between.
 class PathGrid {
 public:
     /// @param direction_jump  Refinement::direction_jump of the plan
@@ -59,7 +59,9 @@ private:
     [[nodiscard]] double acceleration(unsigned k, double slope, bool speeding) const noexcept;
     [[nodiscard]] double feed_cap_sq(const PerAxis<double>& q1) const noexcept;
     [[nodiscard]] double cap_sq(const PerAxis<double>& q1, const PerAxis<double>& q2) const noexcept;
+    [[nodiscard]] double sigma(double u) const noexcept;
     [[nodiscard]] PathInterval interval(const Node& from, const Node& to) const noexcept;
+    [[nodiscard]] static double length_error(const Node& from, const Node& to, double length_mm) noexcept;
     [[nodiscard]] double bend(const Node& from, const Node& to, double length_mm) const noexcept;
     [[nodiscard]] bool jumps(const PerAxis<double>& in, const PerAxis<double>& out, double slack) const noexcept;
 

@@ -23,8 +23,8 @@ constexpr double ripple = 10.4;
 constexpr double least_known[] = {0.1, 0.3, 0.5, 1.0, 0.02};
 constexpr int attempts = 6;
 constexpr double same_cap = 1e-9;
-// Rounding of q'', times the length of the cell: a unit vector of Fixed is off by 2^-32, and is taken times the change of
-// |dr/dw| in the cell, at most as much as that is.
+// Rounding of q'', times the length of the cell: a unit vector of Fixed is off by 2^-32, and is taken times the change
+// of |dr/dw| in the cell, at most as much as that is.
 template <Scalar S>
 constexpr double bend_noise = std::same_as<S, double> ? 0x1p-48 : 0x1p-30;
 
