@@ -21,9 +21,9 @@ namespace splinefeed::host {
 /// this is a lower bound for machines with and without a jerk limit.
 ///
 /// Limits are asked for at the nodes of a grid only, and beyond the window nothing is: whatever a machine can do is
-/// allowed here. The grid can make the result too large by 1e-4 of it, and too small by 1e-2 in large moves (0.0005 on
-/// the butterfly); tests/host measures both.
-/// Memory: the window. Cost: about 0.2 us a node, three axes; each is visited about three times, whatever the window.
+/// allowed here. The grid can make the result too large by 1e-4 of it, and too small by 3e-2 where axes differ by
+/// decades (0.0005 on the butterfly); tests/host measures both. Memory: the window. Cost: about 0.2 us a node, three
+/// axes; each is visited about three times, whatever the window.
 class OptimumTime {
 public:
     static constexpr std::size_t usual_window = 4096; ///< 1 MB

@@ -291,13 +291,13 @@ TEST_CASE("a finer grid changes the least time by less than it promises") {
         }
         BezierPath path = random_path(random, axes, random.integer(1, 6), random.decades(1.0, 50.0), 0.1, 0.3);
         const double coarse = optimum(path, machine);
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < 7; ++i) { // four intervals at least in each of 128 pieces of a segment
             path = halves(path);
         }
         const double fine = optimum(path, machine);
         CAPTURE(seed);
         CHECK(coarse <= fine * (1.0 + 1e-4));
-        CHECK(coarse >= fine * (1.0 - 1e-2));
+        CHECK(coarse >= fine * (1.0 - 3e-2));
     }
 }
 
