@@ -60,8 +60,7 @@ TEMPLATE_TEST_CASE("every limit holds at dense points, braking apart", "[feed_pl
         const Use use = use_of(planned.cells, machine);
         CAPTURE(seed, run, scalar_name<TestType>());
         CHECK(use.velocity <= 1.0L);
-        // Soft axes beside hard ones feel what q'' leaves its parabola by
-        CHECK(use.acceleration <= 1.0L + 2e-5L);
+        CHECK(use.acceleration <= 1.0L);
         most = std::max(most, use.acceleration);
     }
     CHECK(most > 0.98L);
@@ -77,16 +76,8 @@ TEMPLATE_TEST_CASE("no node can be faster, braking apart", "[feed_plan][braking]
         const BezierPath path = random_path(random, axes, 15, random.decades(1.0, 30.0), 0.15, 0.3);
         const auto planned = plan_of<TestType>(path, machine, 8192);
         REQUIRE(planned.limited == 0);
-        const std::vector<Real> best = largest_speeds(planned.cells, limits).b;
-        const auto cells = static_cast<Real>(planned.cells.size());
-        for (std::size_t i = 0; i < planned.cells.size(); ++i) {
-            const Real b = exact(planned.cells[i].exit_sq);
-            // Roundings add up; nearly parallel half-planes magnify them
-            const Real rounded =
-                256.0L * cells * rounding<TestType>() * (best[i + 1] + (std::same_as<TestType, Fixed> ? 1.0L : 0.0L));
-            CAPTURE(seed, run, i, static_cast<double>(b), static_cast<double>(best[i + 1]));
-            REQUIRE(std::fabs(b - best[i + 1]) <= std::max(rounded, 1e-7L * best[i + 1]));
-        }
+        CAPTURE(seed, run);
+        require_largest_exits(planned.cells, limits);
     }
 }
 

@@ -40,15 +40,6 @@ void require_feasible(const std::vector<PlannedCell<S>>& cells, const MachineSet
     CHECK(use.chord <= 1.0L + 1e-3L);
 }
 
-/// Roundings on the way from a stop to a node add up, of numbers as large as the speed there. Half-planes that are
-/// nearly parallel magnify them, cell after cell where an axis has next to no inertia.
-template <class S>
-Real tolerance(std::size_t cells, Real b) {
-    const Real rounded =
-        256.0L * static_cast<Real>(cells) * rounding<S>() * (b + (std::same_as<S, Fixed> ? 1.0L : 0.0L));
-    return std::max(rounded, 1e-7L * b);
-}
-
 } // namespace
 
 TEMPLATE_TEST_CASE("every limit holds at dense points", "[feed_plan]", double, float, Fixed) {
@@ -75,12 +66,8 @@ TEMPLATE_TEST_CASE("no node can be faster", "[feed_plan]", double, float, Fixed)
         }
         const auto planned = plan_of<TestType>(path, machine, 8192);
         REQUIRE(planned.limited == 0);
-        const std::vector<Real> best = largest_speeds(planned.cells, limits).b;
-        for (std::size_t i = 0; i < planned.cells.size(); ++i) {
-            const Real b = exact(planned.cells[i].exit_sq);
-            CAPTURE(seed, run, i, static_cast<double>(b), static_cast<double>(best[i + 1]));
-            REQUIRE(std::fabs(b - best[i + 1]) <= tolerance<TestType>(planned.cells.size(), best[i + 1]));
-        }
+        CAPTURE(seed, run);
+        require_largest_exits(planned.cells, limits);
     }
 }
 
@@ -92,16 +79,19 @@ TEMPLATE_TEST_CASE("a larger window changes nothing that was not limited", "[fee
         const MachineSettings machine = random_machine(random, 3);
         const BezierPath path = random_path(random, 3, 20, random.decades(1.0, 20.0), 0.2, 0.3);
         const auto whole = plan_of<TestType>(path, machine, 16384);
+        const auto limits = MotionLimits<TestType>::make(machine).value();
+        const std::vector<Real> reachable = reachable_speeds(whole.cells, limits);
         REQUIRE(whole.limited == 0);
         for (const std::size_t window : {16U, 24U, 64U, 200U, 1000U}) {
             const auto part = plan_of<TestType>(path, machine, window);
             require_chain(part.cells);
             REQUIRE(part.cells.size() == whole.cells.size());
             (part.limited == 0 ? unlimited : limited) += 1;
+            REQUIRE(part.seconds() >= whole.seconds() * (1.0 - 1e-3));
             for (std::size_t i = 0; i < whole.cells.size(); ++i) {
+                // Not always below the whole plan's: with less at the entry of a cell an axis may have more at its exit
                 REQUIRE(exact(part.cells[i].exit_sq) <=
-                        exact(whole.cells[i].exit_sq) +
-                            tolerance<TestType>(whole.cells.size(), exact(whole.cells[i].exit_sq)));
+                        reachable[i + 1] + tolerance<TestType>(whole.cells.size(), reachable[i + 1]));
                 if (part.limited == 0) {
                     REQUIRE(part.cells[i].exit_sq == whole.cells[i].exit_sq);
                 }

@@ -122,17 +122,8 @@ TEMPLATE_TEST_CASE("no node can be faster with rotary axes", "[feed_plan][rotary
         CAPTURE(seed, run, scalar_name<TestType>());
         CHECK(use.feed <= 1.0L);
         CHECK(use.velocity <= 1.0L);
-        CHECK(use.acceleration <= 1.0L + 2e-5L);
-        const std::vector<Real> best = largest_speeds(planned.cells, limits).b;
-        const auto cells = static_cast<Real>(planned.cells.size());
-        for (std::size_t i = 0; i < planned.cells.size(); ++i) {
-            const Real b = exact(planned.cells[i].exit_sq);
-            // A fast path leaves Fixed fewer digits
-            const Real rounded =
-                2048.0L * cells * rounding<TestType>() * (best[i + 1] + (std::same_as<TestType, Fixed> ? 1.0L : 0.0L));
-            CAPTURE(i, static_cast<double>(b), static_cast<double>(best[i + 1]));
-            REQUIRE(std::fabs(b - best[i + 1]) <= std::max(rounded, 1e-6L * best[i + 1]));
-        }
+        CHECK(use.acceleration <= 1.0L);
+        require_largest_exits(planned.cells, limits, 10.0L); // a fast path leaves Fixed fewer digits
     }
 }
 

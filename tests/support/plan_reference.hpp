@@ -4,6 +4,7 @@
 // of them, node by node.
 #pragma once
 
+#include "catch.hpp"
 #include "pipeline.hpp"
 
 namespace splinefeed_test {
@@ -115,14 +116,9 @@ Real share_of(const Cell<S>& cell, const MotionLimits<S>& limits) {
     return std::min(1.0L, largest[0] > 0x1p-17L ? largest[0] : largest[1]);
 }
 
-/// b = v^2 at the nodes 0 ... n of n cells, and the largest from which the path can still be travelled to its end.
-struct Speeds {
-    std::vector<Real> b;
-    std::vector<Real> largest;
-};
-
+/// The largest b = v^2 at the nodes 0 ... n of n cells from which the path can still be travelled to its end.
 template <Scalar S>
-Speeds largest_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimits<S>& limits) {
+std::vector<Real> reachable_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimits<S>& limits) {
     const std::size_t n = cells.size();
     const auto axes = static_cast<unsigned>(limits.axes);
     std::vector<Real> cap(n);
@@ -158,10 +154,10 @@ Speeds largest_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimi
         }
         cap[i] = std::max(std::min(cap_sq, speed * speed), 1e-6L);
     }
-    Speeds speeds{std::vector<Real>(n + 1, 0.0L), std::vector<Real>(n + 1, 0.0L)};
+    std::vector<Real> largest(n + 1, 0.0L);
     for (std::size_t i = n; i-- > 1;) {
         const Cell<S>& cell = cells[i].cell;
-        const Real beyond = speeds.largest[i + 1];
+        const Real beyond = largest[i + 1];
         Real high = cells[i - 1].cell.stop_at_end ? 0.0L : std::min(cap[i - 1], cap[i]);
         const auto planes = half_planes_of(cell, limits);
         const auto allowed = [&](Real entry) {
@@ -176,13 +172,33 @@ Speeds largest_speeds(const std::vector<PlannedCell<S>>& cells, const MotionLimi
             }
             high = low;
         }
-        speeds.largest[i] = high;
+        largest[i] = high;
     }
-    for (std::size_t i = 0; i < n; ++i) {
+    return largest;
+}
+
+/// Roundings on the way from a stop to a node add up, of numbers as large as the speed there. Half-planes that are
+/// nearly parallel magnify them, cell after cell where an axis has next to no inertia.
+template <class S>
+Real tolerance(std::size_t cells, Real b) {
+    const Real rounded =
+        256.0L * static_cast<Real>(cells) * rounding<S>() * (b + (std::same_as<S, Fixed> ? 1.0L : 0.0L));
+    return std::max(rounded, 1e-7L * b);
+}
+
+/// Every cell ends as fast as its entry allows and what follows can be travelled from. From the plan's own entry: where
+/// axes have next to no inertia, what two entries differ by grows from cell to cell.
+template <Scalar S>
+void require_largest_exits(const std::vector<PlannedCell<S>>& cells, const MotionLimits<S>& limits,
+                           Real coarser = 1.0L) {
+    const std::vector<Real> reachable = reachable_speeds(cells, limits);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Real b = exact(cells[i].exit_sq);
         const auto planes = half_planes_of(cells[i].cell, limits);
-        speeds.b[i + 1] = std::max(0.0L, exits_of(planes, speeds.b[i], speeds.largest[i + 1]).high);
+        const Real best = std::max(0.0L, exits_of(planes, exact(cells[i].entry_sq), reachable[i + 1]).high);
+        CAPTURE(scalar_name<S>(), i, static_cast<double>(b), static_cast<double>(best));
+        REQUIRE(std::fabs(b - best) <= coarser * tolerance<S>(cells.size(), best));
     }
-    return speeds;
 }
 
 /// How much of its limits a plan uses at dense points, 1 being all. Limits are those of the machine, not the planner's.
