@@ -89,8 +89,7 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
         // Nothing is known of the start while the first segment is awaited: the machine stands at 0, as the path does
         Used used;
         REQUIRE(std::string(check_stream(run.segments, machine, used)).empty());
-        // A joint's change of direction is no corner up to 2e-5 of the limit (Refinement::direction_jump)
-        const Real slack = std::same_as<S, float> ? 5e-2L : 3e-5L;
+        const Real slack = std::same_as<S, float> ? 5e-2L : 0.0L;
         CHECK(used.acceleration <= 1.0L + slack);
         CHECK(used.velocity <= 1.0L);
         CHECK(used.feed <= 1.0L);

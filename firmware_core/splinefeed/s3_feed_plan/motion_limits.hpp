@@ -116,6 +116,9 @@ inline constexpr double jump_share = 1e-5;
 template <>
 inline constexpr double jump_share<float> = 1e-2;
 
+/// And for joints whose change of direction is tolerated as none (Refinement::direction_jump).
+inline constexpr double corner_share = 2e-5;
+
 /// Rounding of a position, e, becomes the acceleration 4 e / T^2 in the second difference of control points.
 constexpr double acceleration_noise(double error_mm, double segment_s) noexcept {
     return 4.0 * error_mm / (segment_s * segment_s);
@@ -324,9 +327,10 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
             longest_piece = longest_piece > S{} ? smaller(longest_piece, piece) : piece;
         }
         limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * usable - speed_noise);
-        // Jumps of the speed that are tolerated at joints are accelerations, too.
+        // Jumps of the speed and of the direction that are tolerated at joints are accelerations, too.
         const auto planned = [&](double acceleration) {
-            return from_double<S>(acceleration * usable - noise - detail::jump_share<S> * softest);
+            return from_double<S>(acceleration * usable - noise -
+                                  (detail::jump_share<S> + detail::corner_share) * softest);
         };
         limits.acceleration_mm_s2[k] = planned(axis.max_acceleration_mm_s2);
         limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
@@ -366,9 +370,9 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         refinement.inverse_error = scale2(refinement.inverse_error, -3);
         refinement.curvature_change = scale2(refinement.curvature_change, -1); // a rest that goes with its cube
     }
-    // A jump of direction d asks for the acceleration v d / T: tolerated below 2e-5 of the limit, plus rounding.
+    // A jump of direction d asks for the acceleration v d / T: tolerated below a share of the limit, plus rounding.
     refinement.direction_jump =
-        from_double<S>(2e-5 * softest * segment_s / path) + from_double<S>(detail::direction_noise<S>);
+        from_double<S>(detail::corner_share * softest * segment_s / path) + from_double<S>(detail::direction_noise<S>);
     return limits;
 }
 
