@@ -1,13 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// Tolerance. A control point of the stream is a position rounded to 2^-fraction_bits mm, then to a multiple of 6 units:
-// it is off by at most
-//
-//   e = 2^-(fraction_bits + 1) mm + 3 units.
-//
-// Velocity, acceleration and jerk of the segment are its first, second, third differences over T, T^2, T^3, hence off
-// by at most e / T (the average of two first differences), 4 e / T^2 and 8 e / T^3. For 1000 counts per mm, e is 1.4
-// pm, and 4 e / T^2 at 1 ms is 6e-9 of 1000 mm/s^2. The further 1e-6 is for the rounding of the curve itself.
 #include "simulated_machine.hpp"
 
 #include "segment_cubic.hpp"
@@ -20,7 +11,6 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double tolerance = 1e-6;
 constexpr unsigned no_axis = static_cast<unsigned>(max_axes);
 
 bool is_linear(const std::string& name) {
@@ -55,34 +45,14 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
     double path_noise_sq = 0.0;
     double turning_noise_sq = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
-        const AxisSettings& settings = machine.settings.axis[k];
-        Axis& axis = axis_[k];
-        axis.units_per_mm = static_cast<double>(units_per_count) * settings.steps_per_mm;
-        const double e = std::ldexp(1.0, -(Position::fraction_bits + 1)) + 3.0 / axis.units_per_mm;
-        const auto with_tolerance = [](double limit, double noise) {
-            return Limit{limit, limit * (1.0 + tolerance), noise};
-        };
-        axis.velocity = with_tolerance(settings.max_velocity_mm_s, e);
-        axis.acceleration = with_tolerance(settings.max_acceleration_mm_s2, 4.0 * e);
-        axis.braking = with_tolerance(settings.braking_mm_s2(), 4.0 * e);
-        axis.brakes_differently = axis.braking.limit != axis.acceleration.limit;
-        axis.jerk = with_tolerance(settings.max_jerk_mm_s3, 8.0 * e);
-        axis.travel = machine.travel[k];
-        if (axis.travel) {
-            const double slack = tolerance * (axis.travel->high - axis.travel->low) + e;
-            axis.lowest = axis.travel->low - slack;
-            axis.highest = axis.travel->high + slack;
-            axis.end_velocity = with_tolerance(settings.travel_end_velocity_mm_s, e);
-            axis.open_low = axis.travel->low + settings.travel_end_zone_mm;
-            axis.open_high = axis.travel->high - settings.travel_end_zone_mm;
-        }
-        axis.rotary = settings.rotary;
+        AxisAllowance& axis = axis_[k];
+        axis = AxisAllowance(machine.settings.axis[k], machine.travel[k]);
+        const double e = axis.velocity.noise;
         axis.on_path = mixed_ ? !axis.rotary : !any_linear || is_linear(name_[k]);
         (axis.on_path ? path_noise_sq : turning_noise_sq) += e * e;
     }
-    feed_ = {machine.settings.max_feed_mm_s, machine.settings.max_feed_mm_s * (1.0 + tolerance),
-             std::sqrt(path_noise_sq)};
-    turning_feed_ = {feed_.limit, feed_.most, std::sqrt(turning_noise_sq)};
+    feed_ = Allowance(machine.settings.max_feed_mm_s, std::sqrt(path_noise_sq));
+    turning_feed_ = Allowance(machine.settings.max_feed_mm_s, std::sqrt(turning_noise_sq));
 }
 
 // ---- the port
@@ -238,15 +208,6 @@ bool SimulatedMachine::execute(const FeedSegment& segment) {
     return true;
 }
 
-// Where one limit holds for both, signs do not matter: acceleration is linear, its largest at an end.
-Accelerations SimulatedMachine::accelerations_of(const Axis& axis, const SegmentCubic& cubic, double from,
-                                                 double to) noexcept {
-    if (axis.brakes_differently) {
-        return cubic.accelerations(from, to);
-    }
-    return {std::max(std::fabs(cubic.acceleration(from)), std::fabs(cubic.acceleration(to))), 0.0};
-}
-
 // Coefficients, and the extremes over the whole segment in closed form.
 void SimulatedMachine::survey(Motion& motion) noexcept {
     const FeedSegment& segment = *motion.segment;
@@ -255,7 +216,7 @@ void SimulatedMachine::survey(Motion& motion) noexcept {
     motion.turning = mixed_;
     motion.power = 0.0;
     for (unsigned k = 0; k < axes_; ++k) {
-        const Axis& axis = axis_[k];
+        const AxisAllowance& axis = axis_[k];
         const bool stands =
             segment.start[k] == segment.end[k] && segment.start_velocity[k] == 0 && segment.end_velocity[k] == 0;
         motion.turning = motion.turning && (axis.rotary || stands);
@@ -266,7 +227,7 @@ void SimulatedMachine::survey(Motion& motion) noexcept {
             velocity = std::max(velocity, std::fabs(cubic.velocity(cubic.peak_u())));
         }
         const double start = cubic.acceleration(0.0);
-        const Accelerations found = accelerations_of(axis, cubic, 0.0, 1.0);
+        const Accelerations found = axis.accelerations(cubic, 0.0, 1.0);
         // Where acceleration jumps, the sampled jerk is the jump over a segment; a stream that chains in C2 has none.
         motion.jump[k] = (start - acceleration_[k]) / duration;
         const bool jerk_limited = axis.jerk.limit > 0.0;
@@ -320,7 +281,7 @@ bool SimulatedMachine::check_axes(const Motion& motion, int j) {
     const double now = motion.start_s + t * u;
     const std::uint32_t waypoint = motion.segment->waypoint;
     for (unsigned k = 0; k < axes_; ++k) {
-        const Axis& axis = axis_[k];
+        const AxisAllowance& axis = axis_[k];
         const SegmentCubic& cubic = motion.cubic[k];
         if (!motion.axis_suspicious[k]) {
             continue;
@@ -329,7 +290,7 @@ bool SimulatedMachine::check_axes(const Motion& motion, int j) {
         if (axis.jerk.limit > 0.0 && jerk > axis.jerk.most + axis.jerk.noise / (t * t * t)) {
             return fail(FaultKind::jerk, k, now, jerk, axis.jerk.limit, "mm/s3", waypoint);
         }
-        const Accelerations found = accelerations_of(axis, cubic, std::max(u - 1.0 / n, 0.0), u);
+        const Accelerations found = axis.accelerations(cubic, std::max(u - 1.0 / n, 0.0), u);
         if (found.speeding > axis.acceleration.most + axis.acceleration.noise / (t * t)) {
             return fail(FaultKind::acceleration, k, now, found.speeding, axis.acceleration.limit, "mm/s2", waypoint);
         }
@@ -395,7 +356,7 @@ bool SimulatedMachine::check_path(Motion& motion, int j) {
         }
     }
     motion.power = power;
-    const Limit& feed = motion.turning ? turning_feed_ : feed_;
+    const Allowance& feed = motion.turning ? turning_feed_ : feed_;
     max_path_speed_ = motion.turning ? max_path_speed_ : std::max(max_path_speed_, speed);
     if (options_.enforce && speed > feed.most + feed.noise / motion.duration_s) {
         return fail(FaultKind::feed, no_axis, motion.start_s + motion.duration_s * u, speed, feed.limit,
@@ -405,11 +366,11 @@ bool SimulatedMachine::check_path(Motion& motion, int j) {
 }
 
 bool SimulatedMachine::check_travel(const Motion& motion, unsigned k, std::int64_t position, double u) {
-    const Axis& axis = axis_[k];
+    const AxisAllowance& axis = axis_[k];
     const double mm = static_cast<double>(position) / axis.units_per_mm;
     const double now = motion.start_s + motion.duration_s * u;
     if (mm >= axis.lowest && mm <= axis.highest) {
-        const Limit& end = axis.end_velocity;
+        const Allowance& end = axis.end_velocity;
         const double velocity = std::fabs(motion.cubic[k].velocity(u));
         if (end.limit > 0.0 && (mm < axis.open_low || mm > axis.open_high) &&
             velocity > end.most + end.noise / motion.duration_s) {

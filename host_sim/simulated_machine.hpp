@@ -5,6 +5,7 @@
 // and path speed are checked against the machine file. The first violation stops it for good.
 #pragma once
 
+#include "axis_allowance.hpp"
 #include "machine_description.hpp"
 #include "machine_fault.hpp"
 #include "segment_cubic.hpp"
@@ -45,8 +46,8 @@ struct SimulationOptions {
 /// Per segment: velocity, acceleration and jerk of an axis are checked over all of it, not only at ticks (acceleration
 /// is linear, velocity a parabola with a known peak). Acceleration against the velocity of that instant is braking. Per
 /// tick, `ticks_per_segment` times: position, counts, travel and path speed (with its peak between ticks). Tolerance:
-/// 1e-6 of the limit (of the travel) plus what rounding the control points of a segment explains; derivation in the
-/// .cpp. Memory: the queue. Cost of a segment: about 0.5 us for three axes and 8 ticks; no allocation but for a fault.
+/// what AxisAllowance adds. Memory: the queue. Cost of a segment: about 0.5 us for three axes and 8 ticks; no
+/// allocation but for a fault.
 class SimulatedMachine final : public hal::MotionPort {
 public:
     using Options = SimulationOptions;
@@ -73,29 +74,8 @@ public:
     [[nodiscard]] PerAxis<double> position_mm() const noexcept;
 
 private:
-    /// A limit with its tolerance: violated above `most` + `noise` (which is per T, T^2 or T^3).
-    struct Limit {
-        double limit = 0.0;
-        double most = 0.0;
-        double noise = 0.0;
-    };
-    struct Axis {
-        double units_per_mm = 1.0;
-        Limit velocity, acceleration, braking, jerk;
-        bool brakes_differently = false;
-        std::optional<Travel> travel;
-        double lowest = 0.0; ///< travel with its tolerance [mm]
-        double highest = 0.0;
-        Limit end_velocity; ///< beyond open_low and open_high; 0: none
-        double open_low = 0.0;
-        double open_high = 0.0;
-        bool rotary = false;
-        bool on_path = false; ///< the feed counts it
-    };
     struct Motion;
 
-    [[nodiscard]] static Accelerations accelerations_of(const Axis& axis, const SegmentCubic& cubic, double from,
-                                                        double to) noexcept;
     [[nodiscard]] int do_room() const noexcept override;
     [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
     hal::PortState do_poll() noexcept override;
@@ -117,11 +97,11 @@ private:
               std::uint32_t waypoint);
     void trace_row();
 
-    PerAxis<Axis> axis_{};
+    PerAxis<AxisAllowance> axis_{};
     PerAxis<std::string> name_{};
-    Limit feed_{};
-    Limit turning_feed_{}; ///< where rotary axes alone move
-    bool mixed_ = false;   ///< rotary axes beside linear ones
+    Allowance feed_{};
+    Allowance turning_feed_{}; ///< where rotary axes alone move
+    bool mixed_ = false;       ///< rotary axes beside linear ones
     Options options_;
     unsigned axes_;
     int segments_per_sample_;
