@@ -23,7 +23,7 @@ public:
             return;
         }
         cells_.resize(std::max(window_cells / cells_a_jerk_cell, JerkPlan<S>::smallest_window));
-        nodes_.resize(cells_.size() + 1);
+        nodes_.resize(JerkStorage<S>::nodes_for(cells_.size()));
         jerk_limited_ = std::make_unique<JerkTrajectory<S>>(curve, limits, window_, JerkStorage<S>{cells_, nodes_});
     }
 

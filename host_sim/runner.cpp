@@ -79,10 +79,6 @@ int move_machine(const Job& job) {
     if (!limits.has_value()) {
         throw InputError(machine.file, 0, describe(limits.error()));
     }
-    if (limits->jerk_limited && !job.events.empty()) {
-        throw InputError(machine.file, 0,
-                         "a machine with a jerk limit cannot be steered yet; no --events, or no max_jerk_mm_s3");
-    }
     const auto axes = static_cast<std::size_t>(machine.settings.axes);
     PathInput input(job, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
     warn(input, job);

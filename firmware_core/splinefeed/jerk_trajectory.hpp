@@ -8,7 +8,7 @@
 
 namespace splinefeed {
 
-/// A Trajectory for limits that are jerk_limited. It calculates in double whatever the scalar is. Not steered yet.
+/// A Trajectory for limits that are jerk_limited. It calculates in double whatever the scalar is.
 template <Scalar S>
 class JerkTrajectory final : public Trajectory<S> {
 public:
@@ -17,11 +17,6 @@ public:
         : Trajectory<S>(curve, limits, window), jerk_plan_(Trajectory<S>::speeds(), limits, storage) {
         this->refine(jerk_plan_);
     }
-
-    void override_feed(S ratio) = delete;
-    void hold() = delete;
-    void resume() = delete;
-    void abort() = delete;
 
     [[nodiscard]] const JerkPlan<S>& jerk_plan() const noexcept { return jerk_plan_; }
 

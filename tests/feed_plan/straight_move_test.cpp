@@ -102,3 +102,89 @@ TEST_CASE("two thirds of a power", "[feed_plan]") {
         REQUIRE(std::fabs(power_two_thirds(x) / std::cbrt(x * x) - 1.0) <= 1e-14);
     }
 }
+
+namespace {
+
+/// A state in the middle of a move from rest.
+MoveState random_state(Random& random, const Sample& s) {
+    const StraightMove move(s.length, s.limits);
+    MoveState state{};
+    double left = random.between(0.0, 1.0) * move.duration_s();
+    for (std::size_t i = 0; i < StraightMove::phases && left > 0.0; ++i) {
+        const double t = std::min(left, move.phase(i).duration_s);
+        state = state.after(t, move.phase(i).jerk_mm_s3);
+        left -= t;
+    }
+    return state;
+}
+
+void require_within(const StraightMove& move, const MoveLimits& limits, double speed_mm_s) {
+    MoveState state = move.start();
+    const double slack = 1e-7;
+    for (std::size_t i = 0; i < StraightMove::phases; ++i) {
+        const JerkPhase& phase = move.phase(i);
+        REQUIRE(phase.duration_s >= 0.0);
+        REQUIRE(std::fabs(phase.jerk_mm_s3) <= limits.jerk_mm_s3);
+        for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+            const MoveState there = state.after(share * phase.duration_s, phase.jerk_mm_s3);
+            REQUIRE(std::fabs(there.acceleration_mm_s2) <= limits.acceleration_mm_s2 * (1.0 + slack));
+            REQUIRE(there.speed_mm_s <= speed_mm_s * (1.0 + slack));
+            REQUIRE(there.speed_mm_s >= -slack * speed_mm_s);
+        }
+        state = state.after(phase.duration_s, phase.jerk_mm_s3);
+    }
+    REQUIRE(std::fabs(state.speed_mm_s) <= slack * speed_mm_s);
+    REQUIRE(std::fabs(state.acceleration_mm_s2) <= slack * limits.acceleration_mm_s2);
+}
+
+} // namespace
+
+TEST_CASE("in motion: the nearest rest, and a rest further on", "[feed_plan]") {
+    Random random(seed + 7);
+    for (int run = 0; run < 2000; ++run) {
+        Sample s = random_sample(random);
+        const MoveState start = random_state(random, s);
+        CAPTURE(seed, run, start.speed_mm_s, start.acceleration_mm_s2, s.limits.acceleration_mm_s2,
+                s.limits.jerk_mm_s3);
+        const StraightMove stop = StraightMove::to_rest(start, s.limits);
+        // The speed rises until the acceleration is taken back
+        const double a = std::max(start.acceleration_mm_s2, 0.0);
+        const double top = start.speed_mm_s + 0.5 * a * a / s.limits.jerk_mm_s3;
+        require_within(stop, s.limits, top);
+        // It cannot be nearer than the move that it is part of, nor farther
+        CHECK(stop.length_mm() <= (s.length - start.position_mm) * (1.0 + 1e-6) + 1e-9 * s.length);
+        // From rest the time to rest is that of a ramp
+        const double length = stop.length_mm() + random.decades(1e-4, 10.0) * s.length;
+        if (random.chance(0.5)) { // less is wanted
+            s.limits.speed_mm_s *= random.between(0.1, 1.0);
+        }
+        const StraightMove on = StraightMove::to_length(start, length, s.limits);
+        require_within(on, s.limits, std::max(top, s.limits.speed_mm_s));
+        REQUIRE(on.length_mm() == Approx(length).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("in motion: a move that is interrupted for nothing goes on as it was", "[feed_plan]") {
+    Random random(seed + 8);
+    for (int run = 0; run < 500; ++run) {
+        const Sample s = random_sample(random);
+        const StraightMove move(s.length, s.limits);
+        const MoveState start = random_state(random, s);
+        double passed = 0.0;
+        MoveState state{};
+        for (std::size_t i = 0; i < StraightMove::phases && state.position_mm < start.position_mm; ++i) {
+            const MoveState end = state.after(move.phase(i).duration_s, move.phase(i).jerk_mm_s3);
+            if (end.position_mm > start.position_mm) {
+                break;
+            }
+            state = end;
+            passed += move.phase(i).duration_s;
+        }
+        CAPTURE(seed, run, s.length);
+        if (s.length - start.position_mm < 1e-3 * s.length) {
+            continue; // the rounding of what is left would be crept along
+        }
+        const StraightMove rest = StraightMove::to_length(start, s.length - start.position_mm, s.limits);
+        CHECK(passed + rest.duration_s() <= move.duration_s() * (1.0 + 1e-3));
+    }
+}

@@ -86,7 +86,7 @@ template <Scalar S>
 class AnyTrajectory {
 public:
     AnyTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::size_t window_size)
-        : window_(window_size), cells_(window_size), nodes_(window_size + 1) {
+        : window_(window_size), cells_(window_size), nodes_(JerkStorage<S>::nodes_for(window_size)) {
         if (limits.jerk_limited) {
             jerk_limited_ = std::make_unique<JerkTrajectory<S>>(curve, limits, window_, JerkStorage<S>{cells_, nodes_});
         } else {

@@ -74,10 +74,9 @@ SteeredRun run_steered(const BezierPath& path, const MachineSettings& machine, s
                        const std::vector<Event>& events) {
     const auto limits = MotionLimits<S>::make(machine).value();
     ListSource<S> source(segments_of<S>(path, {}), 0, 0);
-    std::vector<PlannedCell<S>> window(window_size);
-    Trajectory<S> trajectory(source, limits, window);
+    AnyTrajectory<S> any(source, limits, window_size);
     SteeredRun run;
-    run_steered<S>(trajectory, events, run);
+    run_steered<S>(any.trajectory(), events, run);
     return run;
 }
 

@@ -89,17 +89,15 @@ S FeedPlan<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
     return limits_.mixed ? smaller(quotient_or_max(feed, feed_share(cell, limits_)), limits_.path_mm_s) : feed;
 }
 
-// And of the wish in it.
 template <Scalar S>
-S FeedPlan<S>::wanted_sq(const PlannedCell<S>& planned) const noexcept {
-    const S programmed = planned.cell.feed_mm_s;
-    const S ratio = steering_.ratio();
+S FeedPlan<S>::wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept {
+    const S programmed = cell.feed_mm_s;
     const S feed = programmed > S{} ? limits_.usable_feed(programmed * ratio) : limits_.feed_mm_s * ratio;
     if (!(feed < limits_.feed_mm_s)) {
-        return planned.cap_sq;
+        return cap_sq;
     }
-    const S speed = path_speed(planned.cell, feed);
-    return larger(smaller(planned.cap_sq, speed * speed), literal<S>(slowest_sq));
+    const S speed = path_speed(cell, feed);
+    return larger(smaller(cap_sq, speed * speed), literal<S>(slowest_sq));
 }
 
 // Backward over the window: entry_sq becomes the largest entry from which the machine's K behind the cell can be
@@ -292,16 +290,17 @@ Pull FeedPlan<S>::prepare(Starvation starvation) noexcept {
 }
 
 template <Scalar S>
-void FeedPlan<S>::steer(S fraction, S speed_sq) noexcept {
+bool FeedPlan<S>::steer(const Place<S>& place) noexcept {
     const bool whole_path = passage_.stretch.to == from_integer<S>(1);
     const S known = whole_path ? passage_.exit_sq : from_integer<S>(-1);
-    at_ = fraction;
-    speed_sq_ = speed_sq;
+    at_ = place.fraction;
+    speed_sq_ = place.speed_sq;
     hopping_ = chosen_ = false;
     replan();
     if (speed_sq_ > S{} || !steering_.stops()) {
         choose(known);
     }
+    return true;
 }
 
 template <Scalar S>
@@ -336,10 +335,15 @@ void FeedPlan<S>::pop() noexcept {
 template <Scalar S>
 void FeedPlan<S>::clear() noexcept {
     SPLINEFEED_ASSERT(standing());
-    size_ = committed_ = 0;
-    at_ = S{};
-    steered_ = planned_ = false;
+    forget();
     steering_.start();
+}
+
+template <Scalar S>
+void FeedPlan<S>::forget() noexcept {
+    size_ = committed_ = 0;
+    at_ = speed_sq_ = S{};
+    steered_ = planned_ = chosen_ = hopping_ = false;
 }
 
 template class FeedPlan<double>;

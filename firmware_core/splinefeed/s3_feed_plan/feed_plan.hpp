@@ -47,16 +47,20 @@ public:
     Pull prepare(Starvation starvation = Starvation::waits) noexcept override;
     [[nodiscard]] const PlannedCell<S>& front() const noexcept { return at(0); }
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return at(0).cell; }
-    /// Largest v^2 in the front cell, whatever comes before and after it.
-    [[nodiscard]] S cap_sq() const noexcept { return wanted_sq(at(0)); }
+    /// Largest v^2 in the front cell, whatever is programmed and comes before and after it.
+    [[nodiscard]] S cap_sq() const noexcept { return at(0).cap_sq; }
+    /// Largest v^2 that is wanted in a cell with this cap, for a factor of the programmed feed.
+    [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept;
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
     /// The cell is done.
     void pop() noexcept;
 
-    void steer(S fraction, S speed_sq) noexcept override;
+    bool steer(const Place<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override;
+    /// Forgets every cell, wherever the plan is: another plan travelled them.
+    void forget() noexcept;
 
     /// How often the window was too short to tell the plan from that of an unlimited one (0: the plan is the same).
     [[nodiscard]] std::uint32_t window_limited() const noexcept { return window_limited_; }
@@ -69,7 +73,9 @@ private:
 
     void bound(PlannedCell<S>& planned) const noexcept;
     [[nodiscard]] S path_speed(const Cell<S>& cell, S feed) const noexcept;
-    [[nodiscard]] S wanted_sq(const PlannedCell<S>& planned) const noexcept;
+    [[nodiscard]] S wanted_sq(const PlannedCell<S>& planned) const noexcept {
+        return wanted_sq(planned.cell, planned.cap_sq, steering_.ratio());
+    }
     Pull fill() noexcept;
     std::size_t look_back() noexcept;
     void commit(bool ended) noexcept;

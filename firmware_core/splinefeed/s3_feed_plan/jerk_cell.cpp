@@ -8,7 +8,8 @@
 //
 // A cell at rest at one end cannot be a parabola: with constant jerk j along the path, s = j t^3 / 6, b is proportional
 // to s^(4/3). At the moving end v = j t^2 / 2, t = 3 L / v, j = 2 v^3 / (9 L^2), a = 2 v^2 / (3 L), b' = 4 b / (3 L).
-// An axis's jerk is then j (q' + 9 q'' s + 9/2 q''' s^2), a cubic of s: its Bezier points bound it.
+// An axis's jerk is then j (q' + 9 q'' s + 9/2 q''' s^2), a cubic of s: its Bezier points bound it. Its acceleration is
+// j t (q' + 3/2 q'' s), at most that of the moving end times the largest of another cubic.
 #include "splinefeed/s3_feed_plan/jerk_cell.hpp"
 
 #include "splinefeed/number/scalar.hpp"
@@ -61,6 +62,14 @@ double JerkCell::largest_from_rest(unsigned moving) const noexcept {
         const double point[] = {first[0], first[1] + 3.0 * l * rest.second,
                                 first[2] + 6.0 * l * middle + 1.5 * l * l * third[0],
                                 first[3] + 9.0 * l * at.second + 4.5 * l * l * third[1]};
+        const double share[] = {first[0], first[1] + 0.5 * l * rest.second, first[2] + l * middle,
+                                first[3] + 1.5 * l * at.second};
+        double steepest = 0.0;
+        for (const double acceleration : share) {
+            steepest = larger(steepest, absolute(acceleration));
+        }
+        steepest += 1.5 * l * larger(rest.second_spread, at.second_spread);
+        largest_b = smaller(largest_b, quotient_or_max(1.5 * l * least_acceleration(*this, k), steepest));
         double per_power = 0.0;
         for (const double jerk : point) {
             per_power = larger(per_power, absolute(jerk) * 2.0 / (9.0 * l * l) + at.third_spread);

@@ -26,6 +26,7 @@ constexpr int optimal_passes = 2;       // a third gains less than 1 % and leave
 constexpr double least_gain = 0.002;    // of the time, for which another pass is made
 constexpr double least_expected = 0.05; // of at_most_sq: from less than that b would grow only threefold a pass
 constexpr double slowest = 1e-4;        // of at_most_sq: away from rest the motion is no slower
+constexpr double least_last = 1e-2;     // of the largest b next to rest: slower, the last cell would take for ever
 constexpr double rounding = 1e-7;       // of u, by which a range may be empty
 
 SpeedState turned(const SpeedState& state) noexcept {
@@ -94,8 +95,9 @@ bool JerkLeg::sweep(bool backward) noexcept {
         const double largest_b = smaller(after.cell->largest_from_rest(backward ? 1 : 0), node(n - 1).at_most_sq);
         const StatePolygon alone = states;
         states.clear();
-        states.append({0.0, 0.0});
-        states.append({largest_b, -4.0 * largest_b / (3.0 * after.cell->length_mm)});
+        const double per_b = -4.0 / (3.0 * after.cell->length_mm);
+        states.append({least_last * largest_b, least_last * largest_b * per_b});
+        states.append({largest_b, largest_b * per_b});
         if (!alone.empty()) {
             std::array<StateBound, StatePolygon::capacity + 4> sides;
             const std::size_t count = alone.bounds(sides);
@@ -176,17 +178,18 @@ bool JerkLeg::sweep(bool backward) noexcept {
     return true;
 }
 
-// Of the mean, by Simpson's rule: to compare motions with.
-double JerkLeg::time(double share) const noexcept {
+// By Simpson's rule: to compare motions with.
+template <class StateAt>
+double JerkLeg::time(StateAt&& state_at) const noexcept {
     double sum = 0.0;
     const std::size_t n = cells();
-    SpeedState from = mean(nodes_[0].early, nodes_[0].late, share);
+    SpeedState from = state_at(nodes_[0]);
     const auto per_speed = [](double b) {
         return 1.0 / square_root(larger(b, ExpectedSpeeds::smallest));
     };
     double at_from = per_speed(from.b);
     for (std::size_t i = 0; i < n; ++i) {
-        const SpeedState to = mean(nodes_[i + 1].early, nodes_[i + 1].late, share);
+        const SpeedState to = state_at(nodes_[i + 1]);
         const double at_to = per_speed(to.b);
         const double l = nodes_[i].cell.length_mm;
         if ((i == 0 && start_ == nullptr) || i + 1 == n) {
@@ -201,17 +204,29 @@ double JerkLeg::time(double share) const noexcept {
     return sum;
 }
 
+double JerkLeg::mean_time(double share) const noexcept {
+    return time([share](const JerkNode& node) { return mean(node.early, node.late, share); });
+}
+
+double JerkLeg::seconds() const noexcept {
+    return time([](const JerkNode& node) { return node.state; });
+}
+
 bool JerkLeg::plan(JerkTier tier) noexcept {
     const int passes = tier == JerkTier::optimal ? optimal_passes : 1;
     auto best_time = largest<double>();
     for (int pass = 0; pass < passes; ++pass) {
-        if (!sweep(false) || !sweep(true)) {
+        if (!sweep(false)) {
             break;
         }
+        const bool both = sweep(true); // sets are made smaller to have few corners: one way may have none left
+        for (JerkNode& node : nodes_) {
+            node.late = both ? node.late : node.early;
+        }
         double share = 0.5;
-        double shortest = time(share);
+        double shortest = mean_time(share);
         for (const double other : {0.0, 1.0}) {
-            if (const double t = time(other); t < shortest) {
+            if (const double t = mean_time(other); t < shortest) {
                 shortest = t;
                 share = other;
             }

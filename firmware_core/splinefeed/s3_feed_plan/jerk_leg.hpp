@@ -19,6 +19,8 @@ enum class Travel : std::uint8_t {
 /// A node of the window and the cell behind it. The caller's storage.
 struct JerkNode {
     JerkCell cell{};          ///< from this node to the next
+    double most_sq = 0.0;     ///< of the cell: its cap_sq at most, whatever feed is programmed
+    double wanted_sq = 0.0;   ///< of the cell: its cap_sq as it is steered
     double at_most_sq = 0.0;  ///< bound of b, for instance that of the acceleration-limited plan
     double expected_sq = 0.0; ///< what b is expected to be; the plan writes what it came to
     SpeedState state{};       ///< the plan
@@ -29,6 +31,17 @@ struct JerkNode {
     std::size_t corners = 0;
     SpeedState early{}; ///< of the motion that is fast early, in the sense in which it is planned
     SpeedState late{};  ///< of the one that is fast late
+
+    /// All but what belongs to the planning itself.
+    void take(const JerkNode& from) noexcept {
+        cell = from.cell;
+        most_sq = from.most_sq;
+        wanted_sq = from.wanted_sq;
+        at_most_sq = from.at_most_sq;
+        expected_sq = from.expected_sq;
+        state = from.state;
+        travel = from.travel;
+    }
 };
 
 class JerkLeg {
@@ -46,11 +59,15 @@ public:
     /// against it. `bounded`: that once. `optimal`: once more, from what the first came to, and the faster of both.
     /// false: there is no motion from the start with what is expected; nothing was changed but expected_sq.
     bool plan(JerkTier tier) noexcept;
+    /// About what the motion in JerkNode::state takes; that of the first node is the start's.
+    [[nodiscard]] double seconds() const noexcept;
 
 private:
     [[nodiscard]] std::size_t cells() const noexcept { return nodes_.size() - 1; }
     bool sweep(bool backward) noexcept;
-    [[nodiscard]] double time(double share) const noexcept;
+    template <class StateAt>
+    [[nodiscard]] double time(StateAt&& state_at) const noexcept;
+    [[nodiscard]] double mean_time(double share) const noexcept;
 
     std::span<JerkNode> nodes_;
     const SpeedState* start_;

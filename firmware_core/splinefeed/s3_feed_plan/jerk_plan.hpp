@@ -10,33 +10,27 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
-#include "splinefeed/s3_feed_plan/jerk_leg.hpp"
-#include "splinefeed/s3_feed_plan/line_travel.hpp"
+#include "splinefeed/s3_feed_plan/jerk_change.hpp"
+#include "splinefeed/s3_feed_plan/passage_state.hpp"
+#include "splinefeed/s3_feed_plan/straight_leg.hpp"
 
 namespace splinefeed {
 
-/// Memory of a JerkPlan, the caller's: its window of cells, and one node more.
-template <Scalar S>
-struct JerkStorage {
-    std::span<Cell<S>> cells;
-    std::span<JerkNode> nodes;
-};
-
-/// Stage 3b. What is planned in the window always ends at rest. Cost: a cell is planned about twice (JerkLeg::plan).
-/// It is not steered yet: hold, abort and override wait for the end of the program.
+/// Stage 3b. What is planned in the window always ends at rest. Cost: a cell is planned about twice (JerkLeg::plan); a
+/// change of the steering while the machine moves plans what lies ahead about twelve times (JerkChange).
 template <Scalar S>
 class JerkPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 16;
 
-    /// @pre cells.size() >= smallest_window, nodes.size() > cells.size()
+    /// @pre storage.cells.size() >= smallest_window
     JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
     Pull prepare(Starvation starvation = Starvation::waits) noexcept override;
-    [[nodiscard]] const Cell<S>& cell() const noexcept override { return cell_at(0); }
+    [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.cell(0); }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
-    void steer(S fraction, S speed_sq) noexcept override;
+    bool steer(const Place<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override;
     void clear() noexcept override;
 
@@ -45,33 +39,31 @@ public:
 
 private:
     using MotionPlan<S>::passage_;
-
-    [[nodiscard]] Cell<S>& cell_at(std::size_t i) noexcept {
-        return storage_.cells[(head_ + i) % storage_.cells.size()];
-    }
-    [[nodiscard]] const Cell<S>& cell_at(std::size_t i) const noexcept {
-        return storage_.cells[(head_ + i) % storage_.cells.size()];
-    }
+    using MotionPlan<S>::steering_;
 
     Pull fill(Starvation starvation) noexcept;
     Pull take(Starvation starvation) noexcept;
-    [[nodiscard]] bool bend_jumps(const JerkNode& before, const JerkNode& after) const noexcept;
+    [[nodiscard]] double wanted_sq(const Cell<S>& cell, double most_sq) const noexcept;
+    void want() noexcept;
+    bool answer(double from, const SpeedState& state) noexcept;
+    bool change_line(double from, const SpeedState& state) noexcept;
+    bool change_curve(double from, const SpeedState& state) noexcept;
+    void follow_steering() noexcept;
     void plan(bool ended) noexcept;
     bool plan_leg(std::size_t first, std::size_t end) noexcept;
     void mark_hops(std::size_t first, std::size_t end) noexcept;
-    void forget_travelled() noexcept;
+    void expect_again() noexcept;
     void choose() noexcept;
     void choose_on_line() noexcept;
 
     FeedPlan<S>* source_;
     const MotionLimits<S>* limits_;
-    JerkStorage<S> storage_;
+    JerkWindow<S> window_;
     LineTravel line_{};         // while a straight leg is travelled
-    std::size_t head_ = 0;      // of the ring of cells
-    std::size_t size_ = 0;      // cells in it
-    std::size_t travelled_ = 0; // nodes before the head's
-    std::size_t committed_ = 0; // cells from the head on
-    std::size_t planned_ = 0;   // cells from the head on that have a plan, at rest at its end
+    SpeedState reached_{};      // on it
+    std::size_t committed_ = 0; // cells from the front on
+    std::size_t planned_ = 0;   // cells from the front on that have a plan, at rest at its end
+    std::size_t halt_ = 0;      // cells from the front on to the stop that a hold made; 0: none
     std::uint32_t slow_legs_ = 0;
     double on_line_mm_ = 0.0; // of the cell, already travelled
     bool chosen_ = false;

@@ -19,7 +19,8 @@ struct LinePiece {
 class LineTravel {
 public:
     LineTravel() noexcept = default;
-    explicit LineTravel(const StraightMove& move) noexcept : move_(move), phase_(0) {}
+    explicit LineTravel(const StraightMove& move) noexcept
+        : move_(move), state_{0.0, move.start().speed_mm_s, move.start().acceleration_mm_s2}, phase_(0) {}
 
     [[nodiscard]] bool done() const noexcept { return phase_ >= StraightMove::phases; }
     /// The next piece, at most as long as told. @pre not done. Cost: a division, and where it does not end with a phase

@@ -30,6 +30,14 @@ struct Passage {
     S quadratic{};
 };
 
+/// Where the machine is on its passage.
+template <Scalar S>
+struct Place {
+    S fraction{};   ///< of the cell's length
+    S speed_sq{};   ///< v^2, or what a hold may take it for (SegmentStream)
+    S time_share{}; ///< fraction of the passage's time
+};
+
 /// What the plan does where the input is starved.
 enum class Starvation : std::uint8_t {
     waits,  ///< it asks for more: what is planned does not depend on when the input comes
@@ -56,8 +64,8 @@ public:
     [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
     [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
     /// Takes a change of the steering into account at once, from where the machine is on its passage. Without the call
-    /// it is taken into account with the next passage.
-    virtual void steer(S fraction, S speed_sq) noexcept = 0;
+    /// it is taken into account with the next passage. false: the passage stays as it is.
+    virtual bool steer(const Place<S>& place) noexcept = 0;
     /// The machine stands where its last passage ended.
     [[nodiscard]] virtual bool standing() const noexcept = 0;
     /// Forgets every cell: for a new program. @pre standing()

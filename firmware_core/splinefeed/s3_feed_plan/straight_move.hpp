@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StraightMove: from rest to rest along a straight line in the least time, with limited speed, acceleration and jerk.
+// StraightMove: to rest along a straight line in the least time, with limited speed, acceleration and jerk.
 #pragma once
 
 #include <array>
@@ -29,18 +29,32 @@ struct MoveState {
 };
 
 /// Seven phases, some of them empty: the acceleration rises to its limit, stays there and falls, the speed stays, and
-/// all that backward. Cost: up to two roots and a handful of divisions.
+/// all that backward.
 class StraightMove {
 public:
     StraightMove() noexcept = default;
-    /// @pre all positive
+    /// From rest. Cost: up to two roots and a handful of divisions. @pre all positive
     StraightMove(double length_mm, const MoveLimits& limits) noexcept;
+    /// To the nearest rest. @pre start.speed_mm_s >= 0; its acceleration can be taken back before the speed is 0
+    [[nodiscard]] static StraightMove to_rest(const MoveState& start, const MoveLimits& limits) noexcept;
+    /// To rest at a distance; length_mm() is that of the nearest rest where it is too short. A speed above the limit is
+    /// taken back first. Cost: about fifty times that of to_rest(), unless the speed limit is reached.
+    [[nodiscard]] static StraightMove to_length(const MoveState& start, double length_mm,
+                                                const MoveLimits& limits) noexcept;
+
+    [[nodiscard]] const MoveState& start() const noexcept { return start_; }
+    /// What the phases add up to.
+    [[nodiscard]] double length_mm() const noexcept;
 
     static constexpr std::size_t phases = 7;
     [[nodiscard]] const JerkPhase& phase(std::size_t i) const noexcept { return phase_[i]; }
     [[nodiscard]] double duration_s() const noexcept;
 
 private:
+    void ramp(std::size_t first, const MoveState& from, double to_mm_s, const MoveLimits& limits) noexcept;
+    void pass(const MoveState& start, double peak_mm_s, const MoveLimits& limits) noexcept;
+
+    MoveState start_{};
     std::array<JerkPhase, phases> phase_{};
 };
 

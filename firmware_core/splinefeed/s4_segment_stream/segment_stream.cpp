@@ -122,12 +122,16 @@ template <Scalar S>
 void SegmentStream<S>::follow_steering() noexcept {
     const S v0 = square_root(plan_->passage().entry_sq);
     const S v1 = square_root(plan_->passage().exit_sq);
+    const S share = elapsed_ / motion_.duration();
     const S x = fraction();
-    S speed = v0 + (v1 - v0) * (elapsed_ / motion_.duration());
-    if (plan_->steering().stops()) {
+    S speed = v0 + (v1 - v0) * share;
+    // Without a jump of the acceleration there is nothing that takes a segment to begin.
+    if (plan_->steering().stops() && plan_->passage().shape == SpeedShape::line) {
         speed = braked(x, speed);
     }
-    plan_->steer(x, speed * speed);
+    if (!plan_->steer({.fraction = x, .speed_sq = speed * speed, .time_share = share})) {
+        return;
+    }
     elapsed_ = S{};
     in_passage_ = false;
     if (plan_->standing()) {
@@ -143,7 +147,8 @@ bool SegmentStream<S>::arrive() noexcept {
         return false;
     }
     const Cell<S>& cell = plan_->cell();
-    const bool bound_to_place = !plan_->steering().stops();
+    // With a limited jerk the last of the way to rest is no longer than rounding.
+    const bool bound_to_place = !plan_->steering().stops() || passage.shape != SpeedShape::line;
     const S early = bound_to_place ? literal<S>(arrival) : literal<S>(0.5);
     if (elapsed_ + early < motion_.duration()) {
         return false;

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s3_feed_plan/straight_leg.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double same_cap = 1e-9;
+constexpr double end = 1e-6; // of a cell, in which a move ends with the cell
+
+/// The fastest that the acceleration-limited plan is in the cell behind a node.
+double fastest_sq(const JerkNode& node, const JerkNode& next) noexcept {
+    return larger(node.at_most_sq, next.at_most_sq);
+}
+
+/// What keeps the limits of all cells of a straight leg.
+MoveLimits limits_of(std::span<const JerkNode> nodes) noexcept {
+    MoveLimits least{square_root(nodes.front().cell.cap_sq), largest<double>(), largest<double>()};
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const MoveLimits limits = nodes[i].cell.move_limits(fastest_sq(nodes[i], nodes[i + 1]));
+        least.acceleration_mm_s2 = smaller(least.acceleration_mm_s2, limits.acceleration_mm_s2);
+        least.jerk_mm_s3 = smaller(least.jerk_mm_s3, limits.jerk_mm_s3);
+    }
+    return least;
+}
+
+MoveState state_of(const SpeedState& state) noexcept {
+    return {0.0, square_root(state.b), 0.5 * state.slope};
+}
+
+} // namespace
+
+template <Scalar S>
+bool StraightLeg<S>::is_straight(std::span<const JerkNode> nodes) noexcept {
+    const double cap = nodes.front().cell.cap_sq;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const JerkCell& cell = nodes[i].cell;
+        if (!cell.straight(fastest_sq(nodes[i], nodes[i + 1])) || absolute(cell.cap_sq - cap) > same_cap * cap) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <Scalar S>
+StraightLeg<S>::StraightLeg(JerkWindow<S>& window) noexcept : window_(&window) {
+    const JerkNode& front = window.node(0);
+    if (front.travel == Travel::hop) {
+        limits_ = front.cell.move_limits(front.cell.cap_sq);
+        return;
+    }
+    while (!window.cell(cells_ - 1).stop_at_end) {
+        ++cells_;
+    }
+    limits_ = limits_of(window.nodes(0, cells_));
+}
+
+template <Scalar S>
+double StraightLeg<S>::length_mm() const noexcept {
+    double length = 0.0;
+    for (std::size_t i = 0; i < cells_; ++i) {
+        length += window_->node(i).cell.length_mm;
+    }
+    return length;
+}
+
+template <Scalar S>
+StraightMove StraightLeg<S>::from_rest() const noexcept {
+    return StraightMove(length_mm(), limits_);
+}
+
+template <Scalar S>
+bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
+    move_ = StraightMove::to_rest(state_of(state), limits_);
+    double left = from * window_->node(0).cell.length_mm + move_.length_mm();
+    std::size_t i = 0;
+    while (i < cells_ && left >= window_->node(i).cell.length_mm * (1.0 - end)) {
+        left -= window_->node(i).cell.length_mm;
+        ++i;
+    }
+    if (i == cells_ || window_->room() == 0) {
+        return false;
+    }
+    window_->split(i, larger(left, 0.0) / window_->node(i).cell.length_mm);
+    cells_ = i + 1;
+    return true;
+}
+
+template <Scalar S>
+bool StraightLeg<S>::to_end(double from, const SpeedState& state) noexcept {
+    const double left = length_mm() - from * window_->node(0).cell.length_mm;
+    double wanted_sq = largest<double>();
+    for (std::size_t i = 0; i < cells_; ++i) {
+        wanted_sq = smaller(wanted_sq, window_->node(i).wanted_sq);
+    }
+    limits_.speed_mm_s = square_root(wanted_sq);
+    move_ = StraightMove::to_length(state_of(state), left, limits_);
+    if (!(move_.length_mm() <= left * (1.0 + end))) {
+        return false;
+    }
+    for (std::size_t i = 0; i < cells_; ++i) {
+        window_->node(i).cell.cap_sq = window_->node(i).wanted_sq;
+    }
+    return true;
+}
+
+template class StraightLeg<double>;
+template class StraightLeg<float>;
+template class StraightLeg<Fixed>;
+
+} // namespace splinefeed

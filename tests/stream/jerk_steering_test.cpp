@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+//
+// Steering with limited jerk, judged on what was emitted: every limit, the end, the time that a hold takes.
+#include "support/catch.hpp"
+#include "support/rounds.hpp"
+#include "support/steered_run.hpp"
+
+#include "splinefeed/s3_feed_plan/straight_move.hpp"
+
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr std::uint64_t seed = 2718;
+
+MachineSettings random_jerk_machine(Random& random, int axes) {
+    MachineSettings machine = random_machine(random, axes);
+    machine.jerk_tier = random.chance(0.5) ? JerkTier::bounded : JerkTier::optimal;
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_acceleration_mm_s2 = random.decades(300.0, 3e4);
+        if (random.chance(0.9)) {
+            axis.max_jerk_mm_s3 = std::min(axis.max_acceleration_mm_s2 / random.decades(1e-4, 1.0), 1e9);
+        }
+    }
+    return machine;
+}
+
+std::vector<Event> random_events(Random& random, std::size_t segments) {
+    const int count = random.integer(1, 8);
+    std::vector<Event> events;
+    std::size_t at = 0;
+    for (int i = 0; i < count; ++i) {
+        at += static_cast<std::size_t>(random.between(0.0, 2.0 * static_cast<double>(segments) / count));
+        const int kind = random.integer(0, 3);
+        const auto pause = static_cast<std::size_t>(random.decades(1.0, 300.0));
+        if (kind == 0) {
+            events.push_back({at, Order::hold});
+            at += pause;
+            events.push_back({at, Order::resume});
+        } else if (kind == 1) {
+            events.push_back({at, Order::override_feed, 0.0});
+            at += pause;
+            events.push_back({at, Order::override_feed, random.between(0.2, 2.0)});
+        } else {
+            events.push_back({at, Order::override_feed, random.between(0.1, 2.0)});
+        }
+    }
+    return events;
+}
+
+Used require_limits(const SteeredRun& run, const MachineSettings& machine) {
+    REQUIRE_FALSE(run.endless);
+    Used used;
+    REQUIRE(std::string(check_stream(run.segments, machine, used)) == "");
+    CAPTURE(static_cast<double>(used.jerk), static_cast<double>(used.acceleration));
+    CHECK(used.jerk <= 1.0L);
+    CHECK(used.acceleration <= 1.0L);
+    CHECK(used.velocity <= 1.0L);
+    CHECK(used.feed <= 1.0L);
+    return used;
+}
+
+MachineSettings jerk_machine(JerkTier tier) {
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+    machine.jerk_tier = tier;
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_jerk_mm_s3 = 2e4;
+    }
+    return machine;
+}
+
+/// The first segment from `at` on that ends at rest.
+std::size_t rest_after(const SteeredRun& run, std::size_t at) {
+    while (at < run.segments.size() && !ends_at_rest(run.segments[at], 2)) {
+        ++at;
+    }
+    return at;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stream][jerk][steering]", double, Fixed) {
+    using S = TestType;
+    int steered = 0;
+    Real most = 0.0L;
+    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(30)); ++round) {
+        Random random(seed + round);
+        const int axes = random.integer(1, max_axes);
+        const MachineSettings machine = random_jerk_machine(random, axes);
+        const int pieces = random.chance(0.15) ? 3 : 8;
+        const double size = random.decades(0.5, 50.0);
+        const BezierPath path = random_path(random, axes, pieces, size, 0.15, 0.3);
+        if (!MotionLimits<S>::make(machine).has_value()) {
+            continue;
+        }
+        const std::size_t window = random.chance(0.5) ? 32 : 256;
+        const SteeredRun plain = run_steered<S>(path, machine, window, {});
+        CAPTURE(seed, round, window, plain.segments.size());
+        if (plain.endless || plain.segments.size() > 20'000) {
+            continue; // minutes of the machine's time
+        }
+        const SteeredRun run = run_steered<S>(path, machine, window, random_events(random, plain.segments.size()));
+        most = std::max(most, require_limits(run, machine).jerk);
+        REQUIRE(run.finished);
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            REQUIRE(run.segments.back().end[k] == plain.segments.back().end[k]);
+        }
+        ++steered;
+    }
+    CHECK(3 * steered > rounds(30));
+    CHECK(most > 0.9L);
+}
+
+TEMPLATE_TEST_CASE("a hold on a straight line takes the time of the ramps", "[stream][jerk][steering]", double, Fixed) {
+    using S = TestType;
+    const MachineSettings machine = jerk_machine(JerkTier::optimal);
+    const BezierPath path{line_shape(2, 1, {60.0, 0.0})};
+    const double segment_s = MotionLimits<S>::make(machine).value().segment_ticks / 8e6;
+    const SteeredRun plain = run_steered<S>(path, machine, 256, {});
+    for (std::size_t at = 3; at < plain.segments.size(); at += 31) {
+        // Where the machine is when the segment starts that the hold acts with, a segment ahead
+        const std::size_t then = std::min(at + 1, plain.segments.size() - 1);
+        const AxisMotion m = motion_of(plain.segments[then], 0);
+        const double scale = static_cast<double>(units_per_mm(machine.axis[0])) * segment_s;
+        const MoveState state{0.0, static_cast<double>(m.v0) / scale, static_cast<double>(m.a0) / (scale * segment_s)};
+        const double needs = StraightMove::to_rest(state, {100.0, 1000.0, 2e4}).duration_s();
+        const SteeredRun run = run_steered<S>(path, machine, 256, {{at, Order::hold}, {at + 500, Order::resume}});
+        require_limits(run, machine);
+        const double took = static_cast<double>(rest_after(run, at) - at) * segment_s;
+        CAPTURE(at, state.speed_mm_s, state.acceleration_mm_s2, took, needs);
+        // The hold acts a segment ahead, and the last sample is repeated
+        CHECK(took <= needs + 2e-3 + 2.0 * segment_s);
+        REQUIRE(run.finished);
+        REQUIRE(run.segments.back().end[0] == plain.segments.back().end[0]);
+    }
+}
+
+TEMPLATE_TEST_CASE("a hold on a curve takes little more than braking with as much acceleration",
+                   "[stream][jerk][steering]", double, Fixed) {
+    using S = TestType;
+    for (const JerkTier tier : {JerkTier::bounded, JerkTier::optimal}) {
+        const MachineSettings machine = jerk_machine(tier);
+        const BezierPath path{cubic_shape(20.0, 0.0, 40.0, 30.0, 60.0, 60.0),
+                              cubic_shape(20.0, 30.0, 40.0, 30.0, 60.0, -20.0)};
+        const double segment_s = MotionLimits<S>::make(machine).value().segment_ticks / 8e6;
+        const SteeredRun plain = run_steered<S>(path, machine, 256, {});
+        const Track<S> track(path, machine);
+        typename Track<S>::Place place;
+        for (std::size_t at = 7; at + 1 < plain.segments.size(); at += 97) {
+            static_cast<void>(track.find(plain.segments[at + 1], place));
+            Real speed_sq = 0.0L;
+            for (unsigned k = 0; k < 2; ++k) {
+                const AxisMotion m = motion_of(plain.segments[at + 1], k);
+                const Real v = static_cast<Real>(m.v0) / (units_per_mm(machine.axis[k]) * real(segment_s));
+                speed_sq += v * v;
+            }
+            // Until the acceleration A is taken back with the jerk J the speed rises by A^2 / (2 J)
+            const Real rise = 1000.0L * 1000.0L / (2.0L * 2e4L);
+            const double braking = static_cast<double>(track.braking_s(place, std::sqrt(speed_sq) + rise));
+            const SteeredRun run = run_steered<S>(path, machine, 256, {{at, Order::hold}, {at + 500, Order::resume}});
+            require_limits(run, machine);
+            const double took = static_cast<double>(rest_after(run, at) - at) * segment_s;
+            CAPTURE(at, std::sqrt(static_cast<double>(speed_sq)), took, braking);
+            // And it takes A / J to take it back, to brake as hard, and to end that
+            CHECK(took <= 1.1 * braking + 2.0 * 1000.0 / 2e4);
+            REQUIRE(run.finished);
+            REQUIRE(run.segments.back().end[0] == plain.segments.back().end[0]);
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("an abort with limited jerk, and a new program after it", "[stream][jerk][steering]", double,
+                   Fixed) {
+    using S = TestType;
+    const MachineSettings machine = jerk_machine(JerkTier::optimal);
+    const auto limits = MotionLimits<S>::make(machine).value();
+    const BezierPath path{cubic_shape(20.0, 0.0, 40.0, 30.0, 60.0, 60.0), line_shape(2, 1, {20.0, 30.0})};
+    for (const std::size_t at : {5U, 120U, 400U, 900U}) {
+        CAPTURE(at);
+        ListSource<S> source(segments_of<S>(path, {}), 0, 0);
+        AnyTrajectory<S> any(source, limits, 256);
+        SteeredRun run;
+        run_steered<S>(any.trajectory(), {{at, Order::abort}}, run);
+        REQUIRE(run.activity == Activity::aborted);
+        require_limits(run, machine);
+        PerAxis<double> start{};
+        for (unsigned k = 0; k < 2; ++k) {
+            start[k] = static_cast<double>(exact_mm(run.position[k]));
+        }
+        ListSource<S> next(segments_of<S>(BezierPath{line_shape(2, 1, {-10.0, 5.0})}, start), 0, 0);
+        any.trajectory().start(next);
+        run_steered<S>(any.trajectory(), {}, run);
+        for (FeedSegment& segment : run.segments) {
+            segment.waypoint = 0; // both programs count from 0
+        }
+        require_limits(run, machine);
+        REQUIRE(run.finished);
+        REQUIRE(run.segments.back().end[0] == target_units(start[0] - 10.0, machine.axis[0]));
+    }
+}
+
+TEMPLATE_TEST_CASE("an override with limited jerk settles soon", "[stream][jerk][steering]", double, Fixed) {
+    using S = TestType;
+    // Micrometre-short segments, as a CAM program has them
+    MachineSettings machine = jerk_machine(JerkTier::optimal);
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_acceleration_mm_s2 = 5000.0;
+        axis.max_jerk_mm_s3 = 1e6;
+    }
+    const BezierPath path(3000, line_shape(2, 3, {0.003, 0.004}));
+    const double segment_s = MotionLimits<S>::make(machine).value().segment_ticks / 8e6;
+    for (const double ratio : {0.3, 0.6}) {
+        const SteeredRun run = run_steered<S>(path, machine, 512, {{60, Order::override_feed, ratio}});
+        require_limits(run, machine);
+        const auto late = static_cast<std::size_t>(60.0 + 0.05 / segment_s);
+        REQUIRE(late < run.segments.size());
+        const AxisMotion x = motion_of(run.segments[late], 0);
+        const AxisMotion y = motion_of(run.segments[late], 1);
+        const double scale = static_cast<double>(units_per_mm(machine.axis[0])) * segment_s;
+        const double speed = std::hypot(static_cast<double>(x.v0), static_cast<double>(y.v0)) / scale;
+        CAPTURE(ratio);
+        CHECK(speed == Approx(100.0 * ratio).epsilon(1e-2));
+    }
+}
