@@ -89,7 +89,8 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
            "derivative)");
     option("--end-tangent", curve.end_tangent, "X,Y,Z: the same at the end");
     app.add_option("--scalar", typed.scalar,
-                   "fixed, float or double: what it is computed in (default fixed, as on a microcontroller)")
+                   "fixed, float or double: what it is computed in (default fixed, as on a microcontroller); float not "
+                   "with a jerk limit")
         ->group(group);
 }
 
@@ -98,9 +99,12 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     if (executes) {
         app.add_option("--target", typed.target, "sim: the simulated machine in this process (default sim)");
     }
-    app.add_option("--window", typed.window, "cells that the feed plan looks ahead, 16 to 1000000 (default 1024)");
-    app.add_option("--events", job.events,
-                   "E.csv: what an operator does while it runs, rows t,hold|resume|abort or t,override,0 to 2");
+    app.add_option("--window", typed.window,
+                   "cells that the feed plan looks ahead, 16 to 1000000 (default 1024); a jerk-limited plan a quarter");
+    app.add_option(
+        "--events", job.events,
+        "E.csv: what an operator does while it runs, rows t,hold|resume|abort or t,override,0 to 2; of machines "
+        "without a jerk limit");
     const std::string group = "Outputs (- is standard output)";
     app.add_option("--trace", job.trace, "T.csv: positions and speed at every sample period")->group(group);
     app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);

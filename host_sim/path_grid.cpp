@@ -27,12 +27,7 @@ constexpr int deepest_for_speed = 8;
 constexpr int deepest = 20;
 constexpr double cusp_cosine = 0.5; // a sharper turn that no halving resolves is a cusp
 
-// A tangent, in the units of a segment of 2^16, below which the plan takes a joint for a cusp; what its arithmetic adds
-// to a direction.
-template <Scalar S>
-constexpr double nothing = 1.0 / 16384.0;
-template <>
-constexpr double nothing<float> = 4.0;
+// What the plan's arithmetic adds to a direction.
 template <Scalar S>
 constexpr double direction_error = 1e-9;
 template <>
@@ -294,7 +289,7 @@ void PathGrid::append(const CurveSegment<S>& segment, std::vector<PathInterval>&
     const auto normalise = [this](PerAxis<double>& direction, double norm_sq) {
         const double norm = std::sqrt(norm_sq);
         for (unsigned k = 0; k < axes_; ++k) {
-            direction[k] = norm < nothing<S> ? 0.0 : direction[k] / norm;
+            direction[k] = norm < to_double(negligible_units<S>) ? 0.0 : direction[k] / norm;
         }
     };
     normalise(start, start_sq);

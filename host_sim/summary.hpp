@@ -36,7 +36,7 @@ struct Summary {
     double max_speed_mm_s = 0.0;
     std::vector<AxisUse> limit_use;          ///< in the order of the machine file
     std::optional<double> waypoint_error_mm; ///< none: there are no waypoints, or the curve need not pass them
-    std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; none: the run was stopped
+    std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; none: stopped or steered
     double planning_time_s = 0.0;
     MemoryBytes memory_bytes;
     bool stopped = false;             ///< the run ended before the program did

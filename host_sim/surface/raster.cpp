@@ -2,6 +2,7 @@
 #include "host_sim/surface/raster.hpp"
 
 #include "host_sim/surface/span_places.hpp"
+#include "host_sim/surface/vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@
 namespace splinefeed::host {
 
 namespace {
-
-using Vector = Point<double>;
 
 constexpr int most_lines = 100000;
 constexpr double most_waypoints = 1e8;

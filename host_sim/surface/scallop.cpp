@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/surface/raster.hpp"
 #include "host_sim/surface/span_places.hpp"
+#include "host_sim/surface/vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +9,6 @@
 namespace splinefeed::host {
 
 namespace {
-
-using Vector = Point<double>;
-
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector plus(const Vector& a, double factor, const Vector& b) {
-    return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
 
 // How much a ball that sweeps along the line leaves standing on a place of the surface: from there along the normal to
 // where the ray enters the swept cylinder. A ray that misses it is stopped a radius up at least: more than any

@@ -5,6 +5,8 @@
 // rotation; it turns about the tangent by an error of fourth order in the step only.
 #include "host_sim/surface/spine.hpp"
 
+#include "host_sim/surface/vector.hpp"
+
 #include "splinefeed/splines/bspline_basis.hpp"
 #include "splinefeed/splines/bspline_interpolation.hpp"
 #include "splinefeed/splines/spline_parameters.hpp"
@@ -17,18 +19,9 @@ namespace splinefeed::host {
 
 namespace {
 
-using Vector = PerAxis<double>;
 using nlohmann::json;
 
 constexpr int steps_between_stations = 64;
-
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector plus(const Vector& a, double factor, const Vector& b) {
-    return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
 
 Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

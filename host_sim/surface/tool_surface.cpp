@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/surface/raster.hpp"
+#include "host_sim/surface/vector.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
-
-namespace {
-
-using Vector = Point<double>;
-
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector plus(const Vector& a, double factor, const Vector& b) {
-    return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
-}
-
-} // namespace
 
 std::vector<double> creases(std::span<const double> knots, int degree) {
     const auto k = static_cast<std::size_t>(degree);

@@ -117,22 +117,11 @@ TEST_CASE("catmull-rom: uniform streaming is the whole-curve method bit by bit",
         std::vector<BezierPiece<double>> pieces(pieces_through(points.size(), closed));
         REQUIRE(catmull_rom_points<double>(points, axes, closed, tension, tangents, pieces).ok());
         CatmullRom<double> curve({axes, Parameterization::uniform, 0.5, 65536}, tension);
-        std::vector<Feed<double>> feeds;
-        for (const auto& point : waypoints_at(points)) {
-            feeds.push_back({point, Role::path});
-        }
-        const auto segments = run_curve<double>(curve, closed ? closed_feeds(waypoints_at(points)) : feeds,
+        const auto waypoints = waypoints_at(points);
+        const auto segments = run_curve<double>(curve, closed ? closed_feeds(waypoints) : open_feeds(waypoints),
                                                 round % 3 == 0 ? Pace::lazy : Pace::eager);
-        REQUIRE(segments.size() == pieces.size());
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            for (int k = 0; k < axes; ++k) {
-                for (int p = 0; p <= 3; ++p) {
-                    CAPTURE(round, i, k, p);
-                    REQUIRE(segments[i].control_mm(k, p) ==
-                            pieces[i].control[static_cast<unsigned>(k)][static_cast<unsigned>(p)]);
-                }
-            }
-        }
+        CAPTURE(round);
+        require_same_cubics(segments, pieces, axes);
     }
 }
 
@@ -164,14 +153,7 @@ TEMPLATE_TEST_CASE("catmull-rom: reference vectors", "[curve][catmull_rom][golde
         for (auto& point : points) {
             point.corner = Corner::forbidden;
         }
-        std::vector<Feed<S>> feeds;
-        if (closed) {
-            feeds = closed_feeds(points);
-        } else {
-            for (const auto& point : points) {
-                feeds.push_back({point, Role::path});
-            }
-        }
+        const auto feeds = closed ? closed_feeds(points) : open_feeds(points);
         const double tension = number(input.at("tension"));
         CatmullRom<S> curve({path.axes, Parameterization::uniform, literal<S>(0.5), 65536}, from_double<S>(tension));
         const auto segments = run_curve<S>(curve, feeds);

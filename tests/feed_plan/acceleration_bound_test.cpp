@@ -14,27 +14,6 @@ namespace {
 
 constexpr std::uint32_t seed = 51;
 
-/// A cell of any shape: straight axes, axes that turn round, and one without inertia now and then.
-template <Scalar S>
-Cell<S> random_cell(Random& random, const MotionLimits<S>& limits) {
-    Cell<S> cell;
-    cell.axes = limits.axes;
-    cell.length_mm = from_double<S>(random.decades(1e-3, 1.0));
-    const double unit = std::ldexp(1.0, limits.refinement.shape_log2);
-    for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
-        const double bend = random.integer(0, 3) == 0 ? 0.0 : random.decades(1e-4, 0.4);
-        const double tangent = random.integer(0, 5) == 0 ? 0.0 : random.between(-1.0, 1.0);
-        AxisShape<S>& shape = cell.shape[k];
-        for (unsigned j = 0; j < 3; ++j) {
-            shape.bend[j] = from_double<S>(unit * bend * random.between(-1.0, 1.0));
-        }
-        shape.tangent = {from_double<S>(unit * tangent),
-                         from_double<S>(unit * (tangent + bend * random.between(-0.5, 0.5)))};
-        shape.spread = from_double<S>(unit * random.decades(1e-8, 1e-5));
-    }
-    return cell;
-}
-
 /// The largest entry that leaves an exit up to at_most, by bisection.
 Real largest_entry(const std::vector<HalfPlane>& planes, Real at_most, Real cap) {
     const auto allowed = [&](Real entry) {
@@ -52,6 +31,54 @@ Real largest_entry(const std::vector<HalfPlane>& planes, Real at_most, Real cap)
     }
     return low;
 }
+
+/// Exits that a part of a cell allows for an entry, tried one by one. Below zero an exit is the slope of a line that
+/// ends before; what a shape leaves its polynomials by goes with |b|.
+class SmallestExits {
+public:
+    template <Scalar S>
+    SmallestExits(const Cell<S>& cell, const MotionLimits<S>& limits, const Stretch<S>& stretch, Real entry)
+        : planes_(half_planes_of(cell, limits, exact(stretch.from), exact(stretch.to))), entry_(entry) {
+        for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
+            spread_.push_back(exact(cell.shape[k].spread) * std::ldexp(1.0L, -limits.refinement.shape_log2) *
+                              exact(stretch.length()));
+        }
+    }
+
+    /// The smallest from at_least to at_most; at_most where there is none. One that is bounded above zero from below
+    /// it is looked for from zero on.
+    [[nodiscard]] Real find(Real at_least, Real at_most) const {
+        const Real found = search(at_least, at_most);
+        return at_least < 0.0L && found > 0.0L ? search(0.0L, std::max(at_most, 0.0L)) : found;
+    }
+
+private:
+    /// Too low for a half-plane that bounds it from below.
+    [[nodiscard]] bool too_low(Real exit) const {
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            const Real factor = planes_[i].exit - (exit < 0.0L ? 2.0L * spread_[i / 8] : 0.0L);
+            if (factor < 0.0L && planes_[i].entry * entry_ + factor * exit > planes_[i].limit) {
+                return true;
+            }
+        }
+        return false;
+    }
+    [[nodiscard]] Real search(Real low, Real high) const {
+        if (!too_low(low)) {
+            return low;
+        }
+        const Real at_most = high;
+        for (int step = 0; step < 120; ++step) {
+            const Real middle = (low + high) / 2.0L;
+            (too_low(middle) ? low : high) = middle;
+        }
+        return high == at_most ? at_most : high;
+    }
+
+    std::vector<HalfPlane> planes_;
+    std::vector<Real> spread_; // of an axis
+    Real entry_;
+};
 
 } // namespace
 
@@ -89,5 +116,43 @@ TEMPLATE_TEST_CASE("the polygon of a cell: its peak, its largest exits and entri
         const S start = peak.entry_sq * from_double<S>(random.between(0.0, 1.0));
         const Exits reach = exits_of(planes, exact(start), scale);
         REQUIRE(std::fabs(exact(bound.largest_exit(start, cap)) - reach.high) <= close * scale);
+    }
+}
+
+TEMPLATE_TEST_CASE("the smallest exits of a cell and of parts of it, down to slopes that end before", "[feed_plan]",
+                   double, float, Fixed) {
+    using S = TestType;
+    Random random(seed + 1);
+    const Real close = std::same_as<S, double> ? 1e-9L : std::same_as<S, float> ? 2e-2L : 2e-4L;
+    std::array<int, 4> seen{}; // bounded above zero, below it, at_least, at_most
+    for (int round = 0; round < 4000; ++round) {
+        const int axes = random.integer(1, max_axes);
+        MachineSettings machine = random_machine(random, axes);
+        brake_differently(random, machine);
+        const MotionLimits<S> limits = MotionLimits<S>::make(machine).value();
+        const Cell<S> cell = random_cell(random, limits);
+        Stretch<S> stretch;
+        if (random.chance(0.5)) {
+            stretch.from = from_double<S>(random.between(0.0, 0.9));
+            stretch.to = stretch.from + (stretch.to - stretch.from) * from_double<S>(random.between(0.1, 1.0));
+        }
+        const AccelerationBound<S> bound(cell, limits, stretch);
+        const S cap = limits.feed_mm_s * limits.feed_mm_s * from_double<S>(random.decades(1e-3, 1.0));
+        const S entry = bound.peak(cap).entry_sq * from_double<S>(random.between(0.0, 1.0));
+        const S at_most = cap * from_double<S>(random.between(0.0, 1.0));
+        const S at_least = random.chance(0.5) ? at_most * from_double<S>(random.between(0.0, 0.5))
+                                              : -(entry * from_double<S>(random.between(0.0, 1.0)));
+        const Real least = exact(at_least);
+        const Real most = exact(at_most);
+        const SmallestExits by_search(cell, limits, stretch, exact(entry));
+        const Real expected = by_search.find(least, most);
+        const Real found = exact(bound.smallest_exit(entry, at_least, at_most));
+        CAPTURE(seed, round, axes, static_cast<double>(least), static_cast<double>(most), to_double(entry),
+                static_cast<double>(expected), static_cast<double>(found));
+        REQUIRE(std::fabs(found - expected) <= close * exact(cap));
+        seen[expected == least ? 2 : expected == most ? 3 : expected > 0.0L ? 0 : 1] += 1;
+    }
+    for (const int times : seen) {
+        CHECK(times > 50);
     }
 }

@@ -48,37 +48,9 @@ TEMPLATE_TEST_CASE("ramps to and from the feed have a limit each", "[feed_plan][
     CHECK(use_of(planned.cells, machine).acceleration <= 1.0L);
 }
 
-TEMPLATE_TEST_CASE("every limit holds at dense points, braking apart", "[feed_plan][braking]", double, float, Fixed) {
-    Random random(seed);
-    Real most = 0.0L;
-    for (int run = 0; run < rounds(10); ++run) {
-        const int axes = random.integer(1, max_axes);
-        MachineSettings machine = random_machine(random, axes);
-        brake_differently(random, machine);
-        const BezierPath path = random_path(random, axes, 12, random.decades(1.0, 50.0), 0.2, 0.3);
-        const auto planned = plan_of<TestType>(path, machine, run % 2 == 0 ? 16 : 4096);
-        const Use use = use_of(planned.cells, machine);
-        CAPTURE(seed, run, scalar_name<TestType>());
-        CHECK(use.velocity <= 1.0L);
-        CHECK(use.acceleration <= 1.0L);
-        most = std::max(most, use.acceleration);
-    }
-    CHECK(most > 0.98L);
-}
-
-TEMPLATE_TEST_CASE("no node can be faster, braking apart", "[feed_plan][braking]", double, float, Fixed) {
-    Random random(seed + 1);
-    for (int run = 0; run < rounds(10); ++run) {
-        const int axes = random.integer(1, max_axes);
-        MachineSettings machine = random_machine(random, axes);
-        brake_differently(random, machine);
-        const auto limits = MotionLimits<TestType>::make(machine).value();
-        const BezierPath path = random_path(random, axes, 15, random.decades(1.0, 30.0), 0.15, 0.3);
-        const auto planned = plan_of<TestType>(path, machine, 8192);
-        REQUIRE(planned.limited == 0);
-        CAPTURE(seed, run);
-        require_largest_exits(planned.cells, limits);
-    }
+TEMPLATE_TEST_CASE("every limit holds and no node can be faster, braking apart", "[feed_plan][braking]", double, float,
+                   Fixed) {
+    CHECK(require_best_plans<TestType>(seed, rounds(10), brake_differently).acceleration > 0.98L);
 }
 
 TEMPLATE_TEST_CASE("what is emitted brakes within its limit, axes that turn round included", "[feed_plan][braking]",

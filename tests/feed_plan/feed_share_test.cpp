@@ -108,23 +108,10 @@ TEMPLATE_TEST_CASE("the share is the largest there is in the cell", "[feed_plan]
     }
 }
 
-TEMPLATE_TEST_CASE("no node can be faster with rotary axes", "[feed_plan][rotary]", double, float, Fixed) {
-    Random random(seed + 1);
-    for (int run = 0; run < rounds(6); ++run) {
-        const int axes = random.integer(2, max_axes);
-        MachineSettings machine = random_machine(random, axes);
-        make_rotary(random, machine);
-        const auto limits = MotionLimits<TestType>::make(machine).value();
-        const BezierPath path = random_path(random, axes, 15, random.decades(1.0, 30.0), 0.15, 0.3);
-        const auto planned = plan_of<TestType>(path, machine, 8192);
-        REQUIRE(planned.limited == 0);
-        const Use use = use_of(planned.cells, machine);
-        CAPTURE(seed, run, scalar_name<TestType>());
-        CHECK(use.feed <= 1.0L);
-        CHECK(use.velocity <= 1.0L);
-        CHECK(use.acceleration <= 1.0L);
-        require_largest_exits(planned.cells, limits, 10.0L); // a fast path leaves Fixed fewer digits
-    }
+TEMPLATE_TEST_CASE("every limit holds and no node can be faster with rotary axes", "[feed_plan][rotary]", double, float,
+                   Fixed) {
+    // A fast path leaves Fixed fewer digits
+    CHECK(require_best_plans<TestType>(seed + 1, rounds(6), make_rotary, 10.0L).feed > 0.99L);
 }
 
 TEMPLATE_TEST_CASE("what is emitted keeps the feed on the linear axes", "[feed_plan][rotary]", double, Fixed) {

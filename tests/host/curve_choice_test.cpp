@@ -2,6 +2,7 @@
 #include "host_sim/curve_choice.hpp"
 
 #include "host_sim/input_error.hpp"
+#include "refusal.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;
@@ -10,12 +11,7 @@ using namespace splinefeed::host;
 namespace {
 
 std::string refusal(const CurveArguments& arguments) {
-    try {
-        static_cast<void>(choose_curve(arguments));
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return splinefeed_test::refusal_of<UsageError>([&] { static_cast<void>(choose_curve(arguments)); });
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "host_sim/curve_file.hpp"
 
 #include "host_sim/input_error.hpp"
+#include "refusal.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;
@@ -10,12 +11,7 @@ using namespace splinefeed::host;
 namespace {
 
 std::string refusal(const std::string& text) {
-    try {
-        static_cast<void>(parse_curve(text, "c.json"));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return splinefeed_test::refusal_of([&] { static_cast<void>(parse_curve(text, "c.json")); });
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/event_file.hpp"
 #include "host_sim/input_error.hpp"
+#include "refusal.hpp"
 #include "support/catch.hpp"
 
 #include <cstdio>
@@ -18,12 +19,7 @@ std::vector<OperatorEvent> read(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        static_cast<void>(read(text));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return splinefeed_test::refusal_of([&] { static_cast<void>(read(text)); });
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "host_sim/machine_file.hpp"
 
 #include "host_sim/input_error.hpp"
+#include "refusal.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;
@@ -34,12 +35,7 @@ std::string with(const std::string& old_text, const std::string& new_text) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        static_cast<void>(parse_machine(text, "m.toml"));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return splinefeed_test::refusal_of([&] { static_cast<void>(parse_machine(text, "m.toml")); });
 }
 
 } // namespace

@@ -99,6 +99,27 @@ double cycle_time(const std::vector<CurveSegment<S>>& path, const MachineSetting
     return seconds;
 }
 
+// On random paths, for random machines that `change` altered.
+template <Scalar S, class Change>
+void require_below_every_run(std::uint64_t runs, Change&& change) {
+    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+        Random random(seed);
+        const int axes = random.integer(1, 6);
+        MachineSettings machine = random_machine(random, axes);
+        change(random, machine);
+        const BezierPath path = random_path(random, axes, random.integer(1, 12), random.decades(0.1, 50.0), 0.1, 0.3);
+        if (!MotionLimits<S>::make(machine).has_value()) {
+            continue;
+        }
+        CAPTURE(seed, axes);
+        const auto segments = segments_of<S>(path);
+        const double least = optimum<S>(segments, machine);
+        const double taken = cycle_time<S>(segments, machine);
+        CHECK(least > 0.0);
+        CHECK(least <= taken * (1.0 + 1e-4));
+    }
+}
+
 } // namespace
 
 TEST_CASE("the least time of a straight line is the closed form, however it is cut") {
@@ -226,41 +247,14 @@ TEST_CASE("the butterfly takes what an independent computation says") {
 }
 
 TEMPLATE_TEST_CASE("the least time is below the time of every run", "", double, float, Fixed) {
-    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-        Random random(seed);
-        const int axes = random.integer(1, 6);
-        const MachineSettings machine = random_machine(random, axes);
-        const BezierPath path = random_path(random, axes, random.integer(1, 12), random.decades(0.1, 50.0), 0.1, 0.3);
-        if (!MotionLimits<TestType>::make(machine).has_value()) {
-            continue;
-        }
-        CAPTURE(seed, axes);
-        const auto segments = segments_of<TestType>(path);
-        const double least = optimum<TestType>(segments, machine);
-        const double taken = cycle_time<TestType>(segments, machine);
-        CHECK(least > 0.0);
-        CHECK(least <= taken * (1.0 + 1e-4));
-    }
+    require_below_every_run<TestType>(100, [](Random&, MachineSettings&) {});
 }
 
 TEMPLATE_TEST_CASE("the same with axes that brake differently and rotary ones", "", double, Fixed) {
-    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
-        Random random(seed);
-        const int axes = random.integer(1, 6);
-        MachineSettings machine = random_machine(random, axes);
+    require_below_every_run<TestType>(150, [](Random& random, MachineSettings& machine) {
         brake_differently(random, machine);
         make_rotary(random, machine);
-        const BezierPath path = random_path(random, axes, random.integer(1, 12), random.decades(0.1, 50.0), 0.1, 0.3);
-        if (!MotionLimits<TestType>::make(machine).has_value()) {
-            continue;
-        }
-        CAPTURE(seed, axes);
-        const auto segments = segments_of<TestType>(path);
-        const double least = optimum<TestType>(segments, machine);
-        const double taken = cycle_time<TestType>(segments, machine);
-        CHECK(least > 0.0);
-        CHECK(least <= taken * (1.0 + 1e-4));
-    }
+    });
 }
 
 TEST_CASE("an axis with two limits takes a ramp of each") {

@@ -2,6 +2,7 @@
 #include "host_sim/waypoint_reader.hpp"
 
 #include "host_sim/input_error.hpp"
+#include "refusal.hpp"
 #include "support/catch.hpp"
 
 #include <sstream>
@@ -26,12 +27,7 @@ std::vector<WaypointRow> read(const std::string& text, const std::vector<std::st
 }
 
 std::string refusal(const std::string& text, const std::vector<std::string>& axes = xyz) {
-    try {
-        static_cast<void>(read(text, axes));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return splinefeed_test::refusal_of([&] { static_cast<void>(read(text, axes)); });
 }
 
 bool starts_with(const std::string& text, const std::string& start) {

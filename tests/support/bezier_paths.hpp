@@ -4,6 +4,7 @@
 // source that hands them out (starving as often as asked), and their evaluation in long double.
 #pragma once
 
+#include "exact.hpp"
 #include "splinefeed/s1_curve/curve_source.hpp"
 
 #include <cmath>
@@ -16,7 +17,6 @@
 namespace splinefeed_test {
 
 using namespace splinefeed;
-using Real = long double;
 
 /// A widening that is meant.
 constexpr Real real(double x) {
@@ -137,15 +137,6 @@ struct Jet {
         return std::sqrt(sum);
     }
 };
-
-template <Scalar S>
-Real exact(S x) {
-    if constexpr (std::same_as<S, Fixed>) {
-        return std::ldexp(static_cast<Real>(x.raw()), -32);
-    } else {
-        return static_cast<Real>(x);
-    }
-}
 
 inline Real exact_mm(Position p) {
     return std::ldexp(static_cast<Real>(p.raw), -40);

@@ -39,15 +39,6 @@ Real rounding(Real size_mm) {
     return unit_roundoff<S>() * size_mm + (std::same_as<S, Fixed> ? 0x1p-45L : 0.0L);
 }
 
-template <Scalar S>
-Real exact(S x) {
-    if constexpr (std::same_as<S, Fixed>) {
-        return std::ldexp(static_cast<Real>(x.raw()), -32);
-    } else {
-        return static_cast<Real>(x);
-    }
-}
-
 /// One waypoint with everything that is pushed with it.
 template <Scalar S>
 struct Feed {
@@ -65,6 +56,15 @@ std::vector<Feed<S>> feeds_of(const Path& path) {
 }
 
 /// A closed curve: 16 points of lead-in, the points, the first once more, 16 points of lead-out.
+template <Scalar S>
+std::vector<Feed<S>> open_feeds(const std::vector<Waypoint<S>>& points) {
+    std::vector<Feed<S>> feeds;
+    for (const auto& point : points) {
+        feeds.push_back({point, Role::path});
+    }
+    return feeds;
+}
+
 template <Scalar S>
 std::vector<Feed<S>> closed_feeds(const std::vector<Waypoint<S>>& points) {
     std::vector<Feed<S>> feeds;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "splinefeed/s1_curve/waypoint_curve.hpp"
+#include "support/exact.hpp"
 #include "support/random_path.hpp"
 
 #include <array>
@@ -14,7 +15,6 @@
 
 namespace splinefeed_test {
 
-using Real = long double;
 using Vec = std::array<Real, 6>;
 
 inline Vec operator+(const Vec& a, const Vec& b) {

@@ -9,6 +9,27 @@
 
 namespace splinefeed_test {
 
+/// A cell of any shape: straight axes, axes that turn round, and one without inertia now and then.
+template <Scalar S>
+Cell<S> random_cell(Random& random, const MotionLimits<S>& limits) {
+    Cell<S> cell;
+    cell.axes = limits.axes;
+    cell.length_mm = from_double<S>(random.decades(1e-3, 1.0));
+    const double unit = std::ldexp(1.0, limits.refinement.shape_log2);
+    for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
+        const double bend = random.integer(0, 3) == 0 ? 0.0 : random.decades(1e-4, 0.4);
+        const double tangent = random.integer(0, 5) == 0 ? 0.0 : random.between(-1.0, 1.0);
+        AxisShape<S>& shape = cell.shape[k];
+        for (unsigned j = 0; j < 3; ++j) {
+            shape.bend[j] = from_double<S>(unit * bend * random.between(-1.0, 1.0));
+        }
+        shape.tangent = {from_double<S>(unit * tangent),
+                         from_double<S>(unit * (tangent + bend * random.between(-0.5, 0.5)))};
+        shape.spread = from_double<S>(unit * random.decades(1e-8, 1e-5));
+    }
+    return cell;
+}
+
 /// One of the half-planes that a cell allows: entry * entry_sq + exit * exit_sq <= limit.
 struct HalfPlane {
     Real entry = 0.0L;
@@ -44,8 +65,42 @@ int way_of(const Cell<S>& cell, unsigned k, const MotionLimits<S>& limits) {
     return slowest > bend * speed * 4.0L / exact(limits.segments_per_s) ? way : 0;
 }
 
+/// What an axis is told by in a part of its cell: Bezier points of q', a cubic, and of 2 L q'', a parabola, where L is
+/// the length of the part, by Taylor's polynomials at its ends.
+struct PartShape {
+    std::array<Real, 4> tangent{};
+    std::array<Real, 3> bend{};
+};
+
 template <Scalar S>
-std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>& limits) {
+PartShape part_of(const AxisShape<S>& shape, Real from, Real to) {
+    const std::array<Real, 3> b{exact(shape.bend[0]), exact(shape.bend[1]), exact(shape.bend[2])};
+    const std::array<Real, 4> t{exact(shape.tangent[0]), exact(shape.tangent[0]) + b[0] / 6.0L,
+                                exact(shape.tangent[1]) - b[2] / 6.0L, exact(shape.tangent[1])};
+    const Real b1 = 2.0L * (b[1] - b[0]);
+    const Real b2 = b[0] - 2.0L * b[1] + b[2];
+    const Real t1 = 3.0L * (t[1] - t[0]);
+    const Real t2 = 3.0L * (t[0] - 2.0L * t[1] + t[2]);
+    const Real t3 = t[3] - 3.0L * t[2] + 3.0L * t[1] - t[0];
+    const auto bend = [&](Real x) {
+        return b[0] + x * (b1 + x * b2);
+    };
+    const auto tangent = [&](Real x) {
+        return t[0] + x * (t1 + x * (t2 + x * t3));
+    };
+    const auto slope = [&](Real x) {
+        return t1 + x * (2.0L * t2 + x * 3.0L * t3);
+    };
+    const Real length = to - from;
+    return {{tangent(from), tangent(from) + slope(from) * length / 3.0L, tangent(to) - slope(to) * length / 3.0L,
+             tangent(to)},
+            {bend(from) * length, (bend(from) + length / 2.0L * (b1 + 2.0L * b2 * from)) * length, bend(to) * length}};
+}
+
+/// Those of a part of the cell, from one fraction of its length to another; eight an axis.
+template <Scalar S>
+std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>& limits, Real from = 0.0L,
+                                      Real to = 1.0L) {
     std::vector<HalfPlane> planes;
     const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
     for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
@@ -53,20 +108,23 @@ std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>
         const Real speeding = exact(limits.acceleration_mm_s2[k]);
         const Real braking = exact(limits.braking_mm_s2[k]);
         const int way = way_of(cell, k, limits);
-        const std::array<Real, 3> c{exact(shape.bend[0]) * unit, exact(shape.bend[1]) * unit,
-                                    exact(shape.bend[2]) * unit};
-        const Real t0 = exact(shape.tangent[0]) * unit;
-        const Real t3 = exact(shape.tangent[1]) * unit;
-        const std::array<Real, 4> t{t0, t0 + c[0] / 6.0L, t3 - c[2] / 6.0L, t3}; // Bezier points of q', below of q'' b
+        auto [t, c] = part_of(shape, from, to);
+        for (Real& point : t) {
+            point *= unit;
+        }
+        for (Real& point : c) {
+            point *= unit;
+        }
+        // Of 2 L q'' b, as a cubic
         const std::array<Real, 4> entry{c[0], 2.0L * c[1] / 3.0L, c[2] / 3.0L, 0.0L};
         const std::array<Real, 4> exit{0.0L, c[0] / 3.0L, 2.0L * c[1] / 3.0L, c[2]};
         for (unsigned j = 0; j < 4; ++j) {
             for (const Real sign : {1.0L, -1.0L}) {
-                const Real spread = exact(shape.spread) * unit;
+                const Real spread = exact(shape.spread) * unit * (to - from);
                 const Real most = static_cast<Real>(way) * sign > 0.0L   ? speeding
                                   : static_cast<Real>(way) * sign < 0.0L ? braking
                                                                          : std::min(speeding, braking);
-                const Real limit = 2.0L * exact(cell.length_mm) * most;
+                const Real limit = 2.0L * exact(cell.length_mm) * (to - from) * most;
                 planes.push_back({spread + sign * (entry[j] - t[j]), spread + sign * (exit[j] + t[j]), limit});
             }
         }
@@ -264,6 +322,44 @@ Use use_of(const std::vector<PlannedCell<S>>& cells, const MachineSettings& mach
         }
     }
     return use;
+}
+
+/// The planner keeps 6e-6 of every limit (float: 1e-3) for rounding, so that nothing here may exceed 1; only the chord
+/// error may be off by what the bound of the curvature is: 1e-3.
+template <class S>
+Use require_feasible(const std::vector<PlannedCell<S>>& cells, const MachineSettings& machine) {
+    const Use use = use_of(cells, machine);
+    CAPTURE(scalar_name<S>());
+    CHECK(use.velocity <= 1.0L);
+    CHECK(use.feed <= 1.0L);
+    CHECK(use.acceleration <= 1.0L);
+    CHECK(use.centripetal <= 1.0L);
+    CHECK(use.chord <= 1.0L + 1e-3L);
+    return use;
+}
+
+/// Plans of random paths for random machines that `change` altered, with a window that holds all and with one of 16
+/// cells: every limit holds at dense points, and in the first no node can be faster. Returns the most that was used.
+template <Scalar S, class Change>
+Use require_best_plans(std::uint64_t seed, int runs, Change&& change, Real coarser = 1.0L) {
+    Random random(seed);
+    Use most;
+    for (int run = 0; run < runs; ++run) {
+        const int axes = random.integer(1, max_axes);
+        MachineSettings machine = random_machine(random, axes);
+        change(random, machine);
+        const BezierPath path = random_path(random, axes, 15, random.decades(1.0, 30.0), 0.15, 0.3);
+        CAPTURE(seed, run);
+        const auto whole = plan_of<S>(path, machine, 8192);
+        REQUIRE(whole.limited == 0);
+        require_largest_exits(whole.cells, MotionLimits<S>::make(machine).value(), coarser);
+        for (const auto& cells : {whole.cells, plan_of<S>(path, machine, 16).cells}) {
+            const Use use = require_feasible(cells, machine);
+            most.feed = std::max(most.feed, use.feed);
+            most.acceleration = std::max(most.acceleration, use.acceleration);
+        }
+    }
+    return most;
 }
 
 } // namespace splinefeed_test

@@ -64,4 +64,19 @@ std::vector<Waypoint<S>> waypoints_at(const std::vector<splinefeed::Point<S>>& p
     return out;
 }
 
+/// Streamed cubics against those of the whole-curve method, bit by bit.
+inline void require_same_cubics(const std::vector<CurveSegment<double>>& segments,
+                                const std::vector<splinefeed::BezierPiece<double>>& pieces, int axes) {
+    REQUIRE(segments.size() == pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        for (int k = 0; k < axes; ++k) {
+            for (int p = 0; p <= 3; ++p) {
+                CAPTURE(i, k, p);
+                REQUIRE(segments[i].control_mm(k, p) ==
+                        pieces[i].control[static_cast<unsigned>(k)][static_cast<unsigned>(p)]);
+            }
+        }
+    }
+}
+
 } // namespace splinefeed_test

@@ -13,6 +13,13 @@ namespace splinefeed {
 /// Chords and spline offsets are computed in units of 2^-12 mm: 131 m of range and 6e-14 mm of resolution in Fixed.
 inline constexpr int chord_unit_log2 = -12;
 
+/// What is shorter, in the units of a segment, is nothing, and a tangent that is shorter a cusp: 2^-30 of the segment
+/// (float: 2^-14).
+template <Scalar S>
+inline constexpr S negligible_units = literal<S>(1.0 / 16384.0);
+template <>
+inline constexpr float negligible_units<float> = 4.0F;
+
 template <Scalar S>
 struct CurveSegment {
     int axes = 0;

@@ -7,11 +7,8 @@ template <Scalar S>
 Pull Polyline<S>::next(CurveSegment<S>& out) noexcept {
     for (;;) {
         const std::uint64_t i = next_;
-        if (i + 1 >= this->known_) {
-            return this->finished_ ? Pull::finished : Pull::starved;
-        }
-        if (!this->decided(i + 1)) {
-            return Pull::starved;
+        if (const Pull ready = this->ready(i); ready != Pull::item) {
+            return ready;
         }
         next_ = this->oldest_ = i + 1;
         if (this->travelled(i)) {

@@ -77,6 +77,13 @@ protected:
     [[nodiscard]] const Knot<S>& knot(std::uint64_t i) const noexcept { return ring_[i % capacity]; }
     /// Whether `breaks` of knot i is final.
     [[nodiscard]] bool decided(std::uint64_t i) const noexcept { return i + 1 < known_ || (finished_ && i < known_); }
+    /// Whether it is known where the segment i -> i+1 ends, and how; `item`: it is.
+    [[nodiscard]] Pull ready(std::uint64_t i) const noexcept {
+        if (i + 1 >= known_) {
+            return finished_ ? Pull::finished : Pull::starved;
+        }
+        return decided(i + 1) ? Pull::item : Pull::starved;
+    }
     /// Whether segment i -> i+1 is delivered: not lead-in, not lead-out, but for the seam's own two.
     [[nodiscard]] bool travelled(std::uint64_t i) const noexcept {
         const bool enters = knot(i).role != Role::lead_in || (options_.seam_segments && knot(i + 1).role == Role::path);

@@ -12,13 +12,6 @@ constexpr S control_noise = literal<S>(1e-8);
 template <>
 constexpr float control_noise<float> = 48.0F * 65536.0F / 16777216.0F;
 
-// A segment is 2^15 units long. A tangent below this is a cusp, a polygon below it is nothing: 2^-30 of the segment
-// (and in any case 2e-8 mm, below which Fixed has no digits for a length).
-template <Scalar S>
-constexpr S nothing = literal<S>(1.0 / 16384.0);
-template <>
-constexpr float nothing<float> = 4.0F;
-
 // Half an ulp of a control point, as it enters a difference of two.
 template <Scalar S>
 constexpr S point_noise = literal<S>(2.4e-10);
@@ -274,7 +267,7 @@ bool ArcLength<S>::jumps(const CurveSegment<S>& before, const CurveSegment<S>& a
     }
     const S length_in = norm(in.data(), axes);
     const S length_out = norm(out.data(), axes);
-    if (length_in < nothing<S> || length_out < nothing<S>) {
+    if (length_in < negligible_units<S> || length_out < negligible_units<S>) {
         return true;
     }
     S jump{};
@@ -304,8 +297,8 @@ Pull ArcLength<S>::load() noexcept {
     stop_after_ = current().stop_at_end || !has_ahead_ || jumps(current(), ahead);
     const S block = current().block_feed_mm_s();
     const S feed = block > S{} ? smaller(block, refinement_.max_feed_mm_s) : refinement_.max_feed_mm_s;
-    // Not below 2 nm, which still resolves in Fixed.
-    nothing_ = larger(nothing<S>, scale2(literal<S>(2e-8), -current().unit_log2));
+    // Below 2e-8 mm Fixed has no digits for a length; a cell of 2 nm still resolves.
+    nothing_ = larger(negligible_units<S>, scale2(literal<S>(2e-8), -current().unit_log2));
     grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));
     stack_[0].control = current().control;
     stack_[0].level = 0;

@@ -18,8 +18,7 @@
 // holds A at every point of the cell; spread covers what q' and q'' leave their polynomials by. j = 0 and 3 are the two
 // ends of the cell (the interpolation scheme of TOPP-RA: H. Pham, Q.-C. Pham, IEEE T-RO 34 (2018)); 1 and 2 close the
 // gap between them. Where the axis does not turn round one sign of f is braking, and A is the braking limit for it. The
-// signs matter where an axis turns round: there |q'| |a| + |q''| b would give away several per
-// cent.
+// signs matter where an axis turns round: there |q'| |a| + |q''| b would give away several per cent.
 //
 // The polygon P of these half-planes is convex and holds (0, 0). Hence
 // - the entries from which an exit up to K can be reached are all from 0 to some largest one, a concave function of K
@@ -124,29 +123,29 @@ void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
     }
 }
 
-// What violates a half-plane is taken back from the exit: the quotient stays below it, whatever the divisor.
+// What violates a half-plane is taken back from the end that is asked for: the quotient stays below it, whatever the
+// divisor.
 template <Scalar S>
-S AccelerationBound<S>::largest_exit(S entry_sq, S at_most) const noexcept {
+template <auto Given, auto Asked>
+S AccelerationBound<S>::lowered(S given_sq, S at_most) const noexcept {
     S best = at_most;
     each_row([&](const Row& row, S) {
-        const S excess = row.entry * entry_sq + row.exit * best - row.limit;
-        if (excess > S{} && row.exit > S{}) {
-            best = excess < row.exit * best ? best - excess / row.exit : S{};
+        const S excess = row.*Given * given_sq + row.*Asked * best - row.limit;
+        if (excess > S{} && row.*Asked > S{}) {
+            best = excess < row.*Asked * best ? best - excess / row.*Asked : S{};
         }
     });
     return best;
 }
 
 template <Scalar S>
+S AccelerationBound<S>::largest_exit(S entry_sq, S at_most) const noexcept {
+    return lowered<&Row::entry, &Row::exit>(entry_sq, at_most);
+}
+
+template <Scalar S>
 S AccelerationBound<S>::largest_entry(S exit_sq, S at_most) const noexcept {
-    S best = at_most;
-    each_row([&](const Row& row, S) {
-        const S excess = row.entry * best + row.exit * exit_sq - row.limit;
-        if (excess > S{} && row.entry > S{}) {
-            best = excess < row.entry * best ? best - excess / row.entry : S{};
-        }
-    });
-    return best;
+    return lowered<&Row::exit, &Row::entry>(exit_sq, at_most);
 }
 
 // What violates a half-plane is added to the exit. The spread goes with |v^2|: below zero it takes from the other side.

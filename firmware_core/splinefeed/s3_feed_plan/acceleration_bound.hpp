@@ -46,6 +46,8 @@ private:
     [[nodiscard]] static int heading(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
     template <class Visit>
     void each_row(Visit&& visit) const noexcept; // visit(row, spread)
+    template <auto Given, auto Asked>            // members of Row
+    [[nodiscard]] S lowered(S given_sq, S at_most) const noexcept;
     [[nodiscard]] S lifted(S entry_sq, S exit_sq, S at_most) const noexcept;
 
     const Cell<S>* cell_;

@@ -86,10 +86,11 @@ Passage<S> steered_passage(const Cell<S>& cell, const MotionLimits<S>& limits, c
     } else if (aim.entry_sq < aim.exit_sq) {
         const Change<S> change = hardest_change(cell, limits, aim, aim.exit_sq);
         if (change.reached && change.passage.stretch.to < last) {
+            // And then on at this speed, where neither less nor more is asked for
             const AccelerationBound<S> rest(cell, limits, {change.passage.stretch.to});
             if (!(rest.largest_exit(aim.exit_sq, aim.exit_sq) < aim.exit_sq) &&
-                !(rest.smallest_exit(aim.exit_sq, aim.exit_sq, aim.most_sq) > aim.exit_sq)) {
-                return change.passage; // and then on at this speed
+                !(rest.smallest_exit(aim.exit_sq, aim.exit_sq, aim.exit_sq + aim.exit_sq) > aim.exit_sq)) {
+                return change.passage;
             }
         }
     }
