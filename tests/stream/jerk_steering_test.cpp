@@ -155,8 +155,8 @@ TEMPLATE_TEST_CASE("a hold on a curve takes little more than braking with as muc
                 speed_sq += v * v;
             }
             // Until the acceleration A is taken back with the jerk J the speed rises by A^2 / (2 J)
-            const Real rise = 1000.0L * 1000.0L / (2.0L * 2e4L);
-            const double braking = static_cast<double>(track.braking_s(place, std::sqrt(speed_sq) + rise));
+            const double rise_s = 1000.0 / (2.0 * 2e4);
+            const double braking = static_cast<double>(track.braking_s(place, std::sqrt(speed_sq))) + rise_s;
             const SteeredRun run = run_steered<S>(path, machine, 256, {{at, Order::hold}, {at + 500, Order::resume}});
             require_limits(run, machine);
             const double took = static_cast<double>(rest_after(run, at) - at) * segment_s;
