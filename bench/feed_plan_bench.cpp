@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// What a node of a feed plan costs, and how long the planning of one window takes at worst, along a curve that is
+// repeated as often as asked for: no figure may grow with its length. A node is the end of a cell.
+//
+// A plan pulls its cells out of the stages before it. So these run once without and once with the plan, and a node
+// costs the difference of both over the number of nodes. Time is what the thread had of the processor: other programs
+// on the machine count only by the caches that they use.
+#include "looped_curve.hpp"
+
+#include "splinefeed/s3_feed_plan/jerk_plan.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <vector>
+
+namespace {
+
+using namespace splinefeed;
+
+constexpr std::size_t window_cells = 1024; // the tool's default; it gives a quarter of that to the jerk plan
+constexpr std::size_t jerk_cells = window_cells / 4;
+
+constexpr double jerk = 30000.0; // [mm/s^3]
+
+double thread_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// The machine of examples/three_axis.toml, or with a jerk that of examples/jerk_limited.toml.
+MotionLimits<double> limits(double jerk_mm_s3, JerkTier tier) {
+    MachineSettings machine;
+    machine.jerk_tier = tier;
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_jerk_mm_s3 = jerk_mm_s3;
+        axis.steps_per_mm = 320.0;
+    }
+    return MotionLimits<double>::make(machine).value();
+}
+
+/// The stages of a run; those behind the one that is asked cost nothing.
+struct Stages {
+    Stages(std::int64_t waypoints, const MotionLimits<double>& machine)
+        : curve(waypoints), arc_length(curve, machine.refinement), window(window_cells),
+          feed_plan(arc_length, machine, window), cells(jerk_cells), nodes(jerk_cells + 1),
+          jerk_plan(feed_plan, machine, JerkStorage<double>{cells, nodes}) {}
+
+    bench::LoopedCurve curve;
+    ArcLength<double> arc_length;
+    std::vector<PlannedCell<double>> window;
+    FeedPlan<double> feed_plan;
+    std::vector<Cell<double>> cells;
+    std::vector<JerkNode> nodes;
+    JerkPlan<double> jerk_plan;
+};
+
+struct Measured {
+    double seconds = 0.0;
+    std::int64_t nodes = 0;
+};
+
+Measured drain(ArcLength<double>& arc_length) {
+    Measured out;
+    Cell<double> cell;
+    const double start = thread_seconds();
+    while (arc_length.next(cell) == Pull::item) {
+        benchmark::DoNotOptimize(cell);
+        ++out.nodes;
+    }
+    out.seconds = thread_seconds() - start;
+    return out;
+}
+
+Measured drain(MotionPlan<double>& plan) {
+    Measured out;
+    const double start = thread_seconds();
+    while (plan.prepare(Starvation::waits) == Pull::item) {
+        benchmark::DoNotOptimize(plan.passage());
+        out.nodes += plan.passage().stretch.to == 1.0 ? 1 : 0;
+        plan.advance();
+    }
+    out.seconds = thread_seconds() - start;
+    return out;
+}
+
+/// @param before, after  answer the stage without and with the plan
+void cost_of_a_node(benchmark::State& state, const MotionLimits<double>& machine, auto&& before, auto&& after) {
+    Measured sum;
+    for (auto _ : state) {
+        const auto without = std::make_unique<Stages>(state.range(0), machine);
+        const auto with = std::make_unique<Stages>(state.range(0), machine);
+        const double base = drain(before(*without)).seconds;
+        const Measured all = drain(after(*with));
+        const double cost = std::max(all.seconds - base, 1e-9);
+        state.SetIterationTime(cost);
+        sum.seconds += cost;
+        sum.nodes += all.nodes;
+    }
+    state.counters["nodes"] = static_cast<double>(sum.nodes) / static_cast<double>(state.iterations());
+    state.counters["ns_a_node"] = 1e9 * sum.seconds / static_cast<double>(sum.nodes);
+}
+
+void feed_plan(benchmark::State& state) {
+    cost_of_a_node(
+        state, limits(0.0, JerkTier::optimal), [](Stages& stages) -> ArcLength<double>& { return stages.arc_length; },
+        [](Stages& stages) -> MotionPlan<double>& { return stages.feed_plan; });
+}
+
+template <JerkTier tier>
+void jerk_plan(benchmark::State& state) {
+    cost_of_a_node(
+        state, limits(jerk, tier), [](Stages& stages) -> MotionPlan<double>& { return stages.feed_plan; },
+        [](Stages& stages) -> MotionPlan<double>& { return stages.jerk_plan; });
+}
+
+/// The longest prepare(), of those that plan: with the half window of cells that the stages before it deliver in it.
+template <JerkTier tier>
+void worst_window(benchmark::State& state) {
+    const auto machine = limits(jerk, tier);
+    double worst = 0.0;
+    std::uint32_t slow_legs = 0;
+    for (auto _ : state) {
+        const auto stages = std::make_unique<Stages>(state.range(0), machine);
+        JerkPlan<double>& plan = stages->jerk_plan;
+        const double start = thread_seconds();
+        for (bool more = true; more;) {
+            const double before = thread_seconds();
+            more = plan.prepare() == Pull::item;
+            worst = std::max(worst, thread_seconds() - before);
+            if (more) {
+                plan.advance();
+            }
+        }
+        state.SetIterationTime(thread_seconds() - start);
+        slow_legs = plan.slow_legs();
+    }
+    state.counters["worst_ms"] = 1e3 * worst;
+    state.counters["slow_legs"] = slow_legs;
+}
+
+/// From rest to rest on a straight line, the closed form: moves that reach every limit, some, or none.
+void straight_move(benchmark::State& state) {
+    constexpr std::array<double, 8> lengths{0.003, 0.04, 0.5, 2.0, 7.0, 30.0, 110.0, 900.0};
+    constexpr std::array<MoveLimits, 3> machines{
+        {{100.0, 1000.0, 30000.0}, {400.0, 3000.0, 60000.0}, {20.0, 5000.0, 1e6}}};
+    std::int64_t moves = 0;
+    for (auto _ : state) {
+        for (const MoveLimits& machine : machines) {
+            for (double length : lengths) {
+                benchmark::DoNotOptimize(length);
+                const StraightMove move(length, machine);
+                benchmark::DoNotOptimize(move);
+                ++moves;
+            }
+        }
+    }
+    state.SetItemsProcessed(moves);
+}
+
+void lengths(benchmark::internal::Benchmark* row) {
+    row->RangeMultiplier(10)->Range(1000, 1000000)->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+
+// NOLINTBEGIN
+BENCHMARK(feed_plan)->Apply(lengths);
+BENCHMARK(jerk_plan<JerkTier::bounded>)->Apply(lengths);
+BENCHMARK(jerk_plan<JerkTier::optimal>)->Apply(lengths);
+BENCHMARK(worst_window<JerkTier::bounded>)->Apply(lengths);
+BENCHMARK(worst_window<JerkTier::optimal>)->Apply(lengths);
+BENCHMARK(straight_move);
+// NOLINTEND
+
+} // namespace
