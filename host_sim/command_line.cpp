@@ -101,10 +101,8 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     }
     app.add_option("--window", typed.window,
                    "cells that the feed plan looks ahead, 16 to 1000000 (default 1024); a jerk-limited plan a quarter");
-    app.add_option(
-        "--events", job.events,
-        "E.csv: what an operator does while it runs, rows t,hold|resume|abort or t,override,0 to 2; of machines "
-        "without a jerk limit");
+    app.add_option("--events", job.events,
+                   "E.csv: what an operator does while it runs, rows t,hold|resume|abort or t,override,0 to 2");
     const std::string group = "Outputs (- is standard output)";
     app.add_option("--trace", job.trace, "T.csv: positions and speed at every sample period")->group(group);
     app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);

@@ -43,8 +43,27 @@ TEST_CASE("What a jerk-limited machine cannot do is told in one line") {
     const Call in_float = tool("run " + examples + "square.csv'" + machine + " --scalar float --quiet");
     CHECK(in_float.status == 2);
     CHECK(in_float.error.find("float has too few digits for a jerk limit") != std::string::npos);
-    tool.write("events.csv", "t,event\n0.1,hold\n");
-    const Call steered = tool("run " + examples + "square.csv'" + machine + " --events events.csv --quiet");
-    CHECK(steered.status == 2);
-    CHECK(steered.error.find("cannot be steered yet") != std::string::npos);
+}
+
+TEST_CASE("A jerk-limited run is steered and ends where it ends unsteered") {
+    const Tool tool;
+    const std::string run = "run " + examples + "path61.csv'" + machine + " --summary json --quiet";
+    const Call plain = tool(run + " --segments plain.csv");
+    REQUIRE(plain.status == 0);
+    tool.write("e.csv", "t,event,value\n0.2,hold,\n0.9,resume,\n1.1,override,0.5\n1.6,override,2\n");
+    const Call steered = tool(run + " --segments steered.csv --events e.csv");
+    CAPTURE(steered.error);
+    REQUIRE(steered.status == 0); // the machine found every limit kept
+    const double seconds = json::parse(steered.output)["cycle_time_s"].get<double>();
+    CHECK(seconds > json::parse(plain.output)["cycle_time_s"].get<double>() + 0.4);
+    const auto end = [&](const std::string& file) {
+        const std::string text = tool.read(file);
+        const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+        return last.substr(last.find(',')); // all but the index
+    };
+    CHECK(end("plain.csv") == end("steered.csv"));
+    tool.write("a.csv", "t,event\n0.3,abort\n");
+    const Call aborted = tool(run + " --events a.csv");
+    CHECK(aborted.status == 1);
+    CHECK(aborted.error.find("abort") != std::string::npos);
 }

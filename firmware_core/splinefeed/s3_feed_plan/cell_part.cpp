@@ -6,15 +6,17 @@
 // per length of the cell, shrink with the length.
 #include "splinefeed/s3_feed_plan/cell_part.hpp"
 
+#include <span>
+
 namespace splinefeed {
 
 namespace {
 
 // Coefficients of the polynomial in x - x0.
-template <Scalar S, std::size_t N>
-void shift(std::array<S, N>& power, std::size_t degree, S x0) noexcept {
-    for (std::size_t i = 0; i < degree; ++i) {
-        for (std::size_t j = degree; j-- > i;) {
+template <Scalar S>
+void shift(std::span<S> power, S x0) noexcept {
+    for (std::size_t i = 0; i + 1 < power.size(); ++i) {
+        for (std::size_t j = power.size() - 1; j-- > i;) {
             power[j] = power[j] + power[j + 1] * x0;
         }
     }
@@ -34,7 +36,7 @@ Cell<S> part_of(const Cell<S>& cell, const Stretch<S>& stretch) noexcept {
     const S third = literal<S>(1.0 / 3.0);
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
         PerDegree<S>& power = out.power[k];
-        shift(power, degree, w0);
+        shift(std::span<S>(power).first(degree + 1), w0);
         S scale = width;
         for (std::size_t i = 1; i <= degree; ++i) {
             power[i] = power[i] * scale;
@@ -58,7 +60,7 @@ Cell<S> part_of(const Cell<S>& cell, const Stretch<S>& stretch) noexcept {
     for (std::size_t i = 0; i < 6; ++i) {
         inverse[i + 1] = cell.inverse[i];
     }
-    shift(inverse, 6, stretch.from);
+    shift(std::span<S>(inverse), stretch.from);
     S scale = length / width;
     for (std::size_t i = 0; i < 6; ++i) {
         out.inverse[i] = inverse[i + 1] * scale;
