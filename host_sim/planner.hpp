@@ -22,7 +22,8 @@ public:
             plain_ = std::make_unique<Trajectory<S>>(curve, limits, window_);
             return;
         }
-        cells_.resize(std::max(window_cells / cells_a_jerk_cell, JerkPlan<S>::smallest_window));
+        cells_.resize(std::max(window_cells / cells_a_jerk_cell, JerkPlan<S>::smallest_window) +
+                      JerkWindow<S>::most_spare);
         nodes_.resize(JerkStorage<S>::nodes_for(cells_.size()));
         jerk_limited_ = std::make_unique<JerkTrajectory<S>>(curve, limits, window_, JerkStorage<S>{cells_, nodes_});
     }

@@ -3,6 +3,7 @@
 // The plan: feasible at every point of every cell, and nowhere slower than it must be.
 #include "support/catch.hpp"
 #include "support/plan_reference.hpp"
+#include "support/rounds.hpp"
 
 using namespace splinefeed_test;
 
@@ -31,7 +32,7 @@ void require_chain(const std::vector<PlannedCell<S>>& cells) {
 
 TEMPLATE_TEST_CASE("every limit holds at dense points", "[feed_plan]", double, float, Fixed) {
     Random random(seed);
-    for (int run = 0; run < 25; ++run) {
+    for (int run = 0; run < rounds(20); ++run) {
         const int axes = random.integer(1, max_axes);
         const MachineSettings machine = random_machine(random, axes);
         const BezierPath path = random_path(random, axes, 12, random.decades(1.0, 50.0), 0.2, 0.3);
@@ -44,7 +45,7 @@ TEMPLATE_TEST_CASE("every limit holds at dense points", "[feed_plan]", double, f
 
 TEMPLATE_TEST_CASE("no node can be faster", "[feed_plan]", double, float, Fixed) {
     Random random(seed + 1);
-    for (int run = 0; run < 25; ++run) {
+    for (int run = 0; run < rounds(20); ++run) {
         const int axes = random.integer(1, max_axes);
         const MachineSettings machine = random_machine(random, axes);
         const auto limits = MotionLimits<TestType>::make(machine).value();
@@ -63,7 +64,7 @@ TEMPLATE_TEST_CASE("a larger window changes nothing that was not limited", "[fee
     Random random(seed + 2);
     int unlimited = 0;
     int limited = 0;
-    for (int run = 0; run < 30; ++run) {
+    for (int run = 0; run < rounds(20); ++run) {
         const MachineSettings machine = random_machine(random, 3);
         const BezierPath path = random_path(random, 3, 20, random.decades(1.0, 20.0), 0.2, 0.3);
         const auto whole = plan_of<TestType>(path, machine, 16384);
@@ -86,8 +87,8 @@ TEMPLATE_TEST_CASE("a larger window changes nothing that was not limited", "[fee
             }
         }
     }
-    CHECK(unlimited > 20);
-    CHECK(limited > 20);
+    CHECK(unlimited > rounds(10));
+    CHECK(limited > rounds(10));
 }
 
 TEMPLATE_TEST_CASE("a window that is too short says so, and stays feasible", "[feed_plan]", double, Fixed) {

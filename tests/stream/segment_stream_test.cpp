@@ -2,6 +2,7 @@
 //
 // Feed segments as a drive sees them: exact chains, every limit at every instant, targets to the last unit.
 #include "support/catch.hpp"
+#include "support/rounds.hpp"
 #include "support/stream_reference.hpp"
 
 using namespace splinefeed_test;
@@ -92,7 +93,7 @@ TEMPLATE_TEST_CASE("steps per mm from 0.001 to a million", "[stream]", double, F
 
 TEMPLATE_TEST_CASE("a target on a count is reached in whole counts", "[stream]", double, float, Fixed) {
     Random random(61);
-    for (int run = 0; run < 40; ++run) {
+    for (int run = 0; run < rounds(24); ++run) {
         MachineSettings machine = machine_of(2, 100.0, 5000.0, 100.0);
         machine.axis[0].steps_per_mm = random.integer(20, 1000);
         machine.axis[1].steps_per_mm = random.integer(2, 8) * 12.5;
@@ -133,7 +134,7 @@ TEMPLATE_TEST_CASE("a target on a count is reached in whole counts", "[stream]",
 
 TEMPLATE_TEST_CASE("totals are the targets in rounded counts", "[stream]", double, float, Fixed) {
     Random random(62);
-    for (int run = 0; run < 40; ++run) {
+    for (int run = 0; run < rounds(24); ++run) {
         MachineSettings machine = machine_of(3, 100.0, 5000.0, 100.0);
         for (AxisSettings& axis : machine.axis) {
             axis.steps_per_mm = random.decades(0.5, 5000.0);

@@ -10,6 +10,7 @@
 
 using nlohmann::json;
 using splinefeed::test::Call;
+using splinefeed::test::last_positions;
 using splinefeed::test::Tool;
 
 namespace {
@@ -46,29 +47,6 @@ std::vector<std::vector<double>> rows_of(const std::string& text) {
     return rows;
 }
 
-// Where the last feed segment ends, in the integers of the file: index, duration, start, end and velocities by axis.
-std::vector<std::string> last_segment(const Tool& tool) {
-    std::istringstream in(tool.read("s.csv"));
-    std::string header;
-    std::string last;
-    for (std::string row; std::getline(in, row);) {
-        if (row.rfind("index,", 0) == 0) {
-            header = row;
-        }
-        last = row;
-    }
-    std::vector<std::string> ends;
-    std::istringstream names(header);
-    std::istringstream fields(last);
-    std::string field;
-    for (std::string name; std::getline(names, name, ',') && std::getline(fields, field, ',');) {
-        if (name.find("_end") != std::string::npos) {
-            ends.push_back(name + "=" + field);
-        }
-    }
-    return ends;
-}
-
 } // namespace
 
 TEST_CASE("A hold adds the time that it stands and changes nothing of where the program ends") {
@@ -78,13 +56,13 @@ TEST_CASE("A hold adds the time that it stands and changes nothing of where the 
     for (const std::string& program : {std::string("line.csv"), path61}) {
         const Run plain = run(tool, "", program);
         REQUIRE(plain.call.status == 0);
-        const std::vector<std::string> end = last_segment(tool);
+        const std::vector<std::string> end = last_positions(tool, "s.csv");
         REQUIRE(end.size() >= 3);
         const Run held = run(tool, "t,event,value\n0.5,hold\n1.5,resume\n", program);
         CAPTURE(program, held.call.error);
         REQUIRE(held.call.status == 0);
         CHECK(held.call.error.empty());
-        CHECK(last_segment(tool) == end);
+        CHECK(last_positions(tool, "s.csv") == end);
         CHECK_FALSE(held.summary["stopped"].get<bool>());
         CHECK(held.summary["optimum_time_s"].is_null());
         // Braking and starting again cost v / a more than the time from hold to resume less the braking
@@ -126,7 +104,7 @@ TEST_CASE("An override scales the programmed feed, at most to the machine's") {
     const Tool tool;
     tool.write("line.csv", line);
     const Run plain = run(tool, "");
-    const std::vector<std::string> end = last_segment(tool);
+    const std::vector<std::string> end = last_positions(tool, "s.csv");
     CHECK(plain.seconds() == Approx(2.05).margin(0.01));
     const auto fastest = [&] {
         double most = 0.0;
@@ -143,7 +121,7 @@ TEST_CASE("An override scales the programmed feed, at most to the machine's") {
         CHECK(steered.call.status == 0);
         CHECK(steered.seconds() == Approx(100.0 / feed + feed / 1000.0).margin(0.01));
         CHECK(fastest() == Approx(feed).epsilon(1e-3));
-        CHECK(last_segment(tool) == end);
+        CHECK(last_positions(tool, "s.csv") == end);
     }
     // Twice a feed that is more than half of the machine's is the machine's
     tool.write("fast.csv", "x,y,z,feed\n0,0,0,\n100,0,0,80\n");

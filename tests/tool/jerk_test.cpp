@@ -8,6 +8,7 @@
 
 using nlohmann::json;
 using splinefeed::test::Call;
+using splinefeed::test::last_positions;
 using splinefeed::test::Tool;
 
 namespace {
@@ -56,12 +57,7 @@ TEST_CASE("A jerk-limited run is steered and ends where it ends unsteered") {
     REQUIRE(steered.status == 0); // the machine found every limit kept
     const double seconds = json::parse(steered.output)["cycle_time_s"].get<double>();
     CHECK(seconds > json::parse(plain.output)["cycle_time_s"].get<double>() + 0.4);
-    const auto end = [&](const std::string& file) {
-        const std::string text = tool.read(file);
-        const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
-        return last.substr(last.find(',')); // all but the index
-    };
-    CHECK(end("plain.csv") == end("steered.csv"));
+    CHECK(last_positions(tool, "plain.csv") == last_positions(tool, "steered.csv"));
     tool.write("a.csv", "t,event\n0.3,abort\n");
     const Call aborted = tool(run + " --events a.csv");
     CHECK(aborted.status == 1);

@@ -11,6 +11,7 @@
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 namespace splinefeed::test {
 
@@ -71,5 +72,28 @@ public:
 private:
     std::filesystem::path folder_;
 };
+
+/// Where the last feed segment of a file ends, in its integers.
+inline std::vector<std::string> last_positions(const Tool& tool, const std::string& file) {
+    std::istringstream in(tool.read(file));
+    std::string header;
+    std::string last;
+    for (std::string row; std::getline(in, row);) {
+        if (row.rfind("index,", 0) == 0) {
+            header = row;
+        }
+        last = row;
+    }
+    std::vector<std::string> ends;
+    std::istringstream names(header);
+    std::istringstream fields(last);
+    std::string field;
+    for (std::string name; std::getline(names, name, ',') && std::getline(fields, field, ',');) {
+        if (name.find("_end") != std::string::npos) {
+            ends.push_back(name + "=" + field);
+        }
+    }
+    return ends;
+}
 
 } // namespace splinefeed::test

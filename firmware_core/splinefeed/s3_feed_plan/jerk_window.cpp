@@ -17,8 +17,6 @@ constexpr double ripple = 10.4;
 template <Scalar S>
 constexpr double bend_noise = std::same_as<S, double> ? 0x1p-48 : 0x1p-30;
 
-constexpr std::size_t most_spare = 40; // cells that a change of the steering may split
-
 } // namespace
 
 template <Scalar S>

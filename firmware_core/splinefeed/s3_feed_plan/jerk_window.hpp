@@ -29,6 +29,8 @@ template <Scalar S>
 template <Scalar S>
 class JerkWindow {
 public:
+    static constexpr std::size_t most_spare = 40; ///< cells that are kept free, at most; at most a quarter of all
+
     /// @pre storage.nodes.size() >= nodes_for(storage.cells.size())
     JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
