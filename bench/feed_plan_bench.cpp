@@ -117,11 +117,13 @@ void jerk_plan(benchmark::State& state) {
         [](Stages& stages) -> MotionPlan<double>& { return stages.jerk_plan; });
 }
 
-/// The longest prepare(), of those that plan: with the half window of cells that the stages before it deliver in it.
+/// The longest prepare(), of those that plan: with the half window of cells that the stages before it deliver in it. A
+/// virtual machine that is not served for a moment makes one long; so also what all but one in a thousand stay below.
 template <JerkTier tier>
 void worst_window(benchmark::State& state) {
+    constexpr double least = 1e-4; // [s], of a prepare() that plans
     const auto machine = limits(jerk, tier);
-    double worst = 0.0;
+    std::vector<double> windows;
     std::uint32_t slow_legs = 0;
     for (auto _ : state) {
         const auto stages = std::make_unique<Stages>(state.range(0), machine);
@@ -130,7 +132,9 @@ void worst_window(benchmark::State& state) {
         for (bool more = true; more;) {
             const double before = thread_seconds();
             more = plan.prepare() == Pull::item;
-            worst = std::max(worst, thread_seconds() - before);
+            if (const double seconds = thread_seconds() - before; seconds > least) {
+                windows.push_back(seconds);
+            }
             if (more) {
                 plan.advance();
             }
@@ -138,7 +142,13 @@ void worst_window(benchmark::State& state) {
         state.SetIterationTime(thread_seconds() - start);
         slow_legs = plan.slow_legs();
     }
-    state.counters["worst_ms"] = 1e3 * worst;
+    if (windows.empty()) {
+        state.SkipWithError("no window was planned");
+        return;
+    }
+    std::sort(windows.begin(), windows.end());
+    state.counters["worst_ms"] = 1e3 * windows.back();
+    state.counters["all_but_0.1%_ms"] = 1e3 * windows[windows.size() - 1 - windows.size() / 1000];
     state.counters["slow_legs"] = slow_legs;
 }
 
