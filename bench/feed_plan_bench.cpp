@@ -21,7 +21,7 @@ namespace {
 using namespace splinefeed;
 
 constexpr std::size_t window_cells = 1024; // the tool's default; it gives a quarter of that to the jerk plan
-constexpr std::size_t jerk_cells = window_cells / 4;
+constexpr std::size_t jerk_cells = window_cells / 4 + JerkWindow<double>::most_spare;
 
 constexpr double jerk = 30000.0; // [mm/s^3]
 
@@ -46,7 +46,7 @@ MotionLimits<double> limits(double jerk_mm_s3, JerkTier tier) {
 struct Stages {
     Stages(std::int64_t waypoints, const MotionLimits<double>& machine)
         : curve(waypoints), arc_length(curve, machine.refinement), window(window_cells),
-          feed_plan(arc_length, machine, window), cells(jerk_cells), nodes(jerk_cells + 1),
+          feed_plan(arc_length, machine, window), cells(jerk_cells), nodes(JerkStorage<double>::nodes_for(jerk_cells)),
           jerk_plan(feed_plan, machine, JerkStorage<double>{cells, nodes}) {}
 
     bench::LoopedCurve curve;
