@@ -51,7 +51,7 @@ std::vector<Event> random_events(Random& random, std::size_t segments) {
 Used require_limits(const SteeredRun& run, const MachineSettings& machine) {
     REQUIRE_FALSE(run.endless);
     Used used;
-    REQUIRE(std::string(check_stream(run.segments, machine, used)) == "");
+    REQUIRE(std::string(check_stream(run.segments, machine, used)).empty());
     CAPTURE(static_cast<double>(used.jerk), static_cast<double>(used.acceleration));
     CHECK(used.jerk <= 1.0L);
     CHECK(used.acceleration <= 1.0L);

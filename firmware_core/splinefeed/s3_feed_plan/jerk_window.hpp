@@ -54,7 +54,7 @@ public:
     /// Appends a cell, and a stop before it where q'' jumps. @param most_sq  largest v^2 in it, whatever is programmed
     /// @param wanted_sq  largest v^2 that is wanted in it  @param exit_at_most_sq  bound of v^2 at its end
     /// @pre room() > 0
-    void append(const Cell<S>& cell, double most_sq, double wanted_sq, double exit_at_most_sq) noexcept;
+    void append(const Cell<S>& added, double most_sq, double wanted_sq, double exit_at_most_sq) noexcept;
     void pop() noexcept;
     /// Moves what is not yet travelled to the front of the nodes. Cost: a visit to every node.
     void forget_travelled() noexcept;

@@ -89,7 +89,7 @@ bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
 template <Scalar S>
 bool StraightLeg<S>::to_end(double from, const SpeedState& state) noexcept {
     const double left = length_mm() - from * window_->node(0).cell.length_mm;
-    double wanted_sq = largest<double>();
+    auto wanted_sq = largest<double>();
     for (std::size_t i = 0; i < cells_; ++i) {
         wanted_sq = smaller(wanted_sq, window_->node(i).wanted_sq);
     }
