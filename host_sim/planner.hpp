@@ -22,8 +22,8 @@ public:
             plain_ = std::make_unique<Trajectory<S>>(curve, limits, window_);
             return;
         }
-        cells_.resize(std::max(window_cells / cells_a_jerk_cell, JerkPlan<S>::smallest_window) +
-                      JerkWindow<S>::most_spare);
+        const std::size_t cells = std::max(window_cells / cells_a_jerk_cell, JerkPlan<S>::smallest_window);
+        cells_.resize(cells + std::min(cells / 3, JerkWindow<S>::most_spare)); // a quarter of all is kept free
         nodes_.resize(JerkStorage<S>::nodes_for(cells_.size()));
         jerk_limited_ = std::make_unique<JerkTrajectory<S>>(curve, limits, window_, JerkStorage<S>{cells_, nodes_});
     }

@@ -127,8 +127,7 @@ TEMPLATE_TEST_CASE("the smallest exits of a cell and of parts of it, down to slo
     std::array<int, 4> seen{}; // bounded above zero, below it, at_least, at_most
     for (int round = 0; round < 4000; ++round) {
         const int axes = random.integer(1, max_axes);
-        MachineSettings machine = random_machine(random, axes);
-        brake_differently(random, machine);
+        const MachineSettings machine = changed_machine<S>(random, axes, brake_differently);
         const MotionLimits<S> limits = MotionLimits<S>::make(machine).value();
         const Cell<S> cell = random_cell(random, limits);
         Stretch<S> stretch;

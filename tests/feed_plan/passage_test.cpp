@@ -200,8 +200,7 @@ TEMPLATE_TEST_CASE("what a passage asks of the axes its cell allows, and what fo
     const int runs = rounds(2000);
     for (int run = 0; run < runs; ++run) {
         const int axes = random.integer(1, max_axes);
-        MachineSettings machine = random_machine(random, axes);
-        brake_differently(random, machine);
+        const MachineSettings machine = changed_machine<S>(random, axes, brake_differently);
         const auto limits = MotionLimits<S>::make(machine).value();
         Cell<S> cell = random_cell(random, limits);
         // Some axis has inertia, as on every path

@@ -149,4 +149,16 @@ inline void brake_differently(Random& random, MachineSettings& machine) {
     }
 }
 
+/// A random machine that was changed, and that the scalar has digits for.
+template <Scalar S, class Change>
+MachineSettings changed_machine(Random& random, int axes, Change&& change) {
+    for (;;) {
+        MachineSettings machine = random_machine(random, axes);
+        change(random, machine);
+        if (MotionLimits<S>::make(machine).has_value()) {
+            return machine;
+        }
+    }
+}
+
 } // namespace splinefeed_test

@@ -346,8 +346,7 @@ Use require_best_plans(std::uint64_t seed, int runs, Change&& change, Real coars
     Use most;
     for (int run = 0; run < runs; ++run) {
         const int axes = random.integer(1, max_axes);
-        MachineSettings machine = random_machine(random, axes);
-        change(random, machine);
+        const MachineSettings machine = changed_machine<S>(random, axes, change);
         const BezierPath path = random_path(random, axes, 15, random.decades(1.0, 30.0), 0.15, 0.3);
         CAPTURE(seed, run);
         const auto whole = plan_of<S>(path, machine, 8192);

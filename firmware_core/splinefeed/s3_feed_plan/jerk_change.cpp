@@ -9,7 +9,6 @@
 // Before that place the caps stay as they were. Where more is wanted the place is where the machine is.
 #include "splinefeed/s3_feed_plan/jerk_change.hpp"
 
-#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/s3_feed_plan/cell_part.hpp"
 
 namespace splinefeed {
