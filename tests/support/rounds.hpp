@@ -19,9 +19,14 @@ inline constexpr bool sanitized = false;
 inline constexpr bool sanitized = false;
 #endif
 
-inline int rounds(int few) {
+/// @param many  in ./check --long
+inline int rounds(int few, int many) {
     const char* const set = std::getenv("SPLINEFEED_LONG");
-    return set != nullptr && std::string_view(set) == "1" ? 20 * few : sanitized ? (few + 1) / 2 : few;
+    return set != nullptr && std::string_view(set) == "1" ? many : sanitized ? (few + 1) / 2 : few;
+}
+
+inline int rounds(int few) {
+    return rounds(few, 20 * few);
 }
 
 } // namespace splinefeed_test

@@ -85,7 +85,10 @@ bool JerkLeg::sweep(bool backward) noexcept {
         const JerkCell& first = nodes_[0].cell;
         const CurvatureRange range =
             JerkReach({&first, false}, {nodes_[0].expected_sq, nodes_[1].expected_sq}).range(*start_, turned_states);
-        if (!(range.low <= range.high)) {
+        // Two corners that all but coincide are no line: its sides would be of any direction.
+        const double u =
+            absolute(range.high) + (absolute(start_->slope) + start_->b / first.length_mm) / first.length_mm;
+        if (!(range.high - range.low > rounding * u)) {
             return false;
         }
         states.clear();
