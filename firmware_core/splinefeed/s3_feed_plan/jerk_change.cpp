@@ -24,7 +24,6 @@ constexpr double longer = 1.25;             // pieces, where there is no room fo
 constexpr double close = 0.004;             // relative error of a distance that is close enough
 constexpr double farther = 1.4;             // than a guess that was too near
 constexpr double roomy = 1.5;               // of what braking takes, where it need not be the least
-constexpr double shortest_mm = 1e-9;
 constexpr int most_steps = 40;
 
 } // namespace
@@ -93,12 +92,18 @@ double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
     return larger(cuts.finest_mm, smaller(cuts.coarsest_mm, part));
 }
 
+// What is too short to be cut off.
+template <Scalar S>
+double JerkChange<S>::least_mm(const Cuts& cuts) noexcept {
+    return larger(sliver * cuts.finest_mm, 0.1 * JerkWindow<S>::shortest_mm);
+}
+
 // Calls visit(cell, from, to, at_mm) for every piece of the cells from the front on, as far as they are cut or planned,
 // until it answers false. Cell 0 is number `first` of the window.
 template <Scalar S>
 template <class Visit>
 void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept {
-    const double least = sliver * cuts.finest_mm;
+    const double least = least_mm(cuts);
     const double until = larger(cuts.end_mm, cuts.fine_mm) - least;
     double at_mm = 0.0;
     for (std::size_t i = 0; i + first < window_->size() && at_mm < until; ++i) {
@@ -150,7 +155,7 @@ bool JerkChange<S>::fit(Cuts& cuts) noexcept {
 template <Scalar S>
 bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
     const std::span<JerkNode> nodes = window_->scratch();
-    const double least = sliver * cuts.finest_mm;
+    const double least = least_mm(cuts);
     const bool to_rest = cuts.finest_mm < cuts.coarsest_mm;
     const double gain = 2.0 * along_.acceleration_mm_s2;
     std::size_t n = 0;
@@ -199,7 +204,7 @@ bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
 template <Scalar S>
 void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
     const std::span<JerkNode> tried = window_->scratch();
-    const double least = sliver * cuts.finest_mm;
+    const double least = least_mm(cuts);
     const std::size_t more = pieces_ - cells_;
     window_->open(0, more); // no piece comes behind where its cell is now
     Cell<S> whole;
@@ -277,10 +282,11 @@ bool JerkChange<S>::to_rest() noexcept {
     const double a = 0.5 * larger(state_.slope, 0.0);
     const double peak = v + 0.5 * a * a / along_.jerk_mm_s3; // the acceleration falls to zero first
     peak_sq_ = peak * peak;
-    const double guess = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, shortest_mm);
+    const double guess = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, pieces * JerkWindow<S>::shortest_mm);
     return nearest(guess, [&](double end_mm) {
         const double longest = guess / pieces;
-        return Cuts{end_mm, largest<double>(), end_mm + guess, longest, longest * next_to_rest};
+        return Cuts{end_mm, largest<double>(), end_mm + guess, longest,
+                    larger(longest * next_to_rest, JerkWindow<S>::shortest_mm)};
     });
 }
 
@@ -289,7 +295,7 @@ bool JerkChange<S>::to_wanted() noexcept {
     const double v = square_root(state_.b);
     const double wanted = square_root(window_->node(0).wanted_sq);
     const double ramp = ramp_mm(v, wanted);
-    const double longest = larger(larger(ramp / pieces, sliver * known_mm_), shortest_mm);
+    const double longest = larger(larger(ramp / pieces, sliver * known_mm_), JerkWindow<S>::shortest_mm);
     const double stop = roomy * ramp_mm(larger(v, wanted), 0.0);
     const auto cuts_at = [&](double change_mm) {
         return Cuts{smaller(change_mm + ramp + stop, known_mm_), change_mm, change_mm + ramp, longest, longest};

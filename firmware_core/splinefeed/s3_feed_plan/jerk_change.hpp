@@ -47,6 +47,7 @@ private:
 
     template <class Visit>
     void each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept;
+    [[nodiscard]] static double least_mm(const Cuts& cuts) noexcept;
     [[nodiscard]] static double longest_piece(const Cuts& cuts, double at_mm) noexcept;
     bool fit(Cuts& cuts) noexcept;
     bool attempt(const Cuts& cuts) noexcept;

@@ -243,6 +243,9 @@ bool JerkPlan<S>::change_curve(double from, const SpeedState& state) noexcept {
 // stop is travelled to its end, at rest.
 template <Scalar S>
 bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
+    if (state.b < JerkWindow<S>::slowest_sq) {
+        return false; // later: it has just started, or is about to stand
+    }
     want();
     window_.forget_travelled();
     if (halt_ > 0) {
@@ -278,7 +281,8 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
 template <Scalar S>
 bool JerkPlan<S>::steer(const Place<S>& place) noexcept {
     const double from = to_double(place.fraction);
-    if (line_.done() && 1.0 - from < least_part) {
+    const double left = 1.0 - from;
+    if (line_.done() && (left < least_part || left * window_.node(0).cell.length_mm < JerkWindow<S>::shortest_mm)) {
         return false; // with the next passage
     }
     if (!answer(from, state_on(passage_, window_.node(0).cell.length_mm, from, to_double(place.time_share)))) {

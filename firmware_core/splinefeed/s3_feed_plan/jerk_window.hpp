@@ -30,6 +30,8 @@ template <Scalar S>
 class JerkWindow {
 public:
     static constexpr std::size_t most_spare = 40; ///< cells that are kept free, at most; at most a quarter of all
+    static constexpr double shortest_mm = 2e-6;   ///< cells are cut no shorter, lest Fixed have no digits for them
+    static constexpr double slowest_sq = 1e-6;    ///< v^2 below which a motion is not changed
 
     /// @pre storage.nodes.size() >= nodes_for(storage.cells.size())
     JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;

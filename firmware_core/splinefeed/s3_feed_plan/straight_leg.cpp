@@ -74,14 +74,27 @@ bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
     move_ = StraightMove::to_rest(state_of(state), limits_);
     double left = from * window_->node(0).cell.length_mm + move_.length_mm();
     std::size_t i = 0;
-    while (i < cells_ && left >= window_->node(i).cell.length_mm * (1.0 - end)) {
+    while (i < cells_ && left > window_->node(i).cell.length_mm) {
         left -= window_->node(i).cell.length_mm;
         ++i;
     }
-    if (i == cells_ || window_->room() == 0) {
+    if (i == cells_) {
         return false;
     }
-    window_->split(i, larger(left, 0.0) / window_->node(i).cell.length_mm);
+    // No part is cut off that is next to nothing: a little farther, or to the end of the cell.
+    constexpr double least = JerkWindow<S>::shortest_mm;
+    const double length = window_->node(i).cell.length_mm;
+    const bool whole = larger(left, least) > length - least;
+    const double more = (whole ? length : larger(left, least)) - left;
+    if (whole ? i + 1 == cells_ : window_->room() == 0) {
+        return false;
+    }
+    if (more > 0.0) {
+        move_ = StraightMove::to_length(state_of(state), move_.length_mm() + more, limits_);
+    }
+    if (!whole) {
+        window_->split(i, (left + more) / length);
+    }
     cells_ = i + 1;
     return true;
 }
