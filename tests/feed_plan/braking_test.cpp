@@ -2,9 +2,9 @@
 //
 // Axes that brake with another limit than they accelerate with.
 #include "support/catch.hpp"
+#include "support/emitted.hpp"
 #include "support/plan_reference.hpp"
 #include "support/rounds.hpp"
-#include "support/stream_reference.hpp"
 
 using namespace splinefeed_test;
 
@@ -57,12 +57,7 @@ TEMPLATE_TEST_CASE("what is emitted brakes within its limit, axes that turn roun
                    double, Fixed) {
     Real most = 0.0L;
     const auto judge = [&](const Stream& stream, const MachineSettings& machine) {
-        Used used;
-        REQUIRE_FALSE(stream.endless);
-        REQUIRE(std::string(check_stream(stream.segments, machine, used)).empty());
-        CHECK(used.acceleration <= 1.0L);
-        CHECK(used.velocity <= 1.0L);
-        most = std::max(most, used.acceleration);
+        most = std::max(most, require_limits(stream, machine).acceleration);
     };
     for (const double braking : {150.0, 400.0, 4000.0}) {
         for (const int period : {250, 1000, 4000}) {
@@ -98,10 +93,7 @@ TEMPLATE_TEST_CASE("where the curvature jumps an axis may turn round at once", "
         MachineSettings machine = random_machine(random, axes);
         brake_differently(random, machine);
         const BezierPath path = random_path(random, axes, 6, random.decades(0.05, 50.0), 0.3, 0.3);
-        const Stream stream = stream_of<TestType>(path, machine, 256);
         CAPTURE(seed, run);
-        Used used;
-        REQUIRE(std::string(check_stream(stream.segments, machine, used)).empty());
-        CHECK(used.acceleration <= 1.0L);
+        require_limits(stream_of<TestType>(path, machine, 256), machine);
     }
 }

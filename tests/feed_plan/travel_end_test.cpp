@@ -2,8 +2,8 @@
 //
 // Axes that go slower near the ends of their travel.
 #include "support/catch.hpp"
+#include "support/emitted.hpp"
 #include "support/plan_reference.hpp"
-#include "support/stream_reference.hpp"
 
 using namespace splinefeed_test;
 
@@ -69,11 +69,8 @@ TEMPLATE_TEST_CASE("what is emitted in an end zone keeps its velocity", "[feed_p
             set_end(machine.axis[0], -51.0, 51.0, 15.0, velocity);
             set_end(machine.axis[1], -31.0, 31.0, 4.0, velocity);
             const Stream stream = stream_of<TestType>(loop_program(), machine);
-            REQUIRE_FALSE(stream.endless);
-            Used used;
-            REQUIRE(std::string(check_stream(stream.segments, machine, used)).empty());
-            CHECK(used.velocity <= 1.0L);
             CAPTURE(period, velocity);
+            require_limits(stream, machine);
             for (const unsigned k : {0U, 1U}) {
                 const Real most = fastest_at_end(stream.segments, machine.axis[k], k);
                 CHECK(most <= 1.0L);

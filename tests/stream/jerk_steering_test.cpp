@@ -2,8 +2,9 @@
 //
 // Steering with limited jerk, judged on what was emitted: every limit, the end, the time that a hold takes.
 #include "support/catch.hpp"
+#include "support/emitted.hpp"
+#include "support/random_steering.hpp"
 #include "support/rounds.hpp"
-#include "support/steered_run.hpp"
 
 #include "splinefeed/s3_feed_plan/straight_move.hpp"
 
@@ -12,56 +13,6 @@ using namespace splinefeed_test;
 namespace {
 
 constexpr std::uint64_t seed = 2718;
-
-MachineSettings random_jerk_machine(Random& random, int axes) {
-    MachineSettings machine = random_machine(random, axes);
-    machine.jerk_tier = random.chance(0.5) ? JerkTier::bounded : JerkTier::optimal;
-    for (AxisSettings& axis : machine.axis) {
-        axis.max_acceleration_mm_s2 = random.decades(300.0, 3e4);
-        if (random.chance(0.9)) {
-            axis.max_jerk_mm_s3 = std::min(axis.max_acceleration_mm_s2 / random.decades(1e-4, 1.0), 1e9);
-        }
-    }
-    return machine;
-}
-
-std::vector<Event> random_events(Random& random, std::size_t segments) {
-    const int count = random.integer(1, 8);
-    std::vector<Event> events;
-    std::size_t at = 0;
-    for (int i = 0; i < count; ++i) {
-        at += static_cast<std::size_t>(random.between(0.0, 2.0 * static_cast<double>(segments) / count));
-        const int kind = random.integer(0, 3);
-        const auto pause = static_cast<std::size_t>(random.decades(1.0, 300.0));
-        if (kind == 0) {
-            events.push_back({at, Order::hold});
-            at += pause;
-            events.push_back({at, Order::resume});
-        } else if (kind == 1) {
-            events.push_back({at, Order::override_feed, 0.0});
-            at += pause;
-            events.push_back({at, Order::override_feed, random.between(0.2, 2.0)});
-        } else {
-            events.push_back({at, Order::override_feed, random.between(0.1, 2.0)});
-        }
-    }
-    if (random.chance(0.2)) {
-        events.push_back({at + static_cast<std::size_t>(random.decades(1.0, 300.0)), Order::abort});
-    }
-    return events;
-}
-
-Used require_limits(const SteeredRun& run, const MachineSettings& machine) {
-    REQUIRE_FALSE(run.endless);
-    Used used;
-    REQUIRE(std::string(check_stream(run.segments, machine, used)).empty());
-    CAPTURE(static_cast<double>(used.jerk), static_cast<double>(used.acceleration));
-    CHECK(used.jerk <= 1.0L);
-    CHECK(used.acceleration <= 1.0L);
-    CHECK(used.velocity <= 1.0L);
-    CHECK(used.feed <= 1.0L);
-    return used;
-}
 
 MachineSettings jerk_machine(JerkTier tier) {
     MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
@@ -90,7 +41,8 @@ TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stre
     for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(runs); ++round) {
         Random random(seed + round);
         const int axes = random.integer(1, max_axes);
-        const MachineSettings machine = random_jerk_machine(random, axes);
+        MachineSettings machine = random_quick_machine(random, axes);
+        limit_jerk(random, machine);
         const int pieces = random.chance(0.15) ? 3 : 8;
         const double size = random.decades(0.5, 50.0);
         const BezierPath path = random_path(random, axes, pieces, size, 0.15, 0.3);
@@ -103,7 +55,12 @@ TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stre
         if (plain.endless || plain.segments.size() > 20'000) {
             continue; // minutes of the machine's time
         }
-        const SteeredRun run = run_steered<S>(path, machine, window, random_events(random, plain.segments.size()));
+        std::vector<Event> events = random_events(random, plain.segments.size());
+        if (random.chance(0.2)) {
+            events.push_back(
+                {events.back().segment + static_cast<std::size_t>(random.decades(1.0, 300.0)), Order::abort});
+        }
+        const SteeredRun run = run_steered<S>(path, machine, window, events);
         most = std::max(most, require_limits(run, machine).jerk);
         REQUIRE(run.finished);
         for (unsigned k = 0; k < static_cast<unsigned>(axes) && run.activity != Activity::aborted; ++k) {

@@ -2,8 +2,8 @@
 //
 // Feed segments as a drive sees them: exact chains, every limit at every instant, targets to the last unit.
 #include "support/catch.hpp"
+#include "support/emitted.hpp"
 #include "support/rounds.hpp"
-#include "support/stream_reference.hpp"
 
 using namespace splinefeed_test;
 
@@ -28,18 +28,8 @@ Real float_slack(const Stream& stream, const MachineSettings& machine, double la
 /// Everything that holds for every stream.
 void require_stream(const Stream& stream, const MachineSettings& machine, const PerAxis<double>& start,
                     const PerAxis<double>& end, Real slack) {
-    REQUIRE_FALSE(stream.endless);
-    Used used;
-    const std::string broken = check_stream(stream.segments, machine, used);
-    REQUIRE(broken.empty());
-    CHECK(used.acceleration <= 1.0L + slack);
-    CHECK(used.velocity <= 1.0L);
-    CHECK(used.feed <= 1.0L);
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
-        CAPTURE(k, start[k], end[k], machine.axis[k].steps_per_mm);
-        REQUIRE(stream.segments.front().start[k] == target_units(start[k], machine.axis[k]));
-        REQUIRE(stream.segments.back().end[k] == target_units(end[k], machine.axis[k]));
-    }
+    require_limits(stream, machine, slack);
+    require_ends(stream, machine, start, end);
 }
 
 template <class S>

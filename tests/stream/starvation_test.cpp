@@ -3,6 +3,7 @@
 // Input that comes too late for a machine that cannot wait: it goes on with what is known, stops at its end, and starts
 // again, all within the limits.
 #include "support/catch.hpp"
+#include "support/emitted.hpp"
 #include "support/rounds.hpp"
 #include "support/steered_run.hpp"
 
@@ -87,12 +88,7 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
         }
         REQUIRE(trajectory.state() == Pull::finished);
         // Nothing is known of the start while the first segment is awaited: the machine stands at 0, as the path does
-        Used used;
-        REQUIRE(std::string(check_stream(run.segments, machine, used)).empty());
-        const Real slack = std::same_as<S, float> ? 5e-2L : 0.0L;
-        CHECK(used.acceleration <= 1.0L + slack);
-        CHECK(used.velocity <= 1.0L);
-        CHECK(used.feed <= 1.0L);
+        require_limits(run, machine, std::same_as<S, float> ? 5e-2L : 0.0L);
         for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
             REQUIRE(run.segments.back().end[k] == plain.segments.back().end[k]);
         }

@@ -2,8 +2,9 @@
 //
 // Steering while it runs, judged on what was emitted: every limit, the path in space, the places and times of rest.
 #include "support/catch.hpp"
+#include "support/emitted.hpp"
+#include "support/random_steering.hpp"
 #include "support/rounds.hpp"
-#include "support/steered_run.hpp"
 
 using namespace splinefeed_test;
 
@@ -16,46 +17,11 @@ struct Case {
     BezierPath path;
 };
 
-/// Axes that are not so soft or lines so long that a run takes minutes of its own time.
 Case random_case(Random& random) {
     const int axes = random.integer(1, max_axes);
-    Case made{random_machine(random, axes), {}};
-    for (AxisSettings& axis : made.machine.axis) {
-        axis.max_acceleration_mm_s2 = random.decades(300.0, 3e4);
-    }
+    Case made{random_quick_machine(random, axes), {}};
     made.path = random_path(random, axes, 10, random.decades(0.5, 50.0), 0.15, 0.3);
     return made;
-}
-
-std::vector<Event> random_events(Random& random, std::size_t segments, int count) {
-    std::vector<Event> events;
-    std::size_t at = 0;
-    for (int i = 0; i < count; ++i) {
-        at += static_cast<std::size_t>(random.between(0.0, 2.0 * static_cast<double>(segments) / count));
-        const int kind = random.integer(0, 3);
-        if (kind == 0) {
-            events.push_back({at, Order::hold});
-            at += static_cast<std::size_t>(random.decades(1.0, 300.0));
-            events.push_back({at, Order::resume});
-        } else if (kind == 1) {
-            events.push_back({at, Order::override_feed, 0.0});
-            at += static_cast<std::size_t>(random.decades(1.0, 300.0));
-            events.push_back({at, Order::override_feed, random.between(0.2, 2.0)});
-        } else {
-            events.push_back({at, Order::override_feed, random.between(0.1, 2.0)});
-        }
-    }
-    return events;
-}
-
-void require_limits(const SteeredRun& run, const MachineSettings& machine, Real slack) {
-    REQUIRE_FALSE(run.endless);
-    Used used;
-    REQUIRE(std::string(check_stream(run.segments, machine, used)).empty());
-    CAPTURE(static_cast<double>(used.acceleration - 1.0L), static_cast<double>(used.velocity - 1.0L));
-    CHECK(used.acceleration <= 1.0L + slack);
-    CHECK(used.velocity <= 1.0L);
-    CHECK(used.feed <= 1.0L);
 }
 
 template <Scalar S>
@@ -97,7 +63,7 @@ TEMPLATE_TEST_CASE("steered motions keep limits and path and end exactly", "[str
         if (plain.endless || plain.segments.size() > 20'000) {
             continue;
         }
-        const auto events = random_events(random, plain.segments.size(), random.integer(1, 8));
+        const auto events = random_events(random, plain.segments.size());
         std::string text;
         for (const Event& e : events) {
             text += std::to_string(e.segment) + " " + std::to_string(static_cast<int>(e.order)) + " " +

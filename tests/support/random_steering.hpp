@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// Random machines that are quick enough to be steered many times, and what is asked of them while they run.
+#pragma once
+
+#include "steered_run.hpp"
+
+namespace splinefeed_test {
+
+/// Axes that are not so soft that a run takes minutes of its own time.
+inline MachineSettings random_quick_machine(Random& random, int axes) {
+    MachineSettings machine = random_machine(random, axes);
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_acceleration_mm_s2 = random.decades(300.0, 3e4);
+    }
+    return machine;
+}
+
+/// Jerk limits over four decades of the time that the acceleration takes to rise, for either tier.
+inline void limit_jerk(Random& random, MachineSettings& machine) {
+    machine.jerk_tier = random.chance(0.5) ? JerkTier::bounded : JerkTier::optimal;
+    for (AxisSettings& axis : machine.axis) {
+        if (random.chance(0.9)) {
+            axis.max_jerk_mm_s3 = std::min(axis.max_acceleration_mm_s2 / random.decades(1e-4, 1.0), 1e9);
+        }
+    }
+}
+
+/// One to eight holds and overrides over a run of so many segments, some of them after its end.
+inline std::vector<Event> random_events(Random& random, std::size_t segments) {
+    const int count = random.integer(1, 8);
+    std::vector<Event> events;
+    std::size_t at = 0;
+    for (int i = 0; i < count; ++i) {
+        at += static_cast<std::size_t>(random.between(0.0, 2.0 * static_cast<double>(segments) / count));
+        const int kind = random.integer(0, 3);
+        const auto pause = static_cast<std::size_t>(random.decades(1.0, 300.0));
+        if (kind == 0) {
+            events.push_back({at, Order::hold});
+            at += pause;
+            events.push_back({at, Order::resume});
+        } else if (kind == 1) {
+            events.push_back({at, Order::override_feed, 0.0});
+            at += pause;
+            events.push_back({at, Order::override_feed, random.between(0.2, 2.0)});
+        } else {
+            events.push_back({at, Order::override_feed, random.between(0.1, 2.0)});
+        }
+    }
+    return events;
+}
+
+} // namespace splinefeed_test
