@@ -84,3 +84,17 @@ TEST_CASE("a straight move takes the time of the S-curve", "[stream][jerk]") {
         }
     }
 }
+
+TEMPLATE_TEST_CASE("a jerk limit that is reached within the last digit of a cell", "[stream][jerk]", double, Fixed) {
+    // The phases of a straight move are shorter than what Fixed holds of a cell's length.
+    for (const double jerk : {1e6, 1e7, 1e9}) {
+        MachineSettings machine = machine_of(2, 100.0, 20.0, 100.0);
+        machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = jerk;
+        CAPTURE(jerk);
+        const BezierPath path{line_shape(2, 1, {60.0, 0.0}), line_shape(2, 1, {0.0, 40.0}),
+                              line_shape(2, 1, {-0.3, 0.0})};
+        const Stream stream = stream_of<TestType>(path, machine, 256);
+        require_limits(stream, machine);
+        require_ends(stream, machine, {}, {59.7, 40.0});
+    }
+}

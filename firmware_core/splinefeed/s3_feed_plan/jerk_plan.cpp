@@ -19,6 +19,8 @@ namespace {
 constexpr double least_known[] = {0.1, 0.3, 0.5, 1.0, 0.02};
 constexpr int attempts = 6;
 constexpr double least_part = 0.01; // of a cell, where a change of the steering waits for the next
+template <Scalar S>
+constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fractions of a cell
 
 } // namespace
 
@@ -161,9 +163,13 @@ void JerkPlan<S>::choose_on_line() noexcept {
     const LinePiece piece = last ? line_.next() : line_.next(length - on_line_mm_);
     const S from = passage_.stretch.from;
     on_line_mm_ = smaller(on_line_mm_ + piece.length_mm, length);
-    const bool to_end = last ? line_.done() : !(on_line_mm_ < length);
+    const S one = from_integer<S>(1);
+    const S reached = from_double<S>(on_line_mm_ * per_length);
+    const bool to_end = last ? line_.done() : !(reached < one);
+    // The last phase of a move may be shorter than the last digit of a cell: that one is kept for it.
+    const S before_end = one - scale2(one, last_digit_log2<S>);
     passage_ = {};
-    passage_.stretch = {from, to_end ? from_integer<S>(1) : from_double<S>(on_line_mm_ * per_length)};
+    passage_.stretch = {from, to_end ? one : smaller(reached, before_end)};
     passage_.entry_sq = from_double<S>(piece.entry_mm_s * piece.entry_mm_s);
     passage_.exit_sq = from_double<S>(piece.exit_mm_s * piece.exit_mm_s);
     passage_.shape = SpeedShape::cubic;
@@ -307,7 +313,9 @@ void JerkPlan<S>::follow_steering() noexcept {
         const SpeedState state = window_.node(0).state; // the node moves
         static_cast<void>(answer(0.0, state));
     } else {
-        static_cast<void>(answer(to_double(passage_.stretch.from), reached_));
+        const MoveState& state = line_.reached();
+        static_cast<void>(answer(to_double(passage_.stretch.from),
+                                 {state.speed_mm_s * state.speed_mm_s, 2.0 * state.acceleration_mm_s2}));
     }
 }
 
@@ -350,9 +358,6 @@ template <Scalar S>
 void JerkPlan<S>::advance() noexcept {
     SPLINEFEED_ASSERT(chosen_);
     chosen_ = false;
-    if (!line_.done()) {
-        reached_ = state_on(passage_, window_.node(0).cell.length_mm, to_double(passage_.stretch.to), 1.0);
-    }
     if (!(passage_.stretch.to == from_integer<S>(1))) {
         passage_.stretch.from = passage_.stretch.to;
         return;

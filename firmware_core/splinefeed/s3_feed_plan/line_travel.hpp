@@ -23,6 +23,8 @@ public:
         : move_(move), state_{0.0, move.start().speed_mm_s, move.start().acceleration_mm_s2}, phase_(0) {}
 
     [[nodiscard]] bool done() const noexcept { return phase_ >= StraightMove::phases; }
+    /// The motion at the end of the last piece.
+    [[nodiscard]] const MoveState& reached() const noexcept { return state_; }
     /// The next piece, at most as long as told. @pre not done. Cost: a division, and where it does not end with a phase
     /// a dozen more.
     LinePiece next(double at_most_mm) noexcept;
