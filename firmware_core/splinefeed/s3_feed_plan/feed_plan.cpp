@@ -327,7 +327,7 @@ void FeedPlan<S>::pop() noexcept {
     speed_sq_ = front().exit_sq;
     at_ = S{};
     chosen_ = hopping_ = false;
-    head_ = (head_ + 1) % window_.size();
+    head_ = ring_index(head_ + 1, window_.size());
     --size_;
     --committed_;
 }

@@ -11,6 +11,7 @@
 // Derivation and the proof that the limits hold everywhere in a cell: feed_plan.cpp.
 #pragma once
 
+#include "splinefeed/base/ring_index.hpp"
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 #include "splinefeed/s3_feed_plan/passage.hpp"
 #include "splinefeed/s3_feed_plan/steering.hpp"
@@ -66,9 +67,9 @@ public:
     [[nodiscard]] std::uint32_t window_limited() const noexcept { return window_limited_; }
 
 private:
-    [[nodiscard]] PlannedCell<S>& at(std::size_t i) noexcept { return window_[(head_ + i) % window_.size()]; }
+    [[nodiscard]] PlannedCell<S>& at(std::size_t i) noexcept { return window_[ring_index(head_ + i, window_.size())]; }
     [[nodiscard]] const PlannedCell<S>& at(std::size_t i) const noexcept {
-        return window_[(head_ + i) % window_.size()];
+        return window_[ring_index(head_ + i, window_.size())];
     }
 
     void bound(PlannedCell<S>& planned) const noexcept;

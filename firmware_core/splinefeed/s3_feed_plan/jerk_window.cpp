@@ -90,7 +90,7 @@ void JerkWindow<S>::append(const Cell<S>& added, double most_sq, double wanted_s
 
 template <Scalar S>
 void JerkWindow<S>::pop() noexcept {
-    head_ = (head_ + 1) % storage_.cells.size();
+    head_ = ring_index(head_ + 1, storage_.cells.size());
     ++travelled_;
     --size_;
 }

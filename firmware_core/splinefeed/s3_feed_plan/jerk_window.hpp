@@ -6,6 +6,7 @@
 //      cells              |___|___|___|___|___|___|___|___|
 #pragma once
 
+#include "splinefeed/base/ring_index.hpp"
 #include "splinefeed/s3_feed_plan/jerk_leg.hpp"
 #include "splinefeed/s3_feed_plan/stretch.hpp"
 
@@ -41,9 +42,9 @@ public:
     [[nodiscard]] std::size_t room() const noexcept { return storage_.cells.size() - size_; }
     [[nodiscard]] bool full() const noexcept { return room() <= spare_; }
 
-    [[nodiscard]] Cell<S>& cell(std::size_t i) noexcept { return storage_.cells[(head_ + i) % storage_.cells.size()]; }
+    [[nodiscard]] Cell<S>& cell(std::size_t i) noexcept { return storage_.cells[ring_index(head_ + i, storage_.cells.size())]; }
     [[nodiscard]] const Cell<S>& cell(std::size_t i) const noexcept {
-        return storage_.cells[(head_ + i) % storage_.cells.size()];
+        return storage_.cells[ring_index(head_ + i, storage_.cells.size())];
     }
     [[nodiscard]] JerkNode& node(std::size_t i) noexcept { return storage_.nodes[travelled_ + i]; }
     [[nodiscard]] const JerkNode& node(std::size_t i) const noexcept { return storage_.nodes[travelled_ + i]; }
