@@ -165,7 +165,7 @@ void JerkPlan<S>::choose_on_line() noexcept {
     on_line_mm_ = smaller(on_line_mm_ + piece.length_mm, length);
     const S one = from_integer<S>(1);
     const S reached = from_double<S>(on_line_mm_ * per_length);
-    const bool to_end = last ? line_.done() : !(reached < one);
+    const bool to_end = last ? line_.done() : !(on_line_mm_ < length && reached < one);
     // The last phase of a move may be shorter than the last digit of a cell: that one is kept for it.
     const S before_end = one - scale2(one, last_digit_log2<S>);
     passage_ = {};
