@@ -1,39 +1,110 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Cycle times of a curve with limited jerk, as the table of docs/feed.md."""
+"""Cycle times with limited jerk, as the tables of docs/feed.md: of a curve, or of random splines against the least time
+that an independent judge finds for the same curve and limits (DIR holds check_run.py; needs python3-numpy, -scipy)."""
 import argparse
 import json
+import math
 import pathlib
+import random
 import subprocess
 import tempfile
 
 CASES = [(40, 500, 20000), (50, 1000, 50000), (100, 3000, 60000), (200, 3000, 60000), (250, 2000, 20000), (300, 2500, 50000)]
+TIERS = ("optimal", "bounded")
 
 
-def machine(feed, acceleration, jerk, tier):
+def machine(axes, feed, limits, tier):
+    """limits: of each axis, velocity, acceleration and jerk"""
     text = f'name = "feed.py"\n[path]\nmax_feed_mm_s = {feed}\njerk_plan = "{tier}"\n'
-    for axis in "xy":
-        text += f'[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = {feed}\nmax_acceleration_mm_s2 = {acceleration}\n'
+    for axis, (velocity, acceleration, jerk) in zip(axes, limits):
+        text += f'[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = {velocity}\nmax_acceleration_mm_s2 = {acceleration}\n'
         text += f"max_jerk_mm_s3 = {jerk}\nsteps_per_mm = 1000\n"
     return text
 
 
-def seconds(tool, curve, case, tier):
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "machine.toml"
-        file.write_text(machine(*case, tier))
-        command = [tool, "run", curve, "-m", str(file), "--quiet", "--summary", "json"]
-        return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["cycle_time_s"]
+def seconds(tool, program, machine_text, folder, *options):
+    file = folder / "machine.toml"
+    file.write_text(machine_text)
+    command = [tool, "run", str(program), "-m", str(file), "--quiet", "--summary", "json", *options]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["cycle_time_s"]
+
+
+def curve_table(tool, curve, folder):
+    for feed, acceleration, jerk in CASES:
+        limits = [(feed, acceleration, jerk)] * 2
+        times = [seconds(tool, curve, machine("xy", feed, limits, tier), folder) for tier in TIERS]
+        print("| {:g} / {:g} / {:g} | {:.3f} | {:.3f} |".format(feed, acceleration, jerk, *times))
+
+
+def random_points(numbers):
+    """6 to 25 chords in space, 0.2 to 25 mm long, that turn smoothly."""
+    size = 10 ** numbers.uniform(-0.3, 1.0)
+    direction = [numbers.gauss(0, 1) for _ in range(3)]
+    point = [0.0, 0.0, 0.0]
+    points = [point]
+    for _ in range(numbers.randint(6, 25)):
+        direction = [0.7 * d + 0.7 * numbers.gauss(0, 1) for d in direction]
+        chord = size * numbers.uniform(0.4, 2.5) / math.hypot(*direction)
+        point = [p + chord * d for p, d in zip(point, direction)]
+        points.append(point)
+    return points
+
+
+def random_limits(numbers):
+    """30 to 300 mm/s, 400 to 5000 mm/s^2, 5 to 100 ms to the full acceleration; every other machine has unequal axes."""
+    feed, acceleration = 10 ** numbers.uniform(1.5, 2.5), 10 ** numbers.uniform(2.6, 3.7)
+    jerk = acceleration / 10 ** numbers.uniform(-2.3, -1.0)
+    share = (lambda low: numbers.uniform(low, 1.0)) if numbers.random() < 0.5 else (lambda low: 1.0)
+    return feed, [(feed * share(0.4), acceleration * share(0.3), jerk * share(0.3)) for _ in "xyz"]
+
+
+def least_time(yardstick, folder):
+    command = ["/usr/bin/python3", str(pathlib.Path(yardstick) / "check_run.py"), "--trace", str(folder / "trace.csv"),
+               "--machine", str(folder / "machine.toml"), "--curve", str(folder / "curve.json"), "--optimum", "jerk"]
+    judged = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    return judged["optimum.jerk_s"], judged["use.jerk"]
+
+
+def random_table(tool, yardstick, count, folder):
+    ratios = {tier: [] for tier in TIERS}
+    print("| spline | least | optimal | bounded | A / J of the first axis | jerk use of optimal |\n|---|---|---|---|---|---|")
+    for seed in range(1, count + 1):
+        numbers = random.Random(seed)
+        program = folder / "points.csv"
+        rows = ["{:.5f},{:.5f},{:.5f}\n".format(*point) for point in random_points(numbers)]
+        program.write_text("x,y,z\n" + "".join(rows))
+        feed, limits = random_limits(numbers)
+        least, use = 0.0, 0.0
+        for tier in TIERS:
+            files = [] if least else ["--trace", str(folder / "trace.csv"), "--curve-out", str(folder / "curve.json")]
+            time = seconds(tool, program, machine("xyz", feed, limits, tier), folder, "--corner-angle", "180", *files)
+            if not least:
+                least, use = least_time(yardstick, folder)
+            ratios[tier].append(time / least)
+        print("| {} | {:.4f} s | {:.4f} | {:.4f} | {:.0f} ms | {:.4f} |".format(
+            seed, least, *(ratios[tier][-1] for tier in TIERS), 1e3 * limits[0][1] / limits[0][2], use), flush=True)
+    for tier in TIERS:
+        ordered = sorted(ratios[tier])
+        print(f"{tier}: median {ordered[count // 2]:.4f}, largest {ordered[-1]:.4f}, "
+              f"{sum(r <= 1.04 for r in ordered)} of {count} at most 1.04")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--tool", default="build/release/bin/splinefeed")
-    parser.add_argument("--curve", required=True, help="a curve .json in two dimensions")
+    parser.add_argument("--curve", help="a curve .json in two dimensions")
+    parser.add_argument("--random", type=int, default=0, metavar="COUNT", help="so many random splines")
+    parser.add_argument("--yardstick", metavar="DIR", help="where the judge is, for --random")
     arguments = parser.parse_args()
-    for case in CASES:
-        times = [seconds(arguments.tool, arguments.curve, case, tier) for tier in ("optimal", "bounded")]
-        print("| {:g} / {:g} / {:g} | {:.3f} | {:.3f} |".format(*case, *times))
+    if not arguments.curve and not (arguments.random > 0 and arguments.yardstick):
+        parser.error("what is to be run? --curve FILE, or --random COUNT with --yardstick DIR")
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        if arguments.curve:
+            curve_table(arguments.tool, arguments.curve, folder)
+        if arguments.random:
+            random_table(arguments.tool, arguments.yardstick, arguments.random, folder)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Motions of whole legs: the limits at many points of every cell, in long double, and the time on a straight line.
-#include "splinefeed/s3_feed_plan/jerk_leg.hpp"
+#include "splinefeed/s3_feed_plan/leg_attempts.hpp"
 
 #include "support/catch.hpp"
 #include "support/jerk_reference.hpp"
@@ -148,4 +148,26 @@ TEST_CASE("a straight line takes the time of the seven phases, and little more")
             }
         }
     }
+}
+
+TEST_CASE("a leg from rest where much more was expected") {
+    // As after a hold: nothing in the speeds of the acceleration-limited plan says that the leg begins at rest.
+    std::mt19937 random(seed + 1);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    int alone = 0;
+    for (int trial = 0; trial < 20; ++trial) {
+        CAPTURE(seed, trial);
+        const JerkLimits limits{1000.0, 20000.0, 10000.0};
+        const Wave wave{{unit(random), 0.5 * unit(random)}, {unit(random), 2.0 * unit(random)}};
+        std::vector<JerkNode> nodes = leg_along(wave, 0.0, 120, 0.1 + 0.1 * unit(random), limits);
+        for (std::size_t i = 0; i < nodes.size() / 2; ++i) {
+            nodes[i].at_most_sq = nodes[i].expected_sq = nodes[nodes.size() / 2].at_most_sq;
+            nodes[i].most_sq = limits.cap_sq;
+        }
+        std::vector<JerkNode> once = nodes;
+        alone += JerkLeg(once, nullptr, 0).plan(JerkTier::optimal) ? 1 : 0;
+        REQUIRE(plan_leg(nodes, 0, JerkTier::optimal));
+        checked(nodes, false);
+    }
+    CHECK(alone < 20); // so it matters
 }

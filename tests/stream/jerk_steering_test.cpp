@@ -183,3 +183,25 @@ TEMPLATE_TEST_CASE("an override with limited jerk settles soon", "[stream][jerk]
         CHECK(speed == Approx(100.0 * ratio).epsilon(1e-2));
     }
 }
+
+TEMPLATE_TEST_CASE("a pause by an override of 0 with limited jerk is no slower afterwards", "[stream][jerk][steering]",
+                   double, Fixed) {
+    using S = TestType;
+    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(12)); ++round) {
+        Random random(seed + round);
+        MachineSettings machine = jerk_machine(random.chance(0.5) ? JerkTier::bounded : JerkTier::optimal);
+        const BezierPath path = random_path(random, 2, 6, random.decades(1.0, 20.0), 0.15, 0.3);
+        const SteeredRun plain = run_steered<S>(path, machine, 256, {});
+        // Before it starts, and in the middle: there it has to stop and start again
+        for (const std::size_t at : {std::size_t{0}, plain.segments.size() / 2}) {
+            const SteeredRun run = run_steered<S>(
+                path, machine, 256, {{at, Order::override_feed, 0.0}, {at + 300, Order::override_feed, 1.0}});
+            CAPTURE(seed, round, at, plain.segments.size(), run.segments.size());
+            require_limits(run, machine);
+            REQUIRE(run.finished);
+            // The pause, and v / A + A / J = 150 ms each to stop and to start; a tenth where a leg is cut badly
+            CHECK(static_cast<double>(run.segments.size()) <=
+                  1.1 * static_cast<double>(plain.segments.size()) + (at == 0 ? 302.0 : 600.0));
+        }
+    }
+}

@@ -234,6 +234,7 @@ void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
     for (std::size_t i = n; i < window_->size(); ++i) {
         JerkNode& node = window_->node(i);
         node.cell.cap_sq = cuts.change_mm < known_mm_ ? node.wanted_sq : node.cell.cap_sq;
+        node.expected_sq = smaller(node.at_most_sq, node.cell.cap_sq);
     }
 }
 

@@ -10,14 +10,12 @@
 #include "splinefeed/s3_feed_plan/jerk_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
+#include "splinefeed/s3_feed_plan/leg_attempts.hpp"
 
 namespace splinefeed {
 
 namespace {
 
-// Attempts with other expected speeds: halved beyond the old plan, and at least that part of at_most_sq in it.
-constexpr double least_known[] = {0.1, 0.3, 0.5, 1.0, 0.02};
-constexpr int attempts = 6;
 constexpr double least_part = 0.01; // of a cell, where a change of the steering waits for the next
 template <Scalar S>
 constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fractions of a cell
@@ -76,41 +74,13 @@ void JerkPlan<S>::expect_again() noexcept {
     }
 }
 
-// From stop to stop through every cell: crumbs between cusps, and what could not be planned better.
+// From stop to stop through every cell: crumbs between cusps, and where there is no better plan.
 template <Scalar S>
 void JerkPlan<S>::mark_hops(std::size_t first, std::size_t end) noexcept {
     for (std::size_t i = first; i < end; ++i) {
         window_.node(i).travel = Travel::hop;
         window_.node(i + 1).state = {0.0, 0.0};
     }
-}
-
-template <Scalar S>
-bool JerkPlan<S>::plan_leg(std::size_t first, std::size_t end) noexcept {
-    const std::span<JerkNode> nodes = window_.nodes(first, end);
-    const bool moves = nodes.front().state.b > 0.0;
-    if (nodes.size() <= JerkLeg::fewest_cells) {
-        return false;
-    }
-    const SpeedState start = nodes.front().state;
-    const double end_at_most = nodes.back().at_most_sq;
-    nodes.back().at_most_sq = nodes.back().expected_sq = 0.0;
-    const std::size_t known = first == 0 && moves ? planned_ : 0;
-    bool done = false;
-    for (int attempt = 0; attempt < attempts && !done; ++attempt) {
-        done = JerkLeg(nodes, moves ? &start : nullptr, known).plan(limits_->jerk_tier);
-        for (std::size_t i = 1; i + 1 < nodes.size() && !done && attempt + 1 < attempts; ++i) {
-            // Where just the old plan is expected, it is possible once more; but not its braking to the end.
-            JerkNode& node = nodes[i];
-            node.expected_sq =
-                i < known ? larger(node.state.b, least_known[attempt] * node.at_most_sq) : 0.5 * node.expected_sq;
-        }
-    }
-    nodes.back().at_most_sq = nodes.back().expected_sq = end_at_most;
-    for (std::size_t i = first; i < end && done; ++i) {
-        window_.node(i).travel = Travel::curve;
-    }
-    return done;
 }
 
 template <Scalar S>
@@ -135,18 +105,26 @@ void JerkPlan<S>::plan(bool ended) noexcept {
             window_.node(end).state = {0.0, 0.0};
             planned_ = end;
             at = end;
-        } else if (plan_leg(at, end)) {
+            hops_ = 1;
+        } else if (plan_leg(window_.nodes(at, end), rests ? 0 : planned_, limits_->jerk_tier)) {
+            for (std::size_t i = at; i < end; ++i) {
+                window_.node(i).travel = Travel::curve;
+            }
             planned_ = end;
             at = committed;
+            hops_ = 1;
         } else if (!rests) { // the old plan once more, to its end
             SPLINEFEED_ASSERT(at == 0 && planned_ > 0);
             ++slow_legs_;
             at = planned_;
         } else {
-            slow_legs_ += end - at > JerkLeg::fewest_cells ? 1U : 0U;
-            mark_hops(at, end);
-            planned_ = end;
-            at = committed;
+            // Where crumbs end, or a little further on, there may be a plan.
+            const bool crumbs = end - at <= JerkLeg::fewest_cells;
+            slow_legs_ += !crumbs && hops_ == 1 ? 1U : 0U;
+            planned_ = crumbs ? end : smaller(end, at + hops_);
+            hops_ = crumbs ? hops_ : smaller(2 * hops_, window_.size());
+            mark_hops(at, planned_);
+            at = planned_;
         }
     }
     committed_ = at;
@@ -245,8 +223,8 @@ bool JerkPlan<S>::change_curve(double from, const SpeedState& state) noexcept {
     return true;
 }
 
-// A change of the steering while the machine moves. Where no other motion is found the plan stays as it is; that of a
-// stop is travelled to its end, at rest.
+// A change of the steering while the machine moves. Where no other motion is found the plan stays as it is until there
+// is one from where a later passage starts; that of a stop is travelled to its end, at rest.
 template <Scalar S>
 bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     if (state.b < JerkWindow<S>::slowest_sq) {
@@ -261,6 +239,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     const bool on_line = !line_.done();
     const double travelled_mm = from * window_.node(0).cell.length_mm;
     const bool found = on_line ? change_line(from, state) : change_curve(from, state);
+    unanswered_ = !found;
     if (!found) {
         if (halt_ > 0) {
             window_.cell(halt_ - 1).stop_at_end = true;
@@ -302,10 +281,12 @@ bool JerkPlan<S>::steer(const Place<S>& place) noexcept {
 template <Scalar S>
 void JerkPlan<S>::follow_steering() noexcept {
     if (standing()) {
+        unanswered_ = false;
         want();
         for (std::size_t i = 0; i < window_.size(); ++i) {
             JerkNode& node = window_.node(i);
             node.cell.cap_sq = node.wanted_sq;
+            node.expected_sq = smaller(node.at_most_sq, node.wanted_sq);
         }
         committed_ = planned_ = 0;
         planned_all_ = false;
@@ -331,7 +312,7 @@ Pull JerkPlan<S>::prepare(Starvation starvation) noexcept {
         const Pull pull = window_.size() == 0 ? fill(starvation) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
-    if (steering_.news()) {
+    if (steering_.news() || unanswered_) {
         follow_steering();
     }
     if (committed_ == 0 && steering_.stops()) {

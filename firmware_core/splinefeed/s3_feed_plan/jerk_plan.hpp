@@ -50,7 +50,6 @@ private:
     bool change_curve(double from, const SpeedState& state) noexcept;
     void follow_steering() noexcept;
     void plan(bool ended) noexcept;
-    bool plan_leg(std::size_t first, std::size_t end) noexcept;
     void mark_hops(std::size_t first, std::size_t end) noexcept;
     void expect_again() noexcept;
     void choose() noexcept;
@@ -63,10 +62,12 @@ private:
     std::size_t committed_ = 0; // cells from the front on
     std::size_t planned_ = 0;   // cells from the front on that have a plan, at rest at its end
     std::size_t halt_ = 0;      // cells from the front on to the stop that a hold made; 0: none
+    std::size_t hops_ = 1;      // cells that are hopped where no plan is found; twice as many each time
     std::uint32_t slow_legs_ = 0;
     double on_line_mm_ = 0.0; // of the cell, already travelled
     bool chosen_ = false;
     bool planned_all_ = false; // nothing came in since the last plan
+    bool unanswered_ = false;  // the steering, for which no motion was found yet
 };
 
 } // namespace splinefeed

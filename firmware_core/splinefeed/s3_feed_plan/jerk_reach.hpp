@@ -51,7 +51,7 @@ private:
         std::array<Line, most> line;
         std::size_t size = 0;
         void keep_what_matters(const SpeedState& center, const SpeedState& half, double sign) noexcept;
-        [[nodiscard]] std::size_t closest(const SpeedState& state, double sign) const noexcept;
+        [[nodiscard]] std::size_t closest(const SpeedState& state, double sign, std::size_t guess) const noexcept;
     };
 
     /// Where between two states one line takes over from another, as a share of the way; 1: nowhere.

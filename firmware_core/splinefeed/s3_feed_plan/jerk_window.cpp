@@ -75,7 +75,9 @@ void JerkWindow<S>::append(const Cell<S>& added, double most_sq, double wanted_s
     here.cell = jerk_cell_of(added, *limits_, wanted_sq);
     here.most_sq = most_sq;
     here.wanted_sq = wanted_sq;
-    here.expected_sq = smaller(here.expected_sq, wanted_sq);
+    // What was expected under another override may be next to nothing.
+    here.expected_sq = size_ > 0 ? smaller(here.at_most_sq, smaller(node(size_ - 1).wanted_sq, wanted_sq))
+                                 : smaller(here.expected_sq, wanted_sq);
     here.travel = Travel::curve;
     if (size_ > 0 && bend_jumps(node(size_ - 1), here)) {
         Cell<S>& before = cell(size_ - 1);

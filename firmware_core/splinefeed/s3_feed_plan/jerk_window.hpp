@@ -42,7 +42,9 @@ public:
     [[nodiscard]] std::size_t room() const noexcept { return storage_.cells.size() - size_; }
     [[nodiscard]] bool full() const noexcept { return room() <= spare_; }
 
-    [[nodiscard]] Cell<S>& cell(std::size_t i) noexcept { return storage_.cells[ring_index(head_ + i, storage_.cells.size())]; }
+    [[nodiscard]] Cell<S>& cell(std::size_t i) noexcept {
+        return storage_.cells[ring_index(head_ + i, storage_.cells.size())];
+    }
     [[nodiscard]] const Cell<S>& cell(std::size_t i) const noexcept {
         return storage_.cells[ring_index(head_ + i, storage_.cells.size())];
     }

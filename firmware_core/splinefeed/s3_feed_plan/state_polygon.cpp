@@ -34,40 +34,42 @@ std::size_t StatePolygon::cut(const StateBound& bound) noexcept {
         simplify(); // a part of it, too
     }
     std::array<double, capacity> excess;
-    double most = -largest<double>();
+    std::size_t beyond = 0;
     for (std::size_t i = 0; i < size_; ++i) {
         excess[i] = bound.excess(corner_[i]);
-        most = larger(most, excess[i]);
+        beyond += excess[i] > 0.0 ? 1U : 0U;
     }
-    if (most <= 0.0) {
+    if (beyond == 0) {
         return size_;
     }
     std::size_t first = 0;
     while (excess[first] <= 0.0) {
         ++first;
     }
+    // Those before `first` stay where they are.
+    const std::size_t start = first > 0 ? first - 1 : 0;
     std::array<SpeedState, capacity> left;
     std::size_t n = 0;
-    for (std::size_t i = 0; i < size_; ++i) {
+    for (std::size_t i = start; i < size_; ++i) {
         const std::size_t next = i + 1 < size_ ? i + 1 : 0;
         if (excess[i] <= 0.0) {
             left[n++] = corner_[i];
         }
-        if ((excess[i] <= 0.0) != (excess[next] <= 0.0) && n < capacity) {
+        if ((excess[i] <= 0.0) != (excess[next] <= 0.0) && start + n < capacity) {
             const double share = excess[i] / (excess[i] - excess[next]);
             const SpeedState& from = corner_[i];
             const SpeedState& to = corner_[next];
             left[n++] = {from.b + share * (to.b - from.b), from.slope + share * (to.slope - from.slope)};
         }
     }
-    SPLINEFEED_ASSERT(n < capacity);
+    SPLINEFEED_ASSERT(start + n < capacity);
     if (size_ == 2 && n > 2) { // a line is crossed once, and was seen from both sides
         n = 2;
     }
     for (std::size_t i = 0; i < n; ++i) {
-        corner_[i] = left[i];
+        corner_[start + i] = left[i];
     }
-    size_ = n;
+    size_ = start + n;
     return first;
 }
 
@@ -98,10 +100,12 @@ void StatePolygon::simplify() noexcept {
     }
     for (;;) {
         std::size_t least = 0;
+        double smallest = area[0];
         for (std::size_t i = 1; i < size_; ++i) {
-            least = area[i] < area[least] ? i : least;
+            least = area[i] < smallest ? i : least;
+            smallest = smaller(area[i], smallest);
         }
-        if (size_ <= 3 || (size_ <= kept && area[least] > nothing)) {
+        if (size_ <= 3 || (size_ <= kept && smallest > nothing)) {
             return;
         }
         --size_;

@@ -30,8 +30,8 @@ struct StateBound {
 /// Corners in counter-clockwise order; one or two corners are a point or a line. A plain value.
 class StatePolygon {
 public:
-    static constexpr std::size_t capacity = 64; ///< corners while it is being cut
-    static constexpr std::size_t kept = 12;     ///< corners that simplify() leaves
+    static constexpr std::size_t capacity = 96; ///< corners while it is being cut
+    static constexpr std::size_t kept = 24;     ///< corners that simplify() leaves
 
     StatePolygon() noexcept = default; // its corners are nothing yet
     /// @pre convex and counter-clockwise, at most `capacity`
