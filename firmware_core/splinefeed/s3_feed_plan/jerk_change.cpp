@@ -105,13 +105,19 @@ template <class Visit>
 void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept {
     const double least = least_mm(cuts);
     const double until = larger(cuts.end_mm, cuts.fine_mm) - least;
+    const bool from_rest = cuts.finest_mm < cuts.coarsest_mm; // behind the end, graded up to cells that are long
     double at_mm = 0.0;
-    for (std::size_t i = 0; i + first < window_->size() && at_mm < until; ++i) {
+    for (std::size_t i = 0; i + first < window_->size(); ++i) {
         const double length = window_->node(i + first).cell.length_mm;
+        if (at_mm >= until && !(from_rest && part_behind * (at_mm - cuts.end_mm) < length)) {
+            return;
+        }
         double from = i == 0 ? from_ : 0.0;
         while (from < 1.0) {
             const double left = (1.0 - from) * length;
-            const double bound = at_mm < cuts.fine_mm - least ? longest_piece(cuts, at_mm) : left;
+            const double bound = at_mm < cuts.fine_mm - least ? longest_piece(cuts, at_mm)
+                                 : from_rest                  ? part_behind * (at_mm - cuts.end_mm)
+                                                              : left;
             // Next to a start, too, the speed changes over distances as short as the way so far.
             const double longest = larger(cuts.finest_mm, smaller(bound, part_behind * (start_mm_ + at_mm)));
             double piece = left <= longest ? left : left < 2.0 * longest ? 0.5 * left : longest;
