@@ -86,10 +86,21 @@ double JerkChange<S>::braking_sq(double distance_mm) const noexcept {
     return smaller(peak_sq_, 0.25 * a * a * a * a / (j * j) + 2.0 * a * (distance_mm - last));
 }
 
+// Graded towards a rest and from it, behind what is cut finely up to cells that are long.
 template <Scalar S>
 double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
     const double part = at_mm < cuts.end_mm ? (cuts.end_mm - at_mm) * part_before : (at_mm - cuts.end_mm) * part_behind;
-    return larger(cuts.finest_mm, smaller(cuts.coarsest_mm, part));
+    if (at_mm < cuts.fine_mm - least_mm(cuts)) {
+        return larger(cuts.finest_mm, smaller(cuts.coarsest_mm, part));
+    }
+    return cuts.graded() ? larger(cuts.finest_mm, part) : largest<double>();
+}
+
+// Whether a cell that begins there is cut or planned.
+template <Scalar S>
+bool JerkChange<S>::concerns(const Cuts& cuts, double at_mm, double length_mm) noexcept {
+    return at_mm < larger(cuts.end_mm, cuts.fine_mm) - least_mm(cuts) ||
+           (cuts.graded() && part_behind * (at_mm - cuts.end_mm) < length_mm);
 }
 
 // What is too short to be cut off.
@@ -104,22 +115,18 @@ template <Scalar S>
 template <class Visit>
 void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept {
     const double least = least_mm(cuts);
-    const double until = larger(cuts.end_mm, cuts.fine_mm) - least;
-    const bool from_rest = cuts.finest_mm < cuts.coarsest_mm; // behind the end, graded up to cells that are long
     double at_mm = 0.0;
     for (std::size_t i = 0; i + first < window_->size(); ++i) {
         const double length = window_->node(i + first).cell.length_mm;
-        if (at_mm >= until && !(from_rest && part_behind * (at_mm - cuts.end_mm) < length)) {
+        if (!concerns(cuts, at_mm, length)) {
             return;
         }
         double from = i == 0 ? from_ : 0.0;
         while (from < 1.0) {
             const double left = (1.0 - from) * length;
-            const double bound = at_mm < cuts.fine_mm - least ? longest_piece(cuts, at_mm)
-                                 : from_rest                  ? part_behind * (at_mm - cuts.end_mm)
-                                                              : left;
             // Next to a start, too, the speed changes over distances as short as the way so far.
-            const double longest = larger(cuts.finest_mm, smaller(bound, part_behind * (start_mm_ + at_mm)));
+            const double longest =
+                larger(cuts.finest_mm, smaller(longest_piece(cuts, at_mm), part_behind * (start_mm_ + at_mm)));
             double piece = left <= longest ? left : left < 2.0 * longest ? 0.5 * left : longest;
             for (const double mark : {cuts.change_mm, cuts.end_mm}) {
                 if (at_mm < mark - least && at_mm + 1.5 * piece > mark) { // nor is a short one left before it
@@ -162,7 +169,7 @@ template <Scalar S>
 bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
     const std::span<JerkNode> nodes = window_->scratch();
     const double least = least_mm(cuts);
-    const bool to_rest = cuts.finest_mm < cuts.coarsest_mm;
+    const bool to_rest = cuts.graded();
     const double gain = 2.0 * along_.acceleration_mm_s2;
     std::size_t n = 0;
     std::size_t changed = 0;

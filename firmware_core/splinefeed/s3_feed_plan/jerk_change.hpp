@@ -43,12 +43,15 @@ private:
         double fine_mm = 0.0;     ///< up to here no piece is longer than
         double coarsest_mm = 0.0; ///< this
         double finest_mm = 0.0;   ///< and next to the rest than this; coarsest_mm: they are not graded
+
+        [[nodiscard]] bool graded() const noexcept { return finest_mm < coarsest_mm; }
     };
 
     template <class Visit>
     void each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept;
     [[nodiscard]] static double least_mm(const Cuts& cuts) noexcept;
     [[nodiscard]] static double longest_piece(const Cuts& cuts, double at_mm) noexcept;
+    [[nodiscard]] static bool concerns(const Cuts& cuts, double at_mm, double length_mm) noexcept;
     bool fit(Cuts& cuts) noexcept;
     bool attempt(const Cuts& cuts) noexcept;
     void adopt(const Cuts& cuts) noexcept;

@@ -74,13 +74,21 @@ void JerkPlan<S>::expect_again() noexcept {
     }
 }
 
-// From stop to stop through every cell: crumbs between cusps, and where there is no better plan.
+// From stop to stop through every cell: crumbs between cusps, and a few cells where there is no better plan; behind
+// them there may be one. Returns where it ends.
 template <Scalar S>
-void JerkPlan<S>::mark_hops(std::size_t first, std::size_t end) noexcept {
-    for (std::size_t i = first; i < end; ++i) {
+std::size_t JerkPlan<S>::hop(std::size_t first, std::size_t end) noexcept {
+    planned_ = end;
+    if (end - first > JerkLeg::fewest_cells) {
+        slow_legs_ += hops_ == 1 ? 1U : 0U;
+        planned_ = smaller(end, first + hops_);
+        hops_ = smaller(2 * hops_, window_.size());
+    }
+    for (std::size_t i = first; i < planned_; ++i) {
         window_.node(i).travel = Travel::hop;
         window_.node(i + 1).state = {0.0, 0.0};
     }
+    return planned_;
 }
 
 template <Scalar S>
@@ -118,13 +126,7 @@ void JerkPlan<S>::plan(bool ended) noexcept {
             ++slow_legs_;
             at = planned_;
         } else {
-            // Where crumbs end, or a little further on, there may be a plan.
-            const bool crumbs = end - at <= JerkLeg::fewest_cells;
-            slow_legs_ += !crumbs && hops_ == 1 ? 1U : 0U;
-            planned_ = crumbs ? end : smaller(end, at + hops_);
-            hops_ = crumbs ? hops_ : smaller(2 * hops_, window_.size());
-            mark_hops(at, planned_);
-            at = planned_;
+            at = hop(at, end);
         }
     }
     committed_ = at;

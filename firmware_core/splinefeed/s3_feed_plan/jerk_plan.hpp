@@ -50,7 +50,7 @@ private:
     bool change_curve(double from, const SpeedState& state) noexcept;
     void follow_steering() noexcept;
     void plan(bool ended) noexcept;
-    void mark_hops(std::size_t first, std::size_t end) noexcept;
+    std::size_t hop(std::size_t first, std::size_t end) noexcept;
     void expect_again() noexcept;
     void choose() noexcept;
     void choose_on_line() noexcept;
