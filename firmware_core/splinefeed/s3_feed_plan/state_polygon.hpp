@@ -31,7 +31,7 @@ struct StateBound {
 class StatePolygon {
 public:
     static constexpr std::size_t capacity = 96; ///< corners while it is being cut
-    static constexpr std::size_t kept = 24;     ///< corners that simplify() leaves
+    static constexpr std::size_t kept = 20;     ///< corners that simplify() leaves
 
     StatePolygon() noexcept = default; // its corners are nothing yet
     /// @pre convex and counter-clockwise, at most `capacity`
