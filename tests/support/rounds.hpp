@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How many random runs a test makes: a few in ./check, a third of them under sanitizers, which look for something else;
+// How many random runs a test makes: a few in ./check, half of them under sanitizers, which look for something else;
 // twenty times as many in ./check --long.
 #pragma once
 
@@ -22,7 +22,7 @@ inline constexpr bool sanitized = false;
 /// @param many  in ./check --long
 inline int rounds(int few, int many) {
     const char* const set = std::getenv("SPLINEFEED_LONG");
-    return set != nullptr && std::string_view(set) == "1" ? many : sanitized ? (few + 2) / 3 : few;
+    return set != nullptr && std::string_view(set) == "1" ? many : sanitized ? (few + 1) / 2 : few;
 }
 
 inline int rounds(int few) {
