@@ -77,7 +77,7 @@ void check_run(std::uint64_t seed, Used& worst) {
 
 TEMPLATE_TEST_CASE("random machines, splines and polylines", "[stream][random]", double, float, Fixed) {
     Used worst;
-    for (std::uint64_t seed = 1000; seed < 1150; ++seed) {
+    for (std::uint64_t seed = 1000; seed < 1000 + static_cast<std::uint64_t>(rounds(150)); ++seed) {
         check_run<TestType>(seed, worst);
     }
     CHECK(worst.velocity > 0.9L); // the machines were used
@@ -85,7 +85,7 @@ TEMPLATE_TEST_CASE("random machines, splines and polylines", "[stream][random]",
 }
 
 TEMPLATE_TEST_CASE("random machines and Bezier segments", "[stream][random]", double, Fixed) {
-    for (std::uint64_t seed = 2000; seed < 2080; ++seed) {
+    for (std::uint64_t seed = 2000; seed < 2000 + static_cast<std::uint64_t>(rounds(80)); ++seed) {
         Random random(seed);
         const int axes = random.integer(2, max_axes);
         const MachineSettings machine = random_machine(random, axes);

@@ -5,7 +5,7 @@ set -euo pipefail
 
 program=$1
 corpus=$2
-seconds=10
+seconds=5
 if [[ ${SPLINEFEED_LONG:-0} == 1 ]]; then seconds=600; fi
 
 found=$program.found
