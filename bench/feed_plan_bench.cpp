@@ -8,6 +8,7 @@
 #include "looped_curve.hpp"
 
 #include "splinefeed/s3_feed_plan/jerk_plan.hpp"
+#include "splinefeed/s3_feed_plan/smooth_plan.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -32,30 +33,47 @@ double thread_seconds() {
 }
 
 /// The machine of examples/three_axis.toml, or with a jerk that of examples/jerk_limited.toml.
-MotionLimits<double> limits(double jerk_mm_s3, JerkTier tier) {
+template <Scalar S>
+MotionLimits<S> limits(double jerk_mm_s3, JerkTier tier) {
     MachineSettings machine;
     machine.jerk_tier = tier;
     for (AxisSettings& axis : machine.axis) {
         axis.max_jerk_mm_s3 = jerk_mm_s3;
         axis.steps_per_mm = 320.0;
     }
-    return MotionLimits<double>::make(machine).value();
+    return MotionLimits<S>::make(machine).value();
 }
 
 /// The stages of a run; those behind the one that is asked cost nothing.
+template <Scalar S>
 struct Stages {
-    Stages(std::int64_t waypoints, const MotionLimits<double>& machine)
+    Stages(std::int64_t waypoints, const MotionLimits<S>& machine)
         : curve(waypoints), arc_length(curve, machine.refinement), window(window_cells),
-          feed_plan(arc_length, machine, window), cells(jerk_cells), nodes(JerkStorage<double>::nodes_for(jerk_cells)),
-          jerk_plan(feed_plan, machine, JerkStorage<double>{cells, nodes}) {}
+          feed_plan(arc_length, machine, window) {}
 
-    bench::LoopedCurve curve;
-    ArcLength<double> arc_length;
-    std::vector<PlannedCell<double>> window;
-    FeedPlan<double> feed_plan;
+    bench::LoopedCurve<S> curve;
+    ArcLength<S> arc_length;
+    std::vector<PlannedCell<S>> window;
+    FeedPlan<S> feed_plan;
+};
+
+struct JerkStages : Stages<double> {
+    JerkStages(std::int64_t waypoints, const MotionLimits<double>& machine)
+        : Stages<double>(waypoints, machine), cells(jerk_cells), nodes(JerkStorage<double>::nodes_for(jerk_cells)),
+          plan(feed_plan, machine, JerkStorage<double>{cells, nodes}) {}
+
     std::vector<Cell<double>> cells;
     std::vector<JerkNode> nodes;
-    JerkPlan<double> jerk_plan;
+    JerkPlan<double> plan;
+};
+
+template <Scalar S>
+struct SmoothStages : Stages<S> {
+    SmoothStages(std::int64_t waypoints, const MotionLimits<S>& machine)
+        : Stages<S>(waypoints, machine), cells(window_cells), plan(this->feed_plan, machine, cells) {}
+
+    std::vector<SmoothCell<S>> cells;
+    SmoothPlan<S> plan;
 };
 
 struct Measured {
@@ -63,9 +81,10 @@ struct Measured {
     std::int64_t nodes = 0;
 };
 
-Measured drain(ArcLength<double>& arc_length) {
+template <Scalar S>
+Measured drain(ArcLength<S>& arc_length) {
     Measured out;
-    Cell<double> cell;
+    Cell<S> cell;
     const double start = thread_seconds();
     while (arc_length.next(cell) == Pull::item) {
         benchmark::DoNotOptimize(cell);
@@ -75,26 +94,39 @@ Measured drain(ArcLength<double>& arc_length) {
     return out;
 }
 
-Measured drain(MotionPlan<double>& plan) {
+template <Scalar S>
+void leave(MotionPlan<S>& /*plan*/) {}
+/// The mean follows at once.
+template <Scalar S>
+void leave(SmoothPlan<S>& plan) {
+    while (plan.can_release()) {
+        plan.release();
+    }
+}
+
+template <class Plan>
+Measured drain_plan(Plan& plan) {
     Measured out;
     const double start = thread_seconds();
     while (plan.prepare(Starvation::waits) == Pull::item) {
         benchmark::DoNotOptimize(plan.passage());
-        out.nodes += plan.passage().stretch.to == 1.0 ? 1 : 0;
+        out.nodes += plan.passage().stretch.to == decltype(plan.passage().stretch.to)(1) ? 1 : 0;
         plan.advance();
+        leave(plan);
     }
     out.seconds = thread_seconds() - start;
     return out;
 }
 
-/// @param before, after  answer the stage without and with the plan
-void cost_of_a_node(benchmark::State& state, const MotionLimits<double>& machine, auto&& before, auto&& after) {
+/// @param before, after  run the stages of S without and with the plan
+template <class S>
+void cost_of_a_node(benchmark::State& state, const auto& machine, auto&& before, auto&& after) {
     Measured sum;
     for (auto _ : state) {
-        const auto without = std::make_unique<Stages>(state.range(0), machine);
-        const auto with = std::make_unique<Stages>(state.range(0), machine);
-        const double base = drain(before(*without)).seconds;
-        const Measured all = drain(after(*with));
+        const auto without = std::make_unique<S>(state.range(0), machine);
+        const auto with = std::make_unique<S>(state.range(0), machine);
+        const double base = before(*without).seconds;
+        const Measured all = after(*with);
         const double cost = std::max(all.seconds - base, 1e-9);
         state.SetIterationTime(cost);
         sum.seconds += cost;
@@ -104,30 +136,38 @@ void cost_of_a_node(benchmark::State& state, const MotionLimits<double>& machine
     state.counters["ns_a_node"] = 1e9 * sum.seconds / static_cast<double>(sum.nodes);
 }
 
+template <Scalar S>
 void feed_plan(benchmark::State& state) {
-    cost_of_a_node(
-        state, limits(0.0, JerkTier::optimal), [](Stages& stages) -> ArcLength<double>& { return stages.arc_length; },
-        [](Stages& stages) -> MotionPlan<double>& { return stages.feed_plan; });
+    cost_of_a_node<Stages<S>>(
+        state, limits<S>(0.0, JerkTier::optimal), [](Stages<S>& stages) { return drain(stages.arc_length); },
+        [](Stages<S>& stages) { return drain_plan(stages.feed_plan); });
 }
 
-template <JerkTier tier>
+/// Of the tier `bounded`.
+template <Scalar S>
+void smooth_plan(benchmark::State& state) {
+    cost_of_a_node<SmoothStages<S>>(
+        state, limits<S>(jerk, JerkTier::bounded), [](SmoothStages<S>& stages) { return drain_plan(stages.feed_plan); },
+        [](SmoothStages<S>& stages) { return drain_plan(stages.plan); });
+}
+
+/// Of the tier `optimal`.
 void jerk_plan(benchmark::State& state) {
-    cost_of_a_node(
-        state, limits(jerk, tier), [](Stages& stages) -> MotionPlan<double>& { return stages.feed_plan; },
-        [](Stages& stages) -> MotionPlan<double>& { return stages.jerk_plan; });
+    cost_of_a_node<JerkStages>(
+        state, limits<double>(jerk, JerkTier::optimal), [](JerkStages& stages) { return drain_plan(stages.feed_plan); },
+        [](JerkStages& stages) { return drain_plan(stages.plan); });
 }
 
 /// The longest prepare(), of those that plan: with the half window of cells that the stages before it deliver in it. A
 /// virtual machine that is not served for a moment makes one long; so also what all but one in a thousand stay below.
-template <JerkTier tier>
 void worst_window(benchmark::State& state) {
     constexpr double least = 1e-4; // [s], of a prepare() that plans
-    const auto machine = limits(jerk, tier);
+    const auto machine = limits<double>(jerk, JerkTier::optimal);
     std::vector<double> windows;
     std::uint32_t slow_legs = 0;
     for (auto _ : state) {
-        const auto stages = std::make_unique<Stages>(state.range(0), machine);
-        JerkPlan<double>& plan = stages->jerk_plan;
+        const auto stages = std::make_unique<JerkStages>(state.range(0), machine);
+        JerkPlan<double>& plan = stages->plan;
         const double start = thread_seconds();
         for (bool more = true; more;) {
             const double before = thread_seconds();
@@ -176,11 +216,12 @@ void lengths(benchmark::internal::Benchmark* row) {
 }
 
 // NOLINTBEGIN
-BENCHMARK(feed_plan)->Apply(lengths);
-BENCHMARK(jerk_plan<JerkTier::bounded>)->Apply(lengths);
-BENCHMARK(jerk_plan<JerkTier::optimal>)->Apply(lengths);
-BENCHMARK(worst_window<JerkTier::bounded>)->Apply(lengths);
-BENCHMARK(worst_window<JerkTier::optimal>)->Apply(lengths);
+BENCHMARK(feed_plan<double>)->Apply(lengths);
+BENCHMARK(feed_plan<Fixed>)->Apply(lengths);
+BENCHMARK(smooth_plan<double>)->Apply(lengths);
+BENCHMARK(smooth_plan<Fixed>)->Apply(lengths);
+BENCHMARK(jerk_plan)->Apply(lengths);
+BENCHMARK(worst_window)->Apply(lengths);
 BENCHMARK(straight_move);
 // NOLINTEND
 

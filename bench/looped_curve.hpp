@@ -11,11 +11,12 @@
 
 namespace bench {
 
-class LoopedCurve final : public splinefeed::CurveSource<double> {
+template <splinefeed::Scalar S>
+class LoopedCurve final : public splinefeed::CurveSource<S> {
 public:
-    explicit LoopedCurve(std::int64_t waypoints) : left_(waypoints), curve_(splinefeed::CurveOptions<double>{}) {}
+    explicit LoopedCurve(std::int64_t waypoints) : left_(waypoints), curve_(splinefeed::CurveOptions<S>{}) {}
 
-    splinefeed::Pull next(splinefeed::CurveSegment<double>& out) noexcept override {
+    splinefeed::Pull next(splinefeed::CurveSegment<S>& out) noexcept override {
         for (;;) {
             const splinefeed::Pull pull = curve_.next(out);
             if (pull != splinefeed::Pull::starved) {
@@ -31,15 +32,15 @@ public:
 
 private:
     /// A loop of 221 mm with five lobes, over and over: 200 waypoints, 0.2 to 1.7 mm apart.
-    static splinefeed::Waypoint<double> point(std::int64_t i) {
+    static splinefeed::Waypoint<S> point(std::int64_t i) {
         const double t = 6.283185307179586 / 200.0 * static_cast<double>(i % 200);
-        return waypoint<double>(30.0 * std::cos(t) + 6.0 * std::cos(4.0 * t),
-                                30.0 * std::sin(t) - 6.0 * std::sin(4.0 * t), 2.0 * std::sin(2.0 * t));
+        return waypoint<S>(30.0 * std::cos(t) + 6.0 * std::cos(4.0 * t), 30.0 * std::sin(t) - 6.0 * std::sin(4.0 * t),
+                           2.0 * std::sin(2.0 * t));
     }
 
     std::int64_t left_;
     std::int64_t pushed_ = 0;
-    splinefeed::G2Spline<double> curve_;
+    splinefeed::G2Spline<S> curve_;
 };
 
 } // namespace bench

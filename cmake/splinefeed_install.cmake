@@ -4,6 +4,10 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/splinefeed)
 install(TARGETS splinefeed_core splinefeed_hal EXPORT splinefeed_targets)
+if(TARGET splinefeed_hal_modbus)
+    install(TARGETS splinefeed_hal_modbus EXPORT splinefeed_targets)
+    set(SPLINEFEED_HAS_MODBUS ON)
+endif()
 install(DIRECTORY firmware_core/splinefeed hal/splinefeed TYPE INCLUDE FILES_MATCHING PATTERN *.hpp)
 install(
     EXPORT splinefeed_targets

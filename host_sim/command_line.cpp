@@ -3,6 +3,7 @@
 
 #include "input_error.hpp"
 #include "nearest_name.hpp"
+#include "target_address.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,12 +20,12 @@ namespace {
 #endif
 
 constexpr const char* exit_statuses =
-    "Exit status: 0 done; 1 the machine did not finish, and where it stands; 2 bad input or usage, told in one line.";
+    "Exit status: 0 done; 1 the machine did not finish, and where it stands, or a drive cannot be used; 2 bad input or "
+    "usage, told in one line.";
 
 /// What was typed, before it is checked.
 struct Typed {
     std::optional<std::string> machine;
-    std::string target = "sim";
     std::optional<std::string> scalar;
     std::string format;
     std::string summary;
@@ -97,7 +98,10 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
 void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_option("-m,--machine", typed.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
     if (executes) {
-        app.add_option("--target", typed.target, "sim: the simulated machine in this process (default sim)");
+        app.add_option("--target", job.target,
+                       std::string("sim: the simulated machine in this process (default); ") + target_text);
+        app.add_flag("--home", job.home, "the drives find their references first; there the program begins")
+            ->disable_flag_override();
     }
     app.add_option("--window", typed.window,
                    "cells that the feed plan looks ahead, 16 to 1000000 (default 1024); a jerk-limited plan a quarter");
@@ -106,6 +110,9 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     const std::string group = "Outputs (- is standard output)";
     app.add_option("--trace", job.trace, "T.csv: positions and speed at every sample period")->group(group);
     app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);
+    app.add_option("--edges", job.edges,
+                   "E.csv: what the step and direction lines do, on a virtual clock; docs/gpio.md")
+        ->group(group);
     app.add_option("--curve-out", job.curve_out, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
     app.add_flag("--quiet", job.quiet, "no progress and no warnings on standard error")
@@ -127,6 +134,10 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
+bool takes_no_input(const CLI::App& app) {
+    return app.get_name() == "drive" || app.get_name() == "link";
+}
+
 // What CLI11 did not know: an option, or one word too many.
 void refuse_extras(const CLI::App& app, const Job& job) {
     for (const std::string& word : app.remaining()) {
@@ -138,8 +149,10 @@ void refuse_extras(const CLI::App& app, const Job& job) {
                                          near.empty() ? fmt::format("see splinefeed {} --help", app.get_name())
                                                       : fmt::format("did you mean '{}'?", near)));
         }
-        throw UsageError(
-            fmt::format("there is one input, {}; {} is one word too many", in_quotes(job.input), in_quotes(word)));
+        throw UsageError(takes_no_input(app) ? fmt::format("'{}' takes no input; {} is one word too many",
+                                                           app.get_name(), in_quotes(word))
+                                             : fmt::format("there is one input, {}; {} is one word too many",
+                                                           in_quotes(job.input), in_quotes(word)));
     }
 }
 
@@ -201,8 +214,10 @@ void take_window(Job& job, const std::string& text) {
 
 // One output at most goes to standard output, and no two to one file.
 void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
-    const std::array<std::pair<const char*, const std::string*>, 3> files{
-        {{"--trace", &job.trace}, {"--segments", &job.segments}, {"--curve-out", &job.curve_out}}};
+    const std::array<std::pair<const char*, const std::string*>, 4> files{{{"--trace", &job.trace},
+                                                                           {"--segments", &job.segments},
+                                                                           {"--edges", &job.edges},
+                                                                           {"--curve-out", &job.curve_out}}};
     const char* on_stdout = nullptr;
     for (std::size_t i = 0; i < files.size(); ++i) {
         const auto& [option, path] = files[i];
@@ -255,7 +270,16 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     surface->footer(std::string("Example: splinefeed surface dome.json --along u --scallop 0.01 --ball-radius 6 -o "
                                 "path.csv\n") +
                     exit_statuses);
-    for (CLI::App* const command : {run, plan, curve, surface}) {
+    CLI::App* const drive = app.add_subcommand("drive", "Play a Modbus drive, until it is interrupted");
+    add_drive_options(*drive, job.drive);
+    drive->footer(
+        "Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
+        "It prints one line when it listens, and exits with 0 after SIGINT (Ctrl-C) or SIGTERM, its records complete.");
+    CLI::App* const link = app.add_subcommand("link", "Test the link to drives: who answers, how fast, how surely");
+    add_link_options(*link, job.link);
+    link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
+                 exit_statuses);
+    for (CLI::App* const command : {run, plan, curve, surface, drive, link}) {
         for (CLI::Option* const option : command->get_options()) {
             option->type_name(""); // the descriptions say what a value may be
         }
@@ -267,7 +291,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
 } // namespace
 
 std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
-    constexpr std::array<std::string_view, 4> commands{"run", "plan", "curve", "surface"};
+    constexpr std::array<std::string_view, 6> commands{"run", "plan", "curve", "surface", "drive", "link"};
     Job job;
     Typed typed;
     CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
@@ -302,6 +326,10 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     }
     const CLI::App& command = *chosen.front();
     refuse_extras(command, job);
+    if (takes_no_input(command)) {
+        job.command = command.get_name() == "drive" ? Command::drive : Command::link;
+        return job;
+    }
     if (job.input.empty()) {
         throw UsageError("the input has no name; give a .csv or .json file, or - for standard input");
     }
@@ -321,9 +349,9 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     job.command = command.get_name() == "run"    ? Command::run
                   : command.get_name() == "plan" ? Command::plan
                                                  : Command::curve;
-    if (typed.target != "sim") {
-        throw UsageError(fmt::format("--target {}: there is no such target; available is sim, the simulated machine",
-                                     in_quotes(typed.target)));
+    check_target(job.target);
+    if (job.home && job.target == "sim") {
+        throw UsageError("--home is for drives, which the simulated machine has not; name them with --target");
     }
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));

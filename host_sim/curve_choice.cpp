@@ -3,11 +3,10 @@
 
 #include "input_error.hpp"
 #include "nearest_name.hpp"
-#include "number_text.hpp"
+#include "option_number.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -85,27 +84,6 @@ const Row& find_method(std::string_view name) {
         fmt::format("--curve {}: there is no such method; available are {}", in_quotes(name), available()));
 }
 
-double read(std::string_view option, std::string_view text, double low, double high, std::string_view what) {
-    double value = 0.0;
-    const NumberText result = read_number(text, value);
-    if (result != NumberText::number) {
-        throw UsageError(fmt::format("{} {} {}", option, in_quotes(text), why_no_number(result)));
-    }
-    if (value < low || value > high) {
-        throw UsageError(fmt::format("{} {} is out of range; {} must lie between {} and {}", option, in_quotes(text),
-                                     what, low, high));
-    }
-    return value;
-}
-
-int read_integer(std::string_view option, std::string_view text, int low, int high) {
-    const double value = read(option, text, low, high, "it");
-    if (value != std::floor(value)) {
-        throw UsageError(fmt::format("{} {} must be a whole number from {} to {}", option, in_quotes(text), low, high));
-    }
-    return static_cast<int>(value);
-}
-
 Parameterization read_parameterization(std::string_view text) {
     constexpr std::array<std::string_view, 3> names{"uniform", "chordal", "centripetal"};
     const auto* const found = std::find(names.begin(), names.end(), text);
@@ -126,7 +104,8 @@ Tangent read_tangent(std::string_view option, std::string_view text, bool deriva
             throw UsageError(fmt::format("{} {} has more than {} components", option, in_quotes(text), max_axes));
         }
         const double most = derivative ? 1e6 : 100.0;
-        const double value = read(option, rest.substr(0, comma), -most, most, "each component of an end tangent");
+        const double value =
+            read_option_number(option, rest.substr(0, comma), -most, most, "each component of an end tangent");
         tangent.value[static_cast<unsigned>(tangent.components++)] = value;
         zero = zero && value == 0.0;
         if (comma == std::string_view::npos) {
@@ -170,7 +149,7 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
                                  double low, double high, std::string_view name, auto& out) {
         if (text) {
             require(what, option);
-            out = read(option, *text, low, high, name);
+            out = read_option_number(option, *text, low, high, name);
         }
     };
     if (arguments.smooth) {
@@ -198,14 +177,14 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
     }
     if (arguments.degree) {
         require(takes_degree, "--degree");
-        choice.degree = read_integer("--degree", *arguments.degree, row.lowest_degree, row.highest_degree);
+        choice.degree = read_option_integer("--degree", *arguments.degree, row.lowest_degree, row.highest_degree);
     }
     if (arguments.curvature_sign) {
         require(takes_joints, "--curvature-sign");
         choice.curvature_sign.reset();
     }
     if (arguments.curvature_sign && *arguments.curvature_sign != "auto") {
-        choice.curvature_sign = read_integer("--curvature-sign", *arguments.curvature_sign, -1, 1);
+        choice.curvature_sign = read_option_integer("--curvature-sign", *arguments.curvature_sign, -1, 1);
         if (choice.curvature_sign == 0) {
             throw UsageError("--curvature-sign 0: it must be 1, -1 or auto");
         }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "curve_choice.hpp"
+#include "drive/drive_command.hpp"
+#include "link_report.hpp"
 #include "scalar_kind.hpp"
 #include "surface/surface_arguments.hpp"
 
@@ -11,7 +13,7 @@
 
 namespace splinefeed::host {
 
-enum class Command { run, plan, curve, surface };
+enum class Command { run, plan, curve, surface, drive, link };
 enum class InputFormat { csv, json };
 enum class SummaryKind { none, text, json };
 
@@ -19,14 +21,19 @@ struct Job {
     Command command = Command::run;
     std::string input; ///< a path, or "-"
     InputFormat format = InputFormat::csv;
-    std::string machine; ///< empty: the default machine
-    std::string events;  ///< empty: nobody steers
+    std::string machine;        ///< empty: the default machine
+    bool home = false;          ///< the drives find their references first
+    std::string target = "sim"; ///< or "modbus", or the address of a drive
+    std::string events;         ///< empty: nobody steers
     CurveArguments curve;
     SurfaceArguments surface;
+    DriveArguments drive;
+    LinkArguments link;
     ScalarKind scalar = ScalarKind::fixed;
     std::size_t window_cells = 1024;
     std::string trace; ///< empty: no such output; "-": standard output
     std::string segments;
+    std::string edges;
     std::string curve_out;
     SummaryKind summary = SummaryKind::text;
     bool quiet = false;

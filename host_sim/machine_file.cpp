@@ -3,6 +3,7 @@
 
 #include "input_error.hpp"
 #include "nearest_name.hpp"
+#include "target_address.hpp"
 #include "text_file.hpp"
 #include "toml_text.hpp"
 
@@ -41,7 +42,7 @@ public:
     explicit Checker(const std::string& file) : file_(file) {}
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
-        require_known(root, {"name", "sample_period_us", "path", "axis"}, "");
+        require_known(root, {"name", "sample_period_us", "path", "step", "axis"}, "");
         MachineDescription machine;
         machine.file = file_;
         if (const toml::node* node = root.get("name")) {
@@ -55,6 +56,7 @@ public:
             machine.settings.sample_period_us = static_cast<int>(*period);
         }
         path(root, machine.settings);
+        step(root, machine.step);
         axes(root, machine);
         return machine;
     }
@@ -138,6 +140,88 @@ private:
         }
     }
 
+    void step(const toml::table& root, StepSettings& settings) const {
+        const toml::node* node = root.get("step");
+        if (node == nullptr) {
+            return;
+        }
+        const toml::table* table = node->as_table();
+        if (table == nullptr) {
+            fail(*node, "step must be a table: [step] and its keys below");
+        }
+        require_known(
+            *table,
+            {"engine", "tick_us", "high_us", "low_us", "direction_setup_us", "direction_hold_us", "step_on_edge"},
+            " in [step]");
+        const toml::node* engine = table->get("engine");
+        const std::string kind = engine != nullptr ? text(*engine, "engine") : "intervals";
+        if (kind != "intervals" && kind != "fixed-rate") {
+            fail(*engine, fmt::format("engine is {}; it must be 'intervals' or 'fixed-rate'", in_quotes(kind)));
+        }
+        settings.tick_us = kind == "fixed-rate" ? 10.0 : 0.0;
+        if (const toml::node* tick = table->get("tick_us")) {
+            if (kind != "fixed-rate") {
+                fail(*tick, "tick_us is of engine = 'fixed-rate'; leave it out, or state that engine");
+            }
+            settings.tick_us = number(*tick, "tick_us");
+            if (StepTiming::make({.tick_us = settings.tick_us}).error() != Error::none || settings.tick_us == 0.0) {
+                fail(*tick,
+                     fmt::format("tick_us is {}; it must be a multiple of 0.25 from 0.25 to 1000", settings.tick_us));
+            }
+        }
+        const auto time = [&](const char* key, double least_us, double& value) {
+            if (const toml::node* given = table->get(key)) {
+                value = number(*given, key, {least_us, 1000.0, "us"});
+            }
+        };
+        time("high_us", 0.125, settings.high_us);
+        time("low_us", 0.125, settings.low_us);
+        time("direction_setup_us", 0.0, settings.direction_setup_us);
+        time("direction_hold_us", 0.0, settings.direction_hold_us);
+        if (const toml::node* on_edge = table->get("step_on_edge")) {
+            settings.step_on_edge = flag(*on_edge, "step_on_edge");
+        }
+    }
+
+    [[nodiscard]] bool flag(const toml::node& node, std::string_view key) const {
+        const auto value = node.value_exact<bool>();
+        if (!value) {
+            fail(node, fmt::format("{} must be true or false", key));
+        }
+        return *value;
+    }
+
+    void motors(const toml::table& table, StepMotors& motors) const {
+        if (const toml::node* count = table.get("motors")) {
+            const auto value = count->value_exact<std::int64_t>();
+            if (!value || *value < 1 || *value > 2) {
+                fail(*count, "motors must be 1 or 2");
+            }
+            motors.count = static_cast<int>(*value);
+        }
+        if (const toml::node* invert = table.get("invert_step")) {
+            motors.invert_step = flag(*invert, "invert_step");
+        }
+        const toml::node* invert = table.get("invert_direction");
+        if (invert == nullptr) {
+            return;
+        }
+        const toml::array* each = invert->as_array();
+        if (each == nullptr) {
+            motors.invert_direction.fill(flag(*invert, "invert_direction"));
+            return;
+        }
+        if (each->size() != static_cast<std::size_t>(motors.count)) {
+            fail(*invert,
+                 fmt::format("invert_direction has {} values; it must have one for each of {} motors, or be true or "
+                             "false for all",
+                             each->size(), motors.count));
+        }
+        for (std::size_t i = 0; i < each->size(); ++i) {
+            motors.invert_direction[i] = flag((*each)[i], "invert_direction");
+        }
+    }
+
     void axes(const toml::table& root, MachineDescription& machine) const {
         const toml::node* node = root.get("axis");
         const toml::array* array = node != nullptr ? node->as_array() : nullptr;
@@ -165,7 +249,7 @@ private:
         require_known(table,
                       {"name", "kind", "travel_mm", "travel_end_zone_mm", "travel_end_velocity_mm_s",
                        "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2", "max_jerk_mm_s3",
-                       "steps_per_mm", "drive"},
+                       "steps_per_mm", "motors", "invert_step", "invert_direction", "drive"},
                       " in [[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
@@ -201,8 +285,14 @@ private:
             machine.travel[k] = travel(*node, axis.steps_per_mm);
         }
         travel_end(table, where, machine.travel[k], axis);
+        motors(table, machine.motors[k]);
         if (const toml::node* drive = table.get("drive")) {
-            static_cast<void>(text(*drive, "drive")); // for --target modbus, which reads it when it comes
+            machine.drive[k] = text(*drive, "drive");
+            try {
+                static_cast<void>(parse_target_address(machine.drive[k]));
+            } catch (const AddressError& error) {
+                fail(*drive, fmt::format("drive: {}", error.what()));
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 #include "command_line.hpp"
 #include "input_error.hpp"
 #include "output_file.hpp"
+#include "run_target.hpp"
 #include "runner.hpp"
 
 #include <csignal>
@@ -32,6 +33,9 @@ int main(int argc, char** argv) {
     } catch (const OutputError& error) {
         fmt::print(stderr, "splinefeed: {}\n", printable(error.what()));
         return bad_input;
+    } catch (const TargetError& error) {
+        fmt::print(stderr, "splinefeed: {}\n", printable(error.what()));
+        return not_finished;
     } catch (const std::exception& error) {
         fmt::print(stderr, "splinefeed: internal error: {}\n", printable(error.what()));
         return not_finished;

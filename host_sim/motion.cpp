@@ -13,8 +13,8 @@ namespace splinefeed::host {
 
 template <Scalar S>
 Motion<S>::Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits,
-                  PathInput& input, const PathLimits& path_limits, Outputs& outputs)
-    : job_(&job), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs),
+                  PathInput& input, const PathLimits& path_limits, Outputs& outputs, RunTarget* target)
+    : job_(&job), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs), target_(target),
       optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
       feeder_(input), tee_(feeder_, input.name(),
                            {.limits = &path_limits,
@@ -28,7 +28,7 @@ Motion<S>::Motion(const Job& job, const MachineDescription& description, const M
       events_(job.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(job.events)) {}
 
 template <Scalar S>
-std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
+void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
     Progress progress({.quiet = job_->quiet, .waypoints = waypoints});
     FeedSegment segment;
     for (;;) {
@@ -51,6 +51,20 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
             read();
         }
     }
+}
+
+template <Scalar S>
+std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
+    try {
+        execute_all(waypoints);
+    } catch (const OutputError& error) {
+        if (target_ == nullptr || segments_ == 0) {
+            throw;
+        }
+        // Nobody would know where the drives are: they come to rest at the end of what they have.
+        static_cast<void>(target_->finish());
+        throw OutputError(error.what() + target_->where());
+    }
     if (tee_.failure()) {
         keep_failure(tee_.failure());
     }
@@ -64,7 +78,14 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     if (const auto& fault = machine_.fault()) {
         stopped_ = describe(*fault);
     }
-    return stopped_.empty() ? stopped_ : stopped_ + where();
+    if (target_ == nullptr) {
+        return stopped_.empty() ? stopped_ : stopped_ + where();
+    }
+    // Whatever ended the run: the drives come to rest at the end of what they have.
+    if (!target_->finish()) {
+        stopped_ = target_->why();
+    }
+    return stopped_.empty() ? stopped_ : stopped_ + target_->where();
 }
 
 template <Scalar S>
@@ -123,6 +144,9 @@ bool Motion<S>::execute(const FeedSegment& segment) {
     if (SegmentWriter* const writer = outputs_->segments()) {
         writer->segment(segment);
     }
+    if (EdgeWriter* const writer = outputs_->edges()) {
+        writer->segment(segment);
+    }
     ++segments_;
     bool rest = trajectory_.activity() == Activity::running;
     bool moves = false;
@@ -134,10 +158,15 @@ bool Motion<S>::execute(const FeedSegment& segment) {
     rests_ += rest ? 1U : 0U;
     // The machine executes one segment a poll, in virtual time: it is never behind.
     const bool done = machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
-    if (done) {
-        share_.segment(segment);
+    if (!done) {
+        return false;
     }
-    return done;
+    share_.segment(segment);
+    if (target_ != nullptr && !target_->submit(segment)) {
+        stopped_ = target_->why();
+        return false;
+    }
+    return true;
 }
 
 // Before the first move what is wrong is thrown; after it, it is why the machine stopped.
@@ -199,6 +228,9 @@ Summary Motion<S>::summary() const {
     summary.stops = rests_ > 0 ? rests_ - 1 : 0;
     const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);
     summary.smoothing_bound_mm = duration_s * duration_s * std::sqrt(acceleration_sq) / 6.0;
+    if (target_ != nullptr) {
+        summary.link = target_->link();
+    }
     rusage usage{};
     if (getrusage(RUSAGE_SELF, &usage) == 0) {
         summary.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;

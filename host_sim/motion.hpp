@@ -6,6 +6,7 @@
 #include "outputs.hpp"
 #include "path_tee.hpp"
 #include "planner.hpp"
+#include "run_target.hpp"
 #include "summary.hpp"
 
 #include <chrono>
@@ -20,7 +21,7 @@ class Motion {
 public:
     /// All arguments must outlive it.
     Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits, PathInput& input,
-           const PathLimits& path_limits, Outputs& outputs);
+           const PathLimits& path_limits, Outputs& outputs, RunTarget* target = nullptr);
     Motion(const Motion&) = delete;
     Motion& operator=(const Motion&) = delete;
 
@@ -34,6 +35,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    void execute_all(std::optional<std::uint64_t> waypoints);
     bool pull(FeedSegment& segment);
     void read();
     void operate();
@@ -47,6 +49,7 @@ private:
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
+    RunTarget* target_; // null: the simulated machine alone
     WaypointError error_;
     OptimumTime optimum_;
     LimitShare share_;

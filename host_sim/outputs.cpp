@@ -17,6 +17,9 @@ Outputs::Outputs(const Job& job, std::string_view method, bool closed, const Mac
     if (!job.segments.empty()) {
         segments_.emplace(segments_file_.emplace(job.segments), machine);
     }
+    if (!job.edges.empty()) {
+        edges_.emplace(edges_file_.emplace(job.edges), machine);
+    }
 }
 
 void Outputs::commit(const nlohmann::ordered_json* results) {
@@ -25,7 +28,10 @@ void Outputs::commit(const nlohmann::ordered_json* results) {
     } else if (curve_) {
         curve_->finish();
     }
-    for (std::optional<OutputFile>* file : {&curve_file_, &trace_file_, &segments_file_}) {
+    if (edges_) {
+        edges_->finish();
+    }
+    for (std::optional<OutputFile>* file : {&curve_file_, &trace_file_, &segments_file_, &edges_file_}) {
         if (*file) {
             (*file)->commit();
         }

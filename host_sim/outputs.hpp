@@ -3,6 +3,7 @@
 #pragma once
 
 #include "curve_writer.hpp"
+#include "edge_writer.hpp"
 #include "job.hpp"
 #include "output_file.hpp"
 #include "segment_writer.hpp"
@@ -23,6 +24,7 @@ public:
 
     [[nodiscard]] TraceWriter* trace() noexcept { return trace_ ? &*trace_ : nullptr; }
     [[nodiscard]] SegmentWriter* segments() noexcept { return segments_ ? &*segments_ : nullptr; }
+    [[nodiscard]] EdgeWriter* edges() noexcept { return edges_ ? &*edges_ : nullptr; }
     [[nodiscard]] CurveWriter* curve() noexcept { return curve_ ? &*curve_ : nullptr; }
 
     /// Completes the files and puts them in place. @pre the writers have got everything
@@ -32,9 +34,11 @@ public:
 private:
     std::optional<OutputFile> trace_file_;
     std::optional<OutputFile> segments_file_;
+    std::optional<OutputFile> edges_file_;
     std::optional<OutputFile> curve_file_;
     std::optional<TraceWriter> trace_;
     std::optional<SegmentWriter> segments_;
+    std::optional<EdgeWriter> edges_;
     std::optional<CurveWriter> curve_;
 };
 

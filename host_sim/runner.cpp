@@ -2,12 +2,15 @@
 #include "runner.hpp"
 
 #include "input_error.hpp"
+#include "link_report.hpp"
 #include "machine_file.hpp"
 #include "motion.hpp"
 #include "outputs.hpp"
 #include "path_tee.hpp"
+#include "run_target.hpp"
 #include "summary.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 
@@ -72,10 +75,42 @@ void print(const Summary& summary, SummaryKind kind) {
     }
 }
 
+/// The limits with segments that the lines carry: those of the machine file, or longer ones. Then nothing is lost but
+/// smoothness in space, which the summary states.
+template <Scalar S>
+Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& target, bool quiet) {
+    constexpr int longest_us = 100'000;
+    constexpr int step_us = 50;
+    const int asked_us = machine.settings.sample_period_us;
+    auto limits = MotionLimits<S>::make(machine.settings);
+    if (const std::string note = target.note(); !note.empty() && !quiet) {
+        fmt::print(stderr, "splinefeed: note: {}\n", printable(note));
+    }
+    if (!limits.has_value() || limits->segment_ticks >= target.least_segment_us() * ticks_per_us) {
+        return limits;
+    }
+    const int period_us = step_us * static_cast<int>(std::ceil(target.least_segment_us() / step_us));
+    if (!target.resamples() || period_us > longest_us) {
+        throw UsageError(fmt::format("the drives' lines carry a segment every {:.2f} ms at most often, and the machine "
+                                     "file asks for one every {:.2f} ms; raise sample_period_us, or take a faster line",
+                                     target.least_segment_us() * 1e-3, limits->segment_ticks * 1e-3 / ticks_per_us));
+    }
+    machine.settings.sample_period_us = std::max(period_us, asked_us);
+    machine.settings.segments_per_sample = 1;
+    limits = MotionLimits<S>::make(machine.settings);
+    if (!quiet) {
+        fmt::print(stderr,
+                   "splinefeed: note: the drives' lines carry a segment every {:.2f} ms at most often: segments and "
+                   "samples are {:.2f} ms long, not {:.2f} ms; what that smoothes the path is in the summary\n",
+                   target.least_segment_us() * 1e-3, machine.settings.sample_period_us * 1e-3, asked_us * 1e-3);
+    }
+    return limits;
+}
+
 template <Scalar S>
 int move_machine(const Job& job) {
-    const MachineDescription machine = job.machine.empty() ? default_machine() : read_machine_file(job.machine);
-    const auto limits = MotionLimits<S>::make(machine.settings);
+    MachineDescription machine = job.machine.empty() ? default_machine() : read_machine_file(job.machine);
+    auto limits = MotionLimits<S>::make(machine.settings);
     if (!limits.has_value()) {
         throw InputError(machine.file, 0, describe(limits.error()));
     }
@@ -87,8 +122,13 @@ int move_machine(const Job& job) {
     if (input.repeatable()) {
         waypoints = draw<S>(input, {.limits = &path_limits});
     }
+    std::unique_ptr<RunTarget> target;
+    if (job.target != "sim") {
+        target = make_run_target(job.target, machine, job.home);
+        limits = fitted<S>(machine, *target, job.quiet);
+    }
     Outputs outputs(job, input.curve_name(), input.choice().closed, machine);
-    Motion<S> motion(job, machine, *limits, input, path_limits, outputs);
+    Motion<S> motion(job, machine, *limits, input, path_limits, outputs, target.get());
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
     print(motion.summary(), job.summary);
@@ -107,8 +147,14 @@ int run_with(const Job& job) {
 } // namespace
 
 int run(const Job& job) {
+    if (job.command == Command::link) {
+        return report_link(job.link);
+    }
     if (job.command == Command::surface) {
         return run_surface(job.input, job.surface, job.scalar);
+    }
+    if (job.command == Command::drive) {
+        return run_drive(job.drive);
     }
     switch (job.scalar) {
     case ScalarKind::fixed: return run_with<Fixed>(job);

@@ -3,6 +3,8 @@
 
 #include "segment_cubic.hpp"
 
+#include "splinefeed/base/ring_index.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -65,7 +67,7 @@ bool SimulatedMachine::do_submit(const FeedSegment& segment) noexcept {
     if (fault_ || halted_ || queued_ == queue_.size()) {
         return false;
     }
-    queue_[(head_ + queued_) % queue_.size()] = segment;
+    queue_[ring_index(head_ + queued_, queue_.size())] = segment;
     ++queued_;
     return true;
 }
@@ -80,7 +82,7 @@ hal::PortState SimulatedMachine::do_poll() noexcept {
                 trace_failure_ = std::current_exception();
                 fail(FaultKind::trace, no_axis, cycle_time_s(), 0.0, 0.0, "", segment.waypoint);
             }
-            head_ = (head_ + 1) % queue_.size();
+            head_ = ring_index(head_ + 1, queue_.size());
             --queued_;
         } else if (moving()) {
             fail(FaultKind::underrun, no_axis, cycle_time_s(), path_speed(), 0.0, "mm/s", waypoint_);

@@ -167,6 +167,9 @@ std::string to_json(const Summary& summary) {
     json["smoothing_bound_mm"] = summary.smoothing_bound_mm;
     json["peak_rss_bytes"] = summary.peak_rss_bytes;
     json["limit_share"] = share_json(summary);
+    if (summary.link) {
+        json["link"] = to_json(*summary.link);
+    }
     return json.dump(2) + "\n";
 }
 
@@ -197,6 +200,9 @@ std::string to_text(const Summary& summary) {
     }
     if (!summary.limit_use.empty()) {
         write_limit_use(out, summary);
+    }
+    if (summary.link) {
+        text += '\n' + to_text(*summary.link);
     }
     if (summary.limit_share && summary.cycle_time_s > 0.0) {
         text += '\n' + share_table(axis_names(summary), *summary.limit_share);

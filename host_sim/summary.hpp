@@ -3,6 +3,7 @@
 #pragma once
 
 #include "limit_share.hpp"
+#include "link_summary.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -46,6 +47,7 @@ struct Summary {
     double smoothing_bound_mm = 0.0;  ///< how far the emitted motion may be from the curve
     std::uint64_t peak_rss_bytes = 0; ///< memory of the process; 0: unknown
     std::optional<LimitShares> limit_share; ///< which limit bound; axes as in limit_use
+    std::optional<LinkSummary> link;        ///< none: the simulated machine alone
 };
 
 /// One JSON object with the keys of the contract in its order, then those added since, and a line end. Under

@@ -48,6 +48,7 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
     Inside inside = Inside::nothing;
     bool any_letter = false; // not only ASCII
     bool line_starts = true;
+    char before = '\n'; // the last character that is neither blank nor in a comment or text
     std::size_t line_begin = 0;
     std::uint64_t line = 1;
     for (std::size_t i = toml.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0; i < toml.size(); ++i) {
@@ -68,6 +69,11 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
             if (c == '[' && line_starts && !names_table(toml.substr(i + 1))) {
                 throw InputError(file, line, "after [ there must be the name of a table: [path] or [[axis]]");
             }
+            if (c == '}' && (before == '[' || before == ',' || before == '=')) {
+                throw InputError(file, line,
+                                 "there is a } where a value should be; write one, or close what was opened");
+            }
+            before = c == ' ' || c == '\t' || c == '\r' || c == '#' ? before : c;
             if (c == '#' || c == '"' || c == '\'') {
                 inside = static_cast<Inside>(c);
                 any_letter = assigns(toml.substr(line_begin, i - line_begin));

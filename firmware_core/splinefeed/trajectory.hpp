@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
+#include "splinefeed/s4_segment_stream/passage_sampler.hpp"
 #include "splinefeed/s4_segment_stream/segment_stream.hpp"
 
 namespace splinefeed {
@@ -18,7 +19,7 @@ public:
     /// `curve`, `limits` and `window` must outlive the trajectory.
     Trajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept
         : arc_length_(curve, limits.refinement), feed_plan_(arc_length_, limits, window), plan_(&feed_plan_),
-          stream_(feed_plan_, limits) {}
+          samples_(feed_plan_, limits), sampler_(&samples_), stream_(samples_, limits) {}
     Trajectory(CurveSource<S>& curve, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
     Trajectory(const Trajectory&) = delete;
     Trajectory& operator=(const Trajectory&) = delete;
@@ -63,6 +64,7 @@ public:
     /// @pre the one before is finished or aborted, and the machine at rest
     void start(CurveSource<S>& curve) noexcept {
         plan_->clear();
+        sampler_->clear();
         arc_length_.start(curve);
         state_ = Pull::starved;
     }
@@ -75,13 +77,21 @@ protected:
     /// The stream follows another plan, made of the feed plan's. @pre nothing was asked of it yet
     void refine(MotionPlan<S>& plan) noexcept {
         plan_ = &plan;
-        stream_.follow(plan);
+        samples_.follow(plan);
+    }
+    /// And other samples. @pre as above
+    void refine(MotionPlan<S>& plan, Sampler<S>& sampler) noexcept {
+        plan_ = &plan;
+        sampler_ = &sampler;
+        stream_.follow(sampler);
     }
 
 private:
     ArcLength<S> arc_length_;
     FeedPlan<S> feed_plan_;
     MotionPlan<S>* plan_;
+    PassageSampler<S> samples_;
+    Sampler<S>* sampler_;
     SegmentStream<S> stream_;
     Pull state_ = Pull::starved;
 };

@@ -3,28 +3,15 @@
 
 #include "host_sim/input_error.hpp"
 #include "host_sim/nearest_name.hpp"
-#include "host_sim/number_text.hpp"
+#include "host_sim/option_number.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
 
 namespace {
-
-double read(std::string_view option, std::string_view text, double low, double high) {
-    double value = 0.0;
-    if (const NumberText result = read_number(text, value); result != NumberText::number) {
-        throw UsageError(fmt::format("{} {} {}", option, in_quotes(text), why_no_number(result)));
-    }
-    if (value < low || value > high) {
-        throw UsageError(
-            fmt::format("{} {} is out of range; it must lie between {} and {}", option, in_quotes(text), low, high));
-    }
-    return value;
-}
 
 // The index of the name.
 std::size_t choose(std::string_view option, std::string_view text, std::array<std::string_view, 2> names) {
@@ -75,20 +62,16 @@ std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments) {
         throw UsageError("a tool path needs one of --lines and --scallop");
     }
     if (arguments.ball_radius) {
-        options.ball_radius_mm = read("--ball-radius", *arguments.ball_radius, 0.0, 10000.0);
+        options.ball_radius_mm = read_option_number("--ball-radius", *arguments.ball_radius, 0.0, 10000.0);
     }
     const bool ball = options.ball_radius_mm > 0.0;
     if (arguments.lines) {
-        const double count = read("--lines", *arguments.lines, 2.0, 100000.0);
-        if (count != std::floor(count)) {
-            throw UsageError(fmt::format("--lines {}: it must be a whole number", in_quotes(*arguments.lines)));
-        }
-        options.lines = static_cast<int>(count);
+        options.lines = read_option_integer("--lines", *arguments.lines, 2, 100000);
     } else {
         if (!ball) {
             throw UsageError("--scallop needs --ball-radius: the ridges are left by a ball");
         }
-        options.scallop_mm = read("--scallop", *arguments.scallop, 1e-6, 0.5 * options.ball_radius_mm);
+        options.scallop_mm = read_option_number("--scallop", *arguments.scallop, 1e-6, 0.5 * options.ball_radius_mm);
     }
     if (arguments.tool && !ball) {
         throw UsageError("--tool needs --ball-radius: without a ball the path is on the surface");
@@ -99,10 +82,10 @@ std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments) {
         if (options.zigzag) {
             throw UsageError("--lift is for --pattern one-way; a zigzag is not lifted");
         }
-        options.lift_mm = read("--lift", *arguments.lift, 0.001, 10000.0);
+        options.lift_mm = read_option_number("--lift", *arguments.lift, 0.001, 10000.0);
     }
     if (arguments.step) {
-        options.step_mm = read("--step", *arguments.step, 0.001, 10000.0);
+        options.step_mm = read_option_number("--step", *arguments.step, 0.001, 10000.0);
     }
     return options;
 }

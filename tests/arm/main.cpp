@@ -3,7 +3,7 @@
 // segment. The same source on the host must print the same hash.
 #include "platform.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
-#include "splinefeed/trajectory.hpp"
+#include "splinefeed/smooth_trajectory.hpp"
 
 #include <array>
 #include <cstdint>
@@ -15,6 +15,7 @@ using namespace splinefeed;
 namespace {
 
 using Real = PIPELINE_SCALAR;
+constexpr bool jerk_limited = PIPELINE_JERK;
 
 struct Point {
     std::int32_t x_um;
@@ -54,6 +55,12 @@ constexpr MachineSettings machine = [] {
     settings.axis[2].max_acceleration_mm_s2 = 500.0;
     settings.axis[2].steps_per_mm = 400.0;
     settings.centripetal_mm_s2 = 800.0;
+    if (jerk_limited) {
+        settings.jerk_tier = JerkTier::bounded;
+        settings.axis[0].max_jerk_mm_s3 = 80000.0;
+        settings.axis[1].max_jerk_mm_s3 = 60000.0;
+        settings.axis[2].max_jerk_mm_s3 = 40000.0;
+    }
     return settings;
 }();
 // At compile time: no arithmetic in double remains for the target.
@@ -74,8 +81,11 @@ private:
 };
 
 Static<G2Spline<Real>> curve_storage;
-Static<Trajectory<Real>> trajectory_storage;
+using Pipeline = std::conditional_t<jerk_limited, SmoothTrajectory<Real>, Trajectory<Real>>;
+Static<Pipeline> trajectory_storage;
 Static<std::array<PlannedCell<Real>, FeedPlan<Real>::smallest_window>> window_storage;
+Static<std::array<SmoothCell<Real>, SmoothPlan<Real>::smallest_window>> cells_storage;
+Static<std::array<Position, SmoothSampler<Real>::places_for(*limits)>> places_storage;
 FeedSegment segment;
 
 // Some functions are kept apart from main, so that what they need on the stack is not below the deepest call.
@@ -138,8 +148,17 @@ constexpr std::int64_t units(std::int32_t um) {
     write_line("bytes: arc length ", sizeof(ArcLength<Real>));
     write_line("bytes: feed plan  ", sizeof(FeedPlan<Real>));
     write_line("bytes: its window ", sizeof window);
-    write_line("bytes: stream     ", sizeof(SegmentStream<Real>));
-    return trajectory_storage.build(curve, *limits, window);
+    write_line("bytes: stream     ", sizeof(SegmentStream<Real>) + sizeof(PassageSampler<Real>));
+    if constexpr (jerk_limited) {
+        auto& cells = cells_storage.build();
+        auto& places = places_storage.build();
+        write_line("bytes: smooth plan", sizeof(SmoothPlan<Real>));
+        write_line("bytes: its window ", sizeof cells);
+        write_line("bytes: mean       ", sizeof(SmoothSampler<Real>) + sizeof places);
+        return trajectory_storage.build(curve, *limits, window, SmoothStorage<Real>{cells, places});
+    } else {
+        return trajectory_storage.build(curve, *limits, window);
+    }
 }
 
 } // namespace

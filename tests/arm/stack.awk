@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -f stack.awk
+# The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -v smooth=1 -f stack.awk
 # FILE.ci... Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
 
 BEGIN {
@@ -11,8 +11,11 @@ BEGIN {
     library["__clzdi2"] = 16
     library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
     root = "_ZN12_GLOBAL__N_18on_resetEv"
-    # Virtual calls: the arc length asks the curve, which is a G2Spline here, and the stream its plan, a FeedPlan.
-    plan = "^_ZNK?10splinefeed8FeedPlanI" (scalar == "float" ? "f" : "NS_5FixedE") "E(4cell|5clear|5steer|7advance|7prepare|7rest_at|8standing)E"
+    # Virtual calls: the arc length asks the curve, which is a G2Spline here, the stream its samples, and those their
+    # plan: a FeedPlan, or where motions are averaged a SmoothPlan.
+    of = "I" (scalar == "float" ? "f" : "NS_5FixedE") "E"
+    plan = "^_ZNK?10splinefeed" (smooth ? "10SmoothPlan" : "8FeedPlan") of "(4cell|5clear|5steer|7advance|7prepare|7rest_at|8standing)E"
+    sampler = "^_ZNK?10splinefeed" (smooth ? "13SmoothSampler" : "14PassageSampler") of "(4next|5clear|7at_rest)E"
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
                               : "_ZN10splinefeed18ControlPointStreamINS_5FixedENS_11PlainJointsIS1_EEE4nextERNS_12CurveSegmentIS1_EE"
 }
@@ -35,7 +38,11 @@ function quoted(line, key) {
     to = quoted($0, "targetname")
     if (to == "__indirect_call" && from ~ /ArcLength/) { to = curve }
     if (to == "__indirect_call" && from ~ /SegmentStream|Trajectory/) {
+        asks_sampler[from] = 1
+    }
+    if (to == "__indirect_call" && from ~ /Sampler|Trajectory/) {
         asks_plan[from] = 1
+    } else if (to == "__indirect_call" && from ~ /SegmentStream/) {
     } else if (!((from, to) in known)) {
         known[from, to] = 1
         calls[from] = calls[from] to "\n"
@@ -74,6 +81,9 @@ END {
     for (name in frame) {
         if (name ~ plan) {
             for (from in asks_plan) { calls[from] = calls[from] name "\n" }
+        }
+        if (name ~ sampler) {
+            for (from in asks_sampler) { calls[from] = calls[from] name "\n" }
         }
     }
     print "stack bound " depth(root) " bytes:"

@@ -117,7 +117,7 @@ TEMPLATE_TEST_CASE("every limit holds and no node can be faster with rotary axes
 TEMPLATE_TEST_CASE("what is emitted keeps the feed on the linear axes", "[feed_plan][rotary]", double, Fixed) {
     Random random(seed + 2);
     Real most = 0.0L;
-    for (int run = 0; run < rounds(12); ++run) {
+    for (int run = 0; run < rounds(24); ++run) {
         const int axes = random.integer(2, max_axes);
         MachineSettings machine = random_machine(random, axes);
         make_rotary(random, machine);

@@ -74,6 +74,34 @@ TEST_CASE("A machine file is read") {
     CHECK(parse_machine(with("sample_period_us = 500\n", ""), "m.toml").settings.sample_period_us == 1000);
 }
 
+TEST_CASE("Step and direction lines are read") {
+    const MachineDescription plain = parse_machine(good, "m.toml");
+    CHECK(plain.step.tick_us == 0.0);
+    CHECK(plain.step.high_us == 2.0);
+    CHECK(plain.motors[1].count == 1);
+    CHECK_FALSE(plain.motors[1].invert_direction[0]);
+    const MachineDescription machine =
+        parse_machine(with("[path]", "[step]\nengine = 'fixed-rate'\ntick_us = 12.5\nhigh_us = 3\nlow_us = 4.5\n"
+                                     "direction_setup_us = 0\ndirection_hold_us = 7\nstep_on_edge = true\n[path]"),
+                      "m.toml");
+    CHECK(machine.step.tick_us == 12.5);
+    CHECK(machine.step.high_us == 3.0);
+    CHECK(machine.step.low_us == 4.5);
+    CHECK(machine.step.direction_setup_us == 0.0);
+    CHECK(machine.step.direction_hold_us == 7.0);
+    CHECK(machine.step.step_on_edge);
+    CHECK(parse_machine(with("[path]", "[step]\nengine = 'fixed-rate'\n[path]"), "m.toml").step.tick_us == 10.0);
+    CHECK(parse_machine(with("[path]", "[step]\nengine = 'intervals'\n[path]"), "m.toml").step.tick_us == 0.0);
+    const StepMotors motors =
+        parse_machine(with("= 12.5\n", "= 12.5\nmotors = 2\ninvert_step = true\ninvert_direction = [true, false]\n"),
+                      "m.toml")
+            .motors[1];
+    CHECK(motors.count == 2);
+    CHECK(motors.invert_step);
+    CHECK(motors.invert_direction == std::array<bool, 2>{true, false});
+    CHECK(parse_machine(with("= 12.5\n", "= 12.5\ninvert_direction = true\n"), "m.toml").motors[1].invert_direction[0]);
+}
+
 TEST_CASE("The default machine is one that the planner takes") {
     const MachineDescription machine = default_machine();
     CHECK(machine.settings.axes == 3);
@@ -111,10 +139,26 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("max_feed_mm_s = 80", "max_fed_mm_s = 80"), "m.toml:4: ", "did you mean 'max_feed_mm_s'"},
         {with("= 2000", "= -1"), "m.toml:5: ", "between"},
         {with("= 0.001", "= 2"), "m.toml:6: ", "between"},
+        {with("[path]", "[step]\nengine = 'fast'\n[path]"), "m.toml:4: ", "'intervals' or 'fixed-rate'"},
+        {with("[path]", "[step]\ntick_us = 5\n[path]"), "m.toml:4: ", "of engine = 'fixed-rate'"},
+        {with("[path]", "[step]\nengine = 'fixed-rate'\ntick_us = 0.3\n[path]"), "m.toml:5: ", "multiple of 0.25"},
+        {with("[path]", "[step]\nengine = 'fixed-rate'\ntick_us = 0\n[path]"), "m.toml:5: ", "multiple of 0.25"},
+        {with("[path]", "[step]\nhigh_us = 0.1\n[path]"), "m.toml:4: ", "between 0.125 and 1000 us"},
+        {with("[path]", "[step]\ndirection_hold_us = -1\n[path]"), "m.toml:4: ", "between 0 and 1000 us"},
+        {with("[path]", "[step]\nstep_on_edge = 1\n[path]"), "m.toml:4: ", "true or false"},
+        {with("[path]", "[step]\nhihg_us = 1\n[path]"), "m.toml:4: ", "did you mean 'high_us'"},
+        {"step = 3\n" + good, "m.toml:1: ", "[step]"},
+        {with("= 12.5\n", "= 12.5\nmotors = 3\n"), "m.toml:19: ", "1 or 2"},
+        {with("= 12.5\n", "= 12.5\nmotors = true\n"), "m.toml:19: ", "1 or 2"},
+        {with("= 12.5\n", "= 12.5\ninvert_step = 'yes'\n"), "m.toml:19: ", "true or false"},
+        {with("= 12.5\n", "= 12.5\ninvert_direction = [true, false]\n"), "m.toml:19: ", "one for each of 1 motors"},
+        {with("= 12.5\n", "= 12.5\ninvert_direction = [1]\n"), "m.toml:19: ", "true or false"},
         {with("[path]", "[paht]"), "m.toml:3: ", "did you mean 'path'"},
         {"[\x07]\n", "m.toml:1: ", "name of a table"},
         {"a = 1\n [ [ .b ] ]\n", "m.toml:2: ", "name of a table"},
         {"[", "m.toml:1: ", "name of a table"},
+        {"a = [1,\n # ]\n }]\n", "m.toml:3: ", "a } where a value"},
+        {"a = [{b = 1}, {b = [}]}]\n", "m.toml:1: ", "a } where a value"},
         {"# \xc3\xa4\nn\xc3\xa4me = 1\n", "m.toml:2: ", "beyond ASCII"},
         {"a = 1x'\xc3\xa4'\n", "m.toml:1: ", "beyond ASCII"},
         {"path = 3\n", "m.toml:1: ", "table"},

@@ -5,6 +5,7 @@
 
 #include "cell_reference.hpp"
 #include "splinefeed/jerk_trajectory.hpp"
+#include "splinefeed/smooth_trajectory.hpp"
 
 #include <memory>
 
@@ -86,21 +87,30 @@ template <Scalar S>
 class AnyTrajectory {
 public:
     AnyTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::size_t window_size)
-        : window_(window_size), cells_(window_size), nodes_(JerkStorage<S>::nodes_for(window_size)) {
-        if (limits.jerk_limited) {
+        : window_(window_size), cells_(window_size), nodes_(JerkStorage<S>::nodes_for(window_size)),
+          smooth_cells_(window_size), places_(SmoothSampler<S>::places_for(limits)) {
+        if (limits.jerk_limited && limits.jerk_tier == JerkTier::bounded) {
+            smooth_ =
+                std::make_unique<SmoothTrajectory<S>>(curve, limits, window_, SmoothStorage<S>{smooth_cells_, places_});
+        } else if (limits.jerk_limited) {
             jerk_limited_ = std::make_unique<JerkTrajectory<S>>(curve, limits, window_, JerkStorage<S>{cells_, nodes_});
         } else {
             plain_ = std::make_unique<Trajectory<S>>(curve, limits, window_);
         }
     }
-    [[nodiscard]] Trajectory<S>& trajectory() { return plain_ ? *plain_ : *jerk_limited_; }
+    [[nodiscard]] Trajectory<S>& trajectory() {
+        return plain_ ? *plain_ : smooth_ ? static_cast<Trajectory<S>&>(*smooth_) : *jerk_limited_;
+    }
     [[nodiscard]] std::uint32_t slow_legs() const { return jerk_limited_ ? jerk_limited_->jerk_plan().slow_legs() : 0; }
 
 private:
     std::vector<PlannedCell<S>> window_;
     std::vector<Cell<S>> cells_;
     std::vector<JerkNode> nodes_;
+    std::vector<SmoothCell<S>> smooth_cells_;
+    std::vector<Position> places_;
     std::unique_ptr<Trajectory<S>> plain_;
+    std::unique_ptr<SmoothTrajectory<S>> smooth_;
     std::unique_ptr<JerkTrajectory<S>> jerk_limited_;
 };
 

@@ -51,6 +51,8 @@ public:
         std::ofstream(folder_ / name, std::ios::binary) << text;
     }
 
+    [[nodiscard]] std::string folder() const { return folder_.string(); }
+
     [[nodiscard]] std::string read(const std::string& name) const {
         std::ifstream file(folder_ / name, std::ios::binary);
         std::ostringstream text;

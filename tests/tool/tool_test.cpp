@@ -200,7 +200,7 @@ TEST_CASE("Every wrong command line gets one line and status 2, and nothing is w
         {"run p.csv --format ngc", "csv, json"},
         {"run p.ngc", ".csv or .json"},
         {"run p", ".csv or .json"},
-        {"run p.csv --target gpio:///dev/gpiochip0", "available is sim"},
+        {"run p.csv --target gpio:///dev/gpiochip0", "available are sim"},
         {"plan p.csv --target sim", "no option"},
         {"run p.csv --window 15", "16 to 1000000"},
         {"run p.csv --window many", "16 to 1000000"},
@@ -215,7 +215,10 @@ TEST_CASE("Every wrong command line gets one line and status 2, and nothing is w
         {"run . --format csv", "cannot be read"},
         {"run p.csv --trace nowhere/t.csv", "nowhere/t.csv"},
         {"curve p.csv --trace t.csv", "no option"},
-        {"drive", "run, plan, curve"},
+        {"drvie", "did you mean 'drive'"},
+        {"drive --axes 7", "it must lie between 1 and 6"},
+        {"link", "there is nothing to test"},
+        {"run p.csv --target modbus-tcp://h?unit=0", "from 1 to 255"},
     };
     for (const Case& c : cases) {
         const Call call = tool(c.arguments);

@@ -55,6 +55,10 @@ enum class Error : std::uint8_t {
     even_degree_closed,
     tangent_vanishes,
     result_out_of_range,
+    step_times_out_of_range,
+    step_tick_out_of_range,
+    step_rate_too_high,
+    direction_change_too_long,
 };
 
 /// One sentence: what is wrong and what would be right.

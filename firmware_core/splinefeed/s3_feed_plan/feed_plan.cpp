@@ -100,6 +100,13 @@ S FeedPlan<S>::wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept 
     return larger(smaller(cap_sq, speed * speed), literal<S>(slowest_sq));
 }
 
+template <Scalar S>
+S FeedPlan<S>::programmed_sq(const Cell<S>& cell) const noexcept {
+    const S programmed = cell.feed_mm_s;
+    const S speed = path_speed(cell, programmed > S{} ? limits_.usable_feed(programmed) : limits_.feed_mm_s);
+    return speed * speed;
+}
+
 // Backward over the window: entry_sq becomes the largest entry from which the machine's K behind the cell can be
 // reached, exit_sq the wish's K there. Returns the last final node of the wish, or 0.
 template <Scalar S>

@@ -52,6 +52,8 @@ public:
     [[nodiscard]] S cap_sq() const noexcept { return at(0).cap_sq; }
     /// Largest v^2 that is wanted in a cell with this cap, for a factor of the programmed feed.
     [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept;
+    /// v^2 of the feed that is programmed for a cell, or of the machine's.
+    [[nodiscard]] S programmed_sq(const Cell<S>& cell) const noexcept;
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
     /// The cell is done.

@@ -203,7 +203,7 @@ bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
     JerkNode& end = nodes[n];
     end.at_most_sq = end.expected_sq = 0.0;
     JerkLeg leg(nodes.first(n + 1), &state_, known);
-    if (!leg.plan(limits_->jerk_tier)) {
+    if (!leg.plan()) {
         return false;
     }
     end.state = {0.0, 0.0};

@@ -56,9 +56,9 @@ public:
         : nodes_(nodes), start_(start), known_(known) {}
 
     /// Leaves the motion in JerkNode::state: the mean of one that is planned with the direction of travel and one
-    /// against it. `bounded`: that once. `optimal`: once more, from what the first came to, and the faster of both.
+    /// against it, once more, from what the first came to, and the faster of both.
     /// false: there is no motion from the start with what is expected; nothing was changed but expected_sq.
-    bool plan(JerkTier tier) noexcept;
+    bool plan() noexcept;
     /// About what the motion in JerkNode::state takes; that of the first node is the start's.
     [[nodiscard]] double seconds() const noexcept;
 

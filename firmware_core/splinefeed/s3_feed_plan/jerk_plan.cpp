@@ -114,7 +114,7 @@ void JerkPlan<S>::plan(bool ended) noexcept {
             planned_ = end;
             at = end;
             hops_ = 1;
-        } else if (plan_leg(window_.nodes(at, end), rests ? 0 : planned_, limits_->jerk_tier)) {
+        } else if (plan_leg(window_.nodes(at, end), rests ? 0 : planned_)) {
             for (std::size_t i = at; i < end; ++i) {
                 window_.node(i).travel = Travel::curve;
             }

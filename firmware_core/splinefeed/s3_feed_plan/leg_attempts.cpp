@@ -35,7 +35,7 @@ void expect_rest(std::span<JerkNode> nodes, bool at_end) noexcept {
 
 } // namespace
 
-bool plan_leg(std::span<JerkNode> nodes, std::size_t known, JerkTier tier) noexcept {
+bool plan_leg(std::span<JerkNode> nodes, std::size_t known) noexcept {
     if (nodes.size() <= JerkLeg::fewest_cells) {
         return false;
     }
@@ -49,7 +49,7 @@ bool plan_leg(std::span<JerkNode> nodes, std::size_t known, JerkTier tier) noexc
     }
     bool done = false;
     for (int attempt = 0; attempt < attempts && !done; ++attempt) {
-        done = JerkLeg(nodes, moves ? &start : nullptr, known).plan(tier);
+        done = JerkLeg(nodes, moves ? &start : nullptr, known).plan();
         for (std::size_t i = 1; i + 1 < nodes.size() && !done && attempt + 1 < attempts; ++i) {
             // Where just the old plan is expected, it is possible once more; but not its braking to the end.
             JerkNode& node = nodes[i];

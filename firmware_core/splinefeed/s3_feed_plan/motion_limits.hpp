@@ -6,51 +6,11 @@
 #include "splinefeed/base/status.hpp"
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s2_arc_length/arc_length.hpp"
+#include "splinefeed/s3_feed_plan/machine_settings.hpp"
 
 #include <cstdint>
 
 namespace splinefeed {
-
-/// One axis as the machine file states it.
-struct AxisSettings {
-    double max_velocity_mm_s = 100.0;
-    double max_acceleration_mm_s2 = 1000.0;
-    double max_jerk_mm_s3 = 0.0; ///< 0: acceleration-limited
-    double steps_per_mm = 1000.0;
-    double max_braking_mm_s2 = 0.0; ///< acceleration against the velocity; 0: max_acceleration_mm_s2
-    bool rotary = false;            ///< in degrees where the names say mm; the feed does not count it
-    double travel_low_mm = 0.0;     ///< of use with an end zone only
-    double travel_high_mm = 0.0;
-    double travel_end_zone_mm = 0.0;       ///< as near to the ends of the travel the axis has another limit; 0: nowhere
-    double travel_end_velocity_mm_s = 0.0; ///< this one
-
-    [[nodiscard]] constexpr double braking_mm_s2() const noexcept {
-        return max_braking_mm_s2 == 0.0 ? max_acceleration_mm_s2 : max_braking_mm_s2;
-    }
-    [[nodiscard]] constexpr double smaller_acceleration_mm_s2() const noexcept {
-        return braking_mm_s2() < max_acceleration_mm_s2 ? braking_mm_s2() : max_acceleration_mm_s2;
-    }
-    [[nodiscard]] constexpr double larger_acceleration_mm_s2() const noexcept {
-        return braking_mm_s2() > max_acceleration_mm_s2 ? braking_mm_s2() : max_acceleration_mm_s2;
-    }
-};
-
-/// How much work the jerk-limited plan may do for a shorter time.
-enum class JerkTier : std::uint8_t {
-    bounded, ///< one pass each way: a fixed cost
-    optimal  ///< repeated from what the first came to
-};
-
-/// A machine as its file states it. Zero means "no such limit" for the optional ones.
-struct MachineSettings {
-    int axes = 3;
-    PerAxis<AxisSettings> axis{};
-    double max_feed_mm_s = 100.0;
-    double centripetal_mm_s2 = 0.0;
-    double chord_error_mm = 0.0;
-    int sample_period_us = 1000;
-    JerkTier jerk_tier = JerkTier::optimal;
-};
 
 /// One tick of a feed segment's duration is 1/8 us.
 inline constexpr int ticks_per_us = 8;
@@ -69,9 +29,11 @@ struct MotionLimits {
     PerAxis<S> end_velocity_mm_s{}; ///< of an axis beyond Refinement::open; 0: no such limit
     bool mixed = false;             ///< some axes are rotary and some are not
     PerAxis<S> jerk_mm_s3{};        ///< meaningful where jerk_limited
-    bool jerk_limited = false;      ///< some axis's jerk is limited: the speeds want a JerkPlan
+    bool jerk_limited = false;      ///< some axis's jerk is limited: the speeds want a JerkPlan or a SmoothPlan
     JerkTier jerk_tier = JerkTier::optimal;
-    S usable{}; ///< the part of a limit that planning may use, but for the noise of positions
+    std::uint32_t smoothing_q8 = 0;      ///< of JerkTier::bounded: time to average over, in 1/256 of a segment
+    std::uint32_t most_smoothing_q8 = 0; ///< and the longest that a straight move may ask for
+    S usable{};                          ///< the part of a limit that planning may use, but for the noise of positions
     S feed_noise_mm_s{};
     S jump_mm_s{};                   ///< largest jump of the speed that rounding may cause at a joint of cells
     S centripetal_mm_s2{};           ///< 0: none
@@ -118,6 +80,22 @@ inline constexpr double jump_share<float> = 1e-2;
 
 /// And for joints whose change of direction is tolerated as none (Refinement::direction_jump).
 inline constexpr double corner_share = 2e-5;
+
+/// Segments that a mean may take in.
+inline constexpr int most_smoothing = 1024;
+
+/// Time to average over, for the time A / J of the axis that takes longest to its acceleration: shorter, it leaves
+/// acceleration unused, longer, bends are smoothed away (docs/feed.md).
+constexpr double smoothing_s(double rise_s) noexcept {
+    const double most = 0.7 * rise_s < 0.0175 ? 0.7 * rise_s : 0.0175;
+    return most > 0.35 * rise_s ? most : 0.35 * rise_s;
+}
+
+/// A time in 1/256 of a segment, from one segment to the most.
+constexpr std::uint32_t smoothing_q8(double time_s, double segment_s) noexcept {
+    const double q8 = 256.0 * time_s / segment_s + 0.5;
+    return q8 < 256.0 ? 256U : q8 > 256.0 * most_smoothing ? 256U * most_smoothing : static_cast<std::uint32_t>(q8);
+}
 
 /// Rounding of a position, e, becomes the acceleration 4 e / T^2 in the second difference of control points.
 constexpr double acceleration_noise(double error_mm, double segment_s) noexcept {
@@ -273,29 +251,21 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     }
     MotionLimits limits;
     limits.axes = settings.axes;
-    double acceleration_sq = 0.0;
-    double softest = 1e9;
-    double turning_sq = 0.0;
-    int rotary = 0;
-    double smoothest = 0.0; // smallest jerk
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
-        const AxisSettings& axis = settings.axis[k];
-        if (const Error error = detail::axis_error<S>(axis); error != Error::none) {
+        if (const Error error = detail::axis_error<S>(settings.axis[k]); error != Error::none) {
             return error;
         }
-        acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
-        turning_sq += axis.rotary ? axis.max_velocity_mm_s * axis.max_velocity_mm_s : 0.0;
-        rotary += axis.rotary ? 1 : 0;
-        softest = axis.smaller_acceleration_mm_s2() < softest ? axis.smaller_acceleration_mm_s2() : softest;
-        if (axis.max_jerk_mm_s3 > 0.0 && !(smoothest > 0.0 && smoothest < axis.max_jerk_mm_s3)) {
-            smoothest = axis.max_jerk_mm_s3;
-        }
     }
-    limits.mixed = rotary > 0 && rotary < settings.axes;
+    const AxisTotals totals = axis_totals(settings);
+    const double softest = totals.softest;
+    const double smoothest = totals.smoothest;
+    double rise_s = 0.0; // longest time to the acceleration of an axis
+    limits.mixed = totals.rotary > 0 && totals.rotary < settings.axes;
     const double path =
-        limits.mixed ? detail::fastest_path(settings.max_feed_mm_s, turning_sq) : settings.max_feed_mm_s;
+        limits.mixed ? detail::fastest_path(settings.max_feed_mm_s, totals.turning_sq) : settings.max_feed_mm_s;
     const double period_s = settings.sample_period_us * 1e-6;
-    const int n = detail::segments_per_sample(period_s, acceleration_sq);
+    const int n = settings.segments_per_sample > 0 ? settings.segments_per_sample
+                                                   : detail::segments_per_sample(period_s, totals.acceleration_sq);
     const double segment_s = period_s / n;
     constexpr double usable = 1.0 - detail::usable_margin<S>;
     double feed_noise = 0.0;
@@ -341,6 +311,11 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
                 return Error::period_too_short;
             }
             limits.jerk_limited = true;
+            // The softest axis holds the others back to about as much
+            const double acceleration =
+                axis.smaller_acceleration_mm_s2() < 2.0 * softest ? axis.smaller_acceleration_mm_s2() : 2.0 * softest;
+            const double rise = acceleration / axis.max_jerk_mm_s3;
+            rise_s = rise > rise_s ? rise : rise_s;
             limits.jerk_mm_s3[k] = from_double<S>(axis.max_jerk_mm_s3 * (usable - detail::jerk_reserve) - jerk_noise);
         } else {
             limits.jerk_mm_s3[k] = from_integer<S>(1 << 30); // no limit in practice
@@ -348,6 +323,8 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
     limits.jerk_tier = settings.jerk_tier;
+    limits.smoothing_q8 = (detail::smoothing_q8(detail::smoothing_s(rise_s), segment_s) + 128U) / 256U * 256U;
+    limits.most_smoothing_q8 = detail::smoothing_q8(rise_s, segment_s);
     limits.usable = from_double<S>(usable);
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
@@ -365,7 +342,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
     if (smoothest > 0.0) {
-        refinement.finest_grade_log2 = 5;
+        refinement.finest_grade_log2 = settings.jerk_tier == JerkTier::optimal ? 5 : 1;
         refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors
         refinement.inverse_error = scale2(refinement.inverse_error, -3);
         refinement.curvature_change = scale2(refinement.curvature_change, -1); // a rest that goes with its cube

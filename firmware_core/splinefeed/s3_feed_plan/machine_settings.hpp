@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// MachineSettings: what a machine file states, unchecked; MotionLimits::make checks it.
+#pragma once
+
+#include "splinefeed/base/capacity.hpp"
+
+#include <cstdint>
+
+namespace splinefeed {
+
+/// One axis as the machine file states it.
+struct AxisSettings {
+    double max_velocity_mm_s = 100.0;
+    double max_acceleration_mm_s2 = 1000.0;
+    double max_jerk_mm_s3 = 0.0; ///< 0: acceleration-limited
+    double steps_per_mm = 1000.0;
+    double max_braking_mm_s2 = 0.0; ///< acceleration against the velocity; 0: max_acceleration_mm_s2
+    bool rotary = false;            ///< in degrees where the names say mm; the feed does not count it
+    double travel_low_mm = 0.0;     ///< of use with an end zone only
+    double travel_high_mm = 0.0;
+    double travel_end_zone_mm = 0.0;       ///< as near to the ends of the travel the axis has another limit; 0: nowhere
+    double travel_end_velocity_mm_s = 0.0; ///< this one
+
+    [[nodiscard]] constexpr double braking_mm_s2() const noexcept {
+        return max_braking_mm_s2 == 0.0 ? max_acceleration_mm_s2 : max_braking_mm_s2;
+    }
+    [[nodiscard]] constexpr double smaller_acceleration_mm_s2() const noexcept {
+        return braking_mm_s2() < max_acceleration_mm_s2 ? braking_mm_s2() : max_acceleration_mm_s2;
+    }
+    [[nodiscard]] constexpr double larger_acceleration_mm_s2() const noexcept {
+        return braking_mm_s2() > max_acceleration_mm_s2 ? braking_mm_s2() : max_acceleration_mm_s2;
+    }
+};
+
+/// How much work the jerk-limited plan may do for a shorter time.
+enum class JerkTier : std::uint8_t {
+    bounded, ///< SmoothPlan: a fixed cost, in the scalar of the pipeline
+    optimal  ///< JerkPlan: in double
+};
+
+/// A machine as its file states it. Zero means "no such limit" for the optional ones.
+struct MachineSettings {
+    int axes = 3;
+    PerAxis<AxisSettings> axis{};
+    double max_feed_mm_s = 100.0;
+    double centripetal_mm_s2 = 0.0;
+    double chord_error_mm = 0.0;
+    int sample_period_us = 1000;
+    int segments_per_sample = 0; ///< 0: as many as keep the smoothing of the path below 0.35 um
+    JerkTier jerk_tier = JerkTier::optimal;
+};
+
+/// What all axes of a machine have together.
+struct AxisTotals {
+    double acceleration_sq = 0.0; ///< sum of squares
+    double softest = 1e9;         ///< smallest acceleration
+    double turning_sq = 0.0;      ///< sum of squares of the rotary axes' velocities
+    double smoothest = 0.0;       ///< smallest jerk; 0: none is limited
+    int rotary = 0;
+};
+
+constexpr AxisTotals axis_totals(const MachineSettings& settings) noexcept {
+    AxisTotals totals;
+    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+        const AxisSettings& axis = settings.axis[k];
+        const double acceleration = axis.smaller_acceleration_mm_s2();
+        totals.acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
+        totals.turning_sq += axis.rotary ? axis.max_velocity_mm_s * axis.max_velocity_mm_s : 0.0;
+        totals.rotary += axis.rotary ? 1 : 0;
+        totals.softest = acceleration < totals.softest ? acceleration : totals.softest;
+        if (axis.max_jerk_mm_s3 > 0.0 && !(totals.smoothest > 0.0 && totals.smoothest < axis.max_jerk_mm_s3)) {
+            totals.smoothest = axis.max_jerk_mm_s3;
+        }
+    }
+    return totals;
+}
+
+} // namespace splinefeed

@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: MIT
+//
+// b = v^2 is linear in s along a passage, a cell or a part of one: the acceleration is constant. What a cell allows
+// (JerkBound) is monotone, so
+//
+// - backward: K_i, the largest b at node i from which there is a way to rest at the end of what is known: the largest
+//   entry with an exit K_i+1, no larger than what may be kept up beside the node. Whatever is below will do, too. A
+//   longer window only raises K.
+// - forward: never above K. The average keeps its jerk where the acceleration changes its sign only after a time T
+//   without (jerk_bound.cpp). Braking may begin only T after the end of acceleration: so it is accelerated only to a
+//   speed that can be kept up for T below K. And it is accelerated only T after the end of braking, which asks for
+//   nothing: a machine that coasts below K may brake at once if it braked last.
+//
+// Two K, as in FeedPlan: the machine's (hard), and that of what the steering wants (soft), which is what a motion that
+// is not above it keeps below. One that is above it brakes as hard as its cells allow, as soon as it may.
+//
+// From rest either sign is allowed: who averages the motion lets it rest for T.
+#include "splinefeed/s3_feed_plan/smooth_plan.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double slowest_sq = 1e-6;    // as FeedPlan's
+constexpr double crumb = 1.0 / 1024.0; // of a cell: a part this short is left to the passage before it
+constexpr double gain = 1.0 / 2048.0;  // of v^2, which is not worth a passage
+constexpr int bisections = 12;
+constexpr int from_rest = 12;         // more of them where it starts
+constexpr double same_time = 0x1p-14; // of a tick
+constexpr double spare_time = 1.0 / 16.0;
+constexpr double above = 0x1p-20;   // K, by rounding: of v^2
+constexpr double nothing_mm = 1e-6; // a way from rest to rest that may be too short for a motion
+
+// Whether v^2 changes by more than rounding.
+template <Scalar S>
+bool changes(S from_sq, S to_sq) noexcept {
+    const S least = std::same_as<S, Fixed> ? literal<S>(0x1p-30) : from_sq * literal<S>(0x1p-44);
+    return absolute(to_sq - from_sq) > least;
+}
+
+// A passage is no shorter than this part of a cell.
+template <Scalar S>
+constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
+                              : std::same_as<S, double> ? 0x1p-40
+                                                        : 0x1p-30;
+
+} // namespace
+
+template <Scalar S>
+SmoothPlan<S>::SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept
+    : source_(&source), limits_(&limits), window_(limits, cells) {
+    SPLINEFEED_ASSERT(cells.size() >= smallest_window);
+    // Its speeds bound those of this plan, whatever the override will be.
+    source.steering().override_feed(from_integer<S>(2));
+    source.steering().taken();
+}
+
+template <Scalar S>
+Pull SmoothPlan<S>::take(Starvation starvation) noexcept {
+    Pull pull = source_->prepare(starvation);
+    if (pull != Pull::item) {
+        return pull;
+    }
+    const Cell<S>& cell = source_->cell(); // of both halves of a crumb
+    const S cap_sq = source_->cap_sq();
+    while (!(source_->passage().stretch.to == from_integer<S>(1))) { // the first half of a crumb
+        source_->advance();
+        pull = source_->prepare(starvation);
+        SPLINEFEED_ASSERT(pull == Pull::item);
+    }
+    window_.append(cell, cap_sq, source_->programmed_sq(cell), source_->passage().exit_sq);
+    source_->advance();
+    return Pull::item;
+}
+
+// As much as there is room for.
+template <Scalar S>
+Pull SmoothPlan<S>::refill(Starvation starvation) noexcept {
+    Pull pull = Pull::item;
+    while (window_.has_room() && pull == Pull::item) {
+        pull = take(Starvation::waits);
+    }
+    if (pull == Pull::starved && starvation == Starvation::waits) {
+        return pull;
+    }
+    window_.prepare(!window_.has_room());
+    while (known() == 0 && window_.has_room() && pull == Pull::starved) { // nothing to go on with
+        if (take(starvation) != Pull::item) {
+            break;
+        }
+        window_.prepare(!window_.has_room());
+    }
+    taken_ = pull == Pull::starved ? window_.capacity() : 0; // then it is asked again with every passage
+    look_back(false);
+    return pull;
+}
+
+template <Scalar S>
+S SmoothPlan<S>::wanted_sq(const SmoothCell<S>& cell) const noexcept {
+    const S ratio = steering_.ratio();
+    return larger(smaller(cell.level_sq, cell.demand.programmed_sq * (ratio * ratio)),
+                  smaller(cell.level_sq, literal<S>(slowest_sq)));
+}
+
+// @param all  else it ends where nothing changes any more
+template <Scalar S>
+void SmoothPlan<S>::look_back(bool all) noexcept {
+    for (std::size_t i = known(); i-- > 0;) {
+        SmoothCell<S>& here = ahead(i);
+        const JerkBound<S> bound = bound_of(here);
+        const S hard_beyond = hard_exit(i);
+        const S soft_beyond = soft_exit(i);
+        const S wanted = wanted_sq(here);
+        const auto reached_from = [&](S beyond, S at_most) {
+            return bound.largest_entry(beyond, at_most, here.cell.length_mm, here.steepest);
+        };
+        S hard = reached_from(hard_beyond, here.level_sq);
+        const bool alike = hard_beyond == soft_beyond && wanted == here.level_sq;
+        const S soft_reach = alike ? hard : reached_from(soft_beyond, wanted);
+        S soft = soft_reach;
+        const bool first = window_.front() + i == 0 || window_.ends_leg(window_.front() + i - 1);
+        if (first) {
+            hard = soft = S{};
+        } else {
+            const SmoothCell<S>& before = window_.at(window_.front() + i - 1);
+            hard = smaller(hard, smaller(here.bound_sq, before.level_sq));
+            soft = smaller(soft, smaller(here.bound_sq, wanted_sq(before)));
+        }
+        const bool same = !all && i < looked_ && hard == here.hard_sq && soft == here.soft_sq;
+        here.hard_sq = hard;
+        here.soft_sq = soft;
+        here.soft_reach = soft_reach;
+        if (same) {
+            break;
+        }
+    }
+    looked_ = known();
+}
+
+// Whether a speed can be kept up for the time that is averaged over, from a place in the front cell on.
+template <Scalar S>
+bool SmoothPlan<S>::coasts(S from, S speed_sq, S speed) const noexcept {
+    const S ticks = from_integer<S>(smoothing_.ticks()) + literal<S>(spare_time);
+    S left = speed * (ticks / limits_->segments_per_s) + from * length();
+    for (std::size_t i = 0; i < known(); ++i) {
+        const SmoothCell<S>& here = ahead(i);
+        const S exit = soft_exit(i);
+        if (speed_sq > exit) {
+            const S top = here.soft_reach;
+            return top > speed_sq && !(here.cell.length_mm * ((top - speed_sq) / (top - exit)) < left);
+        }
+        if (!(here.cell.length_mm < left)) {
+            return true;
+        }
+        left = left - here.cell.length_mm;
+    }
+    return false;
+}
+
+template <Scalar S>
+void SmoothPlan<S>::passage_to(S to, S exit_sq) noexcept {
+    passage_ = {{at_, to}, speed_sq_, exit_sq, !(exit_sq > S{})};
+    exit_speed_ = exit_sq == speed_sq_ ? speed_ : square_root(exit_sq);
+    const S way = length() * passage_.stretch.length();
+    const S sum = speed_ + exit_speed_;
+    ticks_ = quotient_or_max((way + way) * limits_->segments_per_s, sum);
+    passage_.linear = quotient_or_max(speed_ + speed_, sum);
+}
+
+// At constant speed, to the end of the cell or until the sign may change.
+template <Scalar S>
+void SmoothPlan<S>::coast() noexcept {
+    const S one = from_integer<S>(1);
+    const S left = from_integer<S>(smoothing_.ticks()) - since_;
+    const S way = speed_ * (left / limits_->segments_per_s);
+    const S part = larger(quotient_or_max(way, length()), literal<S>(least_part<S>));
+    const bool whole = !(left > S{}) || !(at_ + part < one - literal<S>(crumb));
+    passage_to(whole ? one : at_ + part, speed_sq_);
+}
+
+// As hard as the cell allows, to a speed or the end of the cell.
+template <Scalar S>
+void SmoothPlan<S>::brake(S goal_sq) noexcept {
+    const S one = from_integer<S>(1);
+    const S a = bound_of(ahead(0)).braking(speed_sq_, ahead(0).steepest);
+    const S way = length() * (one - at_);
+    const S needed = speed_sq_ - goal_sq;
+    const S possible = (way + way) * a;
+    if (possible > needed) {
+        const S to = at_ + (one - at_) * (needed / possible);
+        if (to < one - literal<S>(crumb)) {
+            passage_to(larger(to, at_ + literal<S>(least_part<S>)), goal_sq);
+            return;
+        }
+    }
+    passage_to(one, smaller(larger(speed_sq_ - possible, goal_sq), hard_exit(0)));
+}
+
+// Below K: on at this speed, and along K where that comes down to it.
+template <Scalar S>
+void SmoothPlan<S>::follow() noexcept {
+    const S one = from_integer<S>(1);
+    const S exit = soft_exit(0);
+    const bool may_brake = last_ != Sign::accelerating || rested();
+    const S tolerated = may_brake ? S{} : speed_sq_ * literal<S>(above);
+    if (!(speed_sq_ > exit + tolerated)) {
+        passage_to(one, speed_sq_);
+        return;
+    }
+    const S top = ahead(0).soft_reach;
+    const S meets = top > speed_sq_ ? (top - speed_sq_) / (top - exit) : S{};
+    const S least = may_brake ? literal<S>(crumb) : literal<S>(0x1p-20);
+    if (meets > at_ + least && (!may_brake || meets < one - least)) {
+        passage_to(smaller(meets, one), speed_sq_);
+        return;
+    }
+    passage_to(one, exit);
+}
+
+template <Scalar S>
+bool SmoothPlan<S>::accelerate() noexcept {
+    const S one = from_integer<S>(1);
+    const SmoothCell<S>& here = ahead(0);
+    const S exit = soft_exit(0);
+    const S top = here.soft_reach > exit ? here.soft_reach : smaller(exit, wanted_sq(here));
+    const S worth = speed_sq_ * literal<S>(gain);
+    if (!(top > speed_sq_ + worth)) {
+        return false;
+    }
+    if (speed_sq_ > S{} && !coasts(at_, speed_sq_, speed_)) {
+        return false;
+    }
+    const JerkBound<S> bound = bound_of(here);
+    const S way = length() * (one - at_);
+    const S most = bound.largest_exit(speed_sq_, top, way, here.steepest);
+    const S change = larger(most - speed_sq_, S{});
+    S steep = quotient_or_max(change, way + way);
+    if (!(most < top)) { // sooner than at the end of the cell
+        steep = larger(steep, bound.acceleration(most, here.steepest));
+    }
+    // Place where a speed is reached
+    const auto reached = [&](S speed_sq) {
+        const S share = quotient_or_max(larger(speed_sq - speed_sq_, S{}), (way + way) * steep);
+        return share < one ? at_ + (one - at_) * share : one;
+    };
+    S speed_sq = most;
+    S place = reached(most);
+    const S fast = square_root(most);
+    if (!coasts(place, most, fast)) {
+        S low = speed_;
+        S high = fast;
+        for (int i = speed_sq_ > S{} ? from_rest : 0; i < bisections + from_rest; ++i) {
+            const S middle = scale2(low + high, -1);
+            const S square = smaller(middle * middle, most);
+            (coasts(reached(square), square, middle) ? low : high) = middle;
+        }
+        speed_sq = smaller(low * low, most);
+        place = reached(speed_sq);
+    }
+    if (!(speed_sq > speed_sq_ + worth) || !(place > at_)) {
+        return false;
+    }
+    passage_to(place, speed_sq);
+    return true;
+}
+
+// Long enough at constant speed for a change of sign.
+template <Scalar S>
+bool SmoothPlan<S>::rested() const noexcept {
+    return !(since_ < from_integer<S>(smoothing_.ticks()) - literal<S>(same_time));
+}
+
+// From rest to the end of the cell where that is next to nothing.
+template <Scalar S>
+void SmoothPlan<S>::crawl() noexcept {
+    SPLINEFEED_ASSERT(length() * (from_integer<S>(1) - at_) < literal<S>(nothing_mm));
+    passage_to(from_integer<S>(1), S{});
+    ticks_ = passage_.linear = from_integer<S>(1);
+}
+
+template <Scalar S>
+void SmoothPlan<S>::choose() noexcept {
+    chosen_ = true;
+    SmoothCell<S>& here = ahead(0);
+    static_cast<void>(bound_of(here));
+    const S exit = soft_exit(0);
+    const S top = here.soft_reach;
+    const S allowed = top > exit ? top - (top - exit) * at_ : larger(top, exit);
+    if (steering_.stops() || speed_sq_ > allowed + allowed * literal<S>(0x1p-14)) {
+        if (last_ == Sign::accelerating && !rested()) {
+            coast();
+        } else {
+            brake(steering_.stops() ? S{} : smaller(exit, speed_sq_));
+        }
+    } else if ((last_ == Sign::braking && !rested()) || !accelerate()) {
+        if (!(speed_sq_ > S{})) {
+            crawl();
+            return;
+        }
+        follow();
+        const S left = from_integer<S>(smoothing_.ticks()) - since_;
+        // It may accelerate before the end of the cell
+        if (last_ == Sign::braking && left > S{} && passage_.exit_sq == speed_sq_ && ticks_ > left) {
+            const S part = passage_.stretch.length() * (left / ticks_);
+            if (part > literal<S>(crumb) && part < passage_.stretch.length() - literal<S>(crumb)) {
+                passage_to(at_ + part, speed_sq_);
+            }
+        }
+    }
+}
+
+template <Scalar S>
+Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
+    if (chosen_) {
+        return Pull::item;
+    }
+    const bool stands = !(speed_sq_ > S{});
+    if (steering_.stops() && stands && steering_.aborts()) {
+        return Pull::finished;
+    }
+    if (known() == 0 || 4 * taken_ >= window_.capacity()) {
+        const Pull pull = refill(starvation);
+        if (known() == 0 || (pull == Pull::starved && starvation == Starvation::waits)) {
+            return pull;
+        }
+    }
+    if (steering_.stops() && stands) {
+        return Pull::held;
+    }
+    if (steering_.news()) {
+        steering_.taken();
+        look_back(true);
+    }
+    if (stands) {
+        last_ = Sign::none;
+        since_ = S{};
+    }
+    choose();
+    return Pull::item;
+}
+
+// So much of the passage's time has passed.
+template <Scalar S>
+void SmoothPlan<S>::pass(S ticks) noexcept {
+    constexpr std::int32_t long_ago = 1 << 20;
+    if (!changes(passage_.entry_sq, passage_.exit_sq)) {
+        since_ = smaller(since_ + smaller(ticks, from_integer<S>(long_ago)), from_integer<S>(long_ago));
+    } else {
+        last_ = passage_.exit_sq > passage_.entry_sq ? Sign::accelerating : Sign::braking;
+        since_ = S{};
+    }
+}
+
+template <Scalar S>
+void SmoothPlan<S>::advance() noexcept {
+    pass(ticks_);
+    speed_sq_ = passage_.exit_sq;
+    speed_ = exit_speed_;
+    at_ = passage_.stretch.to;
+    chosen_ = false;
+    if (at_ == from_integer<S>(1)) {
+        at_ = S{};
+        window_.pass_front();
+        ++taken_;
+        looked_ = looked_ > 0 ? looked_ - 1 : 0;
+    }
+}
+
+template <Scalar S>
+bool SmoothPlan<S>::steer(const Place<S>& place) noexcept {
+    if (place.time_share > S{}) {
+        pass(ticks_ * place.time_share);
+    }
+    at_ = place.fraction;
+    speed_sq_ = place.speed_sq;
+    speed_ = square_root(speed_sq_);
+    chosen_ = false;
+    return true;
+}
+
+template <Scalar S>
+void SmoothPlan<S>::clear() noexcept {
+    SPLINEFEED_ASSERT(standing());
+    source_->forget();
+    window_.clear();
+    steering_.start();
+    taken_ = looked_ = 0;
+    at_ = speed_sq_ = speed_ = since_ = S{};
+    last_ = Sign::none;
+    chosen_ = false;
+}
+
+template class SmoothPlan<double>;
+template class SmoothPlan<float>;
+template class SmoothPlan<Fixed>;
+
+} // namespace splinefeed

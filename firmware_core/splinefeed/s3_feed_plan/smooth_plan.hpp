@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// SmoothPlan: the feed plan once more, so that its average over a time keeps every axis's jerk, too. It takes its cells
+// from an acceleration-limited plan, whose speeds bound its own. All of it is in the scalar of the pipeline.
+//
+//      b |      ____            backward: the largest b from which what is known can be ended at rest
+//        |     /    \           forward: as fast as that allows, where an acceleration never changes its sign
+//        |    /      \          but after the time that is averaged over
+//        |___/        \___
+//        +----------------> s
+//
+// Derivation: smooth_plan.cpp, jerk_bound.cpp.
+#pragma once
+
+#include "splinefeed/s3_feed_plan/feed_plan.hpp"
+#include "splinefeed/s3_feed_plan/smooth_window.hpp"
+
+namespace splinefeed {
+
+/// Stage 3b of bounded cost. The motion that it plans is to be averaged (SmoothSampler); the machine follows the mean,
+/// and cells are kept until that has passed them. Cost: amortised at most four visits a cell of JerkBound.
+template <Scalar S>
+class SmoothPlan final : public MotionPlan<S> {
+public:
+    static constexpr std::size_t smallest_window = 12;
+
+    /// @pre cells.size() >= smallest_window
+    SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept;
+
+    Pull prepare(Starvation starvation = Starvation::waits) noexcept override;
+    /// Of the passage.
+    [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.at(window_.front()).cell; }
+    /// What the passage takes, in ticks.
+    [[nodiscard]] S ticks() const noexcept { return ticks_; }
+    /// Path length at the start of the passage's cell.
+    [[nodiscard]] Position cell_start() const noexcept { return window_.at(window_.front()).start; }
+    void advance() noexcept override;
+    void rest_at(S fraction) noexcept override {
+        at_ = fraction;
+        speed_sq_ = speed_ = S{};
+        chosen_ = false;
+    }
+    bool steer(const Place<S>& place) noexcept override;
+    [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
+    void clear() noexcept override;
+
+    /// How the motion is averaged from its rest on. @pre standing(), the last prepare() answered item
+    [[nodiscard]] std::uint32_t smoothing_q8() const noexcept { return window_.at(window_.front()).smoothing_q8; }
+
+    /// The oldest cell that is kept, and its place on the path; the machine goes on to the next one.
+    [[nodiscard]] const SmoothCell<S>& oldest() const noexcept { return window_.at(0); }
+    /// There is one behind the oldest.
+    [[nodiscard]] bool can_release() const noexcept { return window_.front() > 0 && window_.size() > 1; }
+    void release() noexcept { window_.release(); }
+    [[nodiscard]] bool empty() const noexcept { return window_.size() == 0; }
+
+private:
+    using MotionPlan<S>::passage_;
+    using MotionPlan<S>::steering_;
+
+    enum class Sign : std::int8_t { braking, none, accelerating };
+
+    [[nodiscard]] SmoothCell<S>& ahead(std::size_t i) noexcept { return window_.at(window_.front() + i); }
+    [[nodiscard]] const SmoothCell<S>& ahead(std::size_t i) const noexcept { return window_.at(window_.front() + i); }
+    [[nodiscard]] std::size_t known() const noexcept { return window_.prepared() - window_.front(); }
+    [[nodiscard]] bool ends(std::size_t i) const noexcept {
+        return i + 1 == known() || window_.ends_leg(window_.front() + i);
+    }
+    [[nodiscard]] S soft_exit(std::size_t i) const noexcept { return ends(i) ? S{} : ahead(i + 1).soft_sq; }
+    [[nodiscard]] S hard_exit(std::size_t i) const noexcept { return ends(i) ? S{} : ahead(i + 1).hard_sq; }
+
+    Pull take(Starvation starvation) noexcept;
+    Pull refill(Starvation starvation) noexcept;
+    [[nodiscard]] S wanted_sq(const SmoothCell<S>& cell) const noexcept;
+    void look_back(bool all) noexcept;
+    [[nodiscard]] S length() const noexcept { return ahead(0).cell.length_mm; }
+    [[nodiscard]] JerkBound<S> bound_of(const SmoothCell<S>& cell) noexcept {
+        if (cell.smoothing_q8 != smoothing_.duration_q8) {
+            smoothing_ = Smoothing<S>(cell.smoothing_q8, limits_->segments_per_s);
+        }
+        return JerkBound<S>(cell.demand, *limits_, smoothing_);
+    }
+    [[nodiscard]] bool coasts(S from, S speed_sq, S speed) const noexcept;
+    void choose() noexcept;
+    bool accelerate() noexcept;
+    void brake(S goal_sq) noexcept;
+    void coast() noexcept;
+    void follow() noexcept;
+    void crawl() noexcept;
+    [[nodiscard]] bool rested() const noexcept;
+    void passage_to(S to, S exit_sq) noexcept;
+    void pass(S ticks) noexcept;
+
+    FeedPlan<S>* source_;
+    const MotionLimits<S>* limits_;
+    SmoothWindow<S> window_;
+    Smoothing<S> smoothing_{}; // of the cell that was looked at last
+    std::size_t taken_ = 0;    // cells that were left since the window was filled
+    std::size_t looked_ = 0;   // cells from the front on when it was looked back last
+    S at_{};                   // where the next passage starts in the front cell
+    S speed_sq_{};             // v^2 there
+    S speed_{};                // v there
+    S exit_speed_{};           // v at the end of the passage
+    S ticks_{};                // of the passage
+    S since_{};                // ticks at constant speed
+    Sign last_ = Sign::none;   // of the acceleration before
+    bool chosen_ = false;
+};
+
+} // namespace splinefeed

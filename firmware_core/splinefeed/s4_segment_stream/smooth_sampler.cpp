@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+//
+// The samples are q(s_f(k T)), T a tick, the duration of a segment: with jerk-limited s_f their differences keep every
+// limit (segment_stream.cpp). s_f is the mean of the motion s(t) over a number of ticks, so the mean of the means over
+// each of them. In a passage of length l and duration d, with u the fraction of time, s = l u (c + (1 - c) u), c =
+// passage().linear; the mean of a parabola over a part w of the passage's time is that of its ends less a twelfth of
+// the second difference, (1 - c) l (w / d)^2 / 6.
+//
+// Where the motion comes to rest the mean does T later, exactly: all its positions are the same. Two ticks more make
+// three samples. Then the next motion may begin, and be averaged over another time.
+#include "splinefeed/s4_segment_stream/smooth_sampler.hpp"
+
+namespace splinefeed {
+
+// The passage from where the motion is at the end of the last tick.
+template <Scalar S>
+void SmoothSampler<S>::follow_steering() noexcept {
+    const Passage<S>& passage = plan_->passage();
+    const S one = from_integer<S>(1);
+    const S ticks = plan_->ticks();
+    const S share = smaller(elapsed_ / ticks, one);
+    const S x =
+        passage.stretch.from + passage.stretch.length() * (share * (passage.linear + (one - passage.linear) * share));
+    const S v0 = square_root(passage.entry_sq);
+    const S v1 = square_root(passage.exit_sq);
+    const S speed = v0 + (v1 - v0) * share;
+    plan_->steer({.fraction = smaller(x, one),
+                  .speed_sq = passage.entry_sq == passage.exit_sq ? passage.entry_sq : speed * speed,
+                  .time_share = share});
+    in_passage_ = false;
+}
+
+// Of the passage, as much as there is time for in this tick.
+template <Scalar S>
+void SmoothSampler<S>::travel() noexcept {
+    const Passage<S>& passage = plan_->passage();
+    const S one = from_integer<S>(1);
+    const S ticks = plan_->ticks();
+    const S length = scale2(plan_->cell().length_mm, fine);
+    const bool ends = !(ticks - elapsed_ > left_);
+    const S time = ends ? ticks - elapsed_ : left_;
+    S x = passage.stretch.to;
+    if (!ends) {
+        const S share = (elapsed_ + time) / ticks;
+        x = passage.stretch.from +
+            passage.stretch.length() * (share * (passage.linear + (one - passage.linear) * share));
+    }
+    const Position there = displaced(plan_->cell_start(), x == one ? length : length * x, -fine);
+    const S before = distance<S>(tick_start_, place_, -fine);
+    const S way = distance<S>(place_, there, -fine);
+    const S part = ticks > S{} ? quotient_or_max(time, ticks) : S{};
+    const S bow = (one - passage.linear) * (length * passage.stretch.length()) * part * part * literal<S>(1.0 / 6.0);
+    sum_ = sum_ + time * (before + scale2(way, -1) - bow);
+    left_ = left_ - time;
+    elapsed_ = elapsed_ + time;
+    place_ = there;
+    if (ends) {
+        arrive();
+    }
+}
+
+// At the end of a passage.
+template <Scalar S>
+void SmoothSampler<S>::arrive() noexcept {
+    in_passage_ = false;
+    plan_->advance();
+    if (plan_->standing()) {
+        sum_ = sum_ + left_ * distance<S>(tick_start_, place_, -fine);
+        left_ = S{};
+        rests_ = true;
+        rested_ = 0;
+        dwell_ = mean_.reach() + 2;
+    }
+}
+
+// A motion from rest: of another leg it may be averaged over another time.
+template <Scalar S>
+void SmoothSampler<S>::begin() noexcept {
+    if (!begun_) {
+        begun_ = true;
+        place_ = plan_->cell_start();
+        mean_.reset(place_, plan_->smoothing_q8());
+    } else if (mean_.duration_q8() != plan_->smoothing_q8()) {
+        mean_.reset(place_, plan_->smoothing_q8());
+    }
+    rests_ = false;
+    elapsed_ = S{};
+    in_passage_ = true;
+}
+
+// One tick of the motion.
+template <Scalar S>
+Pull SmoothSampler<S>::tick(Starvation starvation) noexcept {
+    if (rests_ && rested_ < dwell_) {
+        ++rested_;
+        mean_.push(place_);
+        return Pull::item;
+    }
+    if (rests_) {
+        const Pull pull = plan_->prepare(starvation);
+        if (!begun_ && (pull == Pull::item || pull == Pull::held) && !plan_->empty()) {
+            plan_->cell().position_at(S{}, origin_);
+            position_ = origin_;
+        }
+        if (pull != Pull::item) {
+            return pull;
+        }
+        begin();
+    }
+    if (!in_tick_) {
+        if (in_passage_ && plan_->steering().news()) {
+            follow_steering();
+        }
+        tick_start_ = place_;
+        sum_ = S{};
+        left_ = from_integer<S>(1);
+        in_tick_ = true;
+    }
+    while (left_ > S{}) {
+        if (!in_passage_) {
+            const Pull pull = plan_->prepare(starvation);
+            if (pull != Pull::item) {
+                return pull;
+            }
+            elapsed_ = S{};
+            in_passage_ = true;
+        }
+        travel();
+    }
+    in_tick_ = false;
+    mean_.push({smaller(displaced(tick_start_, sum_, -fine).raw, place_.raw)});
+    return Pull::item;
+}
+
+// Where the mean is on the curve.
+template <Scalar S>
+void SmoothSampler<S>::locate(Position mean) noexcept {
+    for (;;) {
+        const SmoothCell<S>& here = plan_->oldest();
+        const Position end = displaced(here.start, here.cell.length_mm, 0);
+        if (mean > end && plan_->can_release()) {
+            plan_->release();
+            continue;
+        }
+        waypoint_ = here.cell.waypoint;
+        if (mean >= end && here.cell.stop_at_end) {
+            position_ = here.cell.end;
+            return;
+        }
+        const S x = distance<S>(here.start, mean, -fine) / scale2(here.cell.length_mm, fine);
+        here.cell.position_at(larger(smaller(x, from_integer<S>(1)), S{}), position_);
+        return;
+    }
+}
+
+template <Scalar S>
+Pull SmoothSampler<S>::next(Starvation starvation) noexcept {
+    const Pull pull = tick(starvation);
+    if (pull == Pull::item) {
+        locate(mean_.value());
+    }
+    return pull;
+}
+
+template class SmoothSampler<double>;
+template class SmoothSampler<float>;
+template class SmoothSampler<Fixed>;
+
+} // namespace splinefeed

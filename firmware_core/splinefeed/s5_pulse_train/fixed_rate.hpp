@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// FixedRate: the engine for a timer's interrupt at a fixed rate, on a virtual clock.
+#pragma once
+
+#include "splinefeed/s5_pulse_train/step.hpp"
+#include "splinefeed/s5_pulse_train/tick_dda.hpp"
+#include "splinefeed/s5_pulse_train/tick_parts.hpp"
+
+#include <bit>
+
+namespace splinefeed {
+
+/// A StepEngine of TickParts and TickDda. Every step at the tick nearest to its crossing. A microcontroller uses the
+/// two without it: the parts in its main loop, the DDA in the interrupt.
+class FixedRate {
+public:
+    /// As TickParts and TickDda.
+    constexpr FixedRate(int axes, std::uint32_t tick_ticks) noexcept
+        : parts_(axes, tick_ticks), tick_ticks_(tick_ticks) {}
+
+    void take(const FeedSegment& segment) noexcept {
+        parts_.take(segment);
+        if (!started_) {
+            dda_.stand(parts_.start_count());
+        }
+        started_ = true;
+    }
+
+    /// A crossing in the last half tick of all motion is a step yet.
+    void finish() noexcept {
+        if (started_) {
+            steps_ = dda_.finish(parts_.end_count());
+            ++passed_;
+        }
+    }
+
+    bool next(Step& out) noexcept {
+        while (steps_.bits == 0) {
+            if (dda_.left() > 0) {
+                steps_ = dda_.tick();
+            } else if (TickPart part; parts_.next(part)) {
+                steps_ = dda_.begin(part);
+            } else {
+                return false;
+            }
+            ++passed_;
+        }
+        const unsigned axis = static_cast<unsigned>(std::countr_zero(steps_.bits)) / 2;
+        out.tick = (passed_ - 1) * tick_ticks_;
+        out.axis = static_cast<std::uint8_t>(axis);
+        out.up = steps_.up(axis);
+        steps_.bits &= ~(3U << (2 * axis));
+        return true;
+    }
+
+    [[nodiscard]] std::int64_t now() const noexcept { return (passed_ - (steps_.bits != 0 ? 1 : 0)) * tick_ticks_; }
+
+private:
+    TickParts parts_;
+    TickDda<static_cast<unsigned>(max_axes)> dda_{};
+    StepBits steps_{};        // of the tick passed last, not delivered yet
+    std::int64_t passed_ = 0; // ticks; the first one is at the start of the motion
+    std::uint32_t tick_ticks_;
+    bool started_ = false;
+};
+
+static_assert(StepEngine<FixedRate>);
+
+} // namespace splinefeed

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// PulseTrain: feed segments to edges of step and direction lines, by either engine. Integers only; no allocation.
+#pragma once
+
+#include "splinefeed/s5_pulse_train/fixed_rate.hpp"
+#include "splinefeed/s5_pulse_train/line_discipline.hpp"
+#include "splinefeed/s5_pulse_train/step_intervals.hpp"
+
+#include <limits>
+
+namespace splinefeed {
+
+/// Use: train.take(segment); while (train.next(edge)) {...}; at the end of all motion train.finish() and the same
+/// again. An edge is delivered once no later step can come before it: what is known must reach beyond it by the set-up
+/// time, and beyond a step by turn_gap() or to the next step of its axis.
+template <StepEngine Engine>
+class PulseTrain {
+public:
+    /// @pre as Engine and LineDiscipline
+    constexpr PulseTrain(const Engine& engine, const LineDiscipline& lines) noexcept : engine_(engine), lines_(lines) {}
+
+    /// @pre next() has said false
+    void take(const FeedSegment& segment) noexcept {
+        engine_.take(segment);
+        known_ = engine_.now();
+    }
+    void finish() noexcept {
+        engine_.finish();
+        finished_ = true;
+    }
+
+    /// The next edge, in order of time. False: a segment is needed, or after finish() nothing is left.
+    bool next(Edge& out) noexcept {
+        for (;;) {
+            if (lines_.next(out, known_)) {
+                return true;
+            }
+            if (Step step; engine_.next(step)) {
+                lines_.push(step);
+                known_ = step.tick;
+                continue;
+            }
+            const std::int64_t now = finished_ ? std::numeric_limits<std::int64_t>::max() : engine_.now();
+            if (now == known_) {
+                return false;
+            }
+            known_ = now;
+        }
+    }
+
+    [[nodiscard]] const LineDiscipline& lines() const noexcept { return lines_; }
+
+private:
+    Engine engine_;
+    LineDiscipline lines_;
+    std::int64_t known_ = 0;
+    bool finished_ = false;
+};
+
+} // namespace splinefeed

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// StepTiming: what the drives ask of their step and direction lines, checked once.
+#pragma once
+
+#include "splinefeed/base/status.hpp"
+
+#include <cstdint>
+
+namespace splinefeed {
+
+/// What one axis does at most, for StepTiming::allows.
+struct StepDemand {
+    double steps_per_s = 0.0;
+    double steps_per_s2 = 0.0; ///< acceleration or braking, whichever is larger
+};
+
+/// As a machine file states it [us].
+struct StepSettings {
+    double tick_us = 0.0;            ///< of the fixed-rate engine; 0: the engine is StepIntervals
+    double high_us = 2.0;            ///< a pulse is at least as long
+    double low_us = 2.0;             ///< and so is the time between two
+    double direction_setup_us = 5.0; ///< from a change of direction to the step that needs it
+    double direction_hold_us =
+        5.0; ///< from the end of a pulse, or with step_on_edge from its edge, to a change of direction
+    bool step_on_edge =
+        false; ///< each edge of the line is a step; each level lasts for the longer of high_us and low_us
+};
+
+/// In ticks of 1/8 us, rounded up; with the fixed-rate engine to multiples of its tick, since all edges come with one.
+struct StepTiming {
+    std::uint32_t grid = 1; ///< instants are multiples of it
+    std::uint32_t high = 0;
+    std::uint32_t low = 0;
+    std::uint32_t setup = 0;
+    std::uint32_t hold = 0;
+    bool step_on_edge = false;
+
+    /// Checks the ranges: times 0.125 to 1000 us (set-up and hold may be 0), tick_us a multiple of 0.25 from 0.25 to
+    /// 1000.
+    [[nodiscard]] static constexpr Result<StepTiming> make(const StepSettings& settings) noexcept;
+
+    /// Least time between two steps of one direction.
+    [[nodiscard]] constexpr std::uint32_t step_gap() const noexcept {
+        if (!step_on_edge) {
+            return high + low;
+        }
+        const std::uint32_t level = high > low ? high : low;
+        return grid > 1 && level < 2 * grid ? 2 * grid : level; // the DDA: at most half a count a tick
+    }
+    /// Least time from a step to one back.
+    [[nodiscard]] constexpr std::uint32_t turn_gap() const noexcept {
+        const std::uint32_t turn = (step_on_edge ? 0U : high) + hold + setup;
+        return turn > step_gap() ? turn : step_gap();
+    }
+    /// The highest rate of steps that keeps step_gap() [1/s]: an instant may be a tick of 1/8 us off, on a grid it is
+    /// the nearest.
+    [[nodiscard]] constexpr double most_steps_per_s() const noexcept {
+        return 8e6 / (step_gap() + (grid > 1 ? 1.0 : 2.0));
+    }
+    /// How far beyond half a step an axis may be when a reversal's two steps, closer than turn_gap(), are left out:
+    /// out and back in that time [steps].
+    [[nodiscard]] constexpr double most_left_out(double steps_per_s2) const noexcept {
+        const double seconds = (turn_gap() + 2.0 * grid) / 8e6;
+        return steps_per_s2 * seconds * seconds / 8.0;
+    }
+
+    /// Whether a plan can be stepped without moving any step: the rate, and at most 1/64 of a step that a reversal
+    /// leaves out, and direction times of at most 24 steps (what LineDiscipline holds).
+    [[nodiscard]] constexpr Status allows(const StepDemand& demand) const noexcept {
+        if (!(demand.steps_per_s <= most_steps_per_s())) {
+            return Error::step_rate_too_high;
+        }
+        if (!(most_left_out(demand.steps_per_s2) <= 1.0 / 64.0) || turn_gap() > 24 * step_gap()) {
+            return Error::direction_change_too_long;
+        }
+        return {};
+    }
+};
+
+constexpr Result<StepTiming> StepTiming::make(const StepSettings& settings) noexcept {
+    constexpr double longest_us = 1000.0;
+    constexpr double ticks_in_us = 8.0;
+    constexpr auto in_range = [](double us, double least_us) {
+        return us >= least_us && us <= longest_us;
+    };
+    if (!in_range(settings.high_us, 0.125) || !in_range(settings.low_us, 0.125) ||
+        !in_range(settings.direction_setup_us, 0.0) || !in_range(settings.direction_hold_us, 0.0)) {
+        return Error::step_times_out_of_range;
+    }
+    StepTiming timing;
+    if (settings.tick_us != 0.0) {
+        if (!in_range(settings.tick_us, 0.25)) {
+            return Error::step_tick_out_of_range;
+        }
+        const auto quarters = static_cast<std::uint32_t>(settings.tick_us * 4.0);
+        if (quarters != settings.tick_us * 4.0) {
+            return Error::step_tick_out_of_range;
+        }
+        timing.grid = 2 * quarters;
+    }
+    const auto rounded_up = [&timing](double us) {
+        const double grids = us * ticks_in_us / timing.grid;
+        const auto whole = static_cast<std::uint32_t>(grids);
+        return (whole + (whole < grids ? 1U : 0U)) * timing.grid;
+    };
+    timing.high = rounded_up(settings.high_us);
+    timing.low = rounded_up(settings.low_us);
+    timing.setup = rounded_up(settings.direction_setup_us);
+    timing.hold = rounded_up(settings.direction_hold_us);
+    timing.step_on_edge = settings.step_on_edge;
+    return timing;
+}
+
+} // namespace splinefeed

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+//
+// At a block the drive is at x with velocity v. With ramp A it changes to the velocity w = v + c, in |c| / A, and keeps
+// it: after a period T it is at
+//
+//     x + w T - c |c| / (2 A).
+//
+// For this to be where the path is then, D away, with E = D - v T: |c| T - c^2 / (2 A) = |E|, c with the sign of E, so
+//
+//     |c| = A (T - sqrt(T^2 - 2 |E| / A)); where that does not exist the drive catches up in later periods.
+//
+// An error e of v becomes -e r / (1 - r) with the share r = |c| / (A T) of the ramp in a period: a third at r = 1/4.
+#include "splinefeed/hal/modbus/block_stream.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr double us_per_s = 1e6;
+constexpr double one = 65536.0; // of a physical value
+
+std::int64_t q16(double physical) noexcept {
+    return std::llround(physical * one);
+}
+
+} // namespace
+
+BlockStream::BlockStream(const DriveProfile& profile, const BlockSettings& settings)
+    : settings_(settings), frames_(profile),
+      ramp_(frames_.rounded(FieldRole::profile_acceleration, settings.acceleration)) {
+    if (settings_.reserve_us == 0) {
+        settings_.reserve_us = settings_.period_us;
+    }
+    if (const RegisterField* const field = profile.field_of(FieldRole::profile_velocity)) {
+        slowest_ = static_cast<double>(physical_of(*field, 1)) / one;
+    }
+    clamped_ = frames_.set(FieldRole::profile_acceleration, q16(settings.acceleration)).clamped;
+    clamped_ = frames_.set(FieldRole::profile_deceleration, q16(settings.acceleration)).clamped || clamped_;
+}
+
+void BlockStream::begin(double position_counts) noexcept {
+    move_ = {position_counts, 0.0, position_counts, 0.0};
+    here_ = move_;
+    target_ = position_counts;
+    speed_ = 0.0;
+    begun_us_ = 0;
+    told_us_ = 0;
+    told_end_ = false;
+}
+
+std::span<const RegisterWrite> BlockStream::prime() noexcept {
+    tell(here_.position, slowest_);
+    return frames_.build();
+}
+
+void BlockStream::arrived(std::uint64_t arrival_us) noexcept {
+    if (arrival_us == UINT64_MAX) {
+        target_ = move_.target;
+        speed_ = move_.speed;
+        told_end_ = false;
+    } else {
+        told_us_ = std::max(arrival_us, begun_us_);
+    }
+}
+
+// The last block has arrived: from then on it counts.
+void BlockStream::commit() noexcept {
+    move_.pass(static_cast<double>(told_us_ - begun_us_) / us_per_s, ramp_);
+    begun_us_ = told_us_;
+    move_.target = target_;
+    move_.speed = speed_;
+}
+
+// A ramp to its speed, which it keeps until it must brake for its target.
+void BlockStream::Move::pass(double duration_s, double ramp) noexcept {
+    const double sense = std::copysign(1.0, target - position);
+    const double change = sense * speed - velocity;
+    const double ramp_s = std::min(std::fabs(change) / ramp, duration_s);
+    const double rate = std::copysign(ramp, change);
+    position += ramp_s * (velocity + 0.5 * ramp_s * rate);
+    velocity = ramp_s == duration_s ? velocity + ramp_s * rate : sense * speed;
+    duration_s -= ramp_s;
+    if (duration_s <= 0.0 || velocity == 0.0) {
+        return;
+    }
+    const double braking = velocity * velocity / (2.0 * ramp);
+    const double cruise = std::max(std::fabs(target - position) - braking, 0.0);
+    const double cruise_s = std::min(cruise / std::fabs(velocity), duration_s);
+    position += velocity * cruise_s;
+    duration_s -= cruise_s;
+    const double braking_s = std::fabs(velocity) / ramp;
+    if (duration_s >= braking_s) {
+        position = target;
+        velocity = 0.0;
+    } else if (duration_s > 0.0) {
+        const double brake = -std::copysign(ramp, velocity);
+        position += duration_s * (velocity + 0.5 * duration_s * brake);
+        velocity += duration_s * brake;
+    }
+}
+
+// The speed with which the drive is at `there` a period later, with its sign. Where that cannot be it comes nearer to
+// the path as fast as it could still come to rest on it with half of its ramp.
+double BlockStream::velocity_to(double here, double there, double period_s) const noexcept {
+    const double missing = there - here_.position - here_.velocity * period_s;
+    const double square = period_s * period_s - 2.0 * std::fabs(missing) / ramp_;
+    if (square >= 0.0) {
+        return here_.velocity + std::copysign(ramp_ * (period_s - std::sqrt(square)), missing);
+    }
+    const double off = here - here_.position;
+    const double wish = (there - here) / period_s + std::copysign(std::sqrt(ramp_ * std::fabs(off)), off);
+    return std::clamp(wish, here_.velocity - ramp_ * period_s, here_.velocity + ramp_ * period_s);
+}
+
+std::span<const RegisterWrite> BlockStream::block(const SegmentTrack& track, const MotionInstant& instant) noexcept {
+    commit();
+    told_us_ = std::max(instant.arrival_us, begun_us_);
+    here_ = move_;
+    here_.pass(static_cast<double>(told_us_ - begun_us_) / us_per_s, ramp_);
+    const double period_s = settings_.period_us / us_per_s;
+    const double here = static_cast<double>(track.at(settings_.axis, instant.motion_us).position_q16) / one;
+    const double there = static_cast<double>(track.at(settings_.axis, instant.next_us).position_q16) / one;
+    const double wish = velocity_to(here, there, period_s);
+    if (instant.next_us >= track.end_us()) { // the drive's own braking finds the end
+        if (told_end_) {
+            return {};
+        }
+        told_end_ = true;
+        // Not so slowly that it would not come to an end, though it were a count further away than is known.
+        const double left = std::max(std::fabs(there - here_.position), 1.0);
+        tell(there, std::max({std::fabs(wish), 2.0 * left / period_s, slowest_}));
+        return frames_.build();
+    }
+    told_end_ = false;
+    const double speed = frames_.rounded(FieldRole::profile_velocity, std::fabs(wish));
+    const double ahead_s = period_s + settings_.reserve_us / us_per_s;
+    // Where it turns round it must first come to rest: that is ahead of it, too.
+    const double turning = here_.velocity * wish < 0.0 ? here_.velocity * here_.velocity / (2.0 * ramp_) : 0.0;
+    tell(here_.position + std::copysign(speed * ahead_s + speed * speed / (2.0 * ramp_) + turning, wish),
+         std::fabs(wish));
+    return frames_.build();
+}
+
+void BlockStream::tell(double target, double speed) noexcept {
+    clamped_ = frames_.set(FieldRole::profile_velocity, q16(speed)).clamped || clamped_;
+    clamped_ = frames_.set(FieldRole::target_position, q16(target)).clamped || clamped_;
+    speed_ = frames_.rounded(FieldRole::profile_velocity, speed);
+    target_ = frames_.rounded(FieldRole::target_position, target);
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// DriveProfile: what a Modbus drive is like, as data: its link, its registers, how it is commanded and moved. Filled
+// once, before anything moves; docs/profiles.md says what every member means in a profile file.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace splinefeed::hal::modbus {
+
+/// How a drive is kept moving.
+enum class StreamWay : std::uint8_t {
+    pvt,    ///< it takes segments ahead and interpolates: docs/pvt_map.md
+    cyclic, ///< a target position per period, at which it arrives a period later
+    blocks, ///< positioning blocks that replace each other on the fly
+};
+
+/// What a field means to whoever drives: fields without a role are only written by groups, commands and the init list.
+enum class FieldRole : std::uint8_t {
+    none,
+    control,
+    status,
+    mode,
+    mode_display,
+    target_position,
+    target_velocity,
+    profile_velocity,
+    profile_acceleration,
+    profile_deceleration,
+    actual_position,
+    actual_velocity,
+    following_error,
+    following_error_window,
+    fault_code,
+    watchdog,
+};
+inline constexpr std::size_t field_roles = 16;
+
+enum class Significance : std::uint8_t { high_first, low_first };
+enum class FieldAccess : std::uint8_t { read_write, read, write };
+/// Of the physical value.
+enum class PhysicalUnit : std::uint8_t { number, counts, counts_per_s, counts_per_s2, ms };
+
+/// A number in one to four registers. Raw is what the registers hold:
+/// raw = physical * scale_numerator / scale_denominator, or with `inverse` scale_numerator / (scale_denominator *
+/// physical), as ramps in ms per 1000 rpm have it.
+struct RegisterField {
+    std::string name;
+    FieldRole role = FieldRole::none;
+    std::uint16_t address = 0;    ///< as in the frame: from 0
+    std::uint8_t width_bits = 16; ///< 16, 32 or 64
+    bool is_signed = false;
+    Significance word_order = Significance::high_first;
+    Significance byte_order = Significance::high_first; ///< within a register
+    std::int64_t scale_numerator = 1;                   ///< not 0
+    std::int64_t scale_denominator = 1;                 ///< positive
+    bool inverse = false;
+    PhysicalUnit unit = PhysicalUnit::number;
+    std::int64_t lowest = 0; ///< raw
+    std::int64_t highest = 0xFFFF;
+    FieldAccess access = FieldAccess::read_write;
+    bool flash = false;     ///< every write wears it: never in a frame that is sent again and again
+    std::int64_t value = 0; ///< raw: what is written where nobody has another value
+
+    [[nodiscard]] constexpr std::size_t registers() const noexcept { return width_bits / 16U; }
+    [[nodiscard]] constexpr bool readable() const noexcept { return access != FieldAccess::write; }
+    [[nodiscard]] constexpr bool writable() const noexcept { return access != FieldAccess::read; }
+};
+
+/// An index into DriveProfile::fields.
+using FieldIndex = std::size_t;
+inline constexpr FieldIndex no_field = std::numeric_limits<FieldIndex>::max();
+
+enum class GroupUse : std::uint8_t {
+    target, ///< written in one frame to move on
+    status, ///< read in one frame, again and again
+};
+
+/// Fields that follow each other without a gap and travel in one frame.
+struct FieldGroup {
+    GroupUse use = GroupUse::target;
+    std::vector<FieldIndex> fields; ///< in order of their addresses
+    std::uint16_t address = 0;
+    std::size_t registers = 0;
+};
+
+/// What is true where (raw & mask) == value.
+struct FieldTest {
+    FieldIndex field = no_field;
+    std::uint32_t mask = 0;
+    std::uint32_t value = 0;
+};
+
+enum class DriveState : std::uint8_t {
+    unknown, ///< no test fits
+    not_ready,
+    disabled,
+    enabled,
+    moving,
+    homing,
+    halted,
+    quick_stop,
+    fault,
+};
+inline constexpr std::size_t drive_states = 9;
+
+struct StateTest {
+    DriveState state = DriveState::unknown;
+    FieldTest test;
+};
+
+enum class StepKind : std::uint8_t {
+    level,  ///< the bits of the mask become the value, and stay
+    edge,   ///< the bits of the mask become 0, then the value, in two frames; and stay
+    pulse,  ///< the bits become the value, and 0 again after the duration
+    toggle, ///< the bits of the mask are inverted
+};
+
+struct CommandStep {
+    FieldIndex field = no_field;
+    std::uint32_t mask = 0xFFFFFFFF;
+    std::uint32_t value = 0;
+    StepKind kind = StepKind::level;
+    std::uint32_t duration_ms = 0; ///< a pulse: how long; else: wait so long before the next step
+};
+
+enum class DriveCommand : std::uint8_t {
+    enable,
+    disable,
+    fault_reset,
+    start_move,
+    halt,
+    resume,
+    quick_stop,
+    home,
+};
+inline constexpr std::size_t drive_commands = 8;
+
+struct LinkSettings {
+    bool rtu = true;
+    bool tcp = false;
+    int unit = 1;
+    int baud = 19200;
+    char parity = 'E';
+    int stop_bits = 1;
+    std::uint32_t silence_before_us = 0; ///< beyond the 3.5 characters of RTU
+    std::uint32_t silence_after_us = 0;
+    std::uint32_t turnaround_us = 0; ///< the drive takes this long before it answers
+    std::uint32_t response_timeout_us = 100'000;
+    int retries = 2;
+    bool function_read = true;      ///< 03
+    bool function_write_one = true; ///< 06
+    bool function_write = true;     ///< 16
+    bool function_exchange = false; ///< 23
+    int most_read_registers = 125;
+    int most_write_registers = 123;
+    int address_base = 0;                  ///< of the addresses in the file; those above are from 0 already
+    bool reads_zero_until_written = false; ///< nothing read is true before the first write of the target group
+    /// What an exchange takes as the maker or a measurement says it: baud rate and us.
+    struct Exchange {
+        int baud = 0;
+        std::uint32_t duration_us = 0;
+    };
+    std::vector<Exchange> exchanges;
+};
+
+enum class WatchdogReaction : std::uint8_t { none, stop, quick_stop, disable, fault };
+
+struct DriveProfile {
+    std::string name;
+    std::string drive;                     ///< makes and models
+    std::vector<std::string> sources;      ///< where registers and values come from
+    std::vector<std::string> not_verified; ///< what nobody has tried on hardware
+    StreamWay stream = StreamWay::pvt;
+    int axes = 1; ///< most of them in one drive
+
+    LinkSettings link;
+    std::vector<RegisterField> fields;
+    std::vector<FieldGroup> groups;
+
+    bool cia402 = false;           ///< states by the CiA 402 status word; else by `states`
+    std::vector<StateTest> states; ///< the first that fits
+    std::array<std::vector<CommandStep>, drive_commands> commands;
+
+    std::optional<std::int64_t> stream_mode; ///< raw value of the mode field for the way it streams
+    std::optional<std::int64_t> homing_mode;
+    bool change_on_the_fly = false; ///< a block replaces the one that is under way
+    std::uint32_t period_us = 0;    ///< of cyclic targets or blocks: the shortest that the drive takes; 0: the link's
+    std::optional<FieldTest> done;  ///< the last move has arrived
+    std::optional<FieldTest> homed;
+    std::int64_t following_error_window_counts = 0; ///< 0: as the drive has it
+
+    std::uint32_t watchdog_timeout_ms = 0; ///< written to the watchdog field; 0: it has none
+    std::uint32_t keep_alive_ms = 0;       ///< an exchange at least so often; 0: no need
+    WatchdogReaction watchdog_reaction = WatchdogReaction::none;
+    std::uint32_t stale_us = 0; ///< what was read is too old after this; 0: no limit of its own
+
+    struct InitialValue {
+        FieldIndex field = no_field;
+        std::int64_t value = 0; ///< raw
+    };
+    std::vector<InitialValue> init; ///< once, in order; a flash field only where it holds something else
+
+    struct IdentityCheck {
+        FieldTest test;
+        std::string sentence; ///< what to tell where it does not hold
+    };
+    std::vector<IdentityCheck> identity;
+
+    /// The field of a role, or nothing. Cost: linear.
+    [[nodiscard]] const RegisterField* field_of(FieldRole role) const noexcept {
+        for (const RegisterField& field : fields) {
+            if (role != FieldRole::none && field.role == role) {
+                return &field;
+            }
+        }
+        return nullptr;
+    }
+    [[nodiscard]] FieldIndex index_of(std::string_view field_name) const noexcept {
+        for (FieldIndex i = 0; i < fields.size(); ++i) {
+            if (fields[i].name == field_name) {
+                return i;
+            }
+        }
+        return no_field;
+    }
+    [[nodiscard]] const FieldGroup* group_for(GroupUse use) const noexcept {
+        for (const FieldGroup& group : groups) {
+            if (group.use == use) {
+                return &group;
+            }
+        }
+        return nullptr;
+    }
+    [[nodiscard]] const std::vector<CommandStep>& steps_of(DriveCommand command) const noexcept {
+        return commands[static_cast<std::size_t>(command)];
+    }
+};
+
+/// The state that a CiA 402 status word tells; `moving` needs the done test besides.
+[[nodiscard]] constexpr DriveState cia402_state(std::uint32_t status_word) noexcept {
+    constexpr std::uint32_t fault_mask = 0x4F;
+    constexpr std::uint32_t operation_mask = 0x6F;
+    if ((status_word & fault_mask) == 0x08 || (status_word & fault_mask) == 0x0F) {
+        return DriveState::fault;
+    }
+    switch (status_word & operation_mask) {
+    case 0x27: return DriveState::enabled;
+    case 0x07: return DriveState::quick_stop;
+    case 0x21: // ready to switch on
+    case 0x23: return DriveState::disabled;
+    default: break;
+    }
+    return (status_word & fault_mask) == 0x40   ? DriveState::disabled
+           : (status_word & fault_mask) == 0x00 ? DriveState::not_ready
+                                                : DriveState::unknown;
+}
+
+[[nodiscard]] constexpr bool holds(const FieldTest& test, std::int64_t raw) noexcept {
+    return (static_cast<std::uint64_t>(raw) & test.mask) == test.value;
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// LinkAddress: which wire a drive hangs on, and how long a frame takes on it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace splinefeed::hal::modbus {
+
+enum class Wire : std::uint8_t { tcp, rtu };
+
+struct LinkAddress {
+    Wire wire = Wire::tcp;
+    std::string host = "127.0.0.1"; ///< tcp: a name or an IPv4 address; rtu: the serial device
+    int port = 502;
+    int baud = 115200;
+    char parity = 'E'; ///< 'N', 'E' or 'O'
+    int unit = 1;      ///< 1 to 247; 255 on tcp where the drive is the only one
+
+    [[nodiscard]] bool operator==(const LinkAddress&) const = default;
+    /// The same wire, whatever unit on it.
+    [[nodiscard]] bool same_wire(const LinkAddress& other) const noexcept {
+        return wire == other.wire && host == other.host && (wire == Wire::rtu || port == other.port);
+    }
+};
+
+/// What a line and the drives on it take [us].
+struct LinkTiming {
+    std::uint32_t answer_us = 50'000; ///< a drive answers within this, once the request has passed the line
+    std::uint32_t before_us = 0;      ///< silence before a frame, beyond the 3.5 characters of RTU
+};
+
+/// Time of a frame on a serial line: 11 bits a byte (without parity there are two stop bits). tcp: 0.
+[[nodiscard]] constexpr std::uint32_t frame_us(const LinkAddress& address, std::size_t bytes) noexcept {
+    constexpr std::uint64_t bits = 11;
+    return address.wire == Wire::tcp
+               ? 0
+               : static_cast<std::uint32_t>(bits * bytes * 1'000'000U / static_cast<std::uint64_t>(address.baud));
+}
+
+/// Silence between two frames: 3.5 characters; 1750 us above 19200 baud (Modbus over serial line V1.02, 2.5.1.1).
+[[nodiscard]] constexpr std::uint32_t silence_us(const LinkAddress& address) noexcept {
+    constexpr int fixed_from = 19200;
+    constexpr std::uint32_t fixed_us = 1750;
+    constexpr std::uint32_t half_characters = 7;
+    return address.wire == Wire::tcp   ? 0
+           : address.baud > fixed_from ? fixed_us
+                                       : frame_us(address, half_characters) / 2;
+}
+
+/// The frames of an exchange that writes and reads so many registers: function 23, or 03 and 16 where one is none.
+struct ExchangeBytes {
+    std::size_t request = 0;
+    std::size_t reply = 0;
+};
+
+[[nodiscard]] constexpr ExchangeBytes exchange_bytes(const LinkAddress& address, std::size_t written,
+                                                     std::size_t read) noexcept {
+    const std::size_t frame = address.wire == Wire::rtu ? 3 : 7; // unit and CRC, or the header
+    const std::size_t request = written == 0 ? 5 : read == 0 ? 6 + 2 * written : 10 + 2 * written;
+    const std::size_t reply = read == 0 ? 5 : 2 + 2 * read;
+    return {frame + request, frame + reply};
+}
+
+/// Both frames and the silence before each. [us]
+[[nodiscard]] constexpr std::uint32_t exchange_us(const LinkAddress& address, std::size_t written,
+                                                  std::size_t read) noexcept {
+    const ExchangeBytes bytes = exchange_bytes(address, written, read);
+    return frame_us(address, bytes.request + bytes.reply) + 2 * silence_us(address);
+}
+
+} // namespace splinefeed::hal::modbus

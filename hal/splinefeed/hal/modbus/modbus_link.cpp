@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/modbus_link.hpp"
+
+#include <arpa/inet.h>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <modbus/modbus.h>
+#include <netdb.h>
+#include <netinet/in.h>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::uint64_t us_per_s = 1'000'000;
+constexpr std::uint64_t ns_per_us = 1000;
+// What is still under way arrives before it is thrown away; asked again at once, a peer would be a reply behind for
+// ever.
+constexpr std::uint64_t settle_us = 5000;
+// A receiver that has lost the beginning of a frame waits for silence: after so many failures it gets plenty.
+constexpr int lost_failures = 3;
+constexpr std::uint64_t lost_us = 300'000;
+constexpr std::size_t longest_frame = 256;
+
+// The IPv4 address of a name in numbers; empty where it has none.
+std::string resolved(const std::string& host) {
+    addrinfo wanted{};
+    wanted.ai_family = AF_INET;
+    wanted.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    if (getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0) {
+        return {};
+    }
+    std::array<char, INET_ADDRSTRLEN> text{};
+    const auto* const address = reinterpret_cast<const sockaddr_in*>(found->ai_addr);
+    const bool ok = inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size()) != nullptr;
+    freeaddrinfo(found);
+    return ok ? text.data() : "";
+}
+
+LinkFault fault_of(int error) noexcept {
+    switch (error) {
+    case ETIMEDOUT:
+    case EAGAIN: return LinkFault::timeout;
+    case EMBBADCRC: return LinkFault::corrupt;
+    case EMBBADSLAVE: return LinkFault::wrong_unit;
+    case EMBBADDATA:
+    case EMBMDATA:
+    case EMBUNKEXC:
+    case EMBBADEXC: return LinkFault::wrong_length;
+    default: return error > MODBUS_ENOBASE ? LinkFault::exception : LinkFault::disconnected;
+    }
+}
+
+} // namespace
+
+std::uint64_t monotonic_us() noexcept {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<std::uint64_t>(now.tv_sec) * us_per_s + static_cast<std::uint64_t>(now.tv_nsec) / ns_per_us;
+}
+
+std::uint64_t thread_us() noexcept {
+    timespec used{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return static_cast<std::uint64_t>(used.tv_sec) * 1'000'000U + static_cast<std::uint64_t>(used.tv_nsec) / 1000U;
+}
+
+void sleep_until_us(std::uint64_t instant_us) noexcept {
+    const timespec until{static_cast<time_t>(instant_us / us_per_s),
+                         static_cast<long>((instant_us % us_per_s) * ns_per_us)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+    }
+}
+
+const char* describe(LinkFault fault) noexcept {
+    switch (fault) {
+    case LinkFault::none: return "it answers";
+    case LinkFault::timeout:
+        return "no answer in time; is it powered, is the unit number right, are baud rate and parity those of the "
+               "drive?";
+    case LinkFault::disconnected: return "the connection is gone; is the cable plugged in, is the port open?";
+    case LinkFault::corrupt: return "an answer with a wrong checksum; look for noise, termination and the baud rate";
+    case LinkFault::wrong_unit: return "another unit answered; two drives may have the same number";
+    case LinkFault::wrong_length: return "an answer that does not fit the request; another master may be on the line";
+    case LinkFault::exception: return "the drive refused the request";
+    }
+    return "";
+}
+
+const char* exception_name(std::uint8_t code) noexcept {
+    constexpr std::array<const char*, 12> names{
+        "none", "illegal function",     "illegal address", "illegal value",         "device failure", "acknowledge",
+        "busy", "negative acknowledge", "memory parity",   "not a known exception", "gateway path",   "gateway target"};
+    return code < names.size() ? names[code] : names[9];
+}
+
+struct ModbusLink::Context {
+    LinkAddress address;
+    LinkTiming timing;
+    modbus_t* modbus = nullptr;
+    std::uint64_t quiet_from_us = 0; // the last byte on the line
+    int error = 0;
+    bool no_host = false; // the name has no address
+    bool connected = false;
+    int failures = 0;    // in a row
+    bool dirty = false;  // something may still come in
+    bool behind = false; // whole answers, one after the other
+
+    [[nodiscard]] bool lost() const noexcept { return address.wire == Wire::rtu && failures >= lost_failures; }
+    [[nodiscard]] std::uint64_t next_us() const noexcept {
+        const std::uint64_t settle = lost()   ? lost_us
+                                     : behind ? timing.answer_us + frame_us(address, longest_frame)
+                                     : dirty  ? settle_us
+                                              : 0;
+        return quiet_from_us + silence_us(address) + timing.before_us + settle;
+    }
+};
+
+ModbusLink::ModbusLink(const LinkAddress& address, const LinkTiming& timing)
+    : context_(std::make_unique<Context>(Context{.address = address, .timing = timing})) {
+    constexpr int data_bits = 8;
+    const std::string host = address.wire == Wire::tcp ? resolved(address.host) : address.host;
+    context_->no_host = host.empty();
+    if (context_->no_host) {
+        return;
+    }
+    context_->modbus = address.wire == Wire::tcp ? modbus_new_tcp(host.c_str(), address.port)
+                                                 : modbus_new_rtu(host.c_str(), address.baud, address.parity, data_bits,
+                                                                  address.parity == 'N' ? 2 : 1);
+    if (context_->modbus == nullptr) {
+        context_->error = errno;
+    }
+}
+
+ModbusLink::~ModbusLink() {
+    if (context_->modbus != nullptr) {
+        close();
+        modbus_free(context_->modbus);
+    }
+}
+
+const LinkAddress& ModbusLink::address() const noexcept {
+    return context_->address;
+}
+
+bool ModbusLink::connected() const noexcept {
+    return context_->connected;
+}
+
+const char* ModbusLink::error() const noexcept {
+    return context_->no_host ? "there is no host of that name" : modbus_strerror(context_->error);
+}
+
+std::uint64_t ModbusLink::next_us() const noexcept {
+    return std::max(monotonic_us(), context_->next_us());
+}
+
+void ModbusLink::resynchronise() noexcept {
+    if (context_->address.wire == Wire::rtu) {
+        context_->dirty = context_->behind = true;
+    }
+}
+
+bool ModbusLink::connect() noexcept {
+    Context& context = *context_;
+    if (context.modbus == nullptr) {
+        return false;
+    }
+    close();
+    const std::uint32_t most = context.timing.answer_us;
+    modbus_set_response_timeout(context.modbus, most / us_per_s, most % us_per_s);
+    if (modbus_connect(context.modbus) != 0) {
+        context.error = errno;
+        return false;
+    }
+    context.connected = true;
+    context.dirty = context.address.wire == Wire::rtu; // the other end of a new connection has nothing to say
+    context.quiet_from_us = monotonic_us();
+    return true;
+}
+
+void ModbusLink::close() noexcept {
+    if (context_->connected) {
+        modbus_close(context_->modbus);
+        context_->connected = false;
+    }
+}
+
+template <class Call>
+LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expected, const Call& call) noexcept {
+    Context& context = *context_;
+    LinkAnswer answer;
+    answer.sent_us = answer.answered_us = monotonic_us();
+    if (!context.connected) {
+        answer.fault = LinkFault::disconnected;
+        return answer;
+    }
+    const bool lost = context.lost();
+    const std::uint64_t quiet = context.next_us();
+    if (answer.sent_us < quiet) {
+        sleep_until_us(quiet);
+        answer.sent_us = monotonic_us();
+    }
+    if (context.dirty) {
+        modbus_flush(context.modbus);
+        context.dirty = context.behind = false;
+    }
+    // libmodbus counts from the moment at which the request is in the system's buffer.
+    const std::uint32_t most = context.timing.answer_us + frame_us(context.address, bytes.request + bytes.reply);
+    modbus_set_response_timeout(context.modbus, most / us_per_s, most % us_per_s);
+    modbus_set_slave(context.modbus, unit);
+    errno = 0;
+    const int done = call(context.modbus);
+    answer.answered_us = context.quiet_from_us = monotonic_us();
+    context.failures = done == expected ? 0 : lost ? 1 : context.failures + 1;
+    if (done == expected) {
+        answer.arrived_us = answer.sent_us + frame_us(context.address, bytes.request);
+        answer.replied_us = answer.answered_us - frame_us(context.address, bytes.reply);
+        return answer;
+    }
+    answer.fault = done >= 0 ? LinkFault::wrong_length : fault_of(errno);
+    context.dirty = true;
+    if (answer.fault == LinkFault::exception) {
+        answer.exception = static_cast<std::uint8_t>(errno - MODBUS_ENOBASE);
+        context.dirty = false;
+    } else if (answer.fault == LinkFault::disconnected) {
+        context.error = errno;
+        close();
+    }
+    return answer;
+}
+
+LinkAnswer ModbusLink::read(int unit, int address, std::span<std::uint16_t> out) noexcept {
+    std::array<std::uint16_t, MODBUS_MAX_READ_REGISTERS> in{};
+    const int count = static_cast<int>(out.size());
+    const LinkAnswer answer =
+        transact(unit, exchange_bytes(context_->address, 0, out.size()), count,
+                 [&](modbus_t* modbus) { return modbus_read_registers(modbus, address, count, in.data()); });
+    if (answer.ok()) {
+        std::memcpy(out.data(), in.data(), out.size_bytes());
+    }
+    return answer;
+}
+
+LinkAnswer ModbusLink::write(int unit, int address, std::span<const std::uint16_t> values) noexcept {
+    const int count = static_cast<int>(values.size());
+    return transact(unit, exchange_bytes(context_->address, values.size(), 0), count,
+                    [&](modbus_t* modbus) { return modbus_write_registers(modbus, address, count, values.data()); });
+}
+
+LinkAnswer ModbusLink::exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
+                                std::span<std::uint16_t> out) noexcept {
+    std::array<std::uint16_t, MODBUS_MAX_WR_READ_REGISTERS> in{};
+    const int count = static_cast<int>(out.size());
+    const LinkAnswer answer =
+        transact(unit, exchange_bytes(context_->address, values.size(), out.size()), count, [&](modbus_t* modbus) {
+            return modbus_write_and_read_registers(modbus, write_address, static_cast<int>(values.size()),
+                                                   values.data(), read_address, count, in.data());
+        });
+    if (answer.ok()) {
+        std::memcpy(out.data(), in.data(), out.size_bytes());
+    }
+    return answer;
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: MIT
+//
+// All drives have the same segments by number, the same stop reserve and, as far as their clocks are known, one time of
+// start: so they are at the same place of the path at all times. Where one of them is about to run dry (its ring would
+// last for less than the reserve and a guard, as far as is known of it), all are told to treat the same segment as
+// their last: each slows down by the map's rule, and they stand together, on the path. What they were told beyond that
+// they drop; it is sent again.
+#include "splinefeed/hal/modbus/modbus_port.hpp"
+
+#include "splinefeed/hal/modbus/bus_rate.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::uint64_t lead_us = 60'000;       // from a command to the instant that it names
+constexpr std::uint64_t settle_us = 40'000;     // until a drive's state tells of its start
+constexpr double lag_us = 300.0;                // a drive that is behind by more is out of step
+constexpr double guard_us = 60'000.0;           // to tell the others that one runs dry
+constexpr std::uint64_t command_us = 3'000'000; // for a command to be carried out
+constexpr std::uint64_t homing_us = 300'000'000;
+constexpr std::uint64_t look_every_us = 1000;
+constexpr double ticks_per_us = 8.0;
+
+} // namespace
+
+ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortSettings& settings)
+    : settings_(settings) {
+    for (const DriveWiring& drive : wiring) {
+        const auto same = [&](const auto& bus) {
+            return bus->link().address().same_wire(drive.link);
+        };
+        auto bus = std::find_if(buses_.begin(), buses_.end(), same);
+        if (bus == buses_.end()) {
+            buses_.push_back(std::make_unique<ModbusBus>(drive.link, settings.timing));
+            bus = buses_.end() - 1;
+        }
+        for (const int axis : drive.machine_axis) {
+            axes_ = std::max(axes_, axis + 1);
+        }
+        drives_.emplace_back(drive, (*bus)->add(drive.link.unit));
+    }
+}
+
+ModbusPort::~ModbusPort() {
+    close();
+}
+
+void ModbusPort::close() noexcept {
+    for (const auto& bus : buses_) {
+        bus->stop();
+    }
+}
+
+std::optional<DriveFailure> ModbusPort::open() {
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        const auto axes = static_cast<int>(drives_[i].wiring().machine_axis.size());
+        if (const DriveProblem problem = drives_[i].client().open(axes); problem != DriveProblem::none) {
+            return DriveFailure{i, problem};
+        }
+    }
+    return std::nullopt;
+}
+
+double ModbusPort::least_segment_us() {
+    double least = 0.0;
+    for (const auto& bus : buses_) {
+        least = std::max(least, splinefeed::hal::modbus::least_segment_us(*bus, settings_.timing));
+    }
+    return least;
+}
+
+// Before anything moves: waits until all drives did it.
+std::optional<DriveFailure> ModbusPort::command_all(PvtCommand command) {
+    for (PortDrive& drive : drives_) {
+        drive.command(command);
+    }
+    const std::uint64_t until = monotonic_us() + command_us;
+    do {
+        sleep_until_us(monotonic_us() + look_every_us);
+        look();
+    } while (!carried_out() && monotonic_us() < until);
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        const DriveReport& seen = drives_[i].seen();
+        if (seen.command_pending || seen.command_refused || seen.problem != DriveProblem::none) {
+            return DriveFailure{i, seen.problem != DriveProblem::none ? seen.problem
+                                   : seen.command_refused             ? DriveProblem::refused
+                                                                      : DriveProblem::silent};
+        }
+    }
+    return std::nullopt;
+}
+
+// Out of whatever state somebody left them in: what still moves comes to rest by itself.
+std::optional<DriveFailure> ModbusPort::enable_all() {
+    const std::uint64_t until = monotonic_us() + settings_.away_us;
+    for (;;) {
+        sleep_until_us(monotonic_us() + look_every_us);
+        look();
+        bool ready = true;
+        for (std::size_t i = 0; i < drives_.size(); ++i) {
+            PortDrive& drive = drives_[i];
+            const PvtState state = drive.status().state;
+            const bool stands = state == PvtState::standing || state == PvtState::held;
+            ready = ready && stands && !drive.pending();
+            if (now_us_ > until && !(stands && !drive.pending())) {
+                return DriveFailure{i, drive.refused() ? DriveProblem::refused : DriveProblem::silent};
+            }
+            drive.forget();
+            if (state == PvtState::fault) {
+                drive.tell(PvtCommand::fault_reset, 0);
+            } else if (state == PvtState::disabled) {
+                drive.tell(PvtCommand::enable, 0);
+            }
+        }
+        if (ready) {
+            return std::nullopt;
+        }
+    }
+}
+
+// All at once, each as it is set up; until the last one stands.
+std::optional<DriveFailure> ModbusPort::home_all() {
+    if (const auto failure = command_all(PvtCommand::home)) {
+        return failure;
+    }
+    const std::uint64_t until = monotonic_us() + homing_us;
+    for (;;) {
+        sleep_until_us(monotonic_us() + look_every_us);
+        look();
+        const bool given_up = now_us_ > until || (settings_.interrupted != nullptr && settings_.interrupted());
+        bool homing = false;
+        for (std::size_t i = 0; i < drives_.size(); ++i) {
+            const bool turns = drives_[i].status().state == PvtState::homing;
+            homing = homing || turns;
+            if (drives_[i].seen().problem != DriveProblem::none || (turns && given_up)) {
+                quick_stop();
+                const DriveProblem problem = drives_[i].seen().problem;
+                return DriveFailure{i, problem == DriveProblem::none ? DriveProblem::not_homed : problem};
+            }
+        }
+        if (!homing) {
+            return std::nullopt;
+        }
+    }
+}
+
+std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
+    times_.segment_us = first.duration_ticks / ticks_per_us;
+    double ring_us = settings_.buffer_us;
+    for (const PortDrive& drive : drives_) {
+        ring_us = std::min(ring_us, drive.client().report().identity.ring * times_.segment_us);
+    }
+    buffer_segments_ = static_cast<std::uint32_t>(ring_us / times_.segment_us);
+    const double reserve_ms = std::max(1.0, std::min<double>(settings_.stop_reserve_ms, ring_us / 4000.0));
+    const PvtConfiguration configuration{static_cast<std::uint16_t>(settings_.watchdog_ms),
+                                         static_cast<std::uint16_t>(reserve_ms), settings_.following_window};
+    times_.reserve_us = 1000.0 * configuration.stop_reserve_ms;
+    times_.silent_us = settings_.silent_us;
+    times_.settling_us = settle_us;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        if (const DriveProblem problem = drives_[i].prepare(first, configuration); problem != DriveProblem::none) {
+            return DriveFailure{i, problem};
+        }
+    }
+    for (const auto& bus : buses_) {
+        bus->start();
+    }
+    if (const auto failure = enable_all()) {
+        return failure;
+    }
+    if (const auto failure = command_all(PvtCommand::begin)) {
+        return failure;
+    }
+    if (settings_.home) {
+        if (const auto failure = home_all()) {
+            return failure;
+        }
+    }
+    if (const auto failure = command_all(PvtCommand::place)) {
+        return failure;
+    }
+    enter(ModbusPhase::filling);
+    return std::nullopt;
+}
+
+std::uint64_t ModbusPort::busy_us() const noexcept {
+    std::uint64_t sum = 0;
+    for (const auto& bus : buses_) {
+        sum += bus->busy_us();
+    }
+    return sum;
+}
+
+std::uint32_t ModbusPort::executed() const noexcept {
+    std::uint32_t least = drives_.front().status().executed;
+    for (const PortDrive& drive : drives_) {
+        least = std::min(least, drive.status().executed);
+    }
+    return least;
+}
+
+int ModbusPort::do_room() const noexcept {
+    std::size_t room = PvtClient::queue_capacity;
+    for (const PortDrive& drive : drives_) {
+        const std::size_t held = PvtClient::queue_capacity - drive.client().room();
+        room = std::min(room, held < buffer_segments_ ? buffer_segments_ - held : 0);
+    }
+    return phase_ == ModbusPhase::fault || phase_ == ModbusPhase::halted ? 0 : static_cast<int>(room);
+}
+
+bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
+    if (phase_ == ModbusPhase::fault || phase_ == ModbusPhase::halting || phase_ == ModbusPhase::halted) {
+        return false;
+    }
+    const std::span<const std::int64_t> velocities(segment.end_velocity.data(), static_cast<std::size_t>(axes_));
+    const bool rests = std::all_of(velocities.begin(), velocities.end(), [](std::int64_t v) { return v == 0; });
+    for (PortDrive& drive : drives_) {
+        drive.push(segment, rests);
+    }
+    return true;
+}
+
+void ModbusPort::look() noexcept {
+    now_us_ = monotonic_us();
+    for (PortDrive& drive : drives_) {
+        drive.look(now_us_, times_);
+    }
+}
+
+void ModbusPort::enter(ModbusPhase phase) noexcept {
+    phase_ = phase;
+    entered_us_ = now_us_;
+    for (PortDrive& drive : drives_) {
+        drive.forget();
+        drive.client().hold_back(phase == ModbusPhase::stopping || phase == ModbusPhase::halting ||
+                                 phase == ModbusPhase::halted || phase == ModbusPhase::fault);
+    }
+}
+
+void ModbusPort::fail(std::size_t drive, DriveProblem problem) noexcept {
+    failure_ = DriveFailure{drive, problem};
+    enter(ModbusPhase::fault);
+}
+
+bool ModbusPort::carried_out() const noexcept {
+    return std::none_of(drives_.begin(), drives_.end(), [](const PortDrive& drive) { return drive.pending(); });
+}
+
+// Whether every drive has what it is to start with, counted from the one that is furthest behind: it is by that one
+// that there is room, and a drive that stands ahead of it starts later and gets its own in between, or is at the end.
+bool ModbusPort::filled() const noexcept {
+    const std::uint32_t first = executed();
+    return std::all_of(drives_.begin(), drives_.end(), [&](const PortDrive& drive) {
+        const std::uint32_t has = drive.status().next - first;
+        const bool all = complete_ && drive.has_all();
+        return has > 0 && (all || 8 * has >= 7 * buffer_segments_) && drive.seen().clock.known();
+    });
+}
+
+// At one instant of our clock; a drive that stands ahead of the others that much later.
+void ModbusPort::start() noexcept {
+    const std::uint32_t first = executed();
+    for (PortDrive& drive : drives_) {
+        const double ahead_us = (drive.status().executed - first) * times_.segment_us;
+        const std::uint64_t at_us = now_us_ + lead_us + static_cast<std::uint64_t>(ahead_us);
+        started_us_ = std::max(started_us_, at_us + settle_us);
+        drive.start(at_us, times_);
+    }
+    enter(ModbusPhase::starting);
+}
+
+// Whether all drives run, and go on running for long enough to tell the others if one does not.
+void ModbusPort::watch() noexcept {
+    if (now_us_ < started_us_) {
+        return;
+    }
+    bool all_done = complete_;
+    bool dry = false;
+    for (const PortDrive& drive : drives_) {
+        const bool has_all = complete_ && drive.has_all();
+        const bool done = has_all && drive.executed_all();
+        all_done = all_done && done && drive.says_it_stands();
+        dry = dry || drive.seen().problem != DriveProblem::none || drive.status().state == PvtState::stopping ||
+              (!done && drive.lag_us() > lag_us) ||
+              (!has_all && drive.left_us(times_) < times_.reserve_us + guard_us) ||
+              (has_all && drive.age_us() > settings_.away_us) || (drive.says_it_stands() && !done);
+    }
+    if (all_done) {
+        enter(ModbusPhase::done);
+    } else if (dry) {
+        stop_at_ = UINT32_MAX;
+        for (const PortDrive& drive : drives_) {
+            if (drive.seen().problem == DriveProblem::none) {
+                stop_at_ = std::min(stop_at_, drive.status().next);
+            }
+        }
+        enter(ModbusPhase::stopping);
+    }
+}
+
+void ModbusPort::stop() noexcept {
+    for (PortDrive& drive : drives_) {
+        if (drive.heard(times_) && !drive.says_it_stands() && drive.status().next != stop_at_) {
+            drive.end_at(stop_at_, now_us_, times_);
+        }
+    }
+    if (all_stand()) {
+        enter(ModbusPhase::waiting);
+    }
+}
+
+bool ModbusPort::all_stand() const noexcept {
+    return std::all_of(drives_.begin(), drives_.end(), [&](const PortDrive& drive) { return drive.stands(times_); });
+}
+
+// For whoever is away; then all go on together.
+void ModbusPort::wait() noexcept {
+    bool ready = true;
+    bool done = complete_;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        const PortDrive& drive = drives_[i];
+        const DriveProblem problem = drive.seen().problem != DriveProblem::none   ? drive.seen().problem
+                                     : drive.age_us() > settings_.away_us         ? DriveProblem::silent
+                                     : drive.status().state == PvtState::disabled ? DriveProblem::refused
+                                                                                  : DriveProblem::none;
+        if (problem != DriveProblem::none) {
+            fail(i, problem);
+            return;
+        }
+        ready = ready && drive.heard(times_) && drive.says_it_stands() && !drive.pending();
+        done = done && drive.executed_all();
+    }
+    if (ready && done) {
+        enter(ModbusPhase::done);
+    } else if (ready && filled()) {
+        resumes_ += phase_ == ModbusPhase::waiting ? 1U : 0U;
+        start();
+    }
+}
+
+void ModbusPort::halting() noexcept {
+    for (PortDrive& drive : drives_) {
+        if (drive.heard(times_) && drive.status().state == PvtState::running && drive.seen().clock.known()) {
+            drive.tell(PvtCommand::hold, drive.seen().clock.drive_clock(entered_us_ + lead_us));
+        }
+    }
+    if (all_stand()) {
+        enter(ModbusPhase::halted);
+    }
+}
+
+PortState ModbusPort::do_poll() noexcept {
+    look();
+    switch (phase_) {
+    case ModbusPhase::filling:
+    case ModbusPhase::waiting: wait(); break;
+    case ModbusPhase::starting:
+        if (carried_out()) {
+            enter(ModbusPhase::running);
+        } else if (now_us_ > entered_us_ + command_us) {
+            enter(ModbusPhase::stopping);
+        }
+        break;
+    case ModbusPhase::running: watch(); break;
+    case ModbusPhase::stopping: stop(); break;
+    case ModbusPhase::halting: halting(); break;
+    case ModbusPhase::halted:
+    case ModbusPhase::done:
+    case ModbusPhase::fault: break;
+    }
+    const PortPhase phase = phase_ == ModbusPhase::fault    ? PortPhase::fault
+                            : phase_ == ModbusPhase::done   ? PortPhase::idle
+                            : phase_ == ModbusPhase::halted ? PortPhase::halted
+                                                            : PortPhase::running;
+    return {phase, executed()};
+}
+
+void ModbusPort::quick_stop() noexcept {
+    look();
+    enter(ModbusPhase::halting);
+    for (PortDrive& drive : drives_) {
+        drive.quick_stop();
+    }
+}
+
+void ModbusPort::do_halt() noexcept {
+    if (phase_ != ModbusPhase::fault && phase_ != ModbusPhase::done) {
+        look();
+        enter(ModbusPhase::halting);
+    }
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// PortDrive: one drive as the port sees it: which of the machine's axes it has, what it said last, and what it was
+// told.
+#pragma once
+
+#include "splinefeed/hal/modbus/duration_trim.hpp"
+#include "splinefeed/hal/modbus/pvt_client.hpp"
+
+#include <utility>
+
+namespace splinefeed::hal::modbus {
+
+/// A drive and the machine's axes that it has: machine_axis[k] is moved by the drive's axis k; -1: none.
+struct DriveWiring {
+    LinkAddress link;
+    std::vector<int> machine_axis;
+};
+
+/// Times that all drives of a port have in common. [us]
+struct PortTimes {
+    double segment_us = 0.0;
+    double reserve_us = 0.0;       ///< motion over which a drive slows down to rest
+    std::uint64_t silent_us = 0;   ///< a drive that was not heard for this long is away
+    std::uint64_t settling_us = 0; ///< until what a drive says tells of what it was told
+};
+
+class PortDrive {
+public:
+    PortDrive(DriveWiring wiring, PvtClient& client) : wiring_(std::move(wiring)), client_(&client) {}
+
+    /// Writes the configuration, and takes `first` for where the axes stand. Before the bus runs.
+    [[nodiscard]] DriveProblem prepare(const FeedSegment& first, const PvtConfiguration& configuration) noexcept;
+    /// @param rests  the machine stands at the segment's end
+    void push(const FeedSegment& segment, bool rests) noexcept;
+
+    /// What it said last becomes seen().
+    void look(std::uint64_t now_us, const PortTimes& times) noexcept;
+    [[nodiscard]] const DriveReport& seen() const noexcept { return seen_; }
+    [[nodiscard]] const PvtStatus& status() const noexcept { return seen_.status; }
+    /// How old that is. [us]
+    [[nodiscard]] std::uint64_t age_us() const noexcept { return age_us_; }
+    [[nodiscard]] bool heard(const PortTimes& times) const noexcept { return age_us_ < times.silent_us; }
+    /// It says that it stands.
+    [[nodiscard]] bool says_it_stands() const noexcept;
+    /// The same, or, where it says nothing that counts, by what it had when it was last heard.
+    [[nodiscard]] bool stands(const PortTimes& times) const noexcept;
+    /// Executed everything that was pushed.
+    [[nodiscard]] bool executed_all() const noexcept { return status().executed == client_->pushed(); }
+    [[nodiscard]] bool has_all() const noexcept { return status().next == client_->pushed(); }
+    /// How long its ring lasts by now, as far as is known. [us]
+    [[nodiscard]] double left_us(const PortTimes& times) const noexcept;
+
+    /// It is behind the motion by at least so much: it slowed down, all by itself. [us] Of all that it said since
+    /// start().
+    [[nodiscard]] double lag_us() const noexcept { return lag_us_; }
+
+    /// Within what its clock was known when it was started, at the worst. [us]
+    [[nodiscard]] double unsure_us() const noexcept { return most_unsure_us_; }
+
+    /// Gives a command, once until forget() and if none is pending.
+    void tell(PvtCommand command, std::uint32_t argument) noexcept;
+    /// The last of them is no longer of interest.
+    void forget() noexcept { told_ = false; }
+    /// `place` and what goes before it, on the way to the start.
+    void command(PvtCommand command) noexcept { client_->command(command, 0, last_); }
+    [[nodiscard]] bool pending() const noexcept { return seen_.command_pending; }
+    /// What tell() told was refused.
+    [[nodiscard]] bool refused() const noexcept { return told_ && seen_.command_refused; }
+    void quick_stop() noexcept;
+    /// It is to begin, or to go on, at that instant of our clock.
+    void start(std::uint64_t at_us, const PortTimes& times) noexcept;
+    /// To the end of that segment; where that is too near by now, as soon as it can.
+    void end_at(std::uint32_t sequence, std::uint64_t now_us, const PortTimes& times) noexcept;
+
+    [[nodiscard]] const DriveWiring& wiring() const noexcept { return wiring_; }
+    [[nodiscard]] PvtClient& client() noexcept { return *client_; }
+    [[nodiscard]] const PvtClient& client() const noexcept { return *client_; }
+
+private:
+    [[nodiscard]] double gain_us(double host_us) const noexcept;
+
+    DriveWiring wiring_;
+    PvtClient* client_;
+    PvtSegment last_;
+    DurationTrim trim_;
+    DriveReport seen_;
+    std::uint64_t age_us_ = 0;
+    double full_rate_us_ = 0.0;   // of our clock: it runs at full rate from then on,
+    double began_us_ = 0.0;       // as if it had started then
+    std::uint32_t began_at_ = 0;  // segments that it had executed
+    double unsure_us_ = 0.0;      // of its clock, then
+    double most_unsure_us_ = 0.0; // of all its starts
+    double lag_us_ = 0.0;
+    double gained_us_ = 0.0; // its clock less ours, at the anchor
+    bool told_ = false;
+};
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Numbers in Modbus registers: 16 bits each, the most significant first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace splinefeed::hal::modbus {
+
+/// Writes and reads numbers of several registers, one after the other, as the map splinefeed-pvt has them.
+/// @pre there is room: callers size their blocks by the map
+class RegisterWriter {
+public:
+    explicit RegisterWriter(std::span<std::uint16_t> registers) noexcept : registers_(registers) {}
+
+    void put16(std::uint32_t value) noexcept { registers_[at_++] = static_cast<std::uint16_t>(value & 0xFFFFU); }
+    void put32(std::uint32_t value) noexcept {
+        put16(value >> 16U);
+        put16(value);
+    }
+    /// Two's complement, the low 48 bits.
+    void put48(std::int64_t value) noexcept {
+        const auto bits = static_cast<std::uint64_t>(value);
+        put16(static_cast<std::uint32_t>((bits >> 32U) & 0xFFFFU));
+        put32(static_cast<std::uint32_t>(bits & 0xFFFFFFFFU));
+    }
+    [[nodiscard]] std::size_t size() const noexcept { return at_; }
+
+private:
+    std::span<std::uint16_t> registers_;
+    std::size_t at_ = 0;
+};
+
+class RegisterReader {
+public:
+    explicit RegisterReader(std::span<const std::uint16_t> registers) noexcept : registers_(registers) {}
+
+    [[nodiscard]] std::uint16_t take16() noexcept { return registers_[at_++]; }
+    [[nodiscard]] std::uint32_t take32() noexcept {
+        const std::uint32_t high = take16();
+        return high << 16U | take16();
+    }
+    [[nodiscard]] std::int64_t take48() noexcept {
+        const std::uint64_t high = take16();
+        const std::uint64_t bits = high << 32U | take32();
+        constexpr std::uint64_t sign = std::uint64_t{1} << 47U;
+        return static_cast<std::int64_t>(bits ^ sign) - static_cast<std::int64_t>(sign);
+    }
+
+private:
+    std::span<const std::uint16_t> registers_;
+    std::size_t at_ = 0;
+};
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/target_bus.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr int probes = 20;
+constexpr std::uint32_t frames_a_target = 3; // of a drive without a group: speed, target, start
+constexpr std::uint32_t least_period_us = 2000;
+constexpr std::uint64_t again_us = 300'000; // a drive that was told the end says that it is there
+constexpr double margin = 1.3;              // of what was measured
+constexpr std::uint32_t slack_us = 1000;    // and of a line's rate
+
+} // namespace
+
+std::uint64_t TargetMotion::time_us(std::uint64_t now_us) noexcept {
+    const std::uint64_t time = clock.time_us(now_us);
+    if (!complete && time > 0 && !clock.stopping() && time + ahead_us + reserve > track.end_us()) {
+        clock.stop(now_us);
+    }
+    return time;
+}
+
+TargetDrive& TargetBus::add(const DriveProfile& profile, int unit) {
+    drives_.emplace_back(profile, link_, unit);
+    return drives_.back().drive;
+}
+
+std::uint32_t TargetBus::shortest_period_us() {
+    std::uint32_t sum = 0;
+    std::uint32_t longest_own = least_period_us;
+    std::uint32_t longest_read = 0;
+    const bool serial = link_.address().wire == Wire::rtu;
+    for (Place& place : drives_) {
+        const DriveProfile& profile = place.drive.profile();
+        StreamCost cost = stream_cost(profile, link_.address());
+        if (!serial) {
+            const std::uint64_t before = monotonic_us();
+            for (int i = 0; i < probes; ++i) {
+                static_cast<void>(place.drive.read_next());
+            }
+            cost.read_us = static_cast<std::uint32_t>(margin * static_cast<double>(monotonic_us() - before) / probes);
+            cost.target_us = (profile.group_for(GroupUse::target) != nullptr ? 1 : frames_a_target) * cost.read_us;
+        }
+        sum += cost.target_us;
+        longest_read = std::max(longest_read, cost.read_us);
+        // A cyclic drive's own period is how long it takes to get to a target: the next one may come before.
+        longest_own = std::max(longest_own, profile.stream == StreamWay::blocks ? profile.period_us : 0U);
+    }
+    return std::max(longest_own, sum + longest_read + (serial ? slack_us : 0U));
+}
+
+void TargetBus::start(TargetMotion& motion, std::uint32_t period_us) {
+    stopping_.store(false);
+    thread_ = std::thread([this, &motion, period_us] { run(motion, period_us); });
+}
+
+void TargetBus::stop() noexcept {
+    stopping_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+TargetReport TargetBus::report(std::size_t drive) const noexcept {
+    const std::lock_guard lock(mutex_);
+    return drives_[drive].report;
+}
+
+void TargetBus::keep(Place& place) noexcept {
+    const std::lock_guard lock(mutex_);
+    place.report.reading = place.drive.reading();
+    place.report.heard_us = place.drive.heard_us();
+    place.report.fault = place.drive.last_answer().fault;
+    place.report.clamped = place.drive.clamped();
+    place.report.counts = place.drive.counts();
+}
+
+// By the time at which its frame arrives.
+void TargetBus::tell(Place& place, TargetMotion& motion, std::uint32_t period_us) noexcept {
+    const std::uint64_t arrives_us = link_.next_us() + stream_cost(place.drive.profile(), link_.address()).arrival_us;
+    bool told_end = false;
+    {
+        const std::lock_guard lock(motion.mutex);
+        watch(place, motion, arrives_us, period_us);
+        const MotionInstant instant{arrives_us, motion.time_us(arrives_us), motion.time_us(arrives_us + period_us)};
+        if (motion.track.empty() || instant.motion_us == 0) {
+            return; // not started
+        }
+        if (place.ended_us != 0 && !place.drive.reading().done && arrives_us > place.ended_us + again_us) {
+            place.ended_us = 0;
+            place.drive.arrived(UINT64_MAX); // it may not have seen the last one
+        }
+        if (place.told_us != 0 && arrives_us > place.told_us + std::max(period_us, place.drive.profile().period_us)) {
+            place.drive.stood(motion.track, instant);
+        }
+        place.drive.aim(motion.track, instant);
+        told_end = motion.complete && place.drive.told_end(motion.track, instant.motion_us);
+    }
+    const bool sent = place.drive.send();
+    keep(place);
+    place.ended_us = !told_end || !sent ? 0 : place.ended_us == 0 ? arrives_us : place.ended_us;
+    told(place, motion, sent, period_us);
+}
+
+// The drive goes on as it was told before, but not for long: then all stop. Where nobody was told anything meanwhile
+// they have all stopped by themselves, and the path waits for them there.
+void TargetBus::watch(const Place& place, TargetMotion& motion, std::uint64_t now_us,
+                      std::uint32_t period_us) noexcept {
+    const std::uint64_t due_us = place.told_us + period_us;
+    if (place.told_us != 0 && place.ended_us == 0 && now_us > due_us + period_us + allowed_late_us &&
+        !motion.clock.stopping()) {
+        motion.clock.stop(std::clamp(motion.told_us, due_us, now_us));
+    }
+}
+
+void TargetBus::told(Place& place, TargetMotion& motion, bool sent, std::uint32_t period_us) noexcept {
+    const LinkAnswer& answer = place.drive.last_answer();
+    const std::uint64_t arrived_us = sent ? (answer.arrived_us + answer.replied_us) / 2 : monotonic_us();
+    const bool ended = place.ended_us != 0;
+    const std::uint64_t due_us = place.told_us + period_us;
+    const std::uint64_t latest_us = sent ? answer.replied_us : arrived_us;
+    const std::uint64_t late_us = place.told_us != 0 && !ended && latest_us > due_us ? latest_us - due_us : 0;
+    {
+        const std::lock_guard lock(motion.mutex);
+        watch(place, motion, latest_us, period_us);
+        place.drive.arrived(sent ? arrived_us : UINT64_MAX);
+        motion.told_us = sent ? std::max(motion.told_us, arrived_us) : motion.told_us;
+    }
+    if (sent) {
+        place.told_us = arrived_us;
+    }
+    const std::lock_guard lock(mutex_);
+    place.report.told_end = ended;
+    place.report.late_us = std::max(place.report.late_us, late_us);
+}
+
+void TargetBus::run(TargetMotion& motion, std::uint32_t period_us) noexcept {
+    std::uint64_t next_us = monotonic_us();
+    std::size_t asked = 0;
+    while (!stopping_.load(std::memory_order_relaxed)) {
+        sleep_until_us(next_us);
+        next_us += period_us;
+        if (quick_stop_.load(std::memory_order_relaxed)) {
+            for (Place& place : drives_) {
+                static_cast<void>(place.drive.command(DriveCommand::quick_stop));
+                keep(place);
+            }
+            return;
+        }
+        if (!link_.connected() && !link_.connect()) {
+            for (Place& place : drives_) {
+                keep(place);
+                const std::lock_guard lock(motion.mutex);
+                watch(place, motion, monotonic_us(), period_us);
+            }
+            continue;
+        }
+        for (Place& place : drives_) {
+            tell(place, motion, period_us);
+        }
+        Place& place = drives_[asked++ % drives_.size()];
+        static_cast<void>(place.drive.read_next());
+        keep(place);
+        busy_us_.store(thread_us(), std::memory_order_relaxed);
+        const std::uint64_t now = monotonic_us();
+        if (now > next_us + period_us) { // behind: never a burst of old targets
+            next_us += (now - next_us) / period_us * period_us;
+        }
+    }
+}
+
+} // namespace splinefeed::hal::modbus

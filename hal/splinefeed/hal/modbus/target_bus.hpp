@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// TargetBus: one wire with drives that get targets, and the thread that tells each of them where to be, period by
+// period.
+#pragma once
+
+#include "splinefeed/hal/modbus/motion_clock.hpp"
+#include "splinefeed/hal/modbus/stream_cost.hpp"
+#include "splinefeed/hal/modbus/target_drive.hpp"
+
+#include <atomic>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+namespace splinefeed::hal::modbus {
+
+/// What the buses of a port share. Locked for as long as a frame is computed.
+struct TargetMotion {
+    TargetMotion(std::size_t segments, std::uint32_t reserve_us)
+        : track(segments), clock(reserve_us), reserve(reserve_us) {}
+
+    /// The motion's time at that instant. Where the track is about to end before the motion does, it begins to stop.
+    [[nodiscard]] std::uint64_t time_us(std::uint64_t now_us) noexcept;
+
+    std::mutex mutex;
+    SegmentTrack track;
+    MotionClock clock;
+    std::uint64_t reserve;      ///< motion on which it comes to a stop [us]
+    std::uint64_t ahead_us = 0; ///< how far ahead of its time targets are
+    std::uint64_t told_us = 0;  ///< when the last target arrived at any drive
+    bool complete = false;      ///< the track has the end of the motion
+};
+
+/// How a drive of a bus does.
+struct TargetReport {
+    DriveReading reading;
+    std::uint64_t heard_us = 0;
+    LinkCounts counts;
+    std::uint64_t late_us = 0;         ///< most that a target came later than a period after the one before
+    LinkFault fault = LinkFault::none; ///< of the last exchange
+    bool clamped = false;
+    bool told_end = false;
+};
+
+class TargetBus {
+public:
+    /// A target that comes later than this, beyond a period, has all stop. [us]
+    static constexpr std::uint32_t allowed_late_us = 20'000;
+
+    TargetBus(const LinkAddress& address, const LinkTiming& timing) : link_(address, timing) {}
+    TargetBus(const TargetBus&) = delete;
+    TargetBus& operator=(const TargetBus&) = delete;
+    ~TargetBus() { stop(); }
+
+    /// Before start(). References stay valid.
+    TargetDrive& add(const DriveProfile& profile, int unit);
+    [[nodiscard]] ModbusLink& link() noexcept { return link_; }
+    [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
+    [[nodiscard]] TargetDrive& drive(std::size_t i) noexcept { return drives_[i].drive; }
+
+    /// The shortest period in which every drive gets its target and one its status read: by the line's rate, or
+    /// measured on a tcp link. [us] The drives are open.
+    [[nodiscard]] std::uint32_t shortest_period_us();
+    /// Tells every drive where to be, each period, from now on; the motion must outlive it. Where that comes too late
+    /// it has the motion stop.
+    void start(TargetMotion& motion, std::uint32_t period_us);
+    void stop() noexcept;
+    [[nodiscard]] TargetReport report(std::size_t drive) const noexcept;
+    /// Processor time of the thread. [us]
+    [[nodiscard]] std::uint64_t busy_us() const noexcept { return busy_us_.load(std::memory_order_relaxed); }
+    /// Has every drive stop as hard as it can, ahead of everything.
+    void quick_stop() noexcept { quick_stop_.store(true, std::memory_order_relaxed); }
+
+private:
+    struct Place {
+        Place(const DriveProfile& profile, ModbusLink& link, int unit) : drive(profile, link, unit) {}
+
+        TargetDrive drive;
+        TargetReport report;
+        std::uint64_t told_us = 0;  // when the last target arrived; 0: none did
+        std::uint64_t ended_us = 0; // when it was told the end; 0: not yet
+    };
+
+    void run(TargetMotion& motion, std::uint32_t period_us) noexcept;
+    void tell(Place& place, TargetMotion& motion, std::uint32_t period_us) noexcept;
+    static void watch(const Place& place, TargetMotion& motion, std::uint64_t now_us, std::uint32_t period_us) noexcept;
+    void told(Place& place, TargetMotion& motion, bool sent, std::uint32_t period_us) noexcept;
+    void keep(Place& place) noexcept;
+
+    ModbusLink link_;
+    std::deque<Place> drives_;
+    mutable std::mutex mutex_; // of the reports
+    std::thread thread_;
+    std::atomic<bool> stopping_{false};
+    std::atomic<bool> quick_stop_{false};
+    std::atomic<std::uint64_t> busy_us_{0};
+};
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/target_drive.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr int attempts = 5;
+constexpr std::uint64_t settle_us = 20'000;
+constexpr std::uint64_t homing_begins_us = 200'000;
+constexpr std::uint64_t homing_us = 300'000'000;
+
+} // namespace
+
+TargetDrive::TargetDrive(const DriveProfile& profile, ModbusLink& link, int unit)
+    : profile_(&profile), link_(&link), unit_(unit), status_(profile) {}
+
+std::string TargetDrive::trouble(const char* what) const {
+    std::string text = std::string(what) + ": " + describe(answer_.fault);
+    if (answer_.fault == LinkFault::exception) {
+        text += std::string(" with exception ") + exception_name(answer_.exception);
+    }
+    return text;
+}
+
+bool TargetDrive::note(const LinkAnswer& answer) noexcept {
+    answer_ = answer;
+    counts_.count(answer.fault);
+    if (answer.ok()) {
+        heard_us_ = answer.answered_us;
+    }
+    return answer.ok();
+}
+
+bool TargetDrive::write(const RegisterWrite& write) noexcept {
+    return note(link_->write(unit_, write.address, write.registers()));
+}
+
+bool TargetDrive::read(std::uint16_t address, std::span<std::uint16_t> out) noexcept {
+    return note(link_->read(unit_, address, out));
+}
+
+// Before anything moves there is time to try again.
+template <class Try>
+bool TargetDrive::persist(const Try& attempt) {
+    for (int i = 0; i < attempts; ++i) {
+        if (attempt()) {
+            return true;
+        }
+        if (!link_->connected()) {
+            static_cast<void>(link_->connect());
+        }
+    }
+    return false;
+}
+
+bool TargetDrive::set_field(FieldIndex field, std::int64_t raw) {
+    return persist([&] { return write(frames().single(field, raw)); });
+}
+
+// True as well where the drive has no such register.
+bool TargetDrive::set_role(FieldRole role, std::int64_t physical_q16) {
+    const RegisterField* const field = profile_->field_of(role);
+    return field == nullptr || !field->writable() ||
+           set_field(static_cast<FieldIndex>(field - profile_->fields.data()), raw_of(*field, physical_q16).raw);
+}
+
+// A register that wears with every write only where it holds something else.
+bool TargetDrive::initialise() {
+    return std::all_of(profile_->init.begin(), profile_->init.end(), [&](const DriveProfile::InitialValue& value) {
+        const RegisterField& field = profile_->fields[value.field];
+        std::array<std::uint16_t, 4> registers{};
+        const std::span<std::uint16_t> in = std::span(registers).first(field.registers());
+        if (field.flash && field.readable()) {
+            if (!persist([&] { return read(field.address, in); })) {
+                return false;
+            }
+            if (take_raw(field, in) == value.value) {
+                return true;
+            }
+        }
+        return set_field(value.field, value.value);
+    });
+}
+
+bool TargetDrive::read_next() noexcept {
+    const std::size_t i = asked_++ % status_.reads().size();
+    const RegisterRead& frame = status_.reads()[i];
+    std::array<std::uint16_t, RegisterWrite::most> registers{};
+    const std::span<std::uint16_t> in = std::span(registers).first(frame.count);
+    if (!read(frame.address, in)) {
+        return false;
+    }
+    status_.take(i, in);
+    reading_ = status_.reading();
+    return true;
+}
+
+bool TargetDrive::read_status() noexcept {
+    asked_ = 0;
+    for (std::size_t i = 0; i < status_.reads().size(); ++i) {
+        if (!read_next()) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::string TargetDrive::check_identity() {
+    for (const DriveProfile::IdentityCheck& check : profile_->identity) {
+        const RegisterField& field = profile_->fields[check.test.field];
+        std::array<std::uint16_t, 4> registers{};
+        const std::span<std::uint16_t> in = std::span(registers).first(field.registers());
+        if (!persist([&] { return read(field.address, in); })) {
+            return trouble("its identity cannot be read");
+        }
+        if (!holds(check.test, take_raw(field, in))) {
+            return check.sentence;
+        }
+    }
+    return {};
+}
+
+std::string TargetDrive::open() {
+    if (!link_->connected() && !link_->connect()) {
+        return std::string("there is no connection (") + link_->error() + "); check address, port and cable";
+    }
+    if (profile_->link.reads_zero_until_written) {
+        TargetFrames neutral(*profile_); // all as the profile has it: nothing starts
+        const RegisterField* const control = profile_->field_of(FieldRole::control);
+        const auto index = static_cast<FieldIndex>(control - profile_->fields.data());
+        if (control != nullptr && !persist([&] { return write(neutral.single(index, control->value)); })) {
+            return trouble("it cannot be written to");
+        }
+    }
+    if (std::string what = check_identity(); !what.empty()) {
+        return what;
+    }
+    return persist([&] { return read_status(); }) ? std::string() : trouble("its status cannot be read");
+}
+
+bool TargetDrive::command(DriveCommand command) noexcept {
+    CommandSequence sequence(*profile_, frames());
+    if (!sequence.begin(command)) {
+        return false;
+    }
+    int failed = 0;
+    while (!sequence.finished()) {
+        sleep_until_us(sequence.due_us());
+        if (write(sequence.next())) {
+            sequence.told(monotonic_us());
+        } else if (++failed > attempts) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::string TargetDrive::enable(const TargetSettings& settings) {
+    if (profile_->stream == StreamWay::blocks) {
+        block_.emplace(*profile_, BlockSettings{.axis = settings.axis,
+                                                .period_us = settings.period_us,
+                                                .acceleration = settings.ramp_counts_s2});
+    } else {
+        cyclic_.emplace(*profile_, CyclicSettings{settings.axis, profile_->period_us, settings.period_us,
+                                                  settings.acceleration_counts_s2});
+    }
+    if (!initialise()) {
+        return trouble("its settings cannot be written");
+    }
+    const std::int64_t one = std::int64_t{1} << physical_bits;
+    if (profile_->stream_mode && !set_role(FieldRole::mode, *profile_->stream_mode * one)) {
+        return trouble("its mode cannot be set");
+    }
+    if (profile_->watchdog_timeout_ms > 0 && !set_role(FieldRole::watchdog, profile_->watchdog_timeout_ms * one)) {
+        return trouble("its watchdog cannot be set");
+    }
+    if (profile_->following_error_window_counts > 0 &&
+        !set_role(FieldRole::following_error_window, profile_->following_error_window_counts * one)) {
+        return trouble("its window for following errors cannot be set");
+    }
+    if (reading_.state == DriveState::fault && !command(DriveCommand::fault_reset)) {
+        return trouble("its fault cannot be reset");
+    }
+    if (!command(DriveCommand::enable)) {
+        return trouble("it cannot be enabled");
+    }
+    for (int i = 0; i < attempts; ++i) {
+        sleep_until_us(monotonic_us() + settle_us);
+        if (read_status() && reading_.state == DriveState::enabled) {
+            std::string what = settings.home ? home(settings) : std::string();
+            return what.empty() ? follow() : what;
+        }
+    }
+    return not_enabled();
+}
+
+std::string TargetDrive::not_enabled() const {
+    return reading_.state == DriveState::fault ? "it is in fault, code " + std::to_string(reading_.fault_code)
+                                               : "it does not say that it is enabled";
+}
+
+// From where it stands.
+std::string TargetDrive::follow() {
+    if (!block_) {
+        return {};
+    }
+    block_->begin(static_cast<double>(reading_.position_q16) / (1 << physical_bits));
+    aimed_ = block_->prime();
+    return persist([&] { return send(); }) ? std::string() : trouble("it cannot be told where to be");
+}
+
+std::string TargetDrive::home(const TargetSettings& settings) {
+    const std::int64_t one = std::int64_t{1} << physical_bits;
+    if (profile_->steps_of(DriveCommand::home).empty()) {
+        return "its profile has no command to home it; leave --home out, or home it by its own means";
+    }
+    if ((profile_->homing_mode && !set_role(FieldRole::mode, *profile_->homing_mode * one)) ||
+        !command(DriveCommand::home)) {
+        return trouble("it cannot be homed");
+    }
+    const std::uint64_t begun = monotonic_us();
+    for (;;) {
+        sleep_until_us(monotonic_us() + settle_us);
+        if (settings.interrupted != nullptr && settings.interrupted()) {
+            static_cast<void>(command(DriveCommand::quick_stop));
+            return "interrupted while it was homed; it was stopped";
+        }
+        if (!persist([&] { return read_status(); })) {
+            return trouble("it does not answer while it is homed");
+        }
+        const bool stands = reading_.state == DriveState::enabled && (profile_->homed ? reading_.homed : reading_.done);
+        const std::uint64_t now = monotonic_us();
+        if (stands && now > begun + homing_begins_us) { // what it says may be of the time before
+            break;
+        }
+        if (reading_.state == DriveState::fault || reading_.state == DriveState::disabled) {
+            return not_enabled();
+        }
+        if (now > begun + homing_us) {
+            static_cast<void>(command(DriveCommand::quick_stop));
+            return "its homing did not come to its end; look at its switches and its settings";
+        }
+    }
+    return profile_->stream_mode && !set_role(FieldRole::mode, *profile_->stream_mode * one)
+               ? trouble("its mode cannot be set")
+               : std::string();
+}
+
+void TargetDrive::aim(const SegmentTrack& track, const MotionInstant& instant) noexcept {
+    aimed_ = block_ ? block_->block(track, instant) : cyclic_->frame(track, instant);
+}
+
+// Once more where it was lost: what did not change is not told again.
+bool TargetDrive::send() noexcept {
+    counts_.segments += aimed_.empty() ? 0U : 1U;
+    return std::all_of(aimed_.begin(), aimed_.end(), [this](const RegisterWrite& w) { return write(w) || write(w); });
+}
+
+void TargetDrive::stood(const SegmentTrack& track, const MotionInstant& instant) noexcept {
+    if (cyclic_) {
+        cyclic_->stood(track, instant);
+    }
+}
+
+void TargetDrive::arrived(std::uint64_t arrival_us) noexcept {
+    if (block_ && !aimed_.empty()) {
+        block_->arrived(arrival_us);
+    }
+}
+
+bool TargetDrive::told_end(const SegmentTrack& track, std::uint64_t motion_us) const noexcept {
+    return block_ ? block_->told_end() : cyclic_->told_end(track, motion_us);
+}
+
+bool TargetDrive::clamped() const noexcept {
+    return block_ ? block_->clamped() : cyclic_->clamped();
+}
+
+} // namespace splinefeed::hal::modbus

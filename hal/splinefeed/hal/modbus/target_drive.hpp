@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// TargetDrive: a drive that gets target positions or blocks by its profile, one axis: enabling, targets, status.
+#pragma once
+
+#include "splinefeed/hal/modbus/block_stream.hpp"
+#include "splinefeed/hal/modbus/command_sequence.hpp"
+#include "splinefeed/hal/modbus/cyclic_stream.hpp"
+#include "splinefeed/hal/modbus/link_counts.hpp"
+#include "splinefeed/hal/modbus/modbus_link.hpp"
+#include "splinefeed/hal/modbus/status_frames.hpp"
+
+#include <string>
+
+namespace splinefeed::hal::modbus {
+
+/// How targets are to be sent.
+struct TargetSettings {
+    int axis = 0;                        ///< of the feed segments
+    std::uint32_t period_us = 10'000;    ///< between two targets
+    double acceleration_counts_s2 = 1e6; ///< of the axis, as planned
+    bool home = false;                   ///< it finds its reference first
+    bool (*interrupted)() = nullptr;     ///< asked meanwhile: a quick stop
+    double ramp_counts_s2 = 4e6;         ///< BlockSettings::acceleration
+};
+
+/// Used by one thread at a time. It allocates when it is made and in open(), and never again.
+class TargetDrive {
+public:
+    /// All must outlive it.
+    TargetDrive(const DriveProfile& profile, ModbusLink& link, int unit);
+
+    /// Connects, checks the identity, writes the init list, reads the status. Empty, or what is wrong.
+    [[nodiscard]] std::string open();
+    /// Mode, windows, fault reset, enable, and homing if so set: blocks for some seconds, or until it is homed. Empty,
+    /// or what is wrong.
+    [[nodiscard]] std::string enable(const TargetSettings& settings);
+
+    /// Computes the frames that arrive at that instant.
+    void aim(const SegmentTrack& track, const MotionInstant& instant) noexcept;
+    /// Writes them. False: they were not answered, or refused.
+    bool send() noexcept;
+    /// It was not told anything for longer than it goes on by itself: it stands.
+    void stood(const SegmentTrack& track, const MotionInstant& instant) noexcept;
+    /// When the last block arrived; UINT64_MAX: it did not.
+    void arrived(std::uint64_t arrival_us) noexcept;
+    /// Reads what reading() tells: all frames of it, or the next one in turn.
+    bool read_status() noexcept;
+    bool read_next() noexcept;
+    /// Sends a command from its first to its last frame, ahead of everything.
+    bool command(DriveCommand command) noexcept;
+
+    [[nodiscard]] const DriveReading& reading() const noexcept { return reading_; }
+    [[nodiscard]] bool told_end(const SegmentTrack& track, std::uint64_t motion_us) const noexcept;
+    /// A register could not hold what it was to be told.
+    [[nodiscard]] bool clamped() const noexcept;
+    /// Its segments are the targets.
+    [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
+    [[nodiscard]] const LinkAnswer& last_answer() const noexcept { return answer_; }
+    [[nodiscard]] std::uint64_t heard_us() const noexcept { return heard_us_; }
+    [[nodiscard]] const DriveProfile& profile() const noexcept { return *profile_; }
+    [[nodiscard]] int unit() const noexcept { return unit_; }
+    [[nodiscard]] ModbusLink& link() noexcept { return *link_; }
+
+private:
+    [[nodiscard]] TargetFrames& frames() noexcept { return block_ ? block_->frames() : cyclic_->frames(); }
+    bool write(const RegisterWrite& write) noexcept;
+    bool read(std::uint16_t address, std::span<std::uint16_t> out) noexcept;
+    bool note(const LinkAnswer& answer) noexcept;
+    template <class Try>
+    [[nodiscard]] bool persist(const Try& attempt);
+    [[nodiscard]] bool set_field(FieldIndex field, std::int64_t raw);
+    [[nodiscard]] bool set_role(FieldRole role, std::int64_t physical_q16);
+    [[nodiscard]] bool initialise();
+    [[nodiscard]] std::string home(const TargetSettings& settings);
+    [[nodiscard]] std::string follow();
+    [[nodiscard]] std::string not_enabled() const;
+    [[nodiscard]] std::string check_identity();
+    [[nodiscard]] std::string trouble(const char* what) const;
+
+    const DriveProfile* profile_;
+    ModbusLink* link_;
+    int unit_;
+    StatusFrames status_;
+    std::optional<BlockStream> block_;
+    std::optional<CyclicStream> cyclic_;
+    std::span<const RegisterWrite> aimed_;
+    DriveReading reading_;
+    LinkAnswer answer_;
+    LinkCounts counts_;
+    std::uint64_t heard_us_ = 0;
+    std::size_t asked_ = 0; // frames of the status so far
+};
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+//
+// The positions of a drive are its own: what it has where the machine's motion begins is taken off for good, so that
+// nothing jumps. Where a drive is in fault or away, the motion's clock slows down for all the others: they stay on the
+// path. The one that is away stops by itself, off it.
+#include "splinefeed/hal/modbus/target_port.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::size_t track_segments = 4096;
+constexpr double ticks_per_us = 8.0;
+constexpr std::uint64_t lead_us = 50'000;
+constexpr std::uint64_t recent_us = 50'000;
+constexpr std::uint64_t keep_us = 100'000;     // of the track: threads look at it a little later
+constexpr std::uint64_t arrive_us = 5'000'000; // for the drives to say that they have arrived
+constexpr std::uint64_t settle_us = 50'000;    // of their shafts
+constexpr double ramp_of_path = 4.0;           // BlockSettings::acceleration
+constexpr double us_per_s = 1e6;
+
+} // namespace
+
+TargetPort::TargetPort(const std::vector<TargetWiring>& wiring, const TargetPortSettings& settings)
+    : settings_(settings), motion_(track_segments, settings.reserve_us) {
+    for (const TargetWiring& drive : wiring) {
+        const auto same = [&](const auto& bus) {
+            return bus->link().address().same_wire(drive.link);
+        };
+        auto bus = std::find_if(buses_.begin(), buses_.end(), same);
+        if (bus == buses_.end()) {
+            // The wire has one timing: that of the slowest drive on it.
+            LinkTiming timing = settings.timing;
+            for (const TargetWiring& other : wiring) {
+                const LinkSettings& link = other.profile->link;
+                if (other.link.same_wire(drive.link)) {
+                    timing.answer_us = std::max(timing.answer_us, link.response_timeout_us + link.turnaround_us);
+                    timing.before_us = std::max(timing.before_us, link.silence_before_us + link.silence_after_us);
+                }
+            }
+            buses_.push_back(std::make_unique<TargetBus>(drive.link, timing));
+            bus = buses_.end() - 1;
+        }
+        Place place;
+        place.wiring = drive;
+        place.bus = bus->get();
+        place.index = place.bus->drives();
+        static_cast<void>(place.bus->add(*drive.profile, drive.link.unit));
+        places_.push_back(place);
+    }
+}
+
+std::string TargetPort::open() {
+    for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
+        const Place& place = places_[trouble_with_];
+        if (std::string what = place.bus->drive(place.index).open(); !what.empty()) {
+            return what;
+        }
+    }
+    trouble_with_ = 0;
+    for (const auto& bus : buses_) {
+        period_us_ = std::max(period_us_, bus->shortest_period_us());
+    }
+    return {};
+}
+
+LinkAnswer TargetPort::probe(std::size_t drive) noexcept {
+    TargetDrive& asked = places_[drive].bus->drive(places_[drive].index);
+    static_cast<void>(asked.read_next());
+    return asked.last_answer();
+}
+
+std::string TargetPort::prepare(const FeedSegment& first) {
+    segment_us_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(first.duration_ticks / ticks_per_us));
+    for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
+        Place& place = places_[trouble_with_];
+        TargetDrive& drive = place.bus->drive(place.index);
+        const double ramp = place.wiring.ramp_counts_s2 > 0.0 ? place.wiring.ramp_counts_s2
+                                                              : ramp_of_path * place.wiring.acceleration_counts_s2;
+        const TargetSettings settings{.axis = place.wiring.axis,
+                                      .period_us = period_us_,
+                                      .acceleration_counts_s2 = place.wiring.acceleration_counts_s2,
+                                      .home = settings_.home,
+                                      .interrupted = settings_.interrupted,
+                                      .ramp_counts_s2 = ramp};
+        if (std::string what = drive.enable(settings); !what.empty()) {
+            return what;
+        }
+        const auto axis = static_cast<std::size_t>(place.wiring.axis);
+        place.offset_units = drive.reading().position_q16 * (units_per_count >> physical_bits) - first.start[axis];
+    }
+    for (const Place& place : places_) {
+        motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(place));
+    }
+    began_us_ = monotonic_us();
+    const auto ahead_us = static_cast<std::uint32_t>(motion_.ahead_us);
+    settings_.buffer_us = std::max(settings_.buffer_us, 2 * (settings_.reserve_us + ahead_us));
+    for (const auto& bus : buses_) {
+        bus->start(motion_, period_us_);
+    }
+    return {};
+}
+
+void TargetPort::complete() noexcept {
+    const std::lock_guard lock(motion_.mutex);
+    motion_.complete = true;
+}
+
+TargetReport TargetPort::report(std::size_t drive) const noexcept {
+    return places_[drive].bus->report(places_[drive].index);
+}
+
+double TargetPort::standing_counts(std::size_t drive) const noexcept {
+    const DriveReading& reading = places_[drive].bus->drive(places_[drive].index).reading();
+    return static_cast<double>(reading.position_q16) / (1 << physical_bits);
+}
+
+const LinkCounts& TargetPort::counts(std::size_t drive) const noexcept {
+    return places_[drive].bus->drive(places_[drive].index).counts();
+}
+
+double TargetPort::position_counts(std::size_t drive) const noexcept {
+    const double offset = static_cast<double>(places_[drive].offset_units) / static_cast<double>(units_per_count);
+    return static_cast<double>(report(drive).reading.position_q16) / (1 << physical_bits) - offset;
+}
+
+bool TargetPort::heard(std::size_t drive) const noexcept {
+    const std::uint64_t now = monotonic_us();
+    return now < report(drive).heard_us + recent_us + std::uint64_t{drives()} * period_us_;
+}
+
+// How far ahead a target is: a block's at the next one, a cyclic one at the end of the drive's own period.
+std::uint32_t TargetPort::horizon_us(const Place& place) const noexcept {
+    const DriveProfile& profile = *place.wiring.profile;
+    return profile.stream == StreamWay::cyclic ? std::max(period_us_, profile.period_us) : period_us_;
+}
+
+// Half a unit of the position's register, more where targets overlap, and what half a unit of the speed's makes in a
+// period.
+double TargetPort::rounding_counts(const Place& place) const noexcept {
+    const auto unit = [&](FieldRole role) {
+        const RegisterField* const field = place.wiring.profile->field_of(role);
+        return field == nullptr ? 0.0 : std::fabs(static_cast<double>(physical_of(*field, 1))) / (1 << physical_bits);
+    };
+    const double speeds = place.wiring.profile->stream == StreamWay::blocks
+                              ? unit(FieldRole::profile_velocity) * period_us_ / us_per_s
+                              : 0.0;
+    const double overlap = static_cast<double>(horizon_us(place)) / period_us_;
+    return 0.5 * (unit(FieldRole::target_position) * overlap + speeds);
+}
+
+double TargetPort::deviation_counts(std::size_t drive) const noexcept {
+    const Place& place = places_[drive];
+    const double late_s = static_cast<double>(report(drive).late_us) / us_per_s;
+    const double period_s = period_us_ / us_per_s;
+    // Speed and ramp stay as they were for as long.
+    double late = place.wiring.acceleration_counts_s2 * late_s * (period_s + late_s);
+    if (place.wiring.profile->stream == StreamWay::cyclic) { // and beyond its own period it stands
+        late += place.speed_counts_s * std::max(0.0, late_s - (horizon_us(place) / us_per_s - period_s));
+    }
+    // Then all stop: what the path goes on meanwhile.
+    const double stopped_s = 2.0 * period_s + (TargetBus::allowed_late_us + settings_.reserve_us) / us_per_s;
+    late = std::min(late, place.speed_counts_s * stopped_s);
+    return place.deviation_counts + rounding_counts(place) + late;
+}
+
+double TargetPort::deviation_bound_counts(std::size_t drive) const noexcept {
+    const Place& place = places_[drive];
+    const double period_s = period_us_ / us_per_s;
+    return place.wiring.acceleration_counts_s2 * period_s * period_s / 8.0 + rounding_counts(place);
+}
+
+std::uint64_t TargetPort::busy_us() const noexcept {
+    std::uint64_t sum = 0;
+    for (const auto& bus : buses_) {
+        sum += bus->busy_us();
+    }
+    return sum;
+}
+
+void TargetPort::close() noexcept {
+    for (const auto& bus : buses_) {
+        bus->stop();
+    }
+}
+
+int TargetPort::do_room() const noexcept {
+    if (!takes()) {
+        return 0;
+    }
+    const std::lock_guard lock(motion_.mutex);
+    const std::uint64_t now = motion_.clock.time_us(monotonic_us());
+    const std::uint64_t held = motion_.track.end_us() - std::min(now, motion_.track.end_us());
+    const std::uint64_t most = settings_.buffer_us + period_us_;
+    const std::uint64_t room = held < most ? (most - held) / segment_us_ + 1 : 0;
+    return static_cast<int>(std::min<std::uint64_t>(room, motion_.track.room()));
+}
+
+bool TargetPort::do_submit(const FeedSegment& segment) noexcept {
+    if (!takes()) {
+        return false;
+    }
+    FeedSegment moved = segment;
+    for (Place& place : places_) {
+        const auto axis = static_cast<std::size_t>(place.wiring.axis);
+        moved.start[axis] += place.offset_units;
+        moved.end[axis] += place.offset_units;
+        const auto way =
+            static_cast<double>(std::max(std::abs(segment.start_velocity[axis]), std::abs(segment.end_velocity[axis])));
+        place.speed_counts_s = std::max(place.speed_counts_s, way / static_cast<double>(units_per_count) *
+                                                                  ticks_per_us * us_per_s / segment.duration_ticks);
+        place.deviation_counts =
+            std::max(place.deviation_counts, line_deviation_counts(segment, place.wiring.axis, period_us_));
+    }
+    const std::lock_guard lock(motion_.mutex);
+    ++submitted_;
+    return motion_.track.push(moved);
+}
+
+// All of them slow down, on the path.
+void TargetPort::stop(Phase then) noexcept {
+    if (phase_ == Phase::filling || phase_ == Phase::waiting) { // nothing moves
+        phase_ = then;
+        return;
+    }
+    const std::lock_guard lock(motion_.mutex);
+    if (!motion_.clock.stopping()) {
+        motion_.clock.stop(monotonic_us());
+    }
+    phase_ = Phase::stopping;
+    after_stop_ = then;
+}
+
+// False: a drive is in trouble.
+bool TargetPort::watch() noexcept {
+    const std::uint64_t now = monotonic_us();
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const TargetReport seen = report(i);
+        if (seen.reading.state == DriveState::fault) {
+            trouble_ = "it is in fault, code " + std::to_string(seen.reading.fault_code) + "; see its manual";
+        } else if (now > std::max(seen.heard_us, began_us_) + settings_.away_us) {
+            trouble_ = std::string("it does not answer any more: ") + describe(seen.fault);
+        } else if (seen.clamped) {
+            trouble_ = "a register cannot hold the position or speed that it was to be told; check scale and clamp in "
+                       "its profile";
+        } else if (seen.reading.state == DriveState::disabled) {
+            trouble_ = "it was disabled while it moved";
+        } else {
+            continue;
+        }
+        trouble_with_ = i;
+        return false;
+    }
+    return true;
+}
+
+// A cyclic drive has no move that could be done: it counts where it stands.
+bool TargetPort::arrived() noexcept {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const TargetReport seen = report(i);
+        bool there = seen.reading.done;
+        if (places_[i].wiring.profile->stream == StreamWay::cyclic) {
+            const std::lock_guard lock(motion_.mutex);
+            const TrackPoint end = motion_.track.at(places_[i].wiring.axis, motion_.track.end_us());
+            there = std::abs(seen.reading.position_q16 - end.position_q16) <= (1 << physical_bits);
+        }
+        if (!seen.told_end || !there) {
+            trouble_with_ = i;
+            return false;
+        }
+    }
+    return true;
+}
+
+// As far as the clock tells.
+std::uint64_t TargetPort::executed() const noexcept {
+    const std::lock_guard lock(motion_.mutex);
+    return std::min(motion_.clock.time_us(monotonic_us()) / segment_us_, submitted_);
+}
+
+// Any bus may have stopped the clock, for all.
+void TargetPort::follow_clock(std::uint64_t now_us) noexcept {
+    bool all_heard = true;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        all_heard = all_heard && heard(i);
+    }
+    const std::lock_guard lock(motion_.mutex);
+    const std::uint64_t time_us = motion_.time_us(now_us);
+    const std::uint64_t end_us = motion_.track.end_us();
+    const bool filled = motion_.complete || end_us >= time_us + settings_.buffer_us;
+    switch (phase_) {
+    case Phase::filling:
+        if (filled && !motion_.track.empty()) {
+            motion_.clock.start(now_us + lead_us);
+            phase_ = Phase::running;
+        }
+        break;
+    case Phase::running:
+        motion_.track.release(time_us > keep_us ? time_us - keep_us : 0);
+        if (motion_.clock.stopping()) {
+            phase_ = Phase::stopping;
+            after_stop_ = Phase::waiting;
+        } else if (motion_.complete && time_us >= end_us) {
+            phase_ = Phase::arriving;
+            arriving_us_ = now_us;
+        }
+        break;
+    case Phase::stopping: phase_ = motion_.clock.stands(now_us) ? after_stop_ : phase_; break;
+    case Phase::waiting:
+        if (filled && all_heard && now_us > stood_us_ + settle_us) {
+            motion_.clock.resume(now_us + lead_us);
+            ++resumes_;
+            phase_ = Phase::running;
+        }
+        break;
+    case Phase::arriving:
+    case Phase::halted:
+    case Phase::done:
+    case Phase::fault: break;
+    }
+    stood_us_ = phase_ == Phase::waiting ? stood_us_ : now_us;
+}
+
+PortState TargetPort::do_poll() noexcept {
+    const std::uint64_t now = monotonic_us();
+    const bool ends = phase_ == Phase::halted || phase_ == Phase::done || phase_ == Phase::fault ||
+                      (phase_ == Phase::stopping && after_stop_ != Phase::waiting);
+    if (!ends && !watch()) {
+        stop(Phase::fault);
+    }
+    follow_clock(now);
+    there_us_ = phase_ != Phase::arriving || !arrived() ? 0 : there_us_ == 0 ? now : there_us_;
+    if (there_us_ != 0 && now > there_us_ + settle_us) {
+        phase_ = Phase::done;
+    } else if (phase_ == Phase::arriving && now > arriving_us_ + arrive_us) {
+        trouble_ = "it does not say that it has arrived";
+        phase_ = Phase::fault;
+    }
+    const PortPhase phase = phase_ == Phase::fault    ? PortPhase::fault
+                            : phase_ == Phase::halted ? PortPhase::halted
+                            : phase_ == Phase::done   ? PortPhase::idle
+                                                      : PortPhase::running;
+    return {phase, executed()};
+}
+
+void TargetPort::do_halt() noexcept {
+    if (takes() || phase_ == Phase::arriving) {
+        stop(Phase::halted);
+    }
+}
+
+void TargetPort::quick_stop() noexcept {
+    for (const auto& bus : buses_) {
+        bus->quick_stop();
+    }
+    phase_ = Phase::halted;
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// TargetPort: a motion port whose axes are drives that get targets or blocks on the fly (their profiles say which), all
+// of them along one motion clock.
+#pragma once
+
+#include "splinefeed/hal/modbus/target_bus.hpp"
+#include "splinefeed/hal/motion_port.hpp"
+
+namespace splinefeed::hal::modbus {
+
+/// A drive of one axis.
+struct TargetWiring {
+    LinkAddress link;
+    const DriveProfile* profile = nullptr; ///< must outlive the port
+    int axis = 0;                          ///< of the machine
+    double acceleration_counts_s2 = 1e6;   ///< of that axis, as planned
+    double ramp_counts_s2 = 0.0;           ///< what the drive is set to, where its profile has no register for it
+};
+
+struct TargetPortSettings {
+    std::uint32_t reserve_us = 100'000; ///< motion on which a stop on the path takes place
+    bool home = false;                  ///< prepare() has the drives find their references first, one after the other
+    bool (*interrupted)() = nullptr;    ///< asked meanwhile: a quick stop
+    std::uint32_t buffer_us = 300'000;  ///< motion that is planned ahead
+    std::uint32_t away_us = 5'000'000;  ///< a drive that was not heard for this long: the port gives up
+    LinkTiming timing{};
+};
+
+class TargetPort final : public MotionPort {
+public:
+    /// One bus for each wire. It allocates, as open() and prepare() do; submit, poll and halt do not.
+    TargetPort(const std::vector<TargetWiring>& wiring, const TargetPortSettings& settings);
+    TargetPort(const TargetPort&) = delete;
+    TargetPort& operator=(const TargetPort&) = delete;
+    ~TargetPort() { close(); }
+
+    /// Connects to all drives and looks whether they are what their profiles say. Empty, or what is wrong with
+    /// trouble_with(). Nothing moves.
+    [[nodiscard]] std::string open();
+    /// Period of the targets: the shortest that every wire and drive can keep, found by open(). [us]
+    [[nodiscard]] std::uint32_t period_us() const noexcept { return period_us_; }
+    /// Reads a drive's status once, the next frame of it. After open(), before prepare().
+    LinkAnswer probe(std::size_t drive) noexcept;
+    /// Enables all drives; where they stand is where the first segment starts. Empty, or what is wrong.
+    [[nodiscard]] std::string prepare(const FeedSegment& first);
+    /// No more segments come.
+    void complete() noexcept;
+    /// Every axis stops as hard as its drive can, off the path.
+    void quick_stop() noexcept;
+
+    /// Why it is in fault; the drive that it is about.
+    [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
+    [[nodiscard]] std::size_t trouble_with() const noexcept { return trouble_with_; }
+    [[nodiscard]] std::size_t drives() const noexcept { return places_.size(); }
+    [[nodiscard]] TargetReport report(std::size_t drive) const noexcept;
+    /// Before prepare(): where the drive itself says that it is, and how its wire did.
+    [[nodiscard]] double standing_counts(std::size_t drive) const noexcept;
+    [[nodiscard]] const LinkCounts& counts(std::size_t drive) const noexcept;
+    /// Where a machine's axis stands by what its drive says, in counts of the machine.
+    [[nodiscard]] double position_counts(std::size_t drive) const noexcept;
+    /// Whether it was heard just now.
+    [[nodiscard]] bool heard(std::size_t drive) const noexcept;
+    /// How far the drive may have been from the path between two targets, by what was submitted so far, with what its
+    /// registers round and how late its targets came. [counts]
+    [[nodiscard]] double deviation_counts(std::size_t drive) const noexcept;
+    /// The same by the axis's acceleration.
+    [[nodiscard]] double deviation_bound_counts(std::size_t drive) const noexcept;
+    /// How often all stopped together, because targets came late, and went on.
+    [[nodiscard]] std::uint32_t resumes() const noexcept { return resumes_; }
+    [[nodiscard]] std::uint64_t busy_us() const noexcept;
+    void close() noexcept;
+
+private:
+    enum class Phase : std::uint8_t { filling, running, arriving, stopping, waiting, halted, done, fault };
+
+    struct Place {
+        TargetWiring wiring;
+        TargetBus* bus = nullptr;
+        std::size_t index = 0;         // on the bus
+        std::int64_t offset_units = 0; // the drive's position less the machine's
+        double deviation_counts = 0.0; // between targets alone
+        double speed_counts_s = 0.0;   // the largest
+    };
+
+    [[nodiscard]] int do_room() const noexcept override;
+    [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
+    PortState do_poll() noexcept override;
+    void do_halt() noexcept override;
+
+    [[nodiscard]] std::uint32_t horizon_us(const Place& place) const noexcept;
+    [[nodiscard]] double rounding_counts(const Place& place) const noexcept;
+    bool watch() noexcept;
+    void stop(Phase then) noexcept;
+    void follow_clock(std::uint64_t now_us) noexcept;
+    [[nodiscard]] bool takes() const noexcept {
+        return phase_ == Phase::filling || phase_ == Phase::running || phase_ == Phase::waiting ||
+               (phase_ == Phase::stopping && after_stop_ == Phase::waiting);
+    }
+    [[nodiscard]] bool arrived() noexcept;
+    [[nodiscard]] std::uint64_t executed() const noexcept;
+
+    TargetPortSettings settings_;
+    mutable TargetMotion motion_; // the buses' threads use it to their end
+    std::vector<std::unique_ptr<TargetBus>> buses_;
+    std::vector<Place> places_;
+    std::string trouble_;
+    std::size_t trouble_with_ = 0;
+    Phase phase_ = Phase::filling;
+    Phase after_stop_ = Phase::halted;
+    std::uint64_t arriving_us_ = 0;
+    std::uint64_t began_us_ = 0; // the buses' threads
+    std::uint64_t stood_us_ = 0; // when it began to wait
+    std::uint64_t there_us_ = 0; // all have arrived since then; 0: not yet
+    std::uint64_t submitted_ = 0;
+    std::uint64_t segment_us_ = 1;
+    std::uint32_t period_us_ = 0;
+    std::uint32_t resumes_ = 0;
+};
+
+} // namespace splinefeed::hal::modbus

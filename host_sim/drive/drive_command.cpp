@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/drive/drive_command.hpp"
+
+#include "host_sim/drive/drive_server.hpp"
+#include "host_sim/drive/profile_drive.hpp"
+#include "host_sim/drive/pvt_drive.hpp"
+#include "host_sim/drive/shipped_profiles.hpp"
+#include "host_sim/input_error.hpp"
+#include "host_sim/option_number.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <fmt/format.h>
+#include <random>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double farthest_counts = 2147483647.0;
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+extern "C" void request_stop(int /*signal*/) {
+    stop_requested = 1;
+}
+
+std::vector<double> numbers(std::string_view option, std::string_view text, double low, double high) {
+    std::vector<double> out;
+    for (std::string_view rest = text;;) {
+        const std::size_t comma = rest.find(',');
+        out.push_back(read_option_number(option, rest.substr(0, comma), low, high));
+        if (comma == std::string_view::npos) {
+            return out;
+        }
+        rest.remove_prefix(comma + 1);
+    }
+}
+
+/// One value for all axes, or one for each.
+void take_each(std::vector<PvtAxisParameters>& axes, std::string_view option, const std::optional<std::string>& text,
+               double low, double high, double PvtAxisParameters::*member) {
+    if (!text) {
+        return;
+    }
+    const std::vector<double> values = numbers(option, *text, low, high);
+    if (values.size() != 1 && values.size() != axes.size()) {
+        throw UsageError(fmt::format("{} {} has {} numbers; there must be one, or one for each of the {} axes", option,
+                                     in_quotes(*text), values.size(), axes.size()));
+    }
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        axes[k].*member = values[values.size() == 1 ? 0 : k];
+    }
+}
+
+std::size_t choose_axes(const DriveArguments& arguments, const hal::modbus::DriveProfile& profile) {
+    constexpr std::size_t usual = 3;
+    if (profile.axes == 1) {
+        if (arguments.axes && read_option_integer("--axes", *arguments.axes, 1, max_axes) != 1) {
+            throw UsageError(fmt::format("--axes {}: a drive with the profile {} has one axis; start one for each",
+                                         in_quotes(*arguments.axes), profile.name));
+        }
+        return 1;
+    }
+    if (arguments.axes) {
+        return static_cast<std::size_t>(read_option_integer("--axes", *arguments.axes, 1, max_axes));
+    }
+    const std::size_t named =
+        arguments.position ? numbers("--position", *arguments.position, -farthest_counts, farthest_counts).size() : 1;
+    return named == 1 ? std::min<std::size_t>(usual, max_axes) : std::min<std::size_t>(named, max_axes);
+}
+
+ShaftParameters shaft_parameters(const DriveArguments& arguments) {
+    ShaftParameters shaft;
+    if (arguments.bandwidth) {
+        shaft.bandwidth_hz = read_option_number("--bandwidth", *arguments.bandwidth, 0.1, 10000.0);
+    }
+    if (arguments.damping) {
+        shaft.damping = read_option_number("--damping", *arguments.damping, 0.0, 0.999);
+    }
+    if (arguments.feed_forward) {
+        shaft.feed_forward = read_option_number("--feed-forward", *arguments.feed_forward, 0.0, 2.0);
+    }
+    return shaft;
+}
+
+PvtDriveParameters pvt_parameters(const DriveArguments& arguments, std::size_t axes) {
+    constexpr double fastest = 1e12;
+    PvtDriveParameters out;
+    out.axes.assign(axes, {});
+    const ShaftParameters shaft = shaft_parameters(arguments);
+    for (PvtAxisParameters& axis : out.axes) {
+        axis.shaft = shaft;
+    }
+    take_each(out.axes, "--position", arguments.position, -farthest_counts, farthest_counts,
+              &PvtAxisParameters::start_counts);
+    take_each(out.axes, "--max-velocity", arguments.max_velocity, 0.0, fastest, &PvtAxisParameters::largest_counts_s);
+    take_each(out.axes, "--max-acceleration", arguments.max_acceleration, 0.0, fastest,
+              &PvtAxisParameters::largest_counts_s2);
+    take_each(out.axes, "--stop-deceleration", arguments.stop_deceleration, 1.0, fastest,
+              &PvtAxisParameters::stop_counts_s2);
+    if (arguments.ring) {
+        out.ring = static_cast<std::uint16_t>(read_option_integer("--ring", *arguments.ring, 16, 65535));
+    }
+    // As in a real one: nobody knows what it will be.
+    std::random_device any;
+    out.boot = any();
+    out.clock_start_us = any();
+    return out;
+}
+
+std::unique_ptr<DriveModel> make_pvt_drive(const DriveArguments& arguments, std::size_t axes, SegmentRecord* segments) {
+    auto drive = std::make_unique<PvtDrive>(pvt_parameters(arguments, axes));
+    if (segments != nullptr) {
+        drive->machine().observe([segments](const ExecutedSegment& executed) { segments->row(executed); });
+    }
+    return drive;
+}
+
+ProfileDriveParameters profile_parameters(const DriveArguments& arguments, const std::string& profile) {
+    const std::array<std::pair<const char*, bool>, 4> of_segments{
+        {{"--ring", arguments.ring.has_value()},
+         {"--max-velocity", arguments.max_velocity.has_value()},
+         {"--max-acceleration", arguments.max_acceleration.has_value()},
+         {"--record-segments", arguments.record_segments.has_value()}}};
+    for (const auto& [option, given] : of_segments) {
+        if (given) {
+            throw UsageError(fmt::format("{} is for drives that take segments, not for the profile {}; leave it out",
+                                         option, profile));
+        }
+    }
+    ProfileDriveParameters out;
+    out.axis.shaft = shaft_parameters(arguments);
+    if (arguments.position && arguments.position->find(',') != std::string::npos) {
+        throw UsageError(fmt::format("--position {}: a drive with the profile {} has one axis; give one number",
+                                     in_quotes(*arguments.position), profile));
+    }
+    if (arguments.position) {
+        out.axis.start_counts =
+            read_option_number("--position", *arguments.position, -farthest_counts, farthest_counts);
+    }
+    if (arguments.stop_deceleration) {
+        out.axis.stop_counts_s2 = read_option_number("--stop-deceleration", *arguments.stop_deceleration, 1.0, 1e12);
+    }
+    return out;
+}
+
+/// The one place where a profile becomes a model.
+std::unique_ptr<DriveModel> make_drive_model(const DriveArguments& arguments, const hal::modbus::DriveProfile& profile,
+                                             std::size_t axes, SegmentRecord* segments) {
+    if (profile.stream == hal::modbus::StreamWay::pvt) {
+        return make_pvt_drive(arguments, axes, segments);
+    }
+    return make_drive(profile, profile_parameters(arguments, profile.name));
+}
+
+void check_records(const DriveArguments& arguments) {
+    if (arguments.record && arguments.record == arguments.record_segments) {
+        throw UsageError("--record and --record-segments both go to one file; give each its own");
+    }
+    for (const auto& [option, path] :
+         {std::pair{"--record", &arguments.record}, std::pair{"--record-segments", &arguments.record_segments}}) {
+        if (!*path) {
+            continue;
+        }
+        if (*path == "-") {
+            throw UsageError(
+                fmt::format("{} -: standard output tells where the drive listens; record to a file", option));
+        }
+        if ((*path)->empty()) {
+            throw UsageError(fmt::format("{} needs the name of a file", option));
+        }
+    }
+}
+
+} // namespace
+
+void add_drive_options(CLI::App& app, DriveArguments& arguments) {
+    const auto option = [&app](const char* name, std::optional<std::string>& value, const char* text) {
+        return app.add_option(name, value, text);
+    };
+    app.add_option(
+        "--listen", arguments.listen,
+        "tcp://127.0.0.1:1502 (default), port 0: a free one; or rtu:///dev/pts/3?baud=115200&parity=E&unit=1, "
+        "with &pace=off faster than a line of that rate");
+    app.add_option("--profile", arguments.profile,
+                   "the drive that it plays: a name or FILE.toml (default splinefeed-pvt)");
+    app.add_flag("--list-profiles", arguments.list_profiles, "print the profiles and do nothing else")
+        ->disable_flag_override();
+    option("--axes", arguments.axes, "1 to 6 (default 3; other profiles than splinefeed-pvt have one)");
+    option("--position", arguments.position, "A,B,C: where the shafts stand at first [counts] (default 0)");
+    option("--ring", arguments.ring, "segments that it holds, 16 to 65535 (default 512)");
+    option("--faults", arguments.faults,
+           "drop=P, corrupt=P, exception=P, duplicate=P, stale=P (probabilities per exchange), delay=MS:P, "
+           "disconnect@S:MS, freeze@S:MS, power-cycle@S, swap-words@S, clock-skew=PPM, seed=N; several with commas");
+    app.add_flag("--allow-remote", arguments.allow_remote, "listen to other computers, too")->disable_flag_override();
+    const std::string shafts = "Shafts (one value, or one for each axis)";
+    option("--max-velocity", arguments.max_velocity, "[counts/s]; beyond is a fault (default: none)")->group(shafts);
+    option("--max-acceleration", arguments.max_acceleration, "[counts/s^2]; beyond is a fault (default: none)")
+        ->group(shafts);
+    option("--stop-deceleration", arguments.stop_deceleration, "of a quick stop [counts/s^2] (default 2e6)")
+        ->group(shafts);
+    const std::string loop = "Position loop";
+    option("--bandwidth", arguments.bandwidth, "[Hz] (default 60)")->group(loop);
+    option("--damping", arguments.damping, "0 to 0.999 (default 0.7)")->group(loop);
+    option("--feed-forward", arguments.feed_forward, "of the acceleration; 1 follows exactly (default 1)")->group(loop);
+    const std::string outputs = "Outputs";
+    app.add_option("--record", arguments.record, "T.csv: where the shafts are, each millisecond [counts]")
+        ->group(outputs);
+    app.add_option("--record-segments", arguments.record_segments, "S.csv: each segment when it was executed")
+        ->group(outputs);
+}
+
+int run_drive(const DriveArguments& arguments) {
+    if (arguments.list_profiles) {
+        fmt::print("{}", list_profiles());
+        return 0;
+    }
+    check_records(arguments);
+    const ListenAddress address = parse_listen_address(arguments.listen, arguments.allow_remote);
+    const DriveFaults faults = parse_drive_faults(arguments.faults.value_or(""));
+    const std::uint64_t seed = faults.seed.value_or(std::random_device{}());
+    std::optional<SegmentRecord> segments;
+    const hal::modbus::DriveProfile profile = find_profile(arguments.profile);
+    const std::size_t axes = choose_axes(arguments, profile);
+    if (arguments.record_segments) {
+        segments.emplace(*arguments.record_segments, static_cast<int>(axes));
+    }
+    const std::unique_ptr<DriveModel> drive =
+        make_drive_model(arguments, profile, axes, segments ? &*segments : nullptr);
+    // Before anybody can know that it runs: who has read the line below may stop it.
+    stop_requested = 0;
+    static_cast<void>(std::signal(SIGTERM, request_stop));
+    static_cast<void>(std::signal(SIGINT, request_stop));
+    DriveServer server(*drive, address, faults, seed);
+    std::optional<DriveRecord> record;
+    if (arguments.record) {
+        record.emplace(*arguments.record, arguments.profile, drive->axes(), server.start_s());
+    }
+    if (faults.random() && !faults.seed) {
+        fmt::print(stderr, "splinefeed: --faults seed={}\n", seed);
+    }
+    fmt::print("listening on {}, profile {}, {} {}\n", server.address().text(), arguments.profile, drive->axes(),
+               drive->axes() == 1 ? "axis" : "axes");
+    if (std::fflush(stdout) != 0) {
+        throw OutputError("standard output: it cannot be written; keep its reader running");
+    }
+    server.run(stop_requested, record ? &*record : nullptr);
+    if (record) {
+        record->commit();
+    }
+    if (segments) {
+        segments->commit();
+    }
+    return 0;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// DriveModel: a simulated drive as its registers and its time, without any line: what answers, and what the shafts do.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace splinefeed::host {
+
+/// Exception codes of the Modbus application protocol.
+enum class ModbusException : std::uint8_t {
+    none = 0,
+    illegal_function = 1,
+    illegal_address = 2,
+    illegal_value = 3,
+    device_failure = 4,
+    busy = 6,
+};
+
+/// A drive of one or several axes. Its time is that of its own clock, and passes only by advance().
+class DriveModel {
+public:
+    DriveModel() = default;
+    DriveModel(const DriveModel&) = delete;
+    DriveModel& operator=(const DriveModel&) = delete;
+    virtual ~DriveModel() = default;
+
+    /// Lets its time pass. @pre now_us is not before the last one
+    virtual void advance(std::uint64_t now_us) = 0;
+    /// Reads holding registers, all or none.
+    [[nodiscard]] virtual ModbusException read(int address, std::span<std::uint16_t> out) = 0;
+    /// Writes holding registers, as one frame: all or none.
+    [[nodiscard]] virtual ModbusException write(int address, std::span<const std::uint16_t> values) = 0;
+    /// Power off and on: shafts stay where they are; what is not in flash is lost.
+    virtual void power_cycle() = 0;
+    /// A fault: from now on the words of numbers of several registers go the other way round. Again: as before.
+    virtual void swap_words() {}
+
+    [[nodiscard]] virtual int axes() const = 0;
+    /// Of the shaft. [counts]
+    [[nodiscard]] virtual double position_counts(int axis) const = 0;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/drive/drive_server.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splinefeed::host {
+
+namespace {
+
+using std::chrono::duration_cast;
+using std::chrono::microseconds;
+
+constexpr std::size_t kept_replies = 8;
+constexpr std::size_t block_bytes = 22;      // of an exchange block of splinefeed-pvt: a write that long has a checksum
+constexpr double quiet_characters = 3.5;     // at the end of a frame
+constexpr microseconds quiet_at_least{1750}; // above 19200 baud
+
+microseconds from_ms(double ms) {
+    return microseconds(std::llround(ms * 1000.0));
+}
+
+} // namespace
+
+DriveServer::DriveServer(DriveModel& model, const ListenAddress& address, DriveFaults faults, std::uint64_t seed)
+    : model_(&model), line_(address), exchange_(model, line_.address()), faults_(std::move(faults)),
+      dice_(faults_, seed), start_(Clock::now()), line_free_(start_) {}
+
+double DriveServer::start_s() const noexcept {
+    return std::chrono::duration<double>(start_.time_since_epoch()).count();
+}
+
+std::uint64_t DriveServer::model_us(Clock::time_point time) const {
+    const double passed = std::chrono::duration<double, std::micro>(time - start_).count();
+    return static_cast<std::uint64_t>(std::max(passed * (1.0 + faults_.clock_skew_ppm * 1e-6), 0.0));
+}
+
+void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* record) {
+    while (stop == 0) {
+        fire_events(Clock::now());
+        const bool deaf = thaws_.has_value() || connects_.has_value();
+        line_.wait(until_next(Clock::now()), deaf);
+        Clock::time_point now = Clock::now();
+        advance(now, record);
+        if (!deaf) {
+            for (DriveLine::Request& request : line_.receive()) {
+                now = Clock::now();
+                advance(now, record);
+                accept(std::move(request), now);
+            }
+        }
+        if (!thaws_) {
+            deliver(Clock::now());
+        }
+    }
+    // The record ends behind everything that was told.
+    line_.wait(microseconds(1000 - model_us(Clock::now()) % 1000 + 1), true);
+    advance(Clock::now(), record);
+}
+
+microseconds DriveServer::until_next(Clock::time_point now) const {
+    constexpr microseconds row{1000};
+    microseconds wait = row - microseconds(model_us(now) % 1000);
+    for (const Due& due : due_) {
+        wait = std::min(wait, duration_cast<microseconds>(due.time - now));
+    }
+    return std::max(wait, microseconds(0));
+}
+
+void DriveServer::fire_events(Clock::time_point now) {
+    if (connects_ && *connects_ <= now) {
+        connects_.reset();
+        line_.connect();
+    }
+    if (thaws_ && *thaws_ <= now) {
+        thaws_.reset();
+    }
+    for (; event_ < faults_.events.size(); ++event_) {
+        const DriveFaults::Event& event = faults_.events[event_];
+        if (start_ + from_ms(event.time_s * 1000.0) > now) {
+            return;
+        }
+        switch (event.kind) {
+        case DriveFaults::EventKind::disconnect:
+            line_.disconnect();
+            due_.clear();
+            connects_ = now + from_ms(event.duration_ms);
+            break;
+        case DriveFaults::EventKind::freeze: thaws_ = now + from_ms(event.duration_ms); break;
+        case DriveFaults::EventKind::power_cycle:
+            model_->advance(model_us(now));
+            model_->power_cycle();
+            due_.clear();
+            if (!connects_) {
+                line_.disconnect();
+                line_.connect();
+            }
+            break;
+        case DriveFaults::EventKind::swap_words: model_->swap_words(); break;
+        }
+    }
+}
+
+void DriveServer::advance(Clock::time_point now, DriveRecord* record) {
+    const std::uint64_t now_us = model_us(now);
+    for (; recorded_ms_ * 1000 <= now_us; ++recorded_ms_) {
+        model_->advance(recorded_ms_ * 1000);
+        if (record != nullptr) {
+            record->row(recorded_ms_, *model_);
+        }
+    }
+    model_->advance(now_us);
+}
+
+microseconds DriveServer::line_time(std::size_t bytes) const {
+    const ListenAddress& address = line_.address();
+    return address.kind == ListenAddress::Kind::tcp || !address.pace
+               ? microseconds(0)
+               : microseconds(std::llround(static_cast<double>(bytes) * address.character_us()));
+}
+
+// A paced frame that has arrived in no time would still be on its way.
+void DriveServer::accept(DriveLine::Request request, Clock::time_point now) {
+    const microseconds frame = line_time(request.bytes.size());
+    if (frame.count() == 0) {
+        serve(request.channel, std::move(request.bytes), now);
+        return;
+    }
+    const auto quiet =
+        std::max(quiet_at_least, microseconds(std::llround(quiet_characters * line_.address().character_us())));
+    const Clock::time_point arrived = std::max(now, line_free_) + frame + quiet;
+    due_.push_back({arrived, true, request.channel, std::move(request.bytes)});
+}
+
+void DriveServer::serve(int channel, Bytes request, Clock::time_point now) {
+    const ExchangeFaults faults = dice_.next();
+    if (faults.drop_request) {
+        return;
+    }
+    const bool damages_request = faults.corrupt && (faults.bits & 1U) != 0 && !faults.exception;
+    if (damages_request && line_.address().kind == ListenAddress::Kind::rtu) {
+        return; // its CRC would be wrong
+    }
+    const bool damaged = damages_request && damage_block(request, faults.bits >> 1U);
+    Bytes reply = reply_to(request, faults);
+    if (faults.drop_reply || reply.empty()) {
+        return;
+    }
+    const Bytes intact = reply;
+    const bool stale = faults.stale && replace_by_stale(reply);
+    sent_.push_back(intact);
+    if (sent_.size() > kept_replies) {
+        sent_.pop_front();
+    }
+    if (faults.corrupt && !damaged && !stale) {
+        const std::size_t bit = (faults.bits >> 1U) % (8 * reply.size());
+        reply[bit / 8] = static_cast<std::uint8_t>(reply[bit / 8] ^ 1U << bit % 8);
+    }
+    const Clock::time_point due = now + from_ms(faults.delay_ms) + line_time(reply.size());
+    send(channel, reply, due);
+    if (faults.repeat_reply) {
+        send(channel, std::move(reply), due + line_time(intact.size()));
+    }
+}
+
+DriveServer::Bytes DriveServer::reply_to(const Bytes& request, const ExchangeFaults& faults) {
+    if (faults.exception) {
+        return exchange_.refuse(request,
+                                (faults.bits & 2U) != 0 ? ModbusException::busy : ModbusException::device_failure);
+    }
+    if (faults.repeat_request) {
+        static_cast<void>(exchange_.answer(request));
+    }
+    return exchange_.answer(request);
+}
+
+// Nothing protects a frame on TCP; what is written with a checksum of its own can be damaged, and must be found out.
+bool DriveServer::damage_block(Bytes& request, std::uint64_t bits) const {
+    const std::uint8_t function = request[exchange_.header()];
+    const std::size_t data = exchange_.header() + (function == 16 ? 6 : 10);
+    if ((function != 16 && function != 23) || request.size() < data + block_bytes) {
+        return false;
+    }
+    const std::size_t bit = bits % (8 * (request.size() - data));
+    std::uint8_t& byte = request[data + bit / 8];
+    byte = static_cast<std::uint8_t>(byte ^ 1U << bit % 8);
+    return true;
+}
+
+// The oldest one that could be taken for this reply. Over TCP with the number of this transaction: a gateway that mixes
+// up its clients does that.
+bool DriveServer::replace_by_stale(Bytes& reply) const {
+    const std::size_t header = exchange_.header();
+    const auto alike = [&](const Bytes& old) {
+        return old.size() == reply.size() && old[header] == reply[header];
+    };
+    const auto found = std::find_if(sent_.begin(), sent_.end(), alike);
+    if (found == sent_.end() || *found == reply) {
+        return false;
+    }
+    Bytes old = *found;
+    if (line_.address().kind == ListenAddress::Kind::tcp) {
+        std::copy_n(reply.begin(), 2, old.begin());
+    }
+    reply = std::move(old);
+    return true;
+}
+
+void DriveServer::send(int channel, Bytes reply, Clock::time_point due) {
+    due_.push_back({due, false, channel, std::move(reply)});
+}
+
+void DriveServer::deliver(Clock::time_point now) {
+    for (std::size_t i = 0; i < due_.size();) {
+        if (due_[i].time > now) {
+            ++i;
+            continue;
+        }
+        Due due = std::move(due_[i]);
+        due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(i));
+        if (due.request) {
+            model_->advance(model_us(now));
+            serve(due.channel, std::move(due.bytes), now);
+        } else {
+            line_.send(due.channel, due.bytes);
+            line_free_ = now;
+        }
+    }
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// DriveServer: a drive model on a line, in real time, with faults.
+#pragma once
+
+#include "host_sim/drive/drive_faults.hpp"
+#include "host_sim/drive/drive_line.hpp"
+#include "host_sim/drive/drive_record.hpp"
+
+#include <csignal>
+#include <deque>
+
+namespace splinefeed::host {
+
+/// The model's time is CLOCK_MONOTONIC since the server was made (faster or slower by the faults' clock skew); the
+/// model is advanced to each whole millisecond of it, where the record gets its row, and to the present with each
+/// request.
+class DriveServer {
+public:
+    /// Listens. Throws UsageError where that cannot be done.
+    DriveServer(DriveModel& model, const ListenAddress& address, DriveFaults faults, std::uint64_t seed);
+
+    /// The address with the port that was free.
+    [[nodiscard]] const ListenAddress& address() const noexcept { return line_.address(); }
+    /// CLOCK_MONOTONIC at the model's time 0. [s]
+    [[nodiscard]] double start_s() const noexcept;
+    /// Serves until `stop` is set. @param record  may be null; gets its rows, and is committed by the caller
+    void run(const volatile std::sig_atomic_t& stop, DriveRecord* record);
+
+private:
+    using Clock = DriveLine::Clock;
+    using Bytes = std::vector<std::uint8_t>;
+    struct Due {
+        Clock::time_point time;
+        bool request = false; // still to take effect; else a reply to send
+        int channel = 0;
+        Bytes bytes;
+    };
+
+    [[nodiscard]] std::uint64_t model_us(Clock::time_point time) const;
+    [[nodiscard]] std::chrono::microseconds line_time(std::size_t bytes) const;
+    void fire_events(Clock::time_point now);
+    void advance(Clock::time_point now, DriveRecord* record);
+    void accept(DriveLine::Request request, Clock::time_point now);
+    void serve(int channel, Bytes request, Clock::time_point now);
+    [[nodiscard]] Bytes reply_to(const Bytes& request, const ExchangeFaults& faults);
+    [[nodiscard]] bool damage_block(Bytes& request, std::uint64_t bits) const;
+    [[nodiscard]] bool replace_by_stale(Bytes& reply) const;
+    void send(int channel, Bytes reply, Clock::time_point due);
+    void deliver(Clock::time_point now);
+    [[nodiscard]] std::chrono::microseconds until_next(Clock::time_point now) const;
+
+    DriveModel* model_;
+    DriveLine line_;
+    DriveExchange exchange_;
+    DriveFaults faults_;
+    FaultDice dice_;
+    Clock::time_point start_;
+    Clock::time_point line_free_; // of a serial line
+    std::optional<Clock::time_point> connects_;
+    std::optional<Clock::time_point> thaws_;
+    std::size_t event_ = 0;
+    std::uint64_t recorded_ms_ = 0; // rows so far
+    std::vector<Due> due_;
+    std::deque<Bytes> sent_; // the latest replies, as they were before any damage
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/drive/listen_address.hpp"
+
+#include "host_sim/baud_rate.hpp"
+#include "host_sim/input_error.hpp"
+#include "host_sim/nearest_name.hpp"
+
+#include <algorithm>
+#include <arpa/inet.h>
+#include <array>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> keys{"baud", "parity", "stop", "unit", "pace"};
+
+[[noreturn]] void refuse(std::string_view text, std::string_view why) {
+    throw UsageError(fmt::format("--listen {}: {}", in_quotes(text), why));
+}
+
+int number(std::string_view text, std::string_view what, std::string_view digits, int low, int high) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size() || value < low || value > high) {
+        refuse(text, fmt::format("{} must be a whole number from {} to {}", what, low, high));
+    }
+    return value;
+}
+
+void take_key(std::string_view text, std::string_view key, std::string_view value, ListenAddress& out) {
+    const auto choice = [&](std::string_view a, std::string_view b) {
+        if (value != a && value != b) {
+            refuse(text, fmt::format("{} must be {} or {}", key, a, b));
+        }
+        return value == a;
+    };
+    if (key == "baud") {
+        out.baud = number(text, key, value, baud_rates.front(), baud_rates.back());
+        if (!is_baud_rate(out.baud)) {
+            refuse(text, fmt::format("baud must be one of {}", fmt::join(baud_rates, ", ")));
+        }
+    } else if (key == "parity") {
+        if (value != "N" && value != "E" && value != "O") {
+            refuse(text, "parity must be N, E or O");
+        }
+        out.parity = value.front();
+    } else if (key == "stop") {
+        out.stop_bits = choice("1", "2") ? 1 : 2;
+    } else if (key == "unit") {
+        out.unit = number(text, key, value, 1, 247);
+    } else if (key == "pace") {
+        out.pace = choice("on", "off");
+    } else {
+        refuse(text, fmt::format("there is no setting {}{}", in_quotes(key), suggestion(key, keys)));
+    }
+}
+
+ListenAddress parse_tcp(std::string_view text, std::string_view rest, bool allow_remote) {
+    ListenAddress out;
+    const std::size_t colon = rest.rfind(':');
+    if (colon == std::string_view::npos) {
+        refuse(text, "a port must follow the host, like tcp://127.0.0.1:1502; 0 is a free one");
+    }
+    out.port = number(text, "the port", rest.substr(colon + 1), 0, 65535);
+    out.host = rest.substr(0, colon) == "localhost" ? "127.0.0.1" : std::string(rest.substr(0, colon));
+    in_addr address{};
+    if (inet_pton(AF_INET, out.host.c_str(), &address) != 1) {
+        refuse(text, "the host must be localhost or four numbers like 127.0.0.1");
+    }
+    constexpr std::uint32_t loopback = 127;
+    if (ntohl(address.s_addr) >> 24U != loopback && !allow_remote) {
+        refuse(text,
+               "others than this computer could move the drive there; listen on 127.0.0.1, or add --allow-remote");
+    }
+    return out;
+}
+
+ListenAddress parse_rtu(std::string_view text, std::string_view rest) {
+    ListenAddress out;
+    out.kind = ListenAddress::Kind::rtu;
+    const std::size_t mark = rest.find('?');
+    out.device = std::string(rest.substr(0, mark));
+    if (out.device.size() < 2 || out.device.front() != '/') {
+        refuse(text, "the device must be an absolute path, like rtu:///dev/ttyUSB0?baud=115200");
+    }
+    std::string_view settings = mark == std::string_view::npos ? std::string_view{} : rest.substr(mark + 1);
+    while (!settings.empty()) {
+        const std::string_view item = settings.substr(0, settings.find('&'));
+        const std::size_t equals = item.find('=');
+        if (equals == std::string_view::npos) {
+            refuse(text, fmt::format("{} needs a value, like baud=115200", in_quotes(item)));
+        }
+        take_key(text, item.substr(0, equals), item.substr(equals + 1), out);
+        settings.remove_prefix(std::min(settings.size(), item.size() + 1));
+    }
+    return out;
+}
+
+} // namespace
+
+ListenAddress parse_listen_address(std::string_view text, bool allow_remote) {
+    constexpr std::string_view tcp = "tcp://";
+    constexpr std::string_view rtu = "rtu://";
+    if (text.substr(0, tcp.size()) == tcp) {
+        return parse_tcp(text, text.substr(tcp.size()), allow_remote);
+    }
+    if (text.substr(0, rtu.size()) == rtu) {
+        return parse_rtu(text, text.substr(rtu.size()));
+    }
+    refuse(text, "it must be like tcp://127.0.0.1:1502 or rtu:///dev/ttyUSB0?baud=115200");
+}
+
+std::string ListenAddress::text() const {
+    if (kind == Kind::tcp) {
+        return fmt::format("tcp://{}:{}", host, port);
+    }
+    const std::string stop = stop_bits != 0 ? fmt::format("&stop={}", stop_bits) : "";
+    return fmt::format("rtu://{}?baud={}&parity={}{}&unit={}{}", device, baud, parity, stop, unit,
+                       pace ? "" : "&pace=off");
+}
+
+double ListenAddress::character_us() const noexcept {
+    const int bits = 1 + 8 + (parity == 'N' ? 0 : 1) + stops();
+    return 1e6 * bits / baud;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// ProfileDrive: a simulated drive of one axis that behaves as a drive profile says: CiA 402, or states and commands by
+// masks; positioning moves that may change on the fly, or cyclic targets.
+//
+// What a profile cannot say is assumed: a command is obeyed when its first step is seen; commands that only differ in
+// what the profile leaves open (halt and quick stop by the same bit) are one.
+#pragma once
+
+#include "host_sim/drive/cia402_machine.hpp"
+#include "host_sim/drive/drive_model.hpp"
+#include "host_sim/drive/positioning_axis.hpp"
+#include "host_sim/drive/register_file.hpp"
+#include "splinefeed/hal/modbus/drive_profile.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace splinefeed::host {
+
+struct ProfileDriveParameters {
+    PositioningAxisParameters axis;
+    double velocity_counts_s = 1e5;      ///< of moves, where the profile has no field for it
+    double acceleration_counts_s2 = 1e6; ///< of moves and of a halt, likewise
+    std::uint32_t period_us = 0;         ///< over which a cyclic target is approached; 0: the profile's, or 2 ms
+};
+
+class ProfileDrive final : public DriveModel {
+public:
+    /// @pre the profile does not stream pvt
+    ProfileDrive(hal::modbus::DriveProfile profile, const ProfileDriveParameters& parameters);
+
+    void advance(std::uint64_t now_us) override;
+    [[nodiscard]] ModbusException read(int address, std::span<std::uint16_t> out) override;
+    [[nodiscard]] ModbusException write(int address, std::span<const std::uint16_t> values) override;
+    void power_cycle() override;
+    void swap_words() override { registers_.swap_words(); }
+    [[nodiscard]] int axes() const override { return 1; }
+    [[nodiscard]] double position_counts(int /*axis*/) const override { return axis_.shaft().position_counts(); }
+
+    [[nodiscard]] PositioningAxis& axis() noexcept { return axis_; }
+
+private:
+    [[nodiscard]] hal::modbus::FieldIndex index_of(hal::modbus::FieldRole role) const noexcept;
+    [[nodiscard]] std::int64_t raw(hal::modbus::FieldRole role) const;
+    [[nodiscard]] bool written(hal::modbus::FieldRole role) const;
+    [[nodiscard]] double physical(hal::modbus::FieldRole role, double otherwise) const;
+    void show(hal::modbus::FieldRole role, double physical);
+
+    void take_settings();
+    void obey_control();
+    void obey_masks(const std::vector<std::int64_t>& before);
+    [[nodiscard]] bool seen(hal::modbus::DriveCommand command, const std::vector<std::int64_t>& before) const;
+    void obey(hal::modbus::DriveCommand command);
+    [[nodiscard]] bool follows_targets() const;
+    void start(bool immediately, bool relative);
+    void halt();
+    void resume();
+    [[nodiscard]] MoveLimits limits() const;
+
+    void refresh();
+    [[nodiscard]] hal::modbus::DriveState state() const;
+    [[nodiscard]] std::int64_t status_by_masks() const;
+    [[nodiscard]] std::int64_t status_by_cia402() const;
+    [[nodiscard]] bool tells(hal::modbus::DriveState state) const;
+    [[nodiscard]] std::int64_t with_tests(std::int64_t status) const;
+    void watch();
+
+    hal::modbus::DriveProfile profile_;
+    ProfileDriveParameters parameters_;
+    RegisterFile registers_;
+    PositioningAxis axis_;
+    Cia402Machine machine_;
+    std::uint64_t now_us_ = 0;
+    std::uint64_t exchange_us_ = 0; // the last one
+    bool watchdog_fired_ = false;
+    bool written_once_ = false;
+    bool halted_ = false;
+    bool quick_stopped_ = false;
+    double target_ = 0.0;          // of the move under way
+    std::optional<double> queued_; // behind it
+};
+
+/// The model of a profile. Throws UsageError for one that streams pvt: that is PvtDrive.
+[[nodiscard]] std::unique_ptr<DriveModel> make_drive(hal::modbus::DriveProfile profile,
+                                                     const ProfileDriveParameters& parameters);
+
+} // namespace splinefeed::host

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// LinkArguments: the options of `splinefeed link` as they were typed, and the command: who answers at an address, how
+// fast and how surely, and what to do about it.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace splinefeed::host {
+
+struct LinkArguments {
+    std::string target;  ///< empty: not given
+    std::string machine; ///< empty: the default machine
+    std::string seconds = "3";
+};
+
+void add_link_options(CLI::App& app, LinkArguments& arguments);
+
+/// Measures for so long on every drive of the target, nothing moves, and prints what it found with advice.
+/// Returns the exit status, 0. Throws UsageError, InputError, and TargetError where a drive cannot be used.
+[[nodiscard]] int report_link(const LinkArguments& arguments);
+
+} // namespace splinefeed::host

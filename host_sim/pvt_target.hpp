@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// PvtTarget: a run on drives that interpolate: who they are, whether the line carries the plan, and how the run went.
+#pragma once
+
+#include "drive_table.hpp"
+#include "run_target.hpp"
+
+#include "splinefeed/hal/modbus/modbus_port.hpp"
+
+namespace splinefeed::host {
+
+/// The drives of a table in the port's form. @pre they interpolate
+[[nodiscard]] std::vector<hal::modbus::DriveWiring> pvt_wiring(const DriveTable& table);
+
+/// What is wrong with which drive, in a line.
+[[nodiscard]] std::string drive_sentence(const DriveTable& table, const hal::modbus::ModbusPort& port,
+                                         const hal::modbus::DriveFailure& failure);
+
+class PvtTarget final : public RunTarget {
+public:
+    /// Connects to the drives. Throws TargetError. @pre they interpolate
+    PvtTarget(DriveTable table, const MachineDescription& machine, bool home);
+
+    [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
+    [[nodiscard]] bool resamples() const noexcept override;
+    [[nodiscard]] std::string where() const override;
+    [[nodiscard]] LinkSummary link() const override;
+
+private:
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    [[nodiscard]] std::string prepare(const FeedSegment& first) override;
+    void complete() override { port_.complete(); }
+    void quick_stop() override { port_.quick_stop(); }
+    [[nodiscard]] std::string fault() const override { return drive_sentence(table_, port_, *port_.failure()); }
+
+    const MachineDescription* machine_;
+    DriveTable table_;
+    hal::modbus::ModbusPort port_;
+    double least_segment_us_ = 0.0;
+};
+
+} // namespace splinefeed::host

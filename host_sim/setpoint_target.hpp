@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// SetpointTarget: a run on drives that are told by their profiles where to be, period by period.
+#pragma once
+
+#include "drive_table.hpp"
+#include "run_target.hpp"
+
+#include "splinefeed/hal/modbus/target_port.hpp"
+
+namespace splinefeed::host {
+
+/// The drives of a table in the port's form. @pre they do not interpolate; the table must outlive what it is given to
+[[nodiscard]] std::vector<hal::modbus::TargetWiring> target_wiring(const DriveTable& table,
+                                                                   const MachineDescription& machine);
+
+class SetpointTarget final : public RunTarget {
+public:
+    /// Connects to the drives. Throws TargetError, and UsageError where the wires are too slow. @pre they do not
+    /// interpolate
+    SetpointTarget(DriveTable table, const MachineDescription& machine, bool home);
+
+    // Targets are taken from the path at any instant: segments may be as short as they like.
+    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
+    [[nodiscard]] bool resamples() const noexcept override { return true; }
+    [[nodiscard]] std::string note() const override;
+    [[nodiscard]] std::string where() const override;
+    [[nodiscard]] LinkSummary link() const override;
+
+private:
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    [[nodiscard]] std::string prepare(const FeedSegment& first) override;
+    void complete() override { port_.complete(); }
+    void quick_stop() override { port_.quick_stop(); }
+    [[nodiscard]] std::string fault() const override { return sentence(port_.trouble()); }
+
+    [[nodiscard]] std::string sentence(const std::string& trouble) const;
+    [[nodiscard]] std::size_t axis_of(std::size_t drive) const noexcept;
+
+    const MachineDescription* machine_;
+    DriveTable table_;
+    hal::modbus::TargetPort port_;
+};
+
+} // namespace splinefeed::host

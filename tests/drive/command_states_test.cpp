@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/drive/command_states.hpp"
+#include "support/catch.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+using namespace splinefeed::host;
+using splinefeed::hal::modbus::PvtCommand;
+using splinefeed::hal::modbus::PvtState;
+
+TEST_CASE("command states: as the table of docs/pvt_map.md has them", "[drive][command_states]") {
+    std::ifstream document(SPLINEFEED_SOURCE_DIR "/docs/pvt_map.md");
+    REQUIRE(document);
+    std::string line;
+    while (std::getline(document, line) && line != "## Commands") {
+    }
+    int rows = 0;
+    while (std::getline(document, line) && line.substr(0, 2) != "##") {
+        int number = 0;
+        if (std::sscanf(line.c_str(), "| %d ", &number) != 1) {
+            continue;
+        }
+        CAPTURE(line);
+        // The last column; what it says behind the states is not about them.
+        const std::string column = line.substr(line.rfind('|', line.size() - 2) + 1);
+        const std::string states = column.substr(0, column.find("the ring"));
+        for (int state = 0; state <= 6; ++state) {
+            const bool named = column.find("any") != std::string::npos ||
+                               states.find(static_cast<char>('0' + state)) != std::string::npos;
+            CAPTURE(state);
+            CHECK(fits(static_cast<PvtCommand>(number), static_cast<PvtState>(state)) == named);
+        }
+        ++rows;
+    }
+    CHECK(rows == 11);
+}
+
+TEST_CASE("command states: nothing fits always, the unknown never", "[drive][command_states]") {
+    for (int state = 0; state <= 6; ++state) {
+        CHECK(fits(PvtCommand::none, static_cast<PvtState>(state)));
+        CHECK_FALSE(fits(static_cast<PvtCommand>(12), static_cast<PvtState>(state)));
+        CHECK_FALSE(fits(static_cast<PvtCommand>(65535), static_cast<PvtState>(state)));
+    }
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/drive/drive_faults.hpp"
+#include "host_sim/drive/listen_address.hpp"
+#include "host_sim/input_error.hpp"
+#include "support/catch.hpp"
+
+#include <cmath>
+
+using namespace splinefeed::host;
+
+namespace {
+
+template <class F>
+std::string usage_error(F&& call) {
+    try {
+        call();
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::string refusal(const std::string& text) {
+    return usage_error([&] { static_cast<void>(parse_drive_faults(text)); });
+}
+
+std::string refused_address(const std::string& text, bool remote = false) {
+    return usage_error([&] { static_cast<void>(parse_listen_address(text, remote)); });
+}
+
+} // namespace
+
+TEST_CASE("drive faults: the whole list", "[drive][faults]") {
+    const DriveFaults faults = parse_drive_faults(
+        "drop=0.01,corrupt=0.02,exception=0.03,duplicate=0.04,stale=0.05,delay=20:0.5,delay=300:0.01,freeze@3:40,"
+        "disconnect@1.5:200,power-cycle@9,swap-words@2,disconnect@7:1,clock-skew=-35.5,seed=18446744073709551615");
+    CHECK(faults.drop == 0.01);
+    CHECK(faults.corrupt == 0.02);
+    CHECK(faults.exception == 0.03);
+    CHECK(faults.duplicate == 0.04);
+    CHECK(faults.stale == 0.05);
+    REQUIRE(faults.delays.size() == 2);
+    CHECK(faults.delays[1].duration_ms == 300.0);
+    CHECK(faults.delays[1].probability == 0.01);
+    REQUIRE(faults.events.size() == 5);
+    CHECK(faults.events[0].kind == DriveFaults::EventKind::disconnect);
+    CHECK(faults.events[0].duration_ms == 200.0);
+    CHECK(faults.events[1].kind == DriveFaults::EventKind::swap_words);
+    CHECK(faults.events[2].kind == DriveFaults::EventKind::freeze);
+    CHECK(faults.events[4].time_s == 9.0);
+    CHECK(faults.clock_skew_ppm == -35.5);
+    CHECK(faults.seed == 18446744073709551615U);
+    CHECK(faults.random());
+    CHECK_FALSE(parse_drive_faults("").random());
+    CHECK_FALSE(parse_drive_faults("freeze@1:2").random());
+}
+
+TEST_CASE("drive faults: what is wrong is told, and what would be right", "[drive][faults]") {
+    CHECK(refusal("drop=0.1,corupt=0.1") == "--faults 'corupt=0.1': there is no such fault; did you mean 'corrupt'?");
+    CHECK(refusal("drop") == "--faults 'drop': behind the name there must be =; write it like drop=0.01");
+    CHECK(refusal("freeze=1:2").find("there must be @; write it like freeze@2.5:300") != std::string::npos);
+    CHECK(refusal("freeze@1").find("it takes two numbers") != std::string::npos);
+    CHECK(refusal("power-cycle@1:5").find("it takes one number") != std::string::npos);
+    CHECK(refusal("drop=1.5").find("'1.5' does not lie between 0 and 1") != std::string::npos);
+    for (const char* text :
+         {"drop=", "drop=x", "drop=-0.1", "drop=nan", "delay=5", "delay=5:2", "delay=-1:0.5", "seed=-1", "seed=1.5",
+          "power-cycle@-1", "drop=0.1,", ",", "drop=0.1,,drop=0.2", "=1", "@", "drop@1"}) {
+        CAPTURE(text);
+        CHECK_FALSE(refusal(text).empty());
+    }
+}
+
+TEST_CASE("drive faults: as often as asked, and the same again with the same seed", "[drive][faults]") {
+    const DriveFaults asked = parse_drive_faults("drop=0.2,duplicate=0.1,delay=5:0.3,delay=100:0.3,stale=0.05");
+    FaultDice dice(asked, 7);
+    FaultDice again(asked, 7);
+    int dropped[2] = {0, 0};
+    int doubled[2] = {0, 0};
+    int stale = 0;
+    double delay_ms = 0.0;
+    constexpr int many = 20000;
+    for (int i = 0; i < many; ++i) {
+        const ExchangeFaults faults = dice.next();
+        const ExchangeFaults same = again.next();
+        REQUIRE(faults.bits == same.bits);
+        REQUIRE(faults.delay_ms == same.delay_ms);
+        REQUIRE_FALSE((faults.drop_request && faults.drop_reply));
+        CHECK_FALSE(faults.corrupt);
+        CHECK_FALSE(faults.exception);
+        dropped[0] += faults.drop_request ? 1 : 0;
+        dropped[1] += faults.drop_reply ? 1 : 0;
+        doubled[0] += faults.repeat_request ? 1 : 0;
+        doubled[1] += faults.repeat_reply ? 1 : 0;
+        stale += faults.stale ? 1 : 0;
+        delay_ms += faults.delay_ms;
+    }
+    // The seed is fixed: five standard deviations once and for all.
+    const auto near = [](int count, double p) {
+        return std::fabs(count - many * p) < 5.0 * std::sqrt(many * p);
+    };
+    CHECK(near(dropped[0], 0.1));
+    CHECK(near(dropped[1], 0.1));
+    CHECK(near(doubled[0], 0.05));
+    CHECK(near(doubled[1], 0.05));
+    CHECK(near(stale, 0.05));
+    CHECK(delay_ms / many == Approx(0.3 * 105.0).epsilon(0.05));
+}
+
+TEST_CASE("listen address: TCP and serial lines, and only this computer", "[drive][faults]") {
+    CHECK(parse_listen_address("tcp://localhost:0", false).text() == "tcp://127.0.0.1:0");
+    CHECK(parse_listen_address("tcp://0.0.0.0:5", true).host == "0.0.0.0");
+    const ListenAddress line = parse_listen_address("rtu:///dev/pts/3?baud=19200&parity=N&unit=17&pace=off", false);
+    CHECK(line.device == "/dev/pts/3");
+    CHECK(line.text() == "rtu:///dev/pts/3?baud=19200&parity=N&unit=17&pace=off");
+    CHECK(line.character_us() == Approx(11e6 / 19200)); // two stop bits without parity
+    CHECK(parse_listen_address("rtu:///dev/x?stop=1&parity=N", false).character_us() == Approx(10e6 / 115200));
+    CHECK(refused_address("tcp://192.168.0.7:502").find("--allow-remote") != std::string::npos);
+    CHECK(refused_address("rtu:///dev/x?bauds=9600").find("did you mean 'baud'?") != std::string::npos);
+    for (const char* text : {"", "tcp://", "tcp://127.0.0.1", "tcp://127.0.0.1:70000", "tcp://127.0.0.1:x",
+                             "tcp://::1:5", "tcp://example.com:1", "udp://127.0.0.1:1", "rtu://", "rtu://dev/x",
+                             "rtu:///dev/x?baud", "rtu:///dev/x?baud=115201", "rtu:///dev/x?unit=0",
+                             "rtu:///dev/x?parity=M", "rtu:///dev/x?pace=no", "rtu:///dev/x?stop=3"}) {
+        CAPTURE(text);
+        CHECK_FALSE(refused_address(text, true).empty());
+    }
+}

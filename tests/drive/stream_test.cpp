@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+// Cyclic and block streams against the drive models: how near the shafts stay to the path.
+#include "drive/driven_drive.hpp"
+#include "drive/smooth_track.hpp"
+#include "host_sim/drive/shipped_profiles.hpp"
+#include "splinefeed/hal/modbus/block_stream.hpp"
+#include "splinefeed/hal/modbus/cyclic_stream.hpp"
+#include "support/catch.hpp"
+
+#include <memory>
+#include <random>
+
+using namespace splinefeed;
+using namespace splinefeed::hal::modbus;
+using splinefeed::test::Circle;
+using splinefeed::test::DrivenDrive;
+
+namespace {
+
+/// One axis: its drive, when its frames arrive, and how far its shaft was off.
+struct Axis {
+    Axis(const std::string& profile, double start_counts, std::uint32_t period_us = 0)
+        : drive(host::find_profile(profile), parameters(start_counts, period_us)) {
+        drive.begin();
+    }
+    static host::ProfileDriveParameters parameters(double start_counts, std::uint32_t period_us) {
+        host::ProfileDriveParameters out;
+        out.axis.start_counts = start_counts;
+        out.period_us = period_us;
+        return out;
+    }
+
+    DrivenDrive drive;
+    std::uint64_t next_us = 0;
+    double worst = 0.0;
+
+    void send(std::span<const RegisterWrite> writes) {
+        for (const RegisterWrite& write : writes) {
+            REQUIRE(drive.model().write(write.address, write.registers()) == host::ModbusException::none);
+        }
+    }
+};
+
+/// Runs both axes of a circle; `frame(axis, arrival_us)` gives what arrives then, `interval(axis)` when the next does.
+/// The shafts are compared every half a millisecond, and must stand exactly at the end.
+template <class Frame, class Interval>
+void run(std::array<std::unique_ptr<Axis>, 2>& axes, const Circle& circle, const Frame& frame,
+         const Interval& interval) {
+    std::array<std::uint64_t, 2> begun_us{axes[0]->drive.now_us(), axes[1]->drive.now_us()};
+    const auto end_us = static_cast<std::uint64_t>(circle.duration_s() * 1e6) + 300'000;
+    for (std::uint64_t now_us = 0; now_us <= end_us; now_us += 100) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            Axis& axis = *axes[k];
+            axis.drive.wait_us(begun_us[k] + now_us - axis.drive.now_us());
+            if (now_us >= axis.next_us) {
+                axis.send(frame(k, now_us));
+                axis.next_us = now_us + interval(k);
+            }
+            if (now_us % 500 == 0) {
+                const double off =
+                    axis.drive.model().position_counts(0) - circle.at(static_cast<double>(now_us) / 1e6)[k];
+                axis.worst = std::max(axis.worst, std::fabs(off));
+            }
+        }
+    }
+}
+
+std::array<std::unique_ptr<Axis>, 2> axes_of(const std::string& profile, const Circle& circle,
+                                             std::uint32_t period_us = 0) {
+    std::array<std::unique_ptr<Axis>, 2> axes;
+    for (std::size_t k = 0; k < 2; ++k) {
+        axes[k] = std::make_unique<Axis>(profile, circle.at(0.0)[k], period_us);
+    }
+    axes[1]->next_us = 1300; // the second one hears later
+    return axes;
+}
+
+constexpr int wholes = 777; // the circle starts here, a whole count
+constexpr BlockSettings every_10_ms{.period_us = 10000, .acceleration = 1e6};
+
+/// The blocks of one axis of the circle, from its beginning on. The profile must outlive them.
+BlockStream blocks_of(const DriveProfile& profile, const Circle& circle, BlockSettings settings, int axis) {
+    settings.axis = axis;
+    BlockStream stream(profile, settings);
+    stream.begin(circle.at(0.0)[static_cast<std::size_t>(axis)]);
+    return stream;
+}
+
+std::array<BlockStream, 2> blocks_of_both(const DriveProfile& profile, const Circle& circle,
+                                          const BlockSettings& settings) {
+    return {blocks_of(profile, circle, settings, 0), blocks_of(profile, circle, settings, 1)};
+}
+
+/// The circle's first axis on a drive with blocks.
+struct BlockAxis {
+    explicit BlockAxis(const Circle& circle, const BlockSettings& settings = every_10_ms)
+        : axis("oriental-az", circle.at(0.0)[0]), stream(blocks_of(profile, circle, settings, 0)) {}
+
+    DriveProfile profile = host::find_profile("oriental-az");
+    Axis axis;
+    BlockStream stream;
+};
+
+void check_end(const std::array<std::unique_ptr<Axis>, 2>& axes) {
+    CHECK(axes[0]->drive.position() == wholes);
+    CHECK(axes[1]->drive.position() == 0);
+}
+
+} // namespace
+
+TEST_CASE("Segment track: positions and velocities between and beyond its segments") {
+    const Circle circle(wholes);
+    SegmentTrack track = circle.track();
+    CHECK(track.room() == 0);
+    CHECK(track.ends_at_rest(2));
+    for (std::uint64_t time_us = 0; time_us < track.end_us(); time_us += 377) {
+        const double time_s = static_cast<double>(time_us) / 1e6;
+        for (const int k : {0, 1}) {
+            const TrackPoint point = track.at(k, time_us);
+            const auto expected = circle.at(time_s)[static_cast<std::size_t>(k)];
+            REQUIRE(static_cast<double>(point.position_q16) / 65536.0 == Approx(expected).margin(1e-4));
+            const double ahead = circle.at(time_s + 1e-5)[static_cast<std::size_t>(k)];
+            const double behind = circle.at(time_s - 1e-5)[static_cast<std::size_t>(k)];
+            REQUIRE(point.velocity == Approx((ahead - behind) / 2e-5).margin(30.0));
+        }
+    }
+    CHECK(track.at(0, track.end_us() + 5).position_q16 == std::int64_t{wholes} << 16);
+    CHECK(track.at(0, track.end_us() + 5).velocity == 0.0);
+    const std::int64_t before = track.at(1, 500'000).position_q16;
+    track.release(500'000);
+    CHECK(track.room() == 500);
+    CHECK(track.at(1, 500'000).position_q16 == before);
+    track.release(track.end_us() + 1000);
+    CHECK(track.at(0, track.end_us()).position_q16 == std::int64_t{wholes} << 16);
+    FeedSegment segment;
+    segment.duration_ticks = 8000;
+    segment.end[0] = 4 * units_per_count; // 4 counts in a millisecond, from rest to rest: 6 D / T^2
+    CHECK(track.push(segment));
+    CHECK(line_deviation_counts(segment, 0, 500) == Approx(24.0 * 0.25 / 8.0));
+    track.clear();
+    CHECK(track.empty());
+}
+
+TEST_CASE("Cyclic targets: shafts stay within the chord of a period, though their frames come one after the other") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    for (const std::uint32_t period_us : {2000U, 4000U, 10000U}) {
+        auto axes = axes_of("cia402-index", circle, period_us);
+        const DriveProfile profile = host::find_profile("cia402-index");
+        std::array<CyclicStream, 2> streams{CyclicStream(profile, {0, period_us}),
+                                            CyclicStream(profile, {1, period_us})};
+        run(
+            axes, circle, [&](std::size_t k, std::uint64_t now_us) { return streams[k].frame(track, now_us); },
+            [&](std::size_t) { return period_us; });
+        const double period_s = period_us * 1e-6;
+        const double chord = circle.acceleration() * period_s * period_s / 8.0;
+        CAPTURE(period_us, chord, axes[0]->worst, axes[1]->worst);
+        CHECK(axes[0]->worst < chord + 0.51);
+        CHECK(axes[1]->worst < chord + 0.51);
+        CHECK(std::max(axes[0]->worst, axes[1]->worst) > 0.5 * chord); // the bound is not idle
+        check_end(axes);
+        CHECK_FALSE(streams[0].clamped());
+    }
+}
+
+TEST_CASE("Cyclic targets: more often than the drive's period, shafts stay within the chord of the interval") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    const DriveProfile profile = host::find_profile("cia402-index");
+    constexpr std::uint32_t interval_us = 2500;
+    auto axes = axes_of("cia402-index", circle, 10000);
+    std::array<CyclicStream, 2> streams{CyclicStream(profile, {0, 10000, interval_us}),
+                                        CyclicStream(profile, {1, 10000, interval_us})};
+    run(
+        axes, circle, [&](std::size_t k, std::uint64_t now_us) { return streams[k].frame(track, now_us); },
+        [&](std::size_t) { return interval_us; });
+    const double chord = circle.acceleration() * interval_us * interval_us * 1e-12 / 8.0;
+    CAPTURE(chord, axes[0]->worst, axes[1]->worst);
+    CHECK(axes[0]->worst < chord + 0.5 * 10000 / interval_us + 0.51); // its register rounds four times as much
+    CHECK(axes[1]->worst < chord + 0.5 * 10000 / interval_us + 0.51);
+    check_end(axes);
+    CHECK(streams[0].told_end(track, track.end_us()));
+    CHECK_FALSE(streams[0].told_end(track, track.end_us() - 1));
+}
+
+TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands with its acceleration") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    const DriveProfile profile = host::find_profile("cia402-index");
+    constexpr std::uint32_t interval_us = 2000;
+    constexpr double acceleration = 1e5;
+    auto axes = axes_of("cia402-index", circle, 10000);
+    Axis& axis = *axes[1];
+    CyclicStream stream(profile, {1, 10000, interval_us, acceleration});
+    const std::uint64_t gone_us = track.end_us() / interval_us * interval_us - 300'000;
+    double velocity = 0.0;
+    double furthest = 0.0;
+    for (std::uint64_t now_us = 0; now_us < track.end_us() + 500'000; now_us += interval_us) {
+        axis.drive.wait_us(interval_us);
+        if (now_us > gone_us && now_us < gone_us + 400'000) { // its wire is gone: it stands
+            continue;
+        }
+        if (now_us == gone_us + 400'000) {
+            furthest = std::fabs(axis.drive.model().position_counts(0));
+            stream.stood(track, {now_us, now_us, now_us + interval_us});
+        }
+        axis.send(stream.frame(track, now_us));
+        if (now_us >= gone_us + 400'000) {
+            axis.drive.wait_us(0);
+            const double now = axis.drive.model().axis().reference().velocity_counts_s();
+            CAPTURE(now_us, now, velocity);
+            // By a whole count more or less of its register in a period, too.
+            REQUIRE(std::fabs(now - velocity) < 1.1 * acceleration * interval_us * 1e-6 + 2.0 / 0.01);
+            velocity = now;
+        }
+    }
+    CHECK(furthest > 100.0);
+    CHECK(axis.drive.position() == 0);
+    CHECK(stream.told_end(track, track.end_us()));
+}
+
+TEST_CASE("Blocks on the fly: what arrived late is known when the next one is made") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    const unsigned seed = std::random_device{}();
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    BlockAxis driven(circle);
+    driven.axis.send(driven.stream.prime());
+    std::uint64_t now_us = 0;
+    double worst = 0.0;
+    for (int i = 0; now_us + 20'000 < track.end_us(); ++i) {
+        const auto writes = driven.stream.block(track, now_us);
+        // It knows where the drive is, but for what registers round.
+        CAPTURE(i);
+        REQUIRE(driven.axis.drive.model().position_counts(0) == Approx(driven.stream.position_counts()).margin(1.0));
+        worst = std::max(worst,
+                         std::fabs(driven.stream.position_counts() - circle.at(static_cast<double>(now_us) * 1e-6)[0]));
+        const std::uint64_t late_us = random() % 4000;
+        driven.axis.drive.wait_us(late_us);
+        driven.axis.send(writes);
+        driven.stream.arrived(now_us + late_us);
+        driven.axis.drive.wait_us(10'000 - late_us);
+        now_us += 10'000;
+    }
+    CHECK(worst < 40.0);
+}
+
+TEST_CASE("Blocks on the fly: each profile's shafts stay near the path, and end exactly at its end") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    for (const std::string name : {"cia402-kinco", "leadshine-pr", "oriental-az", "lexium32m"}) {
+        for (const std::uint32_t period_us : {5000U, 10000U, 20000U}) {
+            const DriveProfile profile = host::find_profile(name);
+            auto axes = axes_of(name, circle);
+            auto streams = blocks_of_both(profile, circle, {.period_us = period_us, .acceleration = 1e6});
+            run(
+                axes, circle, [&](std::size_t k, std::uint64_t now_us) { return streams[k].block(track, now_us); },
+                [&](std::size_t) { return period_us; });
+            const double period_s = period_us * 1e-6;
+            const RegisterField& speed = *profile.field_of(FieldRole::profile_velocity);
+            const double speed_unit =
+                static_cast<double>(speed.scale_denominator) / static_cast<double>(speed.scale_numerator);
+            const double bound = circle.acceleration() * period_s * period_s / 8.0 + period_s * speed_unit / 2.0 + 0.51;
+            CAPTURE(name, period_us, bound, axes[0]->worst, axes[1]->worst);
+            CHECK(axes[0]->worst < bound);
+            CHECK(axes[1]->worst < bound);
+            check_end(axes);
+            CHECK(axes[0]->drive.done());
+            CHECK(streams[0].told_end());
+            CHECK_FALSE(streams[0].clamped());
+        }
+    }
+}
+
+TEST_CASE("Blocks on the fly: at each block the drive is on the path, ramps counted, and knows itself to be there") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    BlockAxis driven(circle);
+    Axis& axis = driven.axis;
+    BlockStream& stream = driven.stream;
+    for (std::uint64_t now_us = 0; now_us + 20'000 < track.end_us(); now_us += 10'000) {
+        axis.send(stream.block(track, now_us));
+        CAPTURE(now_us);
+        // At first the target itself is less than a unit away.
+        CHECK(stream.position_counts() ==
+              Approx(circle.at(static_cast<double>(now_us) / 1e6)[0]).margin(now_us <= 20'000 ? 0.51 : 0.02));
+        CHECK(axis.drive.model().position_counts(0) == Approx(stream.position_counts()).margin(1e-3));
+        axis.drive.wait_us(10'000);
+    }
+}
+
+TEST_CASE("Blocks on the fly: a block that is late by the reserve finds the drive at its speed") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    BlockSettings late = every_10_ms;
+    late.reserve_us = 15000;
+    BlockAxis driven(circle, late);
+    Axis& axis = driven.axis;
+    BlockStream& stream = driven.stream;
+    for (std::uint64_t now_us = 0; now_us <= 400'000; now_us += 10'000) {
+        axis.drive.wait_us(now_us == 0 ? 0 : 10'000);
+        axis.send(stream.block(track, now_us));
+    }
+    axis.drive.wait_us(10'000); // the ramp is over
+    const double speed = axis.drive.model().axis().reference().velocity_counts_s();
+    REQUIRE(std::fabs(speed) > 1000.0);
+    axis.drive.wait_us(14'000);
+    CHECK(axis.drive.model().axis().reference().velocity_counts_s() == speed);
+    axis.drive.wait_us(100'000);
+    CHECK_FALSE(axis.drive.model().axis().moving());
+}
+
+TEST_CASE("Blocks on the fly: intervals that vary, as long as the drive hears when it is known to") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    const unsigned seed = std::random_device{}();
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const DriveProfile profile = host::find_profile("leadshine-pr");
+    auto axes = axes_of("leadshine-pr", circle);
+    auto streams = blocks_of_both(profile, circle, every_10_ms);
+    run(
+        axes, circle, [&](std::size_t k, std::uint64_t now_us) { return streams[k].block(track, now_us); },
+        [&](std::size_t) { return 8000 + 100 * (random() % 40); });
+    CAPTURE(axes[0]->worst, axes[1]->worst);
+    CHECK(axes[0]->worst < 6.0); // 12 ms: 3.6 counts of chord, and 2 ms at a speed that is out of date
+    CHECK(axes[1]->worst < 6.0);
+    check_end(axes);
+}
+
+TEST_CASE("Blocks on the fly: where the link dies the drive stops by itself, not far away") {
+    const Circle circle(wholes);
+    const SegmentTrack track = circle.track();
+    BlockAxis driven(circle);
+    Axis& axis = driven.axis;
+    BlockStream& stream = driven.stream;
+    for (std::uint64_t now_us = 0; now_us < 700'000; now_us += 10'000) {
+        axis.send(stream.block(track, now_us));
+        axis.drive.wait_us(10'000);
+    }
+    const double speed = std::fabs(axis.drive.model().axis().reference().velocity_counts_s());
+    const double here = axis.drive.model().position_counts(0);
+    axis.drive.wait_ms(1000);
+    CHECK_FALSE(axis.drive.model().axis().moving());
+    CHECK(std::fabs(axis.drive.model().position_counts(0) - here) < speed * 0.011 + speed * speed / 2e6 + 1.0);
+}
+
+TEST_CASE("Target frames: one frame for a group, only what changed without, and a start once") {
+    const DriveProfile kinco = host::find_profile("cia402-kinco");
+    TargetFrames frames(kinco);
+    frames.set(FieldRole::profile_velocity, std::int64_t{125} << 16);
+    frames.set(FieldRole::target_position, std::int64_t{0x12345} << 16);
+    std::span<const RegisterWrite> writes = frames.build();
+    REQUIRE(writes.size() == 6); // speed, both ramps, target, two steps of the start
+    CHECK(writes[0].address == 0x4A00);
+    CHECK(writes[0].values[0] == 2048);
+    CHECK(writes[3].address == 0x4000);
+    CHECK(writes[3].count == 2);
+    CHECK(writes[3].values[0] == 0x2345);
+    CHECK(writes[3].values[1] == 0x0001);
+    CHECK(writes[4].values[0] == 0x002F);
+    CHECK(writes[5].values[0] == 0x103F);
+    CHECK(frames.build().size() == 1);              // the target alone
+    frames.told(kinco.index_of("control"), 0x000F); // somebody enabled anew
+    CHECK(frames.build().size() == 3);
+
+    const DriveProfile lexium = host::find_profile("lexium32m");
+    TargetFrames group(lexium);
+    CHECK(group.build().size() == 1);
+    writes = group.build();
+    CHECK(writes[0].count == 13);
+    CHECK(writes[0].values[0] == 0x0200);
+    CHECK(writes[0].values[4] == 0x0001);
+    CHECK(group.build()[0].values[4] == 0x0081); // toggled
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/clock_estimate.hpp"
+
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <random>
+
+using splinefeed::hal::modbus::ClockEstimate;
+
+namespace {
+
+/// A drive's clock, and exchanges that take a random time each way.
+class Drive {
+public:
+    Drive(double skew_ppm, std::uint32_t start_us, std::uint64_t seed)
+        : skew_(1e-6 * skew_ppm), start_us_(start_us), random_(seed) {}
+
+    [[nodiscard]] std::int64_t exact_us(std::uint64_t host_us) const {
+        return std::int64_t{start_us_} + std::llround((1.0 + skew_) * static_cast<double>(host_us - origin_us));
+    }
+    void exchange(ClockEstimate& estimate, std::uint64_t at_us) {
+        const std::uint64_t out = 20 + random_() % 60 + (random_() % 20 == 0 ? random_() % 8000 : 0);
+        const std::uint64_t back = 20 + random_() % 60 + (random_() % 20 == 0 ? random_() % 8000 : 0);
+        estimate.sample(at_us, at_us + out + back, static_cast<std::uint32_t>(exact_us(at_us + out)));
+    }
+
+    static constexpr std::uint64_t origin_us = 5'000'000'000;
+
+private:
+    double skew_;
+    std::uint32_t start_us_;
+    std::mt19937_64 random_;
+};
+
+} // namespace
+
+TEST_CASE("Clock estimate: within half the shortest round trip, whatever the skew, over the wrap of 32 bits") {
+    for (const double skew_ppm : {0.0, 120.0, -300.0}) {
+        INFO("skew " << skew_ppm << " ppm");
+        Drive drive(skew_ppm, 0xFFFF0000U, 7);
+        ClockEstimate estimate;
+        CHECK_FALSE(estimate.known());
+        std::int64_t base = 0;
+        for (int i = 0; i < 20000; ++i) { // 100 s
+            const std::uint64_t now = Drive::origin_us + static_cast<std::uint64_t>(i) * 5000U;
+            drive.exchange(estimate, now);
+            if (i == 0) {
+                base = estimate.drive_us(now) - drive.exact_us(now);
+                base = (base + (base < 0 ? -(1LL << 31) : 1LL << 31)) / (1LL << 32) * (1LL << 32); // whole ranges
+            }
+            if (i > 2000 && i % 50 == 0) {
+                const auto ahead = now + 400'000U; // as far as segments are sent ahead
+                const std::int64_t error = estimate.drive_us(ahead) - drive.exact_us(ahead) - base;
+                CHECK(std::llabs(error) <= 60);
+                CHECK(estimate.drive_clock(ahead) - static_cast<std::uint32_t>(drive.exact_us(ahead)) + 60U <= 120U);
+            }
+        }
+        CHECK(std::fabs(estimate.skew_ppm() - skew_ppm) < 10.0);
+        CHECK(estimate.uncertainty_us() < 60.0);
+    }
+}
+
+TEST_CASE("Clock estimate: nothing is said of the skew before there is enough to tell it by") {
+    Drive drive(500.0, 0, 3);
+    ClockEstimate estimate;
+    for (int i = 0; i < 400; ++i) {
+        drive.exchange(estimate, Drive::origin_us + static_cast<std::uint64_t>(i) * 5000U);
+    }
+    CHECK(estimate.skew_ppm() == 0.0);
+    estimate.clear();
+    CHECK_FALSE(estimate.known());
+}
+
+TEST_CASE("Clock estimate: an answer that came quicker than the line is not to this request, and does not count") {
+    constexpr std::uint64_t host_us = 5'000'000'000;
+    ClockEstimate estimate;
+    estimate.sample(host_us + 1, host_us, 77);
+    CHECK_FALSE(estimate.known());
+    estimate.sample(host_us, host_us, 1000);
+    REQUIRE(estimate.known());
+    // Two steps are more than half the clock's range: the answer between them is not taken, but the clock goes on by
+    // it.
+    constexpr std::uint32_t step_us = 0x70000000U;
+    estimate.sample(host_us + step_us + 500'000, host_us + step_us, 1000 + step_us);
+    CHECK(estimate.drive_us(host_us) == 1000);
+    CHECK(estimate.uncertainty_us() == 1.0);
+    estimate.sample(host_us + 2ULL * step_us, host_us + 2ULL * step_us, 1000 + 2U * step_us);
+    CHECK(estimate.drive_us(host_us) == 1000);
+    CHECK(estimate.drive_us(host_us + 2ULL * step_us) == 1000 + 2LL * step_us);
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// Replaces operator new in this executable by one that counts. In a file of its own, so that no compiler sees through a
+// pair of new and delete.
+#include "counted_allocations.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+// A sanitizer brings an operator new of its own; counting is left to the other builds.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SPLINEFEED_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SPLINEFEED_SANITIZED
+#endif
+
+namespace {
+
+std::atomic<std::size_t> count{0};
+
+} // namespace
+
+std::size_t splinefeed_test::counted_allocations() noexcept {
+    return count.load();
+}
+
+#ifdef SPLINEFEED_SANITIZED
+
+bool splinefeed_test::allocations_are_counted() noexcept {
+    return false;
+}
+
+#else
+
+bool splinefeed_test::allocations_are_counted() noexcept {
+    return true;
+}
+
+void* operator new(std::size_t size) {
+    count.fetch_add(1, std::memory_order_relaxed);
+    if (void* p = std::malloc(size > 0 ? size : 1)) {
+        return p;
+    }
+    throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+    std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+    std::free(p);
+}
+
+#endif

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/drive_table.hpp"
+
+#include "host_sim/input_error.hpp"
+#include "support/catch.hpp"
+
+using namespace splinefeed::host;
+
+namespace {
+
+using Axes = std::vector<int>;
+
+MachineDescription machine(const std::vector<std::string>& drives) {
+    MachineDescription out;
+    out.settings.axes = static_cast<int>(drives.size());
+    constexpr const char* names[] = {"x", "y", "z", "a", "b", "c"};
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+        out.axis_name[k] = names[k];
+        out.drive[k] = drives[k];
+    }
+    return out;
+}
+
+std::string refusal(const std::string& target, const std::vector<std::string>& drives) {
+    try {
+        static_cast<void>(drive_table(target, machine(drives)));
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "it was taken";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    INFO(text);
+    CHECK(text.find(part) != std::string::npos);
+    CHECK(text.find('\n') == std::string::npos);
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("Drive table: one address is one drive with all axes, in order") {
+    const DriveTable table = drive_table("modbus-tcp://drive:1502?unit=9", machine({"", "", ""}));
+    REQUIRE(table.drives.size() == 1);
+    CHECK(table.drives[0].machine_axis == Axes{0, 1, 2});
+    CHECK(table.drives[0].address.link.unit == 9);
+    CHECK(table.drives[0].address.link.port == 1502);
+    CHECK(table.drives[0].address.text == "modbus-tcp://drive:1502?unit=9");
+    // What the machine file says does not count then.
+    CHECK(drive_table("modbus-tcp://drive", machine({"", "no address", ""})).drives.size() == 1);
+}
+
+TEST_CASE("Drive table: axes with the same address and unit share a drive, others have their own") {
+    const DriveTable table = drive_table("modbus", machine({"modbus-tcp://a?unit=1&axis=1", "modbus-tcp://b?unit=1",
+                                                            "modbus-tcp://a?unit=1", "modbus-tcp://a?unit=2"}));
+    REQUIRE(table.drives.size() == 3);
+    CHECK(table.drives[0].machine_axis == Axes{2, 0});
+    CHECK(table.drives[1].machine_axis == Axes{1});
+    CHECK(table.drives[2].machine_axis == Axes{3});
+    CHECK(table.drives[1].address.link.host == "b");
+    CHECK(table.drives[2].address.link.unit == 2);
+}
+
+TEST_CASE("Drive table: an axis of a drive that no axis of the machine has is none") {
+    const DriveTable table = drive_table("modbus", machine({"modbus-tcp://a?axis=2", "modbus-tcp://a?axis=0"}));
+    REQUIRE(table.drives.size() == 1);
+    CHECK(table.drives[0].machine_axis == Axes{1, -1, 0});
+}
+
+TEST_CASE("Drive table: what is missing or twofold is told with the name of the axis") {
+    CHECK(contains(refusal("modbus", {"modbus-tcp://a", "", "modbus-tcp://b"}), "axis y has no drive; add drive ="));
+    CHECK(contains(refusal("modbus", {"modbus-tcp://a", "modbus-tcp://b", "modbus-tcp://a"}),
+                   "the drive of axis z is that of another axis, too; name another address, unit or &axis="));
+    CHECK(contains(refusal("modbus", {"modbus-tcp://a?axis=1", "modbus-tcp://a?axis=1"}), "the drive of axis y"));
+    CHECK(contains(refusal("modbus", {"modbus-rtu:///dev/x?unit=1", "modbus-rtu:///dev/x?unit=2&baud=9600"}),
+                   "the drive of axis y is on /dev/x with another baud rate or parity"));
+    CHECK(drive_table("modbus", machine({"modbus-rtu:///dev/x?unit=1", "modbus-rtu:///dev/x?unit=2"})).drives.size() ==
+          2);
+    CHECK(contains(refusal("modbus", {"modbus-tpc://a"}), "write modbus-tcp://HOST:PORT"));
+    CHECK(contains(refusal("modbus-tcp://a?unit=300", {""}), "unit is '300'"));
+    CHECK(contains(refusal("modbus-tcp://a?profile=kinco", {""}), "there is no profile 'kinco'"));
+    CHECK(contains(refusal("modbus", {"modbus-tcp://a", "modbus-tcp://b?profile=leadshine-pr"}),
+                   "splinefeed-pvt and leadshine-pr do not go together"));
+    CHECK(contains(refusal("modbus-tcp://a?profile=leadshine-pr", {"", ""}), "each axis needs a drive of its own"));
+    CHECK(contains(refusal("modbus-tcp://a?profile=lexium32m", {""}), "say with &ramp= what the drive's is set to"));
+    CHECK(contains(refusal("modbus-tcp://a?profile=leadshine-pr&ramp=1e6", {""}), "needs no ramp; leave it out"));
+    CHECK(contains(refusal("modbus-tcp://a?profile=lexium32m&ramp=10", {""}), "cannot follow the axis"));
+}
+
+TEST_CASE("Drive table: what an address leaves open is as the profile has it") {
+    const DriveTable table =
+        drive_table("modbus", machine({"modbus-rtu:///dev/x?profile=cia402-kinco&unit=7",
+                                       "modbus-rtu:///dev/y?profile=cia402-kinco&baud=115200&parity=E"}));
+    CHECK_FALSE(table.interpolate);
+    CHECK(table.drives[0].address.link.unit == 7);
+    CHECK(table.drives[0].address.link.baud == 19200);
+    CHECK(table.drives[0].address.link.parity == 'N');
+    CHECK(table.drives[1].address.link.unit == 1);
+    CHECK(table.drives[1].address.link.baud == 115200);
+    CHECK(table.drives[1].address.link.parity == 'E');
+    CHECK(drive_table("modbus-tcp://a?profile=cia402-index", machine({""})).drives[0].address.link.unit == 255);
+    CHECK(drive_table("modbus-tcp://a", machine({""})).interpolate);
+}

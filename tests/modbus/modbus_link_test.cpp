@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/modbus_link.hpp"
+
+#include "scripted_peer.hpp"
+#include "support/catch.hpp"
+
+#include <modbus/modbus.h>
+
+using namespace splinefeed::hal::modbus;
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr LinkTiming patient{.answer_us = 1'000'000};
+constexpr LinkTiming brief{.answer_us = 50'000};
+constexpr unsigned us_per_ms = 1000;
+
+// Unit 1 has the registers 0x1234 and 0x5678 at any address.
+const Bytes two_registers{1, 3, 4, 0x12, 0x34, 0x56, 0x78};
+
+ScriptedPeer::Reply rtu(const Bytes& bytes) {
+    return {.bytes = with_crc(bytes)};
+}
+
+/// A server made of libmodbus with 64 holding registers from address 0 on.
+class Server {
+public:
+    Server() : context_(modbus_new_tcp("127.0.0.1", 0)), mapping_(modbus_mapping_new(0, 0, 64, 0)) {
+        listener_ = modbus_tcp_listen(context_, 1);
+        sockaddr_in bound{};
+        socklen_t size = sizeof(bound);
+        getsockname(listener_, reinterpret_cast<sockaddr*>(&bound), &size);
+        port_ = ntohs(bound.sin_port);
+        thread_ = std::thread([this] { serve(); });
+    }
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+    ~Server() {
+        shutdown(listener_, SHUT_RDWR);
+        thread_.join();
+        modbus_mapping_free(mapping_);
+        modbus_free(context_);
+    }
+    [[nodiscard]] LinkAddress address() const { return {.port = port_}; }
+
+private:
+    void serve() {
+        int listener = listener_;
+        while (modbus_tcp_accept(context_, &listener) >= 0) {
+            std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> request{};
+            for (int size = 0; (size = modbus_receive(context_, request.data())) != -1;) {
+                modbus_reply(context_, request.data(), size, mapping_);
+            }
+            modbus_close(context_);
+        }
+        if (listener == listener_) { // else that version of libmodbus has closed it
+            close(listener_);
+        }
+    }
+
+    modbus_t* context_;
+    modbus_mapping_t* mapping_;
+    int listener_ = -1;
+    int port_ = 0;
+    std::thread thread_;
+};
+
+LinkFault fault_of(ScriptedPeer::Wire wire, const ScriptedPeer::Script& script, const LinkTiming& timing) {
+    ScriptedPeer peer(wire, script);
+    ModbusLink link(peer.address(), timing);
+    REQUIRE(link.connect());
+    std::array<std::uint16_t, 2> in{7, 8};
+    const LinkAnswer answer = link.read(1, 0, in);
+    CHECK(in == std::array<std::uint16_t, 2>{7, 8}); // a fault changes nothing
+    CHECK(answer.answered_us >= answer.sent_us);
+    CHECK(link.connected() == (answer.fault != LinkFault::disconnected));
+    return answer.fault;
+}
+
+} // namespace
+
+TEST_CASE("Link: functions 03, 16 and 23 against a server of libmodbus, and an exception with its code") {
+    const Server server;
+    ModbusLink link(server.address(), patient);
+    REQUIRE(link.connect());
+    CHECK(link.write(1, 3, std::array<std::uint16_t, 2>{0xBEEF, 7}).ok());
+    std::array<std::uint16_t, 2> in{};
+    const LinkAnswer read = link.read(1, 3, in);
+    CHECK(read.ok());
+    CHECK(in == std::array<std::uint16_t, 2>{0xBEEF, 7});
+    CHECK(read.sent_us <= read.arrived_us);
+    CHECK(read.replied_us <= read.answered_us);
+    // The write comes first: what is read is what was written.
+    CHECK(link.exchange(1, 10, std::array<std::uint16_t, 2>{5, 6}, 10, in).ok());
+    CHECK(in == std::array<std::uint16_t, 2>{5, 6});
+    const LinkAnswer beyond = link.read(1, 63, in);
+    CHECK(beyond.fault == LinkFault::exception);
+    CHECK(beyond.exception == 2);
+    CHECK(std::string(exception_name(beyond.exception)) == "illegal address");
+    CHECK(link.connected());
+    CHECK(link.read(1, 0, in).ok());
+}
+
+TEST_CASE("Link: on a serial line each fault has its name") {
+    const auto on_line = [](const Bytes& reply, const LinkTiming& timing = patient) {
+        return fault_of(
+            ScriptedPeer::Wire::pty,
+            [&](const Bytes&) {
+                return ScriptedPeer::Reply{reply, false};
+            },
+            timing);
+    };
+    CHECK(on_line({}, brief) == LinkFault::timeout);
+    Bytes damaged = with_crc(two_registers);
+    CHECK(on_line({damaged.begin(), damaged.begin() + 4}, brief) == LinkFault::timeout); // it broke off
+    damaged.back() ^= 1U;
+    CHECK(on_line(damaged) == LinkFault::corrupt);
+    Bytes noisy = with_crc(two_registers);
+    noisy[4] ^= 0x10U;
+    CHECK(on_line(noisy) == LinkFault::corrupt);
+    CHECK(on_line(with_crc({2, 3, 4, 0x12, 0x34, 0x56, 0x78})) == LinkFault::wrong_unit);
+    CHECK(on_line(with_crc({1, 3, 2, 0x12, 0x34})) == LinkFault::wrong_length);
+    CHECK(on_line(with_crc({1, 3, 6, 1, 2, 3, 4, 5, 6})) == LinkFault::wrong_length);
+    CHECK(on_line(with_crc({1, 0x83, 4})) == LinkFault::exception);
+}
+
+TEST_CASE("Link: the code of an exception on a serial line") {
+    for (const int code : {1, 2, 3, 4, 6, 11}) {
+        ScriptedPeer peer(ScriptedPeer::Wire::pty, [&](const Bytes&) {
+            return rtu({1, 0x83, static_cast<std::uint8_t>(code)});
+        });
+        ModbusLink link(peer.address(), patient);
+        REQUIRE(link.connect());
+        std::array<std::uint16_t, 2> in{};
+        const LinkAnswer answer = link.read(1, 0, in);
+        CHECK(answer.fault == LinkFault::exception);
+        CHECK(int{answer.exception} == code);
+    }
+}
+
+TEST_CASE("Link: on TCP each fault has its name") {
+    const auto on_tcp = [](const ScriptedPeer::Script& script, const LinkTiming& timing = patient) {
+        return fault_of(ScriptedPeer::Wire::tcp, script, timing);
+    };
+    CHECK(on_tcp([](const Bytes&) { return ScriptedPeer::Reply{}; }, brief) == LinkFault::timeout);
+    CHECK(on_tcp([](const Bytes&) { return ScriptedPeer::Reply{{}, true}; }) == LinkFault::disconnected);
+    CHECK(on_tcp([](const Bytes& request) {
+              return ScriptedPeer::Reply{tcp_reply(request, {1, 3, 2, 0x12, 0x34}), false};
+          }) == LinkFault::wrong_length);
+    CHECK(on_tcp([](const Bytes& request) {
+              return ScriptedPeer::Reply{tcp_reply(request, {1, 0x83, 2}), false};
+          }) == LinkFault::exception);
+}
+
+TEST_CASE("Link: nobody there, no such device, and nobody asked to connect") {
+    const int bound = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in any{};
+    any.sin_family = AF_INET;
+    any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(any);
+    REQUIRE(bind(bound, reinterpret_cast<const sockaddr*>(&any), size) == 0);
+    REQUIRE(getsockname(bound, reinterpret_cast<sockaddr*>(&any), &size) == 0);
+    ModbusLink refused({.port = ntohs(any.sin_port)}, brief); // bound, but nobody listens
+    CHECK_FALSE(refused.connect());
+    CHECK(std::string(refused.error()) == "Connection refused");
+    std::array<std::uint16_t, 1> in{};
+    CHECK(refused.read(1, 0, in).fault == LinkFault::disconnected);
+    close(bound);
+    ModbusLink missing({.wire = Wire::rtu, .host = "/dev/no-such-line"}, brief);
+    CHECK_FALSE(missing.connect());
+    CHECK(std::string(missing.error()) == "No such file or directory");
+    ModbusLink nameless({.host = std::string(70, 'x')}, brief); // longer than any name
+    CHECK_FALSE(nameless.connect());
+    CHECK(std::string(nameless.error()) == "there is no host of that name");
+    CHECK(nameless.read(1, 0, in).fault == LinkFault::disconnected);
+}
+
+TEST_CASE("Link: it goes on after a connection that broke") {
+    std::atomic<int> requests{0};
+    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+        return ++requests == 1 ? ScriptedPeer::Reply{{}, true}
+                               : ScriptedPeer::Reply{tcp_reply(request, two_registers), false};
+    });
+    ModbusLink link(peer.address(), patient);
+    REQUIRE(link.connect());
+    std::array<std::uint16_t, 2> in{};
+    CHECK(link.read(1, 0, in).fault == LinkFault::disconnected);
+    CHECK_FALSE(link.connected());
+    REQUIRE(link.connect());
+    CHECK(link.read(1, 0, in).ok());
+    CHECK(in == std::array<std::uint16_t, 2>{0x1234, 0x5678});
+}
+
+TEST_CASE("Link: the silence between two frames of a serial line is kept") {
+    for (const std::uint32_t before_us : {0U, 4000U}) {
+        ScriptedPeer peer(ScriptedPeer::Wire::pty, [](const Bytes&) { return rtu(two_registers); });
+        ModbusLink link(peer.address(), {.answer_us = patient.answer_us, .before_us = before_us});
+        REQUIRE(link.connect());
+        constexpr std::size_t exchanges = 10;
+        std::uint64_t last_us = 0;
+        for (std::size_t i = 0; i < exchanges; ++i) {
+            std::array<std::uint16_t, 2> in{};
+            const LinkAnswer answer = link.read(1, 0, in);
+            REQUIRE(answer.ok());
+            REQUIRE((i == 0 || answer.sent_us >= last_us + 1750 + before_us));
+            // No estimate of the drive's clock may lie outside of the exchange.
+            REQUIRE(answer.arrived_us >= answer.sent_us);
+            REQUIRE(answer.replied_us <= answer.answered_us);
+            last_us = answer.answered_us;
+        }
+        const auto arrived = peer.arrived_us();
+        const auto replied = peer.replied_us();
+        REQUIRE(arrived.size() == exchanges);
+        for (std::size_t i = 1; i < exchanges; ++i) {
+            CHECK(arrived[i] >= replied[i - 1] + 1750 + before_us);
+        }
+    }
+}
+
+TEST_CASE("Link: a late answer is not taken for that of the next request") {
+    // The first answer comes 100 ms late, with another value; the link waits 50 ms.
+    for (const unsigned pause_ms : {0U, 150U}) {
+        CAPTURE(pause_ms);
+        std::atomic<int> requests{0};
+        ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+            const bool first = ++requests == 1;
+            if (first) {
+                usleep(100 * us_per_ms);
+            }
+            return ScriptedPeer::Reply{tcp_reply(request, first ? Bytes{1, 3, 4, 9, 9, 9, 9} : two_registers), false};
+        });
+        ModbusLink link(peer.address(), brief);
+        REQUIRE(link.connect());
+        std::array<std::uint16_t, 2> in{};
+        CHECK(link.read(1, 0, in).fault == LinkFault::timeout);
+        usleep(pause_ms * us_per_ms);
+        // It may be in the way for once or twice, by name; it is never taken.
+        LinkAnswer answer;
+        for (int i = 0; i == 0 || (i < 20 && !answer.ok()); ++i) {
+            answer = link.read(1, 0, in);
+            CHECK((answer.ok() || answer.fault == LinkFault::timeout || answer.fault == LinkFault::wrong_length));
+            CHECK(in[0] != 0x0909);
+        }
+        REQUIRE(answer.ok());
+        CHECK(in == std::array<std::uint16_t, 2>{0x1234, 0x5678});
+    }
+}
+
+TEST_CASE("Link: a serial line that is an answer behind is brought back") {
+    // Each answer says to which request it belongs; the first comes 100 ms late, when the second is waited for,
+    // the others after 20 ms.
+    std::atomic<int> requests{0};
+    ScriptedPeer peer(ScriptedPeer::Wire::pty, [&](const Bytes&) {
+        const int number = ++requests;
+        usleep((number == 1 ? 100 : 20) * us_per_ms);
+        return rtu({1, 3, 4, 0, static_cast<std::uint8_t>(number), 0, 0});
+    });
+    ModbusLink link(peer.address(), brief);
+    REQUIRE(link.connect());
+    std::array<std::uint16_t, 2> in{};
+    CHECK(link.read(1, 0, in).fault == LinkFault::timeout);
+    for (int asked = 2; asked < 20; ++asked) {
+        if (link.read(1, 0, in).ok() && int{in[0]} == asked) {
+            SUCCEED("in step again");
+            return;
+        }
+        link.resynchronise();
+    }
+    FAIL("it stays behind");
+}
+
+TEST_CASE("Link: a serial line that failed three times in a row is left alone for 300 ms") {
+    constexpr int silent = 3;
+    std::atomic<int> requests{0};
+    ScriptedPeer peer(ScriptedPeer::Wire::pty,
+                      [&](const Bytes&) { return ++requests <= silent ? ScriptedPeer::Reply{} : rtu(two_registers); });
+    ModbusLink link(peer.address(), {.answer_us = 200'000});
+    REQUIRE(link.connect());
+    std::array<std::uint16_t, 2> in{};
+    LinkAnswer failed;
+    for (int i = 0; i < silent; ++i) {
+        failed = link.read(1, 0, in);
+        REQUIRE(failed.fault == LinkFault::timeout);
+    }
+    const LinkAnswer after = link.read(1, 0, in);
+    CHECK(after.ok());
+    CHECK(after.sent_us >= failed.answered_us + 300'000);
+    const auto arrived = peer.arrived_us();
+    REQUIRE(arrived.size() == silent + 1);
+    CHECK(arrived.back() >= failed.answered_us + 300'000);
+}
+
+TEST_CASE("Link: every fault says what to look at") {
+    for (const LinkFault fault : {LinkFault::none, LinkFault::timeout, LinkFault::disconnected, LinkFault::corrupt,
+                                  LinkFault::wrong_unit, LinkFault::wrong_length, LinkFault::exception}) {
+        CHECK(std::string(describe(fault)).size() >= 10);
+    }
+    CHECK(std::string(exception_name(6)) == "busy");
+    CHECK(std::string(exception_name(200)) == exception_name(9));
+}

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""A program through three simulated drives that do not interpolate, one an axis, each a process of its own: the recorded
+shafts, put together by the machine's clock, stay as near to the plan as the summary says.
+
+profile_run.py TOOL PROGRAM MACHINE PROFILE [--wire tcp|rtu] [--baud N] [--address-keys "&ramp=1e6"] [--faults LIST]
+
+Exit status 77: skipped, with the reason (no socat for --wire rtu)."""
+import argparse
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from drive_processes import Drive, fields
+from recorded_path import furthest, machine_file, plan_points, shafts_together
+from three_drives import serial_lines
+
+LOOP_MM = 0.002  # the drives' position loops, and the millisecond of their records
+START_COUNTS = (0, 1000, -70000)  # where the shafts stand at first: their own business
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    for name in ("tool", "program", "machine"):
+        parser.add_argument(name, type=os.path.abspath)
+    parser.add_argument("profile")
+    parser.add_argument("--wire", choices=["tcp", "rtu"], default="tcp")
+    parser.add_argument("--baud", default="115200")
+    parser.add_argument("--address-keys", default="")
+    parser.add_argument("--faults", default="", help="of the second drive; then all must have stopped together and gone on")
+    options = parser.parse_args()
+    if options.wire == "rtu" and shutil.which("socat") is None:
+        print("SKIPPED: there is no socat, which lays a serial cable between two processes")
+        return 77
+    with tempfile.TemporaryDirectory(prefix="splinefeed-profile-") as folder:
+        lines = serial_lines(folder) if options.wire == "rtu" else []
+        try:
+            problems = run(options, folder, lines)
+        finally:
+            for process, _ in lines:
+                process.terminate()
+                process.wait()
+    for problem in problems:
+        print(problem)
+    return 1 if problems else 0
+
+
+def run(options, folder, lines):
+    query = f"?baud={options.baud}&parity=E&unit=1"
+    drives = []
+    for k in range(3):
+        listen = f"rtu://{lines[k][1][1]}{query}" if lines else "tcp://127.0.0.1:0"
+        drives.append(Drive(options.tool, folder, k, 1, listen=listen, faults=options.faults if k == 1 else "",
+                            profile=options.profile, position=START_COUNTS[k]))
+    keys = f"profile={options.profile}{options.address_keys}"
+    addresses = [f"modbus-rtu://{ends[0]}{query}&{keys}" for _, ends in lines] if lines else \
+                [drive.tcp_address().split("?")[0] + "?" + keys for drive in drives]
+    machine, steps = machine_file(options.machine, folder, addresses)
+    called = subprocess.run([options.tool, "run", options.program, "-m", machine, "--target", "modbus", "--segments",
+                             "plan.csv", "--summary", "json"], cwd=folder, capture_output=True, text=True, timeout=600,
+                            check=False)
+    problems = [problem for drive in drives for problem in drive.stop()]
+    if called.returncode != 0:
+        return problems + [f"exit status {called.returncode}: {called.stderr}"]
+    return problems + judge(options, json.loads(called.stdout), fields(os.path.join(folder, "plan.csv")), steps, drives)
+
+
+def judge(options, summary, plan, steps, drives):
+    path = plan_points(plan, steps)
+    # What a drive calls its position where the motion begins is where the plan begins.
+    moved = [start / per_mm - begin for start, per_mm, begin in zip(START_COUNTS, steps, path[0])]
+    rows = [[row[0]] + [place - off for place, off in zip(row[1:], moved)] for row in shafts_together(drives, steps)]
+    worst, at = furthest(rows, path, 400, 800)
+    end = max(abs(row - planned) * per_mm for row, planned, per_mm in zip(rows[-1][1:], path[-1], steps))
+    link = summary["link"]
+    took = rows[next(i for i in reversed(range(len(rows))) if math.dist(rows[i][1:], rows[-1][1:]) > 1e-4)][0] - \
+        rows[next(i for i in range(len(rows)) if math.dist(rows[i][1:], rows[0][1:]) > 1e-4)][0]
+    print(f"{options.profile}, {options.wire}: path error {1000 * worst:.1f} um, stated {1000 * link['between_targets_mm']:.1f} "
+          f"um, a target each {1000 * link['target_period_s']:.2f} ms, the latest {1000 * link['latest_target_s']:.1f} ms late, "
+          f"{link['resumes']} resumes, took {took:.3f} of {summary['cycle_time_s']:.3f} s, end off by {end:.2g} counts")
+    problems = []
+    if worst > link["between_targets_mm"] + LOOP_MM:
+        problems.append(f"the shafts leave the planned path by {worst:.6f} mm")
+    if at < len(path) - 20:
+        problems.append("they do not come to the end of the path")
+    if end > 1e-2:
+        problems.append(f"they end {end} counts from where the plan ends")
+    if link["resumes"] == 0 and abs(took - summary["cycle_time_s"]) > 0.06 + 2 * link["target_period_s"]:
+        problems.append(f"they moved for {took:.3f} s, not {summary['cycle_time_s']:.3f} s")
+    if options.faults and link["resumes"] == 0:
+        problems.append("they did not stop for the one with the faults")
+    return problems
+
+
+if __name__ == "__main__":
+    sys.exit(main())

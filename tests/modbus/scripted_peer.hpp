@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// ScriptedPeer: what answers a ModbusLink, byte by byte as a test wants it: on a TCP port of its own or a
+// pseudo-terminal.
+#pragma once
+
+#include "splinefeed/hal/modbus/modbus_link.hpp"
+
+#include <arpa/inet.h>
+#include <atomic>
+#include <cstdlib>
+#include <fcntl.h>
+#include <functional>
+#include <mutex>
+#include <netinet/in.h>
+#include <poll.h>
+#include <stdexcept>
+#include <sys/socket.h>
+#include <termios.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+namespace splinefeed_test {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Of Modbus RTU, low byte first in the frame.
+inline std::uint16_t crc16(const Bytes& bytes) {
+    unsigned crc = 0xFFFF;
+    for (const std::uint8_t byte : bytes) {
+        crc ^= byte;
+        for (int i = 0; i < 8; ++i) {
+            crc = (crc & 1U) != 0 ? crc >> 1U ^ 0xA001U : crc >> 1U;
+        }
+    }
+    return static_cast<std::uint16_t>(crc);
+}
+
+inline Bytes with_crc(Bytes bytes) {
+    const std::uint16_t crc = crc16(bytes);
+    bytes.push_back(static_cast<std::uint8_t>(crc & 0xFFU));
+    bytes.push_back(static_cast<std::uint8_t>(crc >> 8U));
+    return bytes;
+}
+
+/// A reply on TCP to this request: its transaction, then unit, function and data.
+inline Bytes tcp_reply(const Bytes& request, const Bytes& body) {
+    Bytes out{request[0], request[1], 0, 0, 0, static_cast<std::uint8_t>(body.size())};
+    out.insert(out.end(), body.begin(), body.end());
+    return out;
+}
+
+/// Takes requests of function 03 in a thread, one after the other, and sends what the script makes of each.
+class ScriptedPeer {
+public:
+    /// An empty reply: none. What sleeps in it answers late. `hang_up` closes after what was sent.
+    struct Reply {
+        Bytes bytes;
+        bool hang_up = false;
+    };
+    using Script = std::function<Reply(const Bytes& request)>;
+    enum class Wire { tcp, pty };
+
+    ScriptedPeer(Wire wire, Script script) : script_(std::move(script)), serial_(wire == Wire::pty) {
+        if (serial_) {
+            open_pty();
+        } else {
+            open_tcp();
+        }
+        thread_ = std::thread([this] { serve(); });
+    }
+    ScriptedPeer(const ScriptedPeer&) = delete;
+    ScriptedPeer& operator=(const ScriptedPeer&) = delete;
+    ~ScriptedPeer() {
+        stopping_ = true;
+        thread_.join();
+        hang_up();
+        if (listener_ >= 0) {
+            close(listener_);
+        }
+        if (slave_ >= 0) {
+            close(slave_);
+        }
+    }
+
+    /// Where it is reached; of a pseudo-terminal at 115200 baud.
+    [[nodiscard]] const splinefeed::hal::modbus::LinkAddress& address() const { return address_; }
+    /// When each request was complete, and when each reply began. [us of the monotonic clock]
+    [[nodiscard]] std::vector<std::uint64_t> arrived_us() const { return copy(arrived_us_); }
+    [[nodiscard]] std::vector<std::uint64_t> replied_us() const { return copy(replied_us_); }
+
+private:
+    void open_tcp() {
+        listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        sockaddr_in any{};
+        any.sin_family = AF_INET;
+        any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof(any);
+        if (bind(listener_, reinterpret_cast<const sockaddr*>(&any), size) != 0 || listen(listener_, 4) != 0 ||
+            getsockname(listener_, reinterpret_cast<sockaddr*>(&any), &size) != 0) {
+            throw std::runtime_error("no port to listen on");
+        }
+        address_.port = ntohs(any.sin_port);
+    }
+
+    void open_pty() {
+        line_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+        if (line_ < 0 || grantpt(line_) != 0 || unlockpt(line_) != 0) {
+            throw std::runtime_error("no pseudo-terminal");
+        }
+        address_.wire = splinefeed::hal::modbus::Wire::rtu;
+        address_.host = ptsname(line_);
+        slave_ = open(address_.host.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC); // else the line hangs up between two
+        termios raw{};
+        tcgetattr(slave_, &raw);
+        cfmakeraw(&raw);
+        tcsetattr(slave_, TCSANOW, &raw);
+    }
+
+    [[nodiscard]] std::vector<std::uint64_t> copy(const std::vector<std::uint64_t>& times) const {
+        const std::lock_guard lock(mutex_);
+        return times;
+    }
+
+    void hang_up() {
+        if (line_ >= 0) {
+            close(line_);
+            line_ = -1;
+        }
+    }
+
+    void serve() {
+        Bytes request;
+        const std::size_t whole = serial_ ? 8 : 12;
+        while (!stopping_) {
+            pollfd ready{line_ >= 0 ? line_ : listener_, POLLIN, 0};
+            if (ready.fd < 0 || poll(&ready, 1, 5) != 1) {
+                continue;
+            }
+            if (line_ < 0) {
+                line_ = accept(listener_, nullptr, nullptr);
+                request.clear();
+                continue;
+            }
+            std::uint8_t byte = 0;
+            if (read(line_, &byte, 1) != 1) {
+                if (!serial_) {
+                    hang_up();
+                }
+                continue;
+            }
+            request.push_back(byte);
+            if (request.size() == whole) {
+                answer(request);
+                request.clear();
+            }
+        }
+    }
+
+    void answer(const Bytes& request) {
+        {
+            const std::lock_guard lock(mutex_);
+            arrived_us_.push_back(splinefeed::hal::modbus::monotonic_us());
+        }
+        const Reply reply = script_(request);
+        {
+            const std::lock_guard lock(mutex_);
+            replied_us_.push_back(splinefeed::hal::modbus::monotonic_us());
+        }
+        if (!reply.bytes.empty() &&
+            write(line_, reply.bytes.data(), reply.bytes.size()) != static_cast<ssize_t>(reply.bytes.size())) {
+            hang_up();
+        }
+        if (reply.hang_up) {
+            hang_up();
+        }
+    }
+
+    Script script_;
+    bool serial_;
+    splinefeed::hal::modbus::LinkAddress address_;
+    int listener_ = -1;
+    int line_ = -1; // the connection, or our end of the pseudo-terminal
+    int slave_ = -1;
+    std::atomic<bool> stopping_{false};
+    mutable std::mutex mutex_;
+    std::vector<std::uint64_t> arrived_us_;
+    std::vector<std::uint64_t> replied_us_;
+    std::thread thread_;
+};
+
+} // namespace splinefeed_test

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/target_address.hpp"
+
+#include "support/catch.hpp"
+
+using namespace splinefeed::host;
+using splinefeed::hal::modbus::Wire;
+
+TEST_CASE("Target address: what the contract names") {
+    const TargetAddress tcp =
+        parse_target_address("modbus-tcp://192.168.0.10:1502?profile=splinefeed-pvt&unit=3&axis=2");
+    CHECK(tcp.link.wire == Wire::tcp);
+    CHECK(tcp.link.host == "192.168.0.10");
+    CHECK(tcp.link.port == 1502);
+    CHECK(tcp.link.unit == 3);
+    CHECK(tcp.axis == 2);
+    CHECK(tcp.profile == "splinefeed-pvt");
+    CHECK(tcp.resample);
+    CHECK(parse_target_address("modbus-tcp://drive").link.port == 502);
+    const TargetAddress rtu = parse_target_address("modbus-rtu:///dev/ttyUSB0?baud=19200&parity=N&unit=7&resample=no");
+    CHECK(rtu.link.wire == Wire::rtu);
+    CHECK(rtu.link.host == "/dev/ttyUSB0");
+    CHECK(rtu.link.baud == 19200);
+    CHECK(rtu.link.parity == 'N');
+    CHECK(rtu.link.unit == 7);
+    CHECK_FALSE(rtu.resample);
+}
+
+TEST_CASE("Target address: what is wrong is told, and what would be right") {
+    const std::pair<const char*, const char*> cases[] = {
+        {"modbus://x", "write modbus-tcp://HOST:PORT"},
+        {"modbus-tcp://", "there is no host"},
+        {"modbus-rtu://", "there is no device"},
+        {"modbus-tcp://h:0", "port is '0'; it must be a whole number from 1 to 65535"},
+        {"modbus-tcp://h:1:2", "more than one ':'"},
+        {"modbus-tcp://h?unit=0", "unit is '0'; it must be a whole number from 1 to 255"},
+        {"modbus-rtu:///dev/x?unit=248", "from 1 to 247"},
+        {"modbus-tcp://h?baud=9600", "unknown key 'baud'"},
+        {"modbus-tcp://h?untt=1", "did you mean 'unit'?"},
+        {"modbus-rtu:///dev/x?baud=9601", "it must be one of 1200"},
+        {"modbus-rtu:///dev/x?parity=X", "it must be N, E or O"},
+        {"modbus-tcp://h?axis=6", "from 0 to 5"},
+        {"modbus-tcp://h?resample=maybe", "it must be yes or no"},
+        {"modbus-tcp://h?unit", "has no value"},
+        {"modbus-tcp://h?unit=", "has no value"},
+    };
+    for (const auto& [text, expected] : cases) {
+        INFO(text);
+        try {
+            static_cast<void>(parse_target_address(text));
+            FAIL("it was taken");
+        } catch (const AddressError& error) {
+            INFO(error.what());
+            CHECK(std::string(error.what()).find(expected) != std::string::npos);
+        }
+    }
+}

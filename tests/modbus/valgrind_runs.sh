@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Runs on simulated drives, the tool and the drives each under valgrind: no invalid access, no leak. valgrind_runs.sh BUILD [--if-long]
+source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
+
+if [[ ${2-} == --if-long && ${SPLINEFEED_LONG:-0} != 1 ]]; then skip "takes 2 minutes: ./check --long"; fi
+need valgrind /usr/bin/python3
+
+tool=$1/bin/splinefeed
+under="valgrind --quiet --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite --fair-sched=yes"
+# Nobody keeps time under valgrind, so the tolerance is no figure of the path; what was executed is judged as ever.
+/usr/bin/python3 tests/modbus/three_drives.py "$tool" examples/path61.csv examples/three_axis.toml --tolerance-mm 1 --under "$under"
+/usr/bin/python3 tests/modbus/faulted_runs.py "$tool" --runs 12 --jobs 2 --under "$under" --later 2
