@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Simulated drives as processes, and what they recorded."""
+import contextlib
 import os
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 UNITS = 3 << 30  # of a feed segment, in a count
@@ -121,3 +124,31 @@ def wait_for(path, seconds=5.0):
         if time.monotonic() > until:
             raise OSError(f"{path} does not come")
         time.sleep(0.02)
+
+
+@contextlib.contextmanager
+def serial_cable(ends):
+    """Two devices of these names: what is written to the one is read from the other."""
+    with subprocess.Popen(["socat", *[f"pty,raw,echo=0,link={end}" for end in ends]]) as process:
+        try:
+            for end in ends:
+                wait_for(end)
+            yield
+        finally:
+            process.terminate()
+
+
+@contextlib.contextmanager
+def folder_with_cables(wire, count):
+    """A folder, and in it the ends (ours, the drive's) of a cable a drive; none of them where the wire is not rtu."""
+    with tempfile.TemporaryDirectory(prefix="splinefeed-drives-") as folder, contextlib.ExitStack() as cables:
+        ends = [[os.path.join(folder, f"{side}{k}") for side in "AB"] for k in range(count if wire == "rtu" else 0)]
+        for pair in ends:
+            cables.enter_context(serial_cable(pair))
+        yield folder, ends
+
+
+def missing_for(wire):
+    """Why runs on this wire have to be skipped, or nothing."""
+    lacks = wire == "rtu" and shutil.which("socat") is None
+    return "SKIPPED: there is no socat, which lays a serial cable between two processes" if lacks else ""

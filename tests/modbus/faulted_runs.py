@@ -105,12 +105,14 @@ class Run:
             addresses = [drive.tcp_address() for drive in drives]
             with open(os.path.join(folder, "machine.toml"), "w", encoding="ascii") as file:
                 file.write(self.machine(addresses))
-            run = subprocess.run([*self.under, self.tool, "run", "program.csv", "-m", "machine.toml", "--target", "modbus", "--segments",
-                                  "plan.csv", "--summary", "json", "--quiet"], cwd=folder, capture_output=True, text=True,
-                                 timeout=120, check=False)
-            time.sleep(0.4)
-            for drive in drives:
-                self.problems += drive.stop()
+            try:
+                run = subprocess.run([*self.under, self.tool, "run", "program.csv", "-m", "machine.toml", "--target", "modbus",
+                                      "--segments", "plan.csv", "--summary", "json", "--quiet"], cwd=folder, capture_output=True,
+                                     text=True, timeout=120, check=False)
+                time.sleep(0.4)
+            finally:
+                for drive in drives:
+                    self.problems += drive.stop()
             self.told = f"{count} x {axes} axes, drive {faulted}: {faults}: exit {run.returncode} {run.stderr.strip()}"
             self.judge(folder, run, drives, axes, fatal, both)
 

@@ -5,19 +5,16 @@ shafts, put together by the machine's clock, stay as near to the plan as the sum
 
 profile_run.py TOOL PROGRAM MACHINE PROFILE [--wire tcp|rtu] [--baud N] [--address-keys "&ramp=1e6"] [--faults LIST]
 
-Exit status 77: skipped, with the reason (no socat for --wire rtu)."""
+Exit status 77: skipped, with the reason (no socat for --wire rtu; a host that does not keep time)."""
 import argparse
 import json
 import math
 import os
-import shutil
-import subprocess
 import sys
-import tempfile
 
-from drive_processes import Drive, fields
+from drive_processes import Drive, fields, folder_with_cables, missing_for
+from real_time import OffTime, called, exit_status
 from recorded_path import furthest, machine_file, plan_points, shafts_together
-from three_drives import serial_lines
 
 LOOP_MM = 0.002  # the drives' position loops, and the millisecond of their records
 START_COUNTS = (0, 1000, -70000)  # where the shafts stand at first: their own business
@@ -33,40 +30,31 @@ def main():
     parser.add_argument("--address-keys", default="")
     parser.add_argument("--faults", default="", help="of the second drive; then all must have stopped together and gone on")
     options = parser.parse_args()
-    if options.wire == "rtu" and shutil.which("socat") is None:
-        print("SKIPPED: there is no socat, which lays a serial cable between two processes")
+    if why := missing_for(options.wire):
+        print(why)
         return 77
-    with tempfile.TemporaryDirectory(prefix="splinefeed-profile-") as folder:
-        lines = serial_lines(folder) if options.wire == "rtu" else []
-        try:
-            problems = run(options, folder, lines)
-        finally:
-            for process, _ in lines:
-                process.terminate()
-                process.wait()
-    for problem in problems:
-        print(problem)
-    return 1 if problems else 0
+    return exit_status(lambda: run(options))
 
 
-def run(options, folder, lines):
+def run(options):
     query = f"?baud={options.baud}&parity=E&unit=1"
-    drives = []
-    for k in range(3):
-        listen = f"rtu://{lines[k][1][1]}{query}" if lines else "tcp://127.0.0.1:0"
-        drives.append(Drive(options.tool, folder, k, 1, listen=listen, faults=options.faults if k == 1 else "",
-                            profile=options.profile, position=START_COUNTS[k]))
     keys = f"profile={options.profile}{options.address_keys}"
-    addresses = [f"modbus-rtu://{ends[0]}{query}&{keys}" for _, ends in lines] if lines else \
-                [drive.tcp_address().split("?")[0] + "?" + keys for drive in drives]
-    machine, steps = machine_file(options.machine, folder, addresses)
-    called = subprocess.run([options.tool, "run", options.program, "-m", machine, "--target", "modbus", "--segments",
-                             "plan.csv", "--summary", "json"], cwd=folder, capture_output=True, text=True, timeout=600,
-                            check=False)
-    problems = [problem for drive in drives for problem in drive.stop()]
-    if called.returncode != 0:
-        return problems + [f"exit status {called.returncode}: {called.stderr}"]
-    return problems + judge(options, json.loads(called.stdout), fields(os.path.join(folder, "plan.csv")), steps, drives)
+    with folder_with_cables(options.wire, 3) as (folder, cables):
+        listen = [f"rtu://{theirs}{query}" for _, theirs in cables] or ["tcp://127.0.0.1:0"] * 3
+        drives = [Drive(options.tool, folder, k, 1, listen=listen[k], faults=options.faults if k == 1 else "",
+                        profile=options.profile, position=START_COUNTS[k]) for k in range(3)]
+        addresses = [f"modbus-rtu://{ours}{query}&{keys}" for ours, _ in cables] or \
+                    [drive.tcp_address().split("?")[0] + "?" + keys for drive in drives]
+        machine, steps = machine_file(options.machine, folder, addresses)
+        try:
+            call = called([options.tool, "run", options.program, "-m", machine, "--target", "modbus", "--segments", "plan.csv",
+                           "--summary", "json"], folder)
+        finally:
+            problems = [problem for drive in drives for problem in drive.stop()]
+        if call.status != 0:
+            return problems + [f"exit status {call.status}: {call.errors}"]
+        plan = fields(os.path.join(folder, "plan.csv"))
+        return call.excused(problems + judge(options, json.loads(call.output), plan, steps, drives))
 
 
 def judge(options, summary, plan, steps, drives):
@@ -84,13 +72,13 @@ def judge(options, summary, plan, steps, drives):
           f"{link['resumes']} resumes, took {took:.3f} of {summary['cycle_time_s']:.3f} s, end off by {end:.2g} counts")
     problems = []
     if worst > link["between_targets_mm"] + LOOP_MM:
-        problems.append(f"the shafts leave the planned path by {worst:.6f} mm")
+        problems.append(OffTime(f"the shafts leave the planned path by {worst:.6f} mm"))
     if at < len(path) - 20:
         problems.append("they do not come to the end of the path")
     if end > 1e-2:
         problems.append(f"they end {end} counts from where the plan ends")
     if link["resumes"] == 0 and abs(took - summary["cycle_time_s"]) > 0.06 + 2 * link["target_period_s"]:
-        problems.append(f"they moved for {took:.3f} s, not {summary['cycle_time_s']:.3f} s")
+        problems.append(OffTime(f"they moved for {took:.3f} s, not {summary['cycle_time_s']:.3f} s"))
     if options.faults and link["resumes"] == 0:
         problems.append("they did not stop for the one with the faults")
     return problems

@@ -5,7 +5,7 @@
 
 pymodbus_drives.py TOOL PROGRAM MACHINE [--drives 1|3] [--tolerance-mm T]
 
-Exit status 77: skipped, with the reason (no pymodbus)."""
+Exit status 77: skipped, with the reason (no pymodbus; a host that does not keep time)."""
 import argparse
 import os
 import signal
@@ -15,6 +15,7 @@ import tempfile
 import threading
 
 from drive_processes import PymodbusDrive
+from real_time import exit_status
 from recorded_path import machine_file, run_and_judge
 
 
@@ -63,6 +64,10 @@ def main():
     except ImportError as missing:
         print(f"SKIPPED: {missing} (Debian: apt-get install python3-pymodbus python3-serial-asyncio)")
         return 77
+    return exit_status(lambda: all_runs(options))
+
+
+def all_runs(options):
     with tempfile.TemporaryDirectory(prefix="splinefeed-pymodbus-") as folder:
         problems = link(options, folder) + run(options, folder, options.program)
         problems += run(options, folder, options.program, away_s=1.0)
@@ -78,9 +83,7 @@ def main():
             print(f"mistake {spoil}, found:", *found[:2], sep="\n    ")
             if not found:
                 problems.append(f"nothing was found where drives make a mistake ({spoil})")
-    for problem in problems:
-        print(problem)
-    return 1 if problems else 0
+    return problems
 
 
 if __name__ == "__main__":

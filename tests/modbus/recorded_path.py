@@ -4,11 +4,9 @@ import json
 import math
 import os
 import re
-import signal
-import subprocess
-import time
 
 from drive_processes import TICKS_PER_S, UNITS, fields, sequence_problems
+from real_time import OffTime, called
 
 SUB = 8  # points of the plan a segment
 
@@ -127,14 +125,14 @@ def judge(name, tolerance_mm, asked, summary, plan, steps, drives):
         tolerance_mm = max(tolerance_mm, 0.001 + 100.0 * link["clocks_known_to_s"])
     block_mm = 100.0 * 13 * int(plan[0][1]) / TICKS_PER_S
     if worst > (max(block_mm, tolerance_mm) if resumes > asked else tolerance_mm):
-        problems.append(f"the shafts leave the planned path by {worst:.6f} mm")
+        problems.append(OffTime(f"the shafts leave the planned path by {worst:.6f} mm"))
     if resumes < asked:
         problems.append("they did not stop and go on; was it over before the fault?")
     took_s, planned_s = durations(rows, path, plan, steps)
     if resumes == 0 and abs(took_s - planned_s) > 0.02:
-        problems.append(f"they move for {took_s:.3f} s; the plan takes {planned_s:.3f} s")
+        problems.append(OffTime(f"they move for {took_s:.3f} s; the plan takes {planned_s:.3f} s"))
     if apart_s > 0.0025:
-        problems.append(f"the axes start {1e6 * apart_s:.0f} us apart")
+        problems.append(OffTime(f"the axes start {1e6 * apart_s:.0f} us apart"))
     if end > 1e-3:
         problems.append(f"they end {end} counts from where the plan ends")
     return problems
@@ -152,36 +150,19 @@ def machine_file(machine, folder, addresses):
     return copy, [float(s) for s in re.findall(r"^steps_per_mm *= *([0-9.]+)", text, re.M)]
 
 
-def called(command, folder, stall_s):
-    """Exit status and texts. It stands still for stall_s, twice on its way."""
-    with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        for _ in range(2 if stall_s else 0):
-            time.sleep(1.7)
-            process.send_signal(signal.SIGSTOP)
-            time.sleep(stall_s)
-            process.send_signal(signal.SIGCONT)
-        try:
-            output, errors = process.communicate(timeout=300)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            raise
-        return process.returncode, output, errors
-
-
 def run_and_judge(name, tolerance_mm, asked, command, folder, steps, drives, stall_s=0.0):
     """As judge(). Runs the tool (its `run` with program, machine and options), stops the drives; what is wrong, a sentence each."""
     problems = []
     try:
-        status, output, errors = called([*command, "--target", "modbus", "--segments", "plan.csv", "--summary", "json"],
-                                        folder, stall_s)
+        call = called([*command, "--target", "modbus", "--segments", "plan.csv", "--summary", "json"], folder, stall_s)
     finally:
         for drive in drives:
             problems += drive.stop()
-    if status != 0:
-        return problems + [f"exit status {status}: {errors}"]
+    if call.status != 0:
+        return problems + [f"exit status {call.status}: {call.errors}"]
     plan = fields(os.path.join(folder, "plan.csv"))
     first = 0
     for k, drive in enumerate(drives):
         problems += sequence_problems(drive.executed(), plan, range(first, first + drive.axes), True, f"drive {k}")
         first += drive.axes
-    return problems + judge(name, tolerance_mm, asked, json.loads(output), plan, steps, drives)
+    return call.excused(problems + judge(name, tolerance_mm, asked, json.loads(call.output), plan, steps, drives))

@@ -5,7 +5,9 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 need clang-tidy
-build=$1
+# Every source as it is compiled alone.
+build=$1/tidy
+cmake --preset release -B "$build" -DSPLINEFEED_UNITY_BUILD=OFF >/dev/null
 checks=()
 if [[ ${SPLINEFEED_LONG:-0} == 1 ]]; then checks=(--checks='clang-analyzer-*'); fi
 

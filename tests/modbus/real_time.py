@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""What a host that stands still spoils by itself: runs in real time are judged where the host kept time."""
+import dataclasses
+import signal
+import subprocess
+import threading
+import time
+
+STOOD_STILL_S = 0.005  # a wake-up so late: more than the drives' clocks and targets are told apart by
+ATTEMPTS = 3
+
+
+class OffTime(str):
+    """A problem of the instants at which things happened; all others are to be had on any host."""
+
+
+class HostStoodStill(str):
+    """What was off time while nothing else was wrong, on a host that stood still meanwhile."""
+
+
+class HostWatch(threading.Thread):
+    """While it is entered: by how much [s] a wake-up each other millisecond came late at most."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.longest_s = 0.0
+        self.ends = threading.Event()
+
+    def run(self):
+        period_s = 0.002
+        while not self.ends.is_set():
+            before = time.monotonic()
+            time.sleep(period_s)
+            self.longest_s = max(self.longest_s, time.monotonic() - before - period_s)
+
+    def __enter__(self):
+        self.start()
+        return self
+
+    def __exit__(self, *_):
+        self.ends.set()
+        self.join()
+
+
+@dataclasses.dataclass
+class Call:
+    """How a call of the tool ended, and how late the host was at most meanwhile."""
+    status: int
+    output: str
+    errors: str
+    stood_still_s: float
+
+    def excused(self, problems):
+        """They as they are, but where all of them are of time and the host did not keep it."""
+        if self.stood_still_s < STOOD_STILL_S or not all(isinstance(problem, OffTime) for problem in problems):
+            return problems
+        return [HostStoodStill(f"{problem}; this host stood still for {1000 * self.stood_still_s:.1f} ms") for problem in problems]
+
+
+def called(command, folder, stall_s=0.0):
+    """Runs it to its end. It is made to stand still for stall_s, twice on its way."""
+    with HostWatch() as watch, subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                                text=True) as process:
+        for _ in range(2 if stall_s else 0):
+            time.sleep(1.7)
+            process.send_signal(signal.SIGSTOP)
+            time.sleep(stall_s)
+            process.send_signal(signal.SIGCONT)
+        try:
+            output, errors = process.communicate(timeout=600)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise
+    return Call(process.returncode, output, errors, watch.longest_s)
+
+
+def exit_status(attempt):
+    """Of a test. attempt() makes a run and returns its problems; it is made again where the host is to blame for all of them.
+    77, skipped: the host never kept time, so that nothing can be said of ours."""
+    for _ in range(ATTEMPTS):
+        problems = attempt()
+        for problem in problems:
+            print(problem)
+        if not problems:
+            return 0
+        if not all(isinstance(problem, HostStoodStill) for problem in problems):
+            return 1
+    print(f"SKIPPED: this host did not keep time, {ATTEMPTS} times: no run in real time can be judged on it")
+    return 77
