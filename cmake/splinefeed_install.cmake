@@ -8,6 +8,9 @@ if(TARGET splinefeed_hal_modbus)
     install(TARGETS splinefeed_hal_modbus EXPORT splinefeed_targets)
     set(SPLINEFEED_HAS_MODBUS ON)
 endif()
+if(TARGET splinefeed_hal_gpio)
+    install(TARGETS splinefeed_hal_gpio EXPORT splinefeed_targets)
+endif()
 install(DIRECTORY firmware_core/splinefeed hal/splinefeed TYPE INCLUDE FILES_MATCHING PATTERN *.hpp)
 install(
     EXPORT splinefeed_targets

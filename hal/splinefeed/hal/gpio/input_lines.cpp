@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/gpio/input_lines.hpp"
+
+#include "splinefeed/hal/gpio/chip_access.hpp"
+#include "splinefeed/hal/gpio/line_lookup.hpp"
+
+#include <cerrno>
+#include <utility>
+
+namespace splinefeed::hal::gpio {
+
+namespace {
+
+std::vector<unsigned> offsets_of(const ChipAccess& chip, std::span<const InputRequest> requests) {
+    std::vector<LineName> wanted;
+    for (const InputRequest& request : requests) {
+        wanted.push_back(request.line);
+    }
+    return find_lines(chip.path(), chip.names(), wanted);
+}
+
+// By insertion: they are few, nearly in order, and nothing may allocate.
+void sort_by_time(std::span<InputEvent> events) noexcept {
+    for (std::size_t i = 1; i < events.size(); ++i) {
+        for (std::size_t j = i; j > 0 && events[j].time_ns < events[j - 1].time_ns; --j) {
+            std::swap(events[j], events[j - 1]);
+        }
+    }
+}
+
+} // namespace
+
+struct InputLines::Lines {
+    Lines(const std::string& path, const std::string& consumer, std::span<const InputRequest> requests)
+        : chip(path), input(chip, consumer, offsets_of(chip, requests), requests) {}
+
+    ChipAccess chip;
+    InputAccess input;
+};
+
+InputLines::InputLines(const std::string& chip, const std::string& consumer, std::span<const InputRequest> requests)
+    : lines_(std::make_unique<Lines>(chip, consumer, requests)), size_(static_cast<int>(requests.size())) {}
+
+InputLines::~InputLines() = default;
+
+std::optional<std::uint64_t> InputLines::levels() noexcept {
+    return lines_->input.levels();
+}
+
+int InputLines::wait(std::span<InputEvent> out, std::uint32_t timeout_us) noexcept {
+    constexpr std::uint64_t ns_per_us = 1000;
+    if (out.empty()) {
+        errno = EINVAL;
+        return -1;
+    }
+    const int count = lines_->input.wait(out, std::uint64_t{timeout_us} * ns_per_us);
+    if (count < 0) {
+        return errno == EINTR ? 0 : -1;
+    }
+    sort_by_time(out.first(static_cast<std::size_t>(count)));
+    return count;
+}
+
+} // namespace splinefeed::hal::gpio

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// LineMap: which line of which chip does what on a machine; a map file in memory (docs/gpio.md).
+#pragma once
+
+#include "splinefeed/base/capacity.hpp"
+#include "splinefeed/hal/gpio/line_request.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splinefeed::hal::gpio {
+
+/// A line among those of LineMap::chips: an output is bit `bit` of the chip's OutputLines, an input of its InputLines.
+struct LineBit {
+    std::uint8_t chip = 0;
+    std::uint8_t bit = 0;
+
+    [[nodiscard]] constexpr std::uint64_t mask() const noexcept { return std::uint64_t{1} << bit; }
+    friend bool operator==(const LineBit&, const LineBit&) = default;
+};
+
+/// All lines that are used of one chip: one OutputLines and one InputLines, where they are not empty.
+struct ChipLines {
+    std::string chip; ///< "/dev/gpiochip0"
+    std::vector<OutputRequest> outputs;
+    std::vector<InputRequest> inputs;
+};
+
+struct MotorLines {
+    LineBit step;
+    LineBit direction;
+};
+
+/// Polarity is not in here: the machine file states it, and the safe levels of ChipLines::outputs have it.
+struct AxisLines {
+    unsigned motors = 1; ///< 1 or 2, as the machine file says
+    std::array<MotorLines, 2> motor{};
+};
+
+/// Switches all drives on.
+struct EnableLine {
+    LineBit line;
+    bool active_level = true; ///< drives are on; its safe level is the other one
+};
+
+enum class InputRole : std::uint8_t { e_stop, limit, home, drive_fault, probe };
+
+struct MappedInput {
+    InputRole role = InputRole::e_stop;
+    int axis = -1; ///< of limit and home: the machine's axis; else -1
+    LineBit line;
+    bool active_level = true;      ///< at which it acts
+    std::uint32_t debounce_us = 0; ///< 0 to 100000
+};
+
+/// How an axis finds its switch. Its home input is in LineMap::inputs.
+struct HomeSearch {
+    bool towards_high = false;
+    double fast_mm_s = 0.0;
+    double slow_mm_s = 0.0; ///< at most fast_mm_s
+    double back_off_mm = 0.0;
+    double position_mm = 0.0; ///< of the switch's edge
+};
+
+/// Of the thread that makes edges.
+struct ThreadSettings {
+    int priority = 80;                     ///< SCHED_FIFO, 1 to 98
+    std::optional<unsigned> cpu{};         ///< the one it is bound to
+    std::uint32_t spin_us = 30;            ///< of each wait spent spinning, 0 to 1000
+    std::uint32_t tolerated_late_us = 100; ///< an edge that comes later stretches time, 0 to 10000
+};
+
+struct LineMap {
+    std::string consumer = "splinefeed";
+    std::vector<ChipLines> chips;
+    std::array<AxisLines, max_axes> axis{}; ///< in the order of the machine file
+    std::optional<EnableLine> enable;
+    std::vector<MappedInput> inputs; ///< in the order of the map file
+    std::array<std::optional<HomeSearch>, max_axes> home{};
+    ThreadSettings thread;
+};
+
+} // namespace splinefeed::hal::gpio

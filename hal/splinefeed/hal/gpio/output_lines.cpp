@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/gpio/output_lines.hpp"
+
+#include "splinefeed/hal/gpio/chip_access.hpp"
+#include "splinefeed/hal/gpio/line_lookup.hpp"
+
+#include <cerrno>
+
+namespace splinefeed::hal::gpio {
+
+namespace {
+
+std::uint64_t safe_levels_of(std::span<const OutputRequest> requests) {
+    std::uint64_t levels = 0;
+    for (std::size_t i = 0; i < requests.size() && i < most_lines; ++i) {
+        levels |= std::uint64_t{requests[i].safe_level ? 1U : 0U} << i;
+    }
+    return levels;
+}
+
+std::vector<unsigned> offsets_of(const ChipAccess& chip, std::span<const OutputRequest> requests) {
+    std::vector<LineName> wanted;
+    for (const OutputRequest& request : requests) {
+        wanted.push_back(request.line);
+    }
+    return find_lines(chip.path(), chip.names(), wanted);
+}
+
+std::uint64_t mask_of(int size) {
+    return ~std::uint64_t{0} >> (most_lines - static_cast<unsigned>(size));
+}
+
+} // namespace
+
+struct OutputLines::Lines {
+    Lines(const std::string& path, const std::string& consumer, std::span<const OutputRequest> requests)
+        : chip(path), output(chip, consumer, offsets_of(chip, requests), safe_levels_of(requests)) {}
+
+    ChipAccess chip;
+    OutputAccess output;
+};
+
+// A signal handler may take none.
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free);
+
+OutputLines::OutputLines(const std::string& chip, const std::string& consumer, std::span<const OutputRequest> requests)
+    : lines_(std::make_unique<Lines>(chip, consumer, requests)), size_(static_cast<int>(requests.size())),
+      safe_levels_(safe_levels_of(requests)), levels_(safe_levels_) {}
+
+OutputLines::~OutputLines() {
+    make_safe();
+}
+
+bool OutputLines::set(std::uint64_t mask, std::uint64_t levels) noexcept {
+    if (mask == 0) {
+        return true; // the kernel refuses an empty set
+    }
+    const std::uint32_t before = times_made_safe_.load();
+    const std::uint64_t next = (levels_.load() & ~mask) | (levels & mask);
+    if (!lines_->output.write(mask, next)) {
+        return false;
+    }
+    levels_.store(next);
+    if (times_made_safe_.load() == before) {
+        return true;
+    }
+    // make_safe() came while we were on the way with other levels, and ours may have been the last: safe ones again.
+    levels_.store(safe_levels_);
+    if (lines_->output.write(mask_of(size_), safe_levels_)) {
+        errno = ECANCELED;
+    }
+    return false;
+}
+
+void OutputLines::make_safe() noexcept {
+    const int before = errno;
+    times_made_safe_.fetch_add(1); // first: a set() that overtakes us from here on sees it
+    levels_.store(safe_levels_);
+    lines_->output.write(mask_of(size_), safe_levels_);
+    errno = before;
+}
+
+} // namespace splinefeed::hal::gpio
