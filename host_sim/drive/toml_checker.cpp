@@ -45,6 +45,14 @@ std::int64_t TomlChecker::whole(const toml::node& node, std::string_view key, Wh
     return *value;
 }
 
+double TomlChecker::number(const toml::node& node, std::string_view key, const NumberRange& range) const {
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value >= range.low && *value <= range.high)) {
+        fail(node, fmt::format("{} must be a number from {} to {} {}", key, range.low, range.high, range.unit));
+    }
+    return *value;
+}
+
 std::uint32_t TomlChecker::microseconds(const toml::node& node, std::string_view key, double most_ms) const {
     constexpr double us_per_ms = 1000.0;
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;

@@ -20,6 +20,13 @@ struct WholeRange {
     std::int64_t high = 0;
 };
 
+/// Numbers that a key may hold.
+struct NumberRange {
+    double low = 0.0;
+    double high = 0.0;
+    std::string_view unit; ///< for the message: "mm/s"
+};
+
 /// Every member throws InputError `FILE:LINE: what is wrong, what would be right`. `where` goes into messages:
 /// "[link]".
 class TomlChecker {
@@ -38,6 +45,7 @@ public:
     [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const;
     [[nodiscard]] bool flag(const toml::node& node, std::string_view key) const;
     [[nodiscard]] std::int64_t whole(const toml::node& node, std::string_view key, WholeRange range) const;
+    [[nodiscard]] double number(const toml::node& node, std::string_view key, const NumberRange& range) const;
     /// Milliseconds, also with a fraction, as whole microseconds.
     [[nodiscard]] std::uint32_t microseconds(const toml::node& node, std::string_view key, double most_ms) const;
     /// Which of the names it is.
