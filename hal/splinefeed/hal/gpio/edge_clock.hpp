@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// EdgeClock: when the edges of a motion are due, by CLOCK_MONOTONIC, on a host that may be late.
+#pragma once
+
+#include <cstdint>
+
+namespace splinefeed::hal::gpio {
+
+struct EdgeClockSettings {
+    std::uint64_t guard_ns = 5'000;       ///< the longest of the times that edges must be apart
+    std::uint64_t tolerated_ns = 100'000; ///< a later edge stretches time
+    std::uint64_t reserve_ns = 20'000'000;
+};
+
+/// The motion's time runs with ours. An edge that comes late keeps its distance to the next one up to the guard, so
+/// that no pulse and no set-up time is ever shorter than planned, and never is a delay caught up with a burst: later
+/// than what is tolerated, the whole motion moves by it.
+/// Where the motion's end is not known in time, its time slows down to stand, over twice the reserve, and goes on
+/// alike: the axes stay on the path. Not for several threads at once.
+class EdgeClock {
+public:
+    explicit EdgeClock(const EdgeClockSettings& settings) noexcept : settings_(settings) {}
+
+    static constexpr std::uint64_t never = UINT64_MAX;
+
+    /// The motion's time is motion_ns at that instant. It runs at full rate from here on.
+    void start(std::uint64_t at_ns, std::int64_t motion_ns) noexcept;
+    /// Its time slows down from that instant on. @pre running
+    void stop(std::uint64_t at_ns) noexcept;
+    /// It stands, and begins to move at that instant. @pre stands(at_ns)
+    void resume(std::uint64_t at_ns) noexcept;
+    [[nodiscard]] bool stopping() const noexcept { return mode_ == Mode::falling; }
+    [[nodiscard]] bool stands(std::uint64_t now_ns) const noexcept;
+
+    /// The motion's time at that instant.
+    [[nodiscard]] std::int64_t motion_ns(std::uint64_t now_ns) const noexcept;
+    /// When edges at this time of the motion are due; never: it stands before.
+    [[nodiscard]] std::uint64_t due_ns(std::int64_t motion_ns) const noexcept;
+    /// They were made, at that instant. Returns how late they were. @pre due_ns() was not never
+    std::uint64_t made(std::int64_t motion_ns, std::uint64_t at_ns) noexcept;
+
+    /// By how much the motion was moved, all in all.
+    [[nodiscard]] std::uint64_t stretched_ns() const noexcept { return stretched_ns_; }
+
+private:
+    enum class Mode : std::uint8_t { running, falling, rising };
+
+    [[nodiscard]] std::uint64_t planned_ns(std::int64_t motion_ns) const noexcept;
+    [[nodiscard]] double fall_ns() const noexcept;
+    [[nodiscard]] double fallen_ns() const noexcept;
+
+    EdgeClockSettings settings_;
+    Mode mode_ = Mode::running;
+    double rate_ = 1.0; // at the start of a fall
+    std::uint64_t base_ns_ = 0;
+    std::int64_t base_motion_ns_ = 0;
+    std::uint64_t last_ns_ = 0; // the last edges were made
+    std::int64_t last_motion_ns_ = INT64_MIN;
+    std::uint64_t stretched_ns_ = 0;
+};
+
+} // namespace splinefeed::hal::gpio

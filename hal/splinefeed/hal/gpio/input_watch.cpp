@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/gpio/input_watch.hpp"
+
+#include "splinefeed/hal/gpio/real_time.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace splinefeed::hal::gpio {
+
+namespace {
+
+constexpr std::uint32_t look_us = 5000;         // between two looks at the levels
+constexpr std::uint64_t behind_ns = 50'000'000; // edges come sooner than that: older steps are of no interest
+constexpr std::size_t events_at_once = 256;
+constexpr std::uint64_t ns_per_us = 1000;
+constexpr int lost_edge = 3; // so many looks with another level than the edges told
+
+} // namespace
+
+InputWatch::InputWatch(InputSource& source, std::vector<WatchedInput> inputs, const StepLog& log,
+                       std::function<void()> cut)
+    : source_(&source), active_(inputs.size()), reader_(log), cut_(std::move(cut)) {
+    for (const WatchedInput& input : inputs) {
+        watched_.push_back({.input = input});
+    }
+}
+
+InputWatch::~InputWatch() {
+    ends_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+bool InputWatch::start() {
+    const std::optional<std::uint64_t> levels = source_->levels();
+    if (!levels) {
+        error_ = errno;
+        return false;
+    }
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        const WatchedInput& input = watched_[i].input;
+        const bool level = (*levels >> input.bit & 1U) != 0;
+        watched_[i].debounce = Debounce(level, input.debounce_us);
+        active_[i].store(level == input.active_level);
+    }
+    thread_ = std::thread([this] { work(); });
+    return true;
+}
+
+std::optional<InputChange> InputWatch::take() {
+    const std::lock_guard lock(mutex_);
+    if (changes_.empty()) {
+        return std::nullopt;
+    }
+    InputChange first = changes_.front();
+    changes_.erase(changes_.begin());
+    return first;
+}
+
+std::string InputWatch::trouble() const {
+    const std::lock_guard lock(mutex_);
+    return error_ == 0 ? std::string() : std::strerror(error_); // NOLINT(concurrency-mt-unsafe)
+}
+
+// A machine whose switches are not heard must not move.
+void InputWatch::fail(int error) {
+    cut_();
+    const std::lock_guard lock(mutex_);
+    error_ = error;
+}
+
+void InputWatch::change(std::size_t index, bool active) {
+    const Watched& watched = watched_[index];
+    active_[index].store(active);
+    InputChange change{index, active, watched.debounce.since_ns(), std::nullopt};
+    for (std::size_t i = 0; i < std::min(watched.places, remembered); ++i) {
+        if (watched.place[i].time_ns == change.time_ns) {
+            change.counts = watched.place[i].counts;
+        }
+    }
+    const std::lock_guard lock(mutex_);
+    changes_.push_back(change);
+}
+
+void InputWatch::edge(std::size_t index, std::uint64_t time_ns, bool level) {
+    Watched& watched = watched_[index];
+    if (watched.input.cuts && level == watched.input.active_level) {
+        cut_();
+    }
+    watched.differs = 0;
+    watched.place[watched.places++ % remembered] = {time_ns, reader_.counts_at(time_ns)};
+    if (watched.debounce.edge(time_ns, level)) {
+        change(index, watched.debounce.settled(time_ns) == watched.input.active_level);
+    }
+}
+
+void InputWatch::settle(std::uint64_t now_ns) {
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        Watched& watched = watched_[i];
+        const std::uint64_t before = watched.debounce.since_ns();
+        const bool level = watched.debounce.settled(now_ns);
+        if (watched.debounce.since_ns() != before) {
+            change(i, level == watched.input.active_level);
+        }
+    }
+}
+
+// An edge that was lost shows as a level that stays another one. One look could be before an edge that is on its way.
+void InputWatch::look(std::uint64_t now_ns) {
+    const std::optional<std::uint64_t> levels = source_->levels();
+    if (!levels) {
+        fail(errno);
+        return;
+    }
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+        Watched& watched = watched_[i];
+        const bool level = (*levels >> watched.input.bit & 1U) != 0;
+        const bool told = watched.debounce.due_ns() == Debounce::never ? watched.debounce.settled(now_ns)
+                                                                       : !watched.debounce.settled(now_ns);
+        watched.differs = level == told ? 0 : watched.differs + 1;
+        if (watched.differs == lost_edge) {
+            missed_.fetch_add(1);
+            edge(i, now_ns, level);
+        }
+    }
+    static_cast<void>(reader_.counts_at(now_ns - behind_ns));
+}
+
+std::uint32_t InputWatch::patience_us(std::uint64_t now_ns) const noexcept {
+    std::uint64_t until = now_ns + look_us * ns_per_us;
+    for (const Watched& watched : watched_) {
+        until = std::min(until, watched.debounce.due_ns());
+    }
+    return until > now_ns ? static_cast<std::uint32_t>((until - now_ns) / ns_per_us + 1) : 0;
+}
+
+void InputWatch::work() noexcept {
+    std::array<InputEvent, events_at_once> events;
+    std::uint64_t next_look = monotonic_ns();
+    while (!ends_.load()) {
+        const int count = source_->wait(events, patience_us(monotonic_ns()));
+        if (count < 0) {
+            fail(errno);
+            return;
+        }
+        for (const InputEvent& event : std::span(events).first(static_cast<std::size_t>(count))) {
+            missed_.fetch_add(event.missed);
+            for (std::size_t i = 0; i < watched_.size(); ++i) {
+                if (watched_[i].input.bit == event.line) {
+                    edge(i, event.time_ns, event.rising);
+                }
+            }
+        }
+        const std::uint64_t now = monotonic_ns();
+        settle(now);
+        if (now >= next_look) {
+            look(now);
+            next_look = now + look_us * ns_per_us;
+        }
+    }
+}
+
+} // namespace splinefeed::hal::gpio

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/gpio/real_time.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace splinefeed::hal::gpio {
+
+namespace {
+
+constexpr std::uint64_t ns_per_s = 1'000'000'000;
+
+std::string reason(int error) {
+    return std::strerror(error); // NOLINT(concurrency-mt-unsafe): before threads run
+}
+
+} // namespace
+
+std::uint64_t monotonic_ns() noexcept {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<std::uint64_t>(now.tv_sec) * ns_per_s + static_cast<std::uint64_t>(now.tv_nsec);
+}
+
+std::uint64_t wait_until_ns(std::uint64_t instant_ns, std::uint32_t spin_ns) noexcept {
+    std::uint64_t now = monotonic_ns();
+    if (instant_ns > now + spin_ns) {
+        const std::uint64_t wake_ns = instant_ns - spin_ns;
+        const timespec wake{static_cast<time_t>(wake_ns / ns_per_s), static_cast<long>(wake_ns % ns_per_s)};
+        while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {
+        }
+        now = monotonic_ns();
+    }
+    while (now < instant_ns) {
+        now = monotonic_ns();
+    }
+    return now;
+}
+
+AwakeHost::AwakeHost() {
+    if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) {
+        locked_ = true;
+    } else {
+        missing_ += "its memory cannot be kept from being swapped out (" + reason(errno) +
+                    "): grant CAP_IPC_LOCK, or raise `ulimit -l`; ";
+    }
+    constexpr std::int32_t longest_us = 0;
+    latency_ = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
+    if (latency_ < 0 || write(latency_, &longest_us, sizeof longest_us) != sizeof longest_us) {
+        missing_ += "the processors may fall asleep (/dev/cpu_dma_latency: " + reason(errno) +
+                    "): let your user write it, or run as root; ";
+    }
+}
+
+AwakeHost::~AwakeHost() {
+    if (latency_ >= 0) {
+        close(latency_);
+    }
+    if (locked_) {
+        munlockall();
+    }
+}
+
+std::string claim_real_time(const RealTimeSettings& settings) {
+    std::string missing;
+    const sched_param param{.sched_priority = settings.priority};
+    if (const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param); error != 0) {
+        missing += "its thread cannot go before others (SCHED_FIFO: " + reason(error) +
+                   "): grant CAP_SYS_NICE, or rtprio in /etc/security/limits.conf; ";
+    }
+    if (settings.cpu) {
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        CPU_SET(static_cast<std::size_t>(*settings.cpu), &set);
+        if (const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set); error != 0) {
+            missing += "its thread cannot be bound to processor " + std::to_string(*settings.cpu) + " (" +
+                       reason(error) + "); ";
+        }
+    }
+    return missing;
+}
+
+} // namespace splinefeed::hal::gpio

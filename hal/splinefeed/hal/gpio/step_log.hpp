@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// StepLog: the steps that were made and when, from the thread that makes them to one that asks for counts at an
+// instant.
+#pragma once
+
+#include "splinefeed/base/capacity.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace splinefeed::hal::gpio {
+
+/// One writer, which never waits, and any number of readers, each with a Reader of its own.
+class StepLog {
+public:
+    /// Room for 2^16 steps that a reader has not seen. Allocated here and never again.
+    StepLog() : entry_(capacity) {}
+
+    /// The writer's. @pre instants do not fall
+    void add(std::uint64_t at_ns, unsigned axis, bool up) noexcept {
+        const std::uint64_t head = head_.load(std::memory_order_relaxed);
+        entry_[head % capacity].store(at_ns << 4U | std::uint64_t{axis} << 1U | (up ? 1U : 0U),
+                                      std::memory_order_relaxed);
+        head_.store(head + 1, std::memory_order_release);
+    }
+
+    /// Counts are relative to those at the start of the log.
+    class Reader {
+    public:
+        explicit Reader(const StepLog& log) noexcept : log_(&log) {}
+
+        /// Where all axes stood at that instant. Nothing: it is before what was asked for already, or so many steps
+        /// were not looked at that the log has lost some.
+        [[nodiscard]] std::optional<PerAxis<std::int64_t>> counts_at(std::uint64_t instant_ns) noexcept {
+            const std::uint64_t head = log_->head_.load(std::memory_order_acquire);
+            for (; tail_ != head && !lost_; ++tail_) {
+                const std::uint64_t entry = log_->entry_[tail_ % capacity].load(std::memory_order_relaxed);
+                std::atomic_thread_fence(std::memory_order_acquire);
+                lost_ = log_->head_.load(std::memory_order_relaxed) - tail_ >= capacity; // it is being written again
+                if (entry >> 4U > instant_ns || lost_) {
+                    break;
+                }
+                counts_[(entry >> 1U) & 7U] += (entry & 1U) != 0 ? 1 : -1;
+                seen_ns_ = entry >> 4U;
+            }
+            return lost_ || instant_ns < seen_ns_ ? std::nullopt : std::optional(counts_);
+        }
+
+    private:
+        const StepLog* log_;
+        std::uint64_t tail_ = 0;
+        std::uint64_t seen_ns_ = 0;
+        PerAxis<std::int64_t> counts_{};
+        bool lost_ = false;
+    };
+
+private:
+    static constexpr std::uint64_t capacity = 1U << 16U;
+    static_assert(max_axes <= 8);
+
+    std::vector<std::atomic<std::uint64_t>> entry_;
+    std::atomic<std::uint64_t> head_{0};
+};
+
+} // namespace splinefeed::hal::gpio

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// StepPort: feed segments to edges of output lines, in real time, by a thread of its own.
+#pragma once
+
+#include "splinefeed/hal/gpio/edge_clock.hpp"
+#include "splinefeed/hal/gpio/late_histogram.hpp"
+#include "splinefeed/hal/gpio/line_writer.hpp"
+#include "splinefeed/hal/gpio/real_time.hpp"
+#include "splinefeed/hal/gpio/segment_ring.hpp"
+#include "splinefeed/hal/gpio/step_log.hpp"
+#include "splinefeed/hal/motion_port.hpp"
+#include "splinefeed/s5_pulse_train/pulse_train.hpp"
+
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+namespace splinefeed::hal::gpio {
+
+/// Of one chip: the lines that an axis's edges change, and those that the levels of the edge invert.
+struct LevelMasks {
+    std::uint64_t mask = 0;
+    std::uint64_t inverted = 0; ///< of the mask: low where the level is true
+};
+
+/// A chip's outputs.
+struct ChipOutputs {
+    LineWriter* writer = nullptr; ///< outlives the port
+    PerAxis<LevelMasks> step{};
+    PerAxis<LevelMasks> direction{};
+    LevelMasks enable{}; ///< level true: the drives are on
+};
+
+struct StepPortSettings {
+    int axes = 1;
+    StepTiming timing{};
+    RealTimeSettings real_time{};
+    std::uint64_t tolerated_ns = 100'000; ///< EdgeClockSettings
+    std::uint32_t buffer_ms = 50;         ///< what is held of a motion: how long a feed hold takes to act
+};
+
+/// How the edges of a motion came.
+struct StepPortReport {
+    std::uint64_t edges = 0;
+    std::uint64_t slowdowns = 0; ///< the next segment was not there in time: all axes slowed down, on the path
+    std::uint64_t stretched_ns = 0;
+};
+
+/// One motion, then reset() and the next one. Its thread waits for instants, and neither allocates, nor locks, nor
+/// touches a file. Positions are counts that were stepped since the port was made.
+class StepPort final : public MotionPort {
+public:
+    /// Nothing is set and no thread runs yet.
+    StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& settings);
+    StepPort(const StepPort&) = delete;
+    StepPort& operator=(const StepPort&) = delete;
+    ~StepPort();
+
+    /// Enables the drives and waits for segments. Returns what real time lacks, as claim_real_time().
+    [[nodiscard]] std::string start();
+    /// No more segments come: it ends with the last one.
+    void complete() noexcept { complete_.store(true, std::memory_order_release); }
+    /// From any thread, also a handler of signals: within half a millisecond and what a wake-up takes no line changes
+    /// any more, but enable, to off.
+    void cut() noexcept { cut_.store(true, std::memory_order_release); }
+    /// Ends the thread; the drives stay enabled, unless they were cut.
+    void stop() noexcept;
+    /// @pre stopped. For another motion, which may begin anywhere.
+    void reset() noexcept;
+
+    /// Where an axis stands [counts]: what was stepped.
+    [[nodiscard]] std::int64_t counts(int axis) const noexcept {
+        return counts_[static_cast<unsigned>(axis)].load(std::memory_order_relaxed);
+    }
+    [[nodiscard]] bool was_cut() const noexcept { return cut_.load(std::memory_order_relaxed); }
+    /// Where all axes stood at an instant.
+    [[nodiscard]] const StepLog& log() const noexcept { return log_; }
+    [[nodiscard]] const LateHistogram& late() const noexcept { return late_; }
+    [[nodiscard]] StepPortReport report() const noexcept;
+    /// Why it is in fault.
+    [[nodiscard]] std::string trouble() const;
+
+private:
+    using Train = std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>>;
+    enum class State : std::uint8_t { idle, running, done, cut, failed };
+
+    [[nodiscard]] int do_room() const noexcept override;
+    [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
+    PortState do_poll() noexcept override;
+    void do_halt() noexcept override { cut(); }
+
+    [[nodiscard]] static Train train_for(const StepPortSettings& settings);
+    void work() noexcept;
+    [[nodiscard]] bool next(Edge& edge) noexcept;
+    [[nodiscard]] bool filled() const noexcept;
+    void watch_supply(std::uint64_t now_ns) noexcept;
+    [[nodiscard]] bool gather() noexcept;
+    [[nodiscard]] bool make() noexcept;
+    void collect(const Edge& edge) noexcept;
+    [[nodiscard]] bool steps(const Edge& edge) const noexcept;
+    [[nodiscard]] bool write_collected() noexcept;
+    [[nodiscard]] bool enable(bool on) noexcept;
+
+    struct Change {
+        std::uint64_t mask = 0;
+        std::uint64_t levels = 0;
+    };
+
+    std::vector<ChipOutputs> chips_;
+    std::vector<Change> change_; // of each chip, to be written at once
+    StepPortSettings settings_;
+    Train train_;
+    EdgeClock clock_;
+    SegmentRing ring_;
+    StepLog log_;
+    LateHistogram late_;
+    PerAxis<std::atomic<std::int64_t>> counts_{};
+    PerAxis<bool> up_{};
+    std::atomic<std::uint64_t> submitted_ticks_{0};
+    std::atomic<std::uint64_t> motion_ns_{0}; // of the last edge, or what has passed
+    std::atomic<std::uint64_t> taken_{0};
+    std::atomic<std::uint64_t> edges_{0};
+    std::atomic<std::uint64_t> slowdowns_{0};
+    std::atomic<std::uint64_t> stretched_ns_{0};
+    std::atomic<State> state_{State::idle};
+    std::atomic<int> error_{0};
+    std::atomic<bool> at_rest_{true}; // at the end of what was submitted
+    std::atomic<bool> complete_{false};
+    std::atomic<bool> cut_{false};
+    std::atomic<bool> ends_{false};
+    Edge edge_; // the next one, where have_
+    std::int64_t gathered_tick_ = 0;
+    PerAxis<bool> stepped_{}; // by what was gathered
+    bool have_ = false;
+    bool gathered_ = false;
+    bool finished_ = false; // the train's
+    std::thread thread_;
+};
+
+} // namespace splinefeed::hal::gpio

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// InputWatch on a chip of the test: what acts, since when, and where the axes stood.
+#include "splinefeed/hal/gpio/input_watch.hpp"
+#include "splinefeed/hal/gpio/real_time.hpp"
+#include "support/catch.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <deque>
+
+using namespace splinefeed;
+using namespace splinefeed::hal::gpio;
+
+namespace {
+
+class ScriptedSource final : public InputSource {
+public:
+    [[nodiscard]] std::optional<std::uint64_t> levels() noexcept override {
+        const std::lock_guard lock(mutex_);
+        return levels_;
+    }
+    [[nodiscard]] int wait(std::span<InputEvent> out, std::uint32_t timeout_us) noexcept override {
+        const std::uint64_t until = monotonic_ns() + timeout_us * 1000ULL;
+        for (;;) {
+            {
+                const std::lock_guard lock(mutex_);
+                if (broken_) {
+                    errno = ENODEV;
+                    return -1;
+                }
+                std::size_t count = 0;
+                for (; !events_.empty() && count < out.size(); ++count) {
+                    out[count] = events_.front();
+                    events_.pop_front();
+                }
+                if (count > 0 || monotonic_ns() >= until) {
+                    return static_cast<int>(count);
+                }
+            }
+            std::this_thread::sleep_for(std::chrono::microseconds(100));
+        }
+    }
+
+    void drive(unsigned line, bool level, std::uint64_t time_ns, bool told = true) {
+        const std::lock_guard lock(mutex_);
+        levels_ = (levels_ & ~(std::uint64_t{1} << line)) | (std::uint64_t{level} << line);
+        if (told) {
+            events_.push_back({static_cast<std::uint8_t>(line), level, time_ns, 0});
+        }
+    }
+    void vanish() {
+        const std::lock_guard lock(mutex_);
+        broken_ = true;
+    }
+
+private:
+    std::mutex mutex_;
+    std::deque<InputEvent> events_;
+    std::uint64_t levels_ = 0;
+    bool broken_ = false;
+};
+
+template <class F>
+bool soon(F condition) {
+    for (int i = 0; i < 2000 && !condition(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return condition();
+}
+
+struct Bench {
+    explicit Bench(std::vector<WatchedInput> inputs)
+        : watch(source, std::move(inputs), log, [this] { cuts.fetch_add(1); }) {}
+
+    InputChange next() {
+        std::optional<InputChange> change;
+        REQUIRE(soon([&] { return change || (change = watch.take()); }));
+        return *change;
+    }
+
+    ScriptedSource source;
+    StepLog log;
+    std::atomic<int> cuts{0};
+    InputWatch watch;
+};
+
+} // namespace
+
+TEST_CASE("an input acts since its first edge, however it bounces, and tells where the axes stood then") {
+    Bench bench({{.bit = 3, .active_level = true, .debounce_us = 2000}});
+    const std::uint64_t t = monotonic_ns();
+    for (unsigned i = 0; i < 100; ++i) { // a step each 10 us, from here on
+        bench.log.add(t + 10'000 * i, 0, true);
+    }
+    REQUIRE(bench.watch.start());
+    CHECK_FALSE(bench.watch.active(0));
+    const std::uint64_t edge = t + 405'000;
+    for (int i = 0; i < 5; ++i) {
+        bench.source.drive(3, i % 2 == 0, edge + static_cast<std::uint64_t>(i) * 20'000);
+    }
+    const InputChange change = bench.next();
+    CHECK(change.input == 0);
+    CHECK(change.active);
+    CHECK(change.time_ns == edge);
+    REQUIRE(change.counts.has_value());
+    CHECK((*change.counts)[0] == 41); // at t, t + 10 us, ... t + 400 us
+    CHECK(bench.watch.active(0));
+    CHECK(bench.cuts == 0);
+    bench.source.drive(3, false, edge + 900'000'000);
+    CHECK_FALSE(bench.next().active);
+}
+
+TEST_CASE("an input that cuts does so at its first edge, debounced or not") {
+    Bench bench({{.bit = 0, .active_level = true, .debounce_us = 100'000, .cuts = true}, {.bit = 1}});
+    REQUIRE(bench.watch.start());
+    bench.source.drive(1, true, monotonic_ns());
+    CHECK(bench.next().input == 1);
+    CHECK(bench.cuts == 0);
+    bench.source.drive(0, true, monotonic_ns());
+    CHECK(soon([&] { return bench.cuts > 0; }));
+    CHECK_FALSE(bench.watch.active(0)); // that needs the time of debouncing
+}
+
+TEST_CASE("an edge that the system lost is noticed by the level") {
+    Bench bench({{.bit = 5, .active_level = true, .cuts = true}});
+    REQUIRE(bench.watch.start());
+    bench.source.drive(5, true, 0, false);
+    CHECK(soon([&] { return bench.cuts > 0; }));
+    CHECK(bench.next().active);
+    CHECK(bench.watch.missed() == 1);
+}
+
+TEST_CASE("a chip that vanishes cuts the machine off, with the system's reason") {
+    Bench bench({WatchedInput{.bit = 5}});
+    REQUIRE(bench.watch.start());
+    CHECK(bench.watch.trouble().empty());
+    bench.source.vanish();
+    CHECK(soon([&] { return bench.cuts > 0; }));
+    CHECK(soon([&] { return bench.watch.trouble() == "No such device"; }));
+}
+
+TEST_CASE("an input that acts from the start is known before anything moves") {
+    const std::vector<WatchedInput> both{{.bit = 2, .active_level = false}, {.bit = 2, .active_level = true}};
+    Bench bench(both);
+    REQUIRE(bench.watch.start());
+    CHECK(bench.watch.active(0));
+    CHECK_FALSE(bench.watch.active(1));
+}

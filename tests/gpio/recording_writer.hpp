@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// A chip that records: what was set when, as a logic analyser sees it.
+#pragma once
+
+#include "splinefeed/hal/gpio/line_writer.hpp"
+#include "splinefeed/hal/gpio/real_time.hpp"
+
+#include <mutex>
+#include <vector>
+
+namespace splinefeed_test {
+
+class RecordingWriter final : public splinefeed::hal::gpio::LineWriter {
+public:
+    struct Row {
+        std::uint64_t at_ns;
+        std::uint64_t levels; // of all lines
+        std::uint64_t mask;   // of the call
+    };
+
+    [[nodiscard]] bool set(std::uint64_t mask, std::uint64_t levels) noexcept override {
+        const std::lock_guard lock(mutex_);
+        levels_ = (levels_ & ~mask) | (levels & mask);
+        rows_.push_back({splinefeed::hal::gpio::monotonic_ns(), levels_, mask});
+        if (fails_after_ > 0 && rows_.size() >= fails_after_) {
+            errno = ENODEV;
+            return false;
+        }
+        return true;
+    }
+    void fail_after(std::size_t rows) { fails_after_ = rows; }
+    [[nodiscard]] std::vector<Row> rows() const {
+        const std::lock_guard lock(mutex_);
+        return rows_;
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::vector<Row> rows_;
+    std::uint64_t levels_ = 0;
+    std::size_t fails_after_ = 0;
+};
+
+} // namespace splinefeed_test

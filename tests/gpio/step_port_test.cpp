@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// StepPort in real time on a chip that records: every edge of the pulse train, in order, none too near to another.
+#include "../pulse/random_segments.hpp"
+#include "recording_writer.hpp"
+#include "splinefeed/hal/gpio/step_port.hpp"
+#include "support/catch.hpp"
+
+#include <chrono>
+#include <map>
+
+using namespace splinefeed;
+using namespace splinefeed::hal;
+using namespace splinefeed::hal::gpio;
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr int axes = 2;
+constexpr std::uint64_t enable_mask = 1U << 8U;
+
+StepPortSettings settings(const StepSettings& step = {}) {
+    return {.axes = axes, .timing = StepTiming::make(step).value(), .real_time = {.spin_ns = 0}};
+}
+
+/// Axis k: step 2 k and direction 2 k + 1; the second axis's lines are inverted, enable is, too.
+ChipOutputs wired(RecordingWriter& writer) {
+    ChipOutputs chip{.writer = &writer};
+    for (unsigned k = 0; k < axes; ++k) {
+        chip.step[k] = {std::uint64_t{1} << 2 * k, k == 1 ? std::uint64_t{1} << 2 * k : 0};
+        chip.direction[k] = {std::uint64_t{2} << 2 * k, k == 1 ? std::uint64_t{2} << 2 * k : 0};
+    }
+    chip.enable = {enable_mask, enable_mask};
+    return chip;
+}
+
+void sleep_ms(int ms) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+}
+
+/// Hands all of them on; between(i) is called before the i-th.
+template <class F>
+PortPhase run(StepPort& port, const std::vector<FeedSegment>& segments, F between) {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        between(i);
+        while (port.room() == 0) {
+            if (const PortPhase phase = port.poll().phase; phase != PortPhase::running && phase != PortPhase::idle) {
+                return phase;
+            }
+            sleep_ms(1);
+        }
+        if (!port.submit(segments[i])) {
+            return port.poll().phase;
+        }
+    }
+    port.complete();
+    while (port.poll().phase == PortPhase::running) {
+        sleep_ms(1);
+    }
+    return port.poll().phase;
+}
+
+using Levels = std::map<unsigned, std::vector<std::uint64_t>>; // of a line: when it changed
+
+/// Steps that the lines made on an axis, and the times of each line's changes. The first row is how they begin.
+std::int64_t replay(const std::vector<RecordingWriter::Row>& rows, unsigned axis, Levels& changes) {
+    const bool inverted = axis == 1;
+    std::int64_t count = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const std::uint64_t changed = rows[i].levels ^ rows[i - 1].levels;
+        const bool step = ((rows[i].levels >> 2 * axis & 1U) != 0) != inverted;
+        const bool up = ((rows[i - 1].levels >> (2 * axis + 1) & 1U) != 0) != inverted;
+        for (const unsigned line : {2 * axis, 2 * axis + 1}) {
+            if ((changed >> line & 1U) != 0) {
+                changes[line].push_back(rows[i].at_ns);
+            }
+        }
+        if ((changed >> 2 * axis & 1U) != 0 && step) {
+            count += up ? 1 : -1;
+        }
+    }
+    return count;
+}
+
+void check_rows(const std::vector<RecordingWriter::Row>& rows, const std::vector<FeedSegment>& segments,
+                const StepPort& port, const StepSettings& step) {
+    for (unsigned k = 0; k < axes; ++k) {
+        Levels changes;
+        const std::int64_t expected = nearest_step(segments.back().end[k]) - nearest_step(segments.front().start[k]);
+        CHECK(replay(rows, k, changes) == expected);
+        CHECK(port.counts(static_cast<int>(k)) == expected);
+        const std::vector<std::uint64_t>& steps = changes[2 * k];
+        for (std::size_t i = 1; i < steps.size(); ++i) { // to high, to low, to high
+            const double width_us = static_cast<double>(steps[i] - steps[i - 1]) * 1e-3;
+            REQUIRE(width_us >= (i % 2 == 1 ? step.high_us : step.low_us));
+        }
+        for (const std::uint64_t turn : changes[2 * k + 1]) {
+            for (const std::uint64_t edge : steps) {
+                const double apart_us = std::fabs(static_cast<double>(turn) - static_cast<double>(edge)) * 1e-3;
+                REQUIRE(apart_us >= std::min(step.direction_setup_us, step.direction_hold_us));
+            }
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("a motion becomes all of its edges, and every time between them is kept") {
+    const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+    StepSettings step;
+    step.tick_us = seed == 3 ? 20.0 : 0.0;
+    INFO("seed " << seed);
+    const std::vector<FeedSegment> segments = RandomSegments(seed).smooth(axes, 300, 8000, 4000.0);
+    RecordingWriter writer;
+    StepPort port({wired(writer)}, settings(step));
+    INFO(port.start());
+    REQUIRE(run(port, segments, [](std::size_t) {}) == PortPhase::idle);
+    check_rows(writer.rows(), segments, port, step);
+    CHECK(port.late().total() == port.report().edges);
+    CHECK(port.poll().executed == segments.size());
+    CHECK((writer.rows().front().levels & enable_mask) == 0); // on, inverted
+}
+
+TEST_CASE("segments that come too late make all axes slow down on the path, and go on") {
+    const std::vector<FeedSegment> segments = RandomSegments(4).smooth(axes, 300, 8000, 4000.0);
+    RecordingWriter writer;
+    StepPort port({wired(writer)}, settings());
+    INFO(port.start());
+    REQUIRE(run(port, segments, [](std::size_t i) { sleep_ms(i == 150 ? 300 : 0); }) == PortPhase::idle);
+    check_rows(writer.rows(), segments, port, {});
+    CHECK(port.report().slowdowns >= 1);
+}
+
+TEST_CASE("a cut stops all edges and switches the drives off") {
+    const std::vector<FeedSegment> segments = RandomSegments(5).smooth(axes, 300, 8000, 4000.0);
+    RecordingWriter writer;
+    StepPort port({wired(writer)}, settings());
+    INFO(port.start());
+    std::uint64_t cut_ns = 0;
+    CHECK(run(port, segments, [&](std::size_t i) {
+              if (i == 150) {
+                  cut_ns = monotonic_ns();
+                  port.cut();
+              }
+          }) == PortPhase::fault);
+    const auto rows = writer.rows();
+    CHECK((rows.back().levels & enable_mask) != 0);
+    CHECK((rows.back().levels & 0b101U) == 0b100U); // steps idle: low, and high where inverted
+    CHECK(rows.back().at_ns > cut_ns);
+    std::size_t after = 0;
+    for (const auto& row : rows) {
+        after += row.at_ns > cut_ns + 20'000'000 ? 1U : 0U; // a host may be late
+    }
+    CHECK(after <= 1);
+    CHECK(port.was_cut());
+    CHECK_FALSE(port.submit(segments[0]));
+}
+
+TEST_CASE("a chip that does not obey any more is a fault with the system's reason") {
+    const std::vector<FeedSegment> segments = RandomSegments(6).smooth(axes, 100, 8000, 4000.0);
+    RecordingWriter writer;
+    writer.fail_after(40);
+    StepPort port({wired(writer)}, settings());
+    INFO(port.start());
+    CHECK(run(port, segments, [](std::size_t) {}) == PortPhase::fault);
+    CHECK(port.trouble() == "a line cannot be set: No such device");
+    CHECK(writer.rows().size() <= 41);
+}
+
+TEST_CASE("one motion after another: counts go on") {
+    RecordingWriter writer;
+    StepPort port({wired(writer)}, settings());
+    PerAxis<std::int64_t> expected{};
+    for (const std::uint64_t seed : {7U, 8U}) {
+        const std::vector<FeedSegment> segments = RandomSegments(seed).smooth(axes, 60, 8000, 3000.0);
+        INFO(port.start());
+        REQUIRE(run(port, segments, [](std::size_t) {}) == PortPhase::idle);
+        port.stop();
+        port.reset();
+        for (unsigned k = 0; k < axes; ++k) {
+            expected[k] += nearest_step(segments.back().end[k]) - nearest_step(segments.front().start[k]);
+            CHECK(port.counts(static_cast<int>(k)) == expected[k]);
+        }
+    }
+}
+
+TEST_CASE("nothing to move is a motion that is over") {
+    RecordingWriter writer;
+    StepPort port({wired(writer)}, settings());
+    INFO(port.start());
+    CHECK(run(port, {}, [](std::size_t) {}) == PortPhase::idle);
+    CHECK(writer.rows().size() == 1);
+}
