@@ -13,6 +13,7 @@ exec 9>"$prefix.lock"
 flock 9
 if [[ -e $prefix/version ]]; then exit 0; fi
 
+rm -rf "$prefix".?????? # of one that was broken off
 scratch=$(mktemp -d "$prefix.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
 # shellcheck source=/dev/null

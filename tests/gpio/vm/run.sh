@@ -3,12 +3,14 @@
 # One test in the virtual machine: run.sh CACHE_DIR OUT_DIR GUEST_SCRIPT FILE...
 #
 # GUEST_SCRIPT (busybox sh; `. /guest.sh` gives it chip_path, pull, level, wait_for_line) runs in /test as root, beside the
-# FILEs and with the libraries that ldd names for them (LD_LIBRARY_PATH and RUNPATH count; a program may be linked statically).
-# OUT_DIR is emptied; then it holds what the script left in /out, trace.txt (gpio_value and gpio_direction, clock mono),
-# lines.csv (number in the trace, chip, offset, name) and console.log. Status: the script's own; 77 as prepare.sh; 99 where the
-# bed did not work or the guest took longer than GPIO_VM_SECONDS (default 120), with the end of the console.
+# FILEs, which are found in PATH, and with the libraries that ldd names for them (LD_LIBRARY_PATH and RUNPATH count; a program may
+# be linked statically). OUT_DIR is emptied; then it holds what the script left in /out, trace.txt (gpio_value and
+# gpio_direction, clock mono), lines.csv (number in the trace, chip, offset, name), console.log and `status`. Status: the
+# script's own; 77 as prepare.sh; 99 where the bed did not work, the trace was too long for its buffer (about a million events), or
+# the guest took longer than GPIO_VM_SECONDS (default 120), with the end of the console.
 # GPIO_VM_TIME=virtual: the guest's clock counts its instructions (500 a us) and leaps over sleep, so that instants do not depend
 # on what else the host does; takes two seconds more to start. For timing; the default, `real`, is for everything else.
+# Paths are absolute or from the repository's root.
 source "$(dirname "${BASH_SOURCE[0]}")/../../tools/common.sh"
 
 if (($# < 3)); then

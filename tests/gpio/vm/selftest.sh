@@ -104,11 +104,11 @@ for wrong in less other; do
     sed -n '/: /s/^/    seen: /p' "$work/told"
 done
 
-# fails STATUS LINE_OF_GUEST: what the run is to end with.
+# fails STATUS LINE_OF_GUEST [SECONDS]: what the run is to end with.
 fails() {
     local status=0
     echo "$2" >"$work/fails.sh"
-    GPIO_VM_SECONDS=${3-60} $vm/run.sh $cache "$work/out" "$work/fails.sh" 2>"$work/told" || status=$?
+    GPIO_VM_SECONDS=${3-60} $vm/run.sh $cache "$work/out" "$work/fails.sh" "${programs[-1]}" 2>"$work/told" || status=$?
     if ((status != $1)); then
         cat "$work/told"
         echo "'$2' ends with status $status instead of $1"
@@ -120,3 +120,5 @@ echo "== guests that fail"
 fails 3 'exit 3'
 fails 99 'while :; do :; done' 15
 fails 99 'echo c >/proc/sysrq-trigger'
+# More edges than the trace holds.
+fails 99 'echo 64 >/sys/kernel/tracing/buffer_size_kb; ./toggle_* set /dev/gpiochip0 0 20000'

@@ -22,8 +22,6 @@ void require(bool good, const char* what) {
     }
 }
 
-constexpr std::int64_t ns_per_s = 1'000'000'000;
-
 #ifdef GPIOD_LINE_BULK_MAX_LINES // version 1
 
 /// Lines of one chip; they are released with the process.
@@ -80,7 +78,7 @@ public:
     }
     bool next_edge_rises(int seconds) {
         gpiod_edge_event_buffer* const buffer = gpiod_edge_event_buffer_new(1);
-        require(gpiod_line_request_wait_edge_events(lines_, seconds * ns_per_s) == 1, "no edge came");
+        require(gpiod_line_request_wait_edge_events(lines_, seconds * 1'000'000'000LL) == 1, "no edge came");
         require(gpiod_line_request_read_edge_events(lines_, buffer, 1) == 1, "an edge cannot be read");
         const bool rises = gpiod_edge_event_get_event_type(gpiod_edge_event_buffer_get_event(buffer, 0)) ==
                            GPIOD_EDGE_EVENT_RISING_EDGE;
@@ -138,6 +136,7 @@ void play(Lines& lines, const std::vector<Edge>& edges) {
         used[edge.offset] = 0;
     }
     std::vector<unsigned> offsets;
+    offsets.reserve(used.size());
     for (const auto& [offset, value] : used) {
         offsets.push_back(offset);
     }
