@@ -104,21 +104,20 @@ for wrong in less other; do
     sed -n '/: /s/^/    seen: /p' "$work/told"
 done
 
-# fails STATUS LINE_OF_GUEST [SECONDS]: what the run is to end with.
+# fails STATUS REASON LINE_OF_GUEST [SECONDS]: what the run is to end with, and what it says.
 fails() {
     local status=0
-    echo "$2" >"$work/fails.sh"
-    GPIO_VM_SECONDS=${3-60} $vm/run.sh $cache "$work/out" "$work/fails.sh" "${programs[-1]}" 2>"$work/told" || status=$?
-    if ((status != $1)); then
+    echo "$3" >"$work/fails.sh"
+    GPIO_VM_SECONDS=${4-60} $vm/run.sh $cache "$work/out" "$work/fails.sh" "${programs[-1]}" 2>"$work/told" || status=$?
+    if ((status != $1)) || ! grep --quiet "$2" "$work/told"; then
         cat "$work/told"
-        echo "'$2' ends with status $status instead of $1"
+        echo "'$3' ends with status $status instead of $1 ($2)"
         exit 1
     fi
-    echo "    '$2': status $status"
+    echo "    '$3': status $status, $2"
 }
 echo "== guests that fail"
-fails 3 'exit 3'
-fails 99 'while :; do :; done' 15
-fails 99 'echo c >/proc/sysrq-trigger'
-# More edges than the trace holds.
-fails 99 'echo 64 >/sys/kernel/tracing/buffer_size_kb; ./toggle_* set /dev/gpiochip0 0 20000'
+fails 3 'cannot go on' 'echo cannot go on; exit 3'
+fails 99 'not finished after 12 s' 'while :; do sleep 1; done' 12
+fails 99 'it ended before' 'echo c >/proc/sysrq-trigger'
+fails 99 'buffer was too small' 'echo 64 >/sys/kernel/tracing/buffer_size_kb; ./toggle_* set /dev/gpiochip0 0 20000'
