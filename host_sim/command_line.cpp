@@ -100,7 +100,9 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     if (executes) {
         app.add_option("--target", job.target,
                        std::string("sim: the simulated machine in this process (default); ") + target_text);
-        app.add_flag("--home", job.home, "the drives find their references first; there the program begins")
+        app.add_flag("--home", job.wishes.home, "the axes find their references first; then the program begins")
+            ->disable_flag_override();
+        app.add_flag("--probe", job.wishes.probe, "it ends where the probe touches (gpio://); 1 where it never does")
             ->disable_flag_override();
     }
     app.add_option("--window", typed.window,
@@ -350,8 +352,10 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
                   : command.get_name() == "plan" ? Command::plan
                                                  : Command::curve;
     check_target(job.target);
-    if (job.home && job.target == "sim") {
-        throw UsageError("--home is for drives, which the simulated machine has not; name them with --target");
+    if ((job.wishes.home || job.wishes.probe) && job.target == "sim") {
+        throw UsageError(fmt::format("--{} is for machines with switches or drives, and the simulated one has none; name "
+                                     "yours with --target",
+                                     job.wishes.home ? "home" : "probe"));
     }
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));

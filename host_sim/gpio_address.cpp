@@ -19,10 +19,14 @@ constexpr std::string_view example = "gpio:///dev/gpiochip0?map=lines.toml";
 
 } // namespace
 
+bool is_gpio_address(const std::string& text) {
+    return std::string_view(text).substr(0, scheme.size()) == scheme;
+}
+
 GpioAddress parse_gpio_address(const std::string& text) {
     constexpr std::array<std::string_view, 1> keys{"map"};
     std::string_view rest = text;
-    if (rest.substr(0, scheme.size()) != scheme) {
+    if (!is_gpio_address(text)) {
         throw AddressError(fmt::format("{} is no address of a GPIO chip; write {}", in_quotes(text), example));
     }
     rest.remove_prefix(scheme.size());

@@ -11,6 +11,9 @@ struct GpioAddress {
     std::string map;  ///< path of the map file
 };
 
+/// Whether a target is meant to be one.
+[[nodiscard]] bool is_gpio_address(const std::string& text);
+
 /// gpio:///dev/gpiochip0?map=FILE.toml. Throws AddressError. A path with & in it cannot be given.
 [[nodiscard]] GpioAddress parse_gpio_address(const std::string& text);
 

@@ -5,6 +5,7 @@
 #include "curve_choice.hpp"
 #include "drive/drive_command.hpp"
 #include "link_report.hpp"
+#include "run_target.hpp"
 #include "scalar_kind.hpp"
 #include "surface/surface_arguments.hpp"
 
@@ -21,8 +22,8 @@ struct Job {
     Command command = Command::run;
     std::string input; ///< a path, or "-"
     InputFormat format = InputFormat::csv;
-    std::string machine;        ///< empty: the default machine
-    bool home = false;          ///< the drives find their references first
+    std::string machine; ///< empty: the default machine
+    RunWishes wishes;
     std::string target = "sim"; ///< or "modbus", or the address of a drive
     std::string events;         ///< empty: nobody steers
     CurveArguments curve;

@@ -13,6 +13,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
+#ifdef SPLINEFEED_HAS_GPIO
+#include "gpio/gpio_link.hpp"
+#endif
 
 namespace splinefeed::host {
 
@@ -170,11 +173,17 @@ void add_link_options(CLI::App& app, LinkArguments& arguments) {
 int report_link(const LinkArguments& arguments) {
     if (arguments.target.empty() || arguments.target == "sim") {
         throw UsageError("there is nothing to test; name the drives with --target modbus-tcp://HOST:PORT, "
-                         "modbus-rtu://DEVICE, or modbus and -m MACHINE.toml");
+                         "modbus-rtu://DEVICE, gpio:///dev/gpiochip0?map=FILE.toml, or modbus and -m MACHINE.toml");
     }
     check_target(arguments.target);
     const double seconds = measuring_time(arguments.seconds);
     MachineDescription machine = arguments.machine.empty() ? default_machine() : read_machine_file(arguments.machine);
+#ifdef SPLINEFEED_HAS_GPIO
+    if (is_gpio_address(arguments.target)) {
+        std::fputs(gpio_report(parse_gpio_address(arguments.target), machine, seconds).c_str(), stdout);
+        return 0;
+    }
+#endif
     if (arguments.machine.empty() && arguments.target != "modbus") { // one drive, whatever axes it has
         const DriveProfile profile = find_profile(parse_target_address(arguments.target).profile);
         machine.settings.axes = std::min(machine.settings.axes, profile.axes);

@@ -33,6 +33,7 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
     FeedSegment segment;
     for (;;) {
         operate();
+        obey_target();
         if (pull(segment)) {
             if (segments_ == 0 && tee_.failure()) {
                 std::rethrow_exception(tee_.failure());
@@ -70,7 +71,7 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     }
     if (trajectory_.activity() == Activity::aborted) {
         stopped_ = "aborted by an event";
-    } else if (trajectory_.activity() == Activity::held && trajectory_.state() == Pull::held) {
+    } else if (trajectory_.activity() == Activity::held && trajectory_.state() == Pull::held && !held_by_target_) {
         stopped_ = "held, and no event resumes it";
     }
     machine_.finish();
@@ -84,6 +85,8 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     // Whatever ended the run: the drives come to rest at the end of what they have.
     if (!target_->finish()) {
         stopped_ = target_->why();
+    } else if (!target_->holds().empty()) {
+        stopped_ = target_->achieved() ? std::string() : target_->holds();
     }
     return stopped_.empty() ? stopped_ : stopped_ + target_->where();
 }
@@ -110,10 +113,35 @@ void Motion<S>::operate() {
     }
 }
 
+// Switches and the user's signals, in real time.
+template <Scalar S>
+void Motion<S>::obey_target() {
+    if (target_ == nullptr) {
+        return;
+    }
+    if (!held_by_target_ && !target_->holds().empty()) {
+        held_by_target_ = true;
+        trajectory_.hold();
+    }
+    switch (RunTarget::take_steering()) {
+    case UserSteering::none: break;
+    case UserSteering::hold:
+        held_by_user_ = true;
+        trajectory_.hold();
+        break;
+    case UserSteering::resume:
+        held_by_user_ = false;
+        if (!held_by_target_) {
+            trajectory_.resume();
+        }
+        break;
+    }
+}
+
 // Time passes while the machine is held; false where nothing will ever move it.
 template <Scalar S>
 bool Motion<S>::stand() {
-    if (operated_ == events_.size()) {
+    if (held_by_target_ || (operated_ == events_.size() && !held_by_user_)) {
         return false;
     }
     FeedSegment segment;
@@ -229,7 +257,7 @@ Summary Motion<S>::summary() const {
     const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);
     summary.smoothing_bound_mm = duration_s * duration_s * std::sqrt(acceleration_sq) / 6.0;
     if (target_ != nullptr) {
-        summary.link = target_->link();
+        target_->describe(summary);
     }
     rusage usage{};
     if (getrusage(RUSAGE_SELF, &usage) == 0) {

@@ -39,6 +39,7 @@ private:
     bool pull(FeedSegment& segment);
     void read();
     void operate();
+    void obey_target();
     bool stand();
     bool execute(const FeedSegment& segment);
     void keep_failure(const std::exception_ptr& failure);
@@ -65,6 +66,8 @@ private:
     std::uint64_t segments_ = 0;
     std::uint64_t rests_ = 0; // instants at which all axes stood still
     bool read_all_ = false;
+    bool held_by_user_ = false;
+    bool held_by_target_ = false; // and ends there
 };
 
 } // namespace splinefeed::host

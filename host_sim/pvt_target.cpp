@@ -72,8 +72,8 @@ std::string PvtTarget::prepare(const FeedSegment& first) {
     return failure ? drive_sentence(table_, port_, *failure) : std::string();
 }
 
-LinkSummary PvtTarget::link() const {
-    LinkSummary link;
+void PvtTarget::describe(Summary& summary) const {
+    LinkSummary& link = summary.link.emplace();
     double worst_us = 0.0;
     for (std::size_t i = 0; i < port_.drives(); ++i) {
         link.drives.push_back({table_.drives[i].address.text, port_.report(i).counts});
@@ -82,7 +82,6 @@ LinkSummary PvtTarget::link() const {
     }
     link.resumes = port_.resumes();
     link.bus_s = static_cast<double>(port_.busy_us()) * 1e-6;
-    return link;
 }
 
 } // namespace splinefeed::host

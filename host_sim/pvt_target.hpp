@@ -24,7 +24,7 @@ public:
     [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
     [[nodiscard]] bool resamples() const noexcept override;
     [[nodiscard]] std::string where() const override;
-    [[nodiscard]] LinkSummary link() const override;
+    void describe(Summary& summary) const override;
 
 private:
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }

@@ -2,8 +2,8 @@
 // RunTarget: where a run's feed segments go in real time, beside the simulated machine that proves them.
 #pragma once
 
-#include "link_summary.hpp"
 #include "machine_description.hpp"
+#include "summary.hpp"
 
 #include "splinefeed/hal/motion_port.hpp"
 
@@ -18,8 +18,17 @@ struct TargetError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// While one lives, SIGINT and SIGTERM are a feed hold of all axes, for the second time a quick stop; the run then
-/// ends.
+/// What a run asks of its target besides moving.
+struct RunWishes {
+    bool home = false;  ///< the axes find their references before they move
+    bool probe = false; ///< it ends, held on the path, where the probe touches
+};
+
+/// What the user asks for by signals.
+enum class UserSteering { none, hold, resume };
+
+/// While one lives, SIGINT, SIGTERM and SIGHUP are a feed hold of all axes, for the second time a quick stop; the run
+/// then ends. SIGUSR1 is a feed hold and SIGUSR2 the end of it.
 class RunTarget {
 public:
     RunTarget(const RunTarget&) = delete;
@@ -41,7 +50,14 @@ public:
     [[nodiscard]] const std::string& why() const noexcept { return why_; }
     /// "; the machine stands at x=1.0000 y=2.0000 mm", by what the drives say.
     [[nodiscard]] virtual std::string where() const = 0;
-    [[nodiscard]] virtual LinkSummary link() const = 0;
+    /// Adds what it knows of the run.
+    virtual void describe(Summary& summary) const = 0;
+    /// Why the motion is to be held on its path, and ends there; empty: it is not.
+    [[nodiscard]] virtual std::string holds() const { return {}; }
+    /// And whether that was what the run was for.
+    [[nodiscard]] virtual bool achieved() const { return false; }
+    /// The last thing that was asked for and not taken yet.
+    [[nodiscard]] static UserSteering take_steering();
 
 protected:
     RunTarget();
@@ -54,7 +70,11 @@ private:
     [[nodiscard]] virtual std::string prepare(const FeedSegment& first) = 0;
     /// No more segments come.
     virtual void complete() = 0;
+    /// All axes stop on the path: at once, or by holds().
+    virtual void hold() { port().halt(); }
     virtual void quick_stop() = 0;
+    /// Each time that the run looks after its port.
+    virtual void look() {}
     /// Why the port is in fault.
     [[nodiscard]] virtual std::string fault() const = 0;
 
@@ -67,8 +87,7 @@ private:
 };
 
 /// Connects to the drives of --target. `machine` must outlive it. Throws UsageError, InputError, TargetError.
-/// @param home  the axes find their references before they move
 [[nodiscard]] std::unique_ptr<RunTarget> make_run_target(const std::string& target, const MachineDescription& machine,
-                                                         bool home);
+                                                         const RunWishes& wishes);
 
 } // namespace splinefeed::host

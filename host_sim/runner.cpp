@@ -124,7 +124,7 @@ int move_machine(const Job& job) {
     }
     std::unique_ptr<RunTarget> target;
     if (job.target != "sim") {
-        target = make_run_target(job.target, machine, job.home);
+        target = make_run_target(job.target, machine, job.wishes);
         limits = fitted<S>(machine, *target, job.quiet);
     }
     Outputs outputs(job, input.curve_name(), input.choice().closed, machine);

@@ -95,8 +95,8 @@ std::string SetpointTarget::prepare(const FeedSegment& first) {
     return what.empty() ? what : sentence(what);
 }
 
-LinkSummary SetpointTarget::link() const {
-    LinkSummary link;
+void SetpointTarget::describe(Summary& summary) const {
+    LinkSummary& link = summary.link.emplace();
     double sum_sq = 0.0;
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
         const TargetReport report = port_.report(i);
@@ -109,7 +109,6 @@ LinkSummary SetpointTarget::link() const {
     link.bus_s = static_cast<double>(port_.busy_us()) * 1e-6;
     link.target_period_us = port_.period_us();
     link.between_targets_mm = std::sqrt(sum_sq);
-    return link;
 }
 
 } // namespace splinefeed::host

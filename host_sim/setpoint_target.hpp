@@ -24,7 +24,7 @@ public:
     [[nodiscard]] bool resamples() const noexcept override { return true; }
     [[nodiscard]] std::string note() const override;
     [[nodiscard]] std::string where() const override;
-    [[nodiscard]] LinkSummary link() const override;
+    void describe(Summary& summary) const override;
 
 private:
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }

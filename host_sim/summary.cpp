@@ -170,6 +170,9 @@ std::string to_json(const Summary& summary) {
     if (summary.link) {
         json["link"] = to_json(*summary.link);
     }
+    if (summary.gpio) {
+        json["gpio"] = to_json(*summary.gpio);
+    }
     return json.dump(2) + "\n";
 }
 
@@ -203,6 +206,9 @@ std::string to_text(const Summary& summary) {
     }
     if (summary.link) {
         text += '\n' + to_text(*summary.link);
+    }
+    if (summary.gpio) {
+        text += '\n' + to_text(*summary.gpio);
     }
     if (summary.limit_share && summary.cycle_time_s > 0.0) {
         text += '\n' + share_table(axis_names(summary), *summary.limit_share);

@@ -2,6 +2,7 @@
 // Summary: what a run amounts to, for people (text) and programs (JSON).
 #pragma once
 
+#include "gpio/gpio_summary.hpp"
 #include "limit_share.hpp"
 #include "link_summary.hpp"
 
@@ -47,7 +48,8 @@ struct Summary {
     double smoothing_bound_mm = 0.0;  ///< how far the emitted motion may be from the curve
     std::uint64_t peak_rss_bytes = 0; ///< memory of the process; 0: unknown
     std::optional<LimitShares> limit_share; ///< which limit bound; axes as in limit_use
-    std::optional<LinkSummary> link;        ///< none: the simulated machine alone
+    std::optional<LinkSummary> link;        ///< of a run on Modbus drives
+    std::optional<GpioSummary> gpio;        ///< of a run on lines of GPIO chips
 };
 
 /// One JSON object with the keys of the contract in its order, then those added since, and a line end. Under

@@ -35,7 +35,7 @@ struct TargetAddress {
 /// What --help says of the targets that are drives.
 inline constexpr const char* target_text =
     "modbus: each axis's drive as the machine file names it; modbus-tcp://HOST:PORT?unit=1 or "
-    "modbus-rtu:///dev/ttyUSB0?baud=115200: one drive with all axes";
+    "modbus-rtu:///dev/ttyUSB0?baud=115200: one drive with all axes; gpio:///dev/gpiochip0?map=FILE.toml: step lines";
 
 /// Whether --target can be that: sim, modbus, or an address. Throws UsageError where not.
 void check_target(const std::string& target);

@@ -77,7 +77,7 @@ std::string claim_real_time(const RealTimeSettings& settings) {
     if (settings.cpu) {
         cpu_set_t set;
         CPU_ZERO(&set);
-        CPU_SET(static_cast<std::size_t>(*settings.cpu), &set);
+        CPU_SET(*settings.cpu, &set);
         if (const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set); error != 0) {
             missing += "its thread cannot be bound to processor " + std::to_string(*settings.cpu) + " (" +
                        reason(error) + "); ";

@@ -10,7 +10,7 @@ namespace splinefeed::hal::gpio {
 
 struct RealTimeSettings {
     int priority = 80;              ///< of SCHED_FIFO, 1 to 98
-    std::optional<int> cpu{};       ///< to which the thread is bound
+    std::optional<unsigned> cpu{};  ///< to which the thread is bound
     std::uint32_t spin_ns = 30'000; ///< of each wait is spent spinning
 };
 

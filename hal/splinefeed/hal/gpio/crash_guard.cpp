@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/gpio/crash_guard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+
+namespace splinefeed::hal::gpio {
+
+namespace {
+
+constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGXCPU, SIGSYS};
+
+std::array<std::atomic<OutputLines*>, CrashGuard::most_chips> guarded{};
+static_assert(std::atomic<OutputLines*>::is_always_lock_free);
+
+// The thread that makes edges may go on for as long as this takes; what it sets then is overtaken when the kernel takes
+// the lines back.
+extern "C" void make_lines_safe(int signal) {
+    for (auto& lines : guarded) {
+        if (OutputLines* const chip = lines.load(); chip != nullptr) {
+            chip->make_safe();
+        }
+    }
+    static_cast<void>(std::signal(signal, SIG_DFL));
+    static_cast<void>(std::raise(signal));
+}
+
+} // namespace
+
+CrashGuard::CrashGuard(std::span<OutputLines* const> chips) noexcept {
+    for (std::size_t i = 0; i < std::min(chips.size(), most_chips); ++i) {
+        guarded[i].store(chips[i]);
+    }
+    for (const int signal : crashes) {
+        struct sigaction action {};
+        action.sa_handler = make_lines_safe;
+        action.sa_flags = SA_ONSTACK;
+        static_cast<void>(sigaction(signal, &action, nullptr));
+    }
+}
+
+CrashGuard::~CrashGuard() {
+    for (const int signal : crashes) {
+        static_cast<void>(std::signal(signal, SIG_DFL));
+    }
+    for (auto& lines : guarded) {
+        lines.store(nullptr);
+    }
+}
+
+} // namespace splinefeed::hal::gpio

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// GpioSummary: how the lines of a run did, and what its switches told.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+struct GpioSummary {
+    /// An input began to act, or ended to.
+    struct Change {
+        std::string role; ///< as in the map file
+        std::string axis; ///< of limit and home; else empty
+        bool active = false;
+        double time_s = 0.0;                            ///< since the run began
+        std::optional<std::vector<double>> position_mm; ///< of each axis then; nothing: not known
+    };
+    std::uint64_t edges = 0;    ///< instants at which lines changed
+    double median_late_s = 0.0; ///< ends of octaves: half of them, 99 of 100 came sooner
+    double percent_late_s = 0.0;
+    double most_late_s = 0.0;
+    double stretched_s = 0.0;    ///< by so much the motion took longer than planned, for edges that came too late
+    std::uint64_t slowdowns = 0; ///< the plan was not ready in time: all axes slowed down, and went on
+    std::uint64_t missed = 0;    ///< edges of inputs that the system lost
+    std::vector<Change> changes;
+};
+
+/// Keys as the members, and `_s` or `_mm` where they have one.
+[[nodiscard]] nlohmann::ordered_json to_json(const GpioSummary& gpio);
+/// A line on the edges, and one a change.
+[[nodiscard]] std::string to_text(const GpioSummary& gpio);
+
+} // namespace splinefeed::host
