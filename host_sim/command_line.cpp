@@ -353,9 +353,10 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
                                                  : Command::curve;
     check_target(job.target);
     if ((job.wishes.home || job.wishes.probe) && job.target == "sim") {
-        throw UsageError(fmt::format("--{} is for machines with switches or drives, and the simulated one has none; name "
-                                     "yours with --target",
-                                     job.wishes.home ? "home" : "probe"));
+        throw UsageError(
+            fmt::format("--{} is for machines with switches or drives, and the simulated one has none; name "
+                        "yours with --target",
+                        job.wishes.home ? "home" : "probe"));
     }
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));

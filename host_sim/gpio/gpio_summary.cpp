@@ -24,6 +24,7 @@ nlohmann::ordered_json to_json(const GpioSummary& gpio) {
             {"most_late_s", gpio.most_late_s},
             {"stretched_s", gpio.stretched_s},
             {"slowdowns", gpio.slowdowns},
+            {"began_monotonic_s", gpio.began_monotonic_s},
             {"missed", gpio.missed},
             {"changes", std::move(changes)}};
 }

@@ -23,9 +23,10 @@ struct GpioSummary {
     double median_late_s = 0.0; ///< ends of octaves: half of them, 99 of 100 came sooner
     double percent_late_s = 0.0;
     double most_late_s = 0.0;
-    double stretched_s = 0.0;    ///< by so much the motion took longer than planned, for edges that came too late
-    std::uint64_t slowdowns = 0; ///< the plan was not ready in time: all axes slowed down, and went on
-    std::uint64_t missed = 0;    ///< edges of inputs that the system lost
+    double stretched_s = 0.0;       ///< by so much the motion took longer than planned, for edges that came too late
+    std::uint64_t slowdowns = 0;    ///< the plan was not ready in time: all axes slowed down, and went on
+    double began_monotonic_s = 0.0; ///< when the run began, by CLOCK_MONOTONIC
+    std::uint64_t missed = 0;       ///< edges of inputs that the system lost
     std::vector<Change> changes;
 };
 

@@ -103,6 +103,7 @@ std::string GpioTarget::prepare(const FeedSegment& first) {
     if (std::string what = inputs_.in_the_way(!wishes_.home); !what.empty()) {
         return what;
     }
+    began_ = true;
     PerAxis<double> begin_mm{};
     for (int k = 0; k < machine_->settings.axes; ++k) {
         const auto axis = static_cast<unsigned>(k);
@@ -182,6 +183,9 @@ std::string GpioTarget::fault() const {
 }
 
 std::string GpioTarget::where() const {
+    if (!began_) {
+        return "; nothing was moved";
+    }
     std::string text = port_.was_cut() ? "; drives are off, and where the machine stands is not known (find the "
                                          "references again); the last steps were those to"
                                        : "; the machine stands at";
@@ -200,6 +204,7 @@ void GpioTarget::describe(Summary& summary) const {
                                .most_late_s = static_cast<double>(late.most_ns()) / ns_per_s,
                                .stretched_s = static_cast<double>(report.stretched_ns) / ns_per_s,
                                .slowdowns = report.slowdowns,
+                               .began_monotonic_s = static_cast<double>(began_ns_) / ns_per_s,
                                .missed = inputs_.missed(),
                                .changes = changes_};
 }

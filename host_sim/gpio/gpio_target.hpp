@@ -43,6 +43,7 @@ private:
     std::string holds_;   // why the motion is held, and ends
     std::vector<GpioSummary::Change> changes_;
     std::uint64_t began_ns_;
+    bool began_ = false; // the lines may have changed
     bool probed_ = false;
     bool quick_ = false;
 };

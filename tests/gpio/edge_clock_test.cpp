@@ -44,6 +44,41 @@ TEST_CASE("however late edges come, no gap is shorter than planned up to the gua
     }
 }
 
+TEST_CASE("a host that stood still goes on where it was, also where time slows down just then") {
+    std::mt19937_64 random(10);
+    for (int round = 0; round < splinefeed_test::rounds(200); ++round) {
+        const EdgeClockSettings settings{.guard_ns = 5000, .tolerated_ns = 100'000, .reserve_ns = 20'000'000};
+        EdgeClock clock(settings);
+        clock.start(begin_ns, 0);
+        std::uint64_t now = begin_ns;
+        std::int64_t motion = 0;
+        std::uint64_t last = 0;
+        for (int i = 0; i < 200; ++i) {
+            const std::int64_t gap = 1000 + static_cast<std::int64_t>(random() % 200'000);
+            motion += gap;
+            now += random() % 10 == 0 ? random() % 300'000'000 : 0; // it stands still
+            static_cast<void>(clock.wait_for(motion, now));
+            if (random() % 20 == 0 && !clock.stopping()) {
+                clock.stop(now);
+            }
+            std::uint64_t due = clock.due_ns(motion);
+            if (due == EdgeClock::never) {
+                now += 50'000'000;
+                REQUIRE(clock.stands(now));
+                clock.resume(now);
+                due = clock.due_ns(motion);
+            }
+            now = std::max(now, due);
+            // No faster than planned, but for what is no delay yet.
+            if (i > 0) {
+                REQUIRE(now + settings.tolerated_ns >= last + static_cast<std::uint64_t>(gap));
+            }
+            static_cast<void>(clock.made(motion, now));
+            last = now;
+        }
+    }
+}
+
 TEST_CASE("a host that is in time makes every edge at its instant") {
     EdgeClock clock({});
     clock.start(begin_ns, 1000);

@@ -5,7 +5,10 @@
 #include "splinefeed/hal/gpio/line_writer.hpp"
 #include "splinefeed/hal/gpio/real_time.hpp"
 
+#include <cerrno>
+#include <chrono>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 namespace splinefeed_test {
@@ -22,11 +25,18 @@ public:
         const std::lock_guard lock(mutex_);
         levels_ = (levels_ & ~mask) | (levels & mask);
         rows_.push_back({splinefeed::hal::gpio::monotonic_ns(), levels_, mask});
+        if (rows_.size() == stalls_after_) { // the thread that sets stands still
+            std::this_thread::sleep_for(std::chrono::milliseconds(stall_ms_));
+        }
         if (fails_after_ > 0 && rows_.size() >= fails_after_) {
             errno = ENODEV;
             return false;
         }
         return true;
+    }
+    void stall_after(std::size_t rows, int ms) {
+        stalls_after_ = rows;
+        stall_ms_ = ms;
     }
     void fail_after(std::size_t rows) { fails_after_ = rows; }
     [[nodiscard]] std::vector<Row> rows() const {
@@ -39,6 +49,8 @@ private:
     std::vector<Row> rows_;
     std::uint64_t levels_ = 0;
     std::size_t fails_after_ = 0;
+    std::size_t stalls_after_ = 0;
+    int stall_ms_ = 0;
 };
 
 } // namespace splinefeed_test

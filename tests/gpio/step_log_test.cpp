@@ -81,7 +81,7 @@ TEST_CASE("steps are read while they are written, and none is missing") {
 
 TEST_CASE("lateness is counted in octaves of a microsecond") {
     LateHistogram late;
-    for (const std::uint64_t ns : {0, 999, 1000, 1999, 2000, 3999, 4000, 1'000'000}) {
+    for (const std::uint64_t ns : {0U, 999U, 1000U, 1999U, 2000U, 3999U, 4000U, 1'000'000U}) {
         late.add(ns);
     }
     CHECK(late.count(0) == 2);

@@ -6,7 +6,9 @@
 #include "support/catch.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <map>
+#include <unistd.h>
 
 using namespace splinefeed;
 using namespace splinefeed::hal;
@@ -57,6 +59,27 @@ PortPhase run(StepPort& port, const std::vector<FeedSegment>& segments, F betwee
         sleep_ms(1);
     }
     return port.poll().phase;
+}
+
+/// When lines change, by the plan. [ns]
+std::vector<std::int64_t> planned_instants(const std::vector<FeedSegment>& segments, const StepTiming& timing) {
+    PulseTrain<StepIntervals> train(StepIntervals(axes), LineDiscipline(axes, timing));
+    std::vector<std::int64_t> instants;
+    const auto drain = [&] {
+        Edge edge;
+        while (train.next(edge)) {
+            if (instants.empty() || instants.back() != edge.tick * 125) {
+                instants.push_back(edge.tick * 125);
+            }
+        }
+    };
+    for (const FeedSegment& segment : segments) {
+        train.take(segment);
+        drain();
+    }
+    train.finish();
+    drain();
+    return instants;
 }
 
 using Levels = std::map<unsigned, std::vector<std::uint64_t>>; // of a line: when it changed
@@ -128,6 +151,43 @@ TEST_CASE("segments that come too late make all axes slow down on the path, and 
     REQUIRE(run(port, segments, [](std::size_t i) { sleep_ms(i == 150 ? 300 : 0); }) == PortPhase::idle);
     check_rows(writer.rows(), segments, port, {});
     CHECK(port.report().slowdowns >= 1);
+}
+
+TEST_CASE("a thread that stood still goes on where it was, and catches nothing up") {
+    const StepSettings step;
+    // Once it stands still in the call that sets lines, once asleep between steps that are far apart: in a signal's
+    // handler.
+    const bool in_a_call = GENERATE(true, false);
+    const std::vector<FeedSegment> segments = RandomSegments(9).smooth(axes, 300, 8000, in_a_call ? 4000.0 : 200.0);
+    RecordingWriter writer;
+    const StepPortSettings all = settings(step);
+    StepPort port({wired(writer)}, all);
+    writer.stall_after(in_a_call ? 200 : 0, 200);
+    static_cast<void>(std::signal(SIGUSR1, [](int) { usleep(200'000); }));
+    INFO(port.start());
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGUSR1);
+    REQUIRE(pthread_sigmask(SIG_BLOCK, &signals, nullptr) == 0); // of this thread, so that the other one gets it
+    REQUIRE(run(port, segments, [&](std::size_t i) {
+                if (i == 150 && !in_a_call) {
+                    kill(getpid(), SIGUSR1);
+                }
+            }) == PortPhase::idle);
+    static_cast<void>(std::signal(SIGUSR1, SIG_DFL));
+    REQUIRE(pthread_sigmask(SIG_UNBLOCK, &signals, nullptr) == 0);
+    const auto rows = writer.rows();
+    check_rows(rows, segments, port, step);
+    CHECK(port.report().stretched_ns > 150'000'000);
+    // However late an edge was, none behind it is earlier against the plan by more than what is tolerated.
+    const std::vector<std::int64_t> instants = planned_instants(segments, all.timing);
+    REQUIRE(rows.size() == instants.size() + 1); // the first one switches the drives on
+    std::int64_t latest = static_cast<std::int64_t>(rows[1].at_ns) - instants[0];
+    for (std::size_t i = 0; i < instants.size(); ++i) {
+        const std::int64_t late = static_cast<std::int64_t>(rows[i + 1].at_ns) - instants[i];
+        REQUIRE(late >= latest - static_cast<std::int64_t>(all.tolerated_ns) - 20'000);
+        latest = std::max(latest, late);
+    }
 }
 
 TEST_CASE("a cut stops all edges and switches the drives off") {

@@ -36,6 +36,9 @@ public:
     [[nodiscard]] std::int64_t motion_ns(std::uint64_t now_ns) const noexcept;
     /// When edges at this time of the motion are due; never: it stands before.
     [[nodiscard]] std::uint64_t due_ns(std::int64_t motion_ns) const noexcept;
+    /// Nothing before that time of the motion is left to be made. Where it is overdue by more than is tolerated, the
+    /// whole motion moves, so that it is due now. Returns by how much. To be called before stop().
+    std::uint64_t wait_for(std::int64_t motion_ns, std::uint64_t now_ns) noexcept;
     /// They were made, at that instant. Returns how late they were. @pre due_ns() was not never
     std::uint64_t made(std::int64_t motion_ns, std::uint64_t at_ns) noexcept;
 

@@ -79,6 +79,7 @@ void StepPort::reset() noexcept {
     up_ = {};
     have_ = false;
     gathered_ = false;
+    overdue_ns_ = 0;
     finished_ = false;
     submitted_ticks_.store(0);
     motion_ns_.store(0);
@@ -149,8 +150,16 @@ bool StepPort::filled() const noexcept {
            held >= motion_ns_.load(std::memory_order_relaxed) + settings_.buffer_ms * ns_per_ms;
 }
 
-// The clock slows down before the segments run out, and goes on when there are enough of them.
+// The clock slows down before the segments run out, and goes on when there are enough of them. It never runs ahead of
+// what is still to be made: a process that stood still goes on where it was.
 void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
+    const std::int64_t to_be_made =
+        gathered_ ? gathered_tick_ * ns_per_tick
+                  : static_cast<std::int64_t>(submitted_ticks_.load(std::memory_order_relaxed)) * ns_per_tick;
+    if (const std::uint64_t late = clock_.wait_for(to_be_made, now_ns); late > 0) {
+        overdue_ns_ += late;
+        stretched_ns_.store(clock_.stretched_ns(), std::memory_order_relaxed);
+    }
     const auto motion = static_cast<std::uint64_t>(std::max<std::int64_t>(clock_.motion_ns(now_ns), 0));
     motion_ns_.store(motion, std::memory_order_relaxed);
     if (clock_.stopping()) {
@@ -218,7 +227,8 @@ bool StepPort::make() noexcept {
             log_.add(at_ns, k, up_[k]);
         }
     }
-    late_.add(clock_.made(gathered_tick_ * ns_per_tick, at_ns));
+    late_.add(clock_.made(gathered_tick_ * ns_per_tick, at_ns) + overdue_ns_);
+    overdue_ns_ = 0;
     edges_.fetch_add(1, std::memory_order_relaxed);
     stretched_ns_.store(clock_.stretched_ns(), std::memory_order_relaxed);
     return true;
@@ -238,10 +248,11 @@ void StepPort::work() noexcept {
             return;
         }
         const bool idle = state_.load(std::memory_order_relaxed) == State::idle;
+        const bool ready = !(idle && !filled()) && (gathered_ || gather());
         if (!idle) {
             watch_supply(now);
         }
-        if ((idle && !filled()) || (!gathered_ && !gather())) {
+        if (!ready) {
             if (finished_) {
                 state_.store(State::done);
                 return;

@@ -131,7 +131,8 @@ private:
     std::atomic<bool> ends_{false};
     Edge edge_; // the next one, where have_
     std::int64_t gathered_tick_ = 0;
-    PerAxis<bool> stepped_{}; // by what was gathered
+    PerAxis<bool> stepped_{};      // by what was gathered
+    std::uint64_t overdue_ns_ = 0; // it was already when the thread looked at it
     bool have_ = false;
     bool gathered_ = false;
     bool finished_ = false; // the train's

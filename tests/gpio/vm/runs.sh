@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Runs on a real GPIO chip in the virtual machine, with libgpiod 1 and with 2, and all that can go wrong: runs.sh BUILD_DIRECTORY
+source "$(dirname "${BASH_SOURCE[0]}")/../../tools/common.sh"
+
+build=$1
+vm=tests/gpio/vm
+cache=build/gpio-vm
+second=build/gpio-libgpiod2
+need g++ python3
+if ! ldd "$build/bin/splinefeed" | grep --quiet libgpiod; then skip "this build has no libgpiod"; fi
+$vm/prepare.sh $cache || exit # 77 is passed on
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# 8 steps/mm: 800 steps/s an axis, so that an emulated processor has not too much to do.
+sed 's/^steps_per_mm.*/steps_per_mm = 8/' examples/three_axis.toml >"$work/machine.toml"
+sed 's/^name = "x"/&\ntravel_mm = [-10, 90]/' "$work/machine.toml" >"$work/short.toml"
+cp $vm/lines.toml examples/{square,star,path61}.csv "$work"
+printf 'x,y,z\n10,0,0\n70,40,10\n10,0,0\n' >"$work/there.csv"
+touch "$work/all"
+status=0
+$vm/libgpiod2.sh $second || status=$?
+programs=("$build/bin/splinefeed")
+if ((status == 0)); then
+    # The same program: only hal/gpio knows which libgpiod there is.
+    mkdir "$work/objects" "$work/second"
+    for source in hal/splinefeed/hal/gpio/*.cpp; do
+        if [[ $source != *lines_v1.cpp ]]; then
+            g++ -std=c++20 -O2 -DNDEBUG -ffp-contract=off -Ihal -Ifirmware_core -isystem $second/include -c "$source" \
+                -o "$work/objects/$(basename "$source").o"
+        fi
+    done
+    libraries=("$build"/host_sim/libsplinefeed_host.a "$work"/objects/*.o "$build"/hal/libsplinefeed_hal_modbus.a
+        "$build"/firmware_core/libsplinefeed_core.a)
+    g++ -o "$work/second/splinefeed" "$build"/host_sim/CMakeFiles/splinefeed_tool.dir/main.cpp.o "${libraries[@]}" -L$second/lib \
+        -Wl,-rpath,"$PWD/$second/lib" -lgpiod -lmodbus -lfmt -ltomlplusplus -lpthread
+    programs+=("$work/second/splinefeed")
+elif ((status != 77)); then
+    exit "$status"
+fi
+files=("$work"/{machine,short,lines}.toml "$work"/*.csv)
+all=("$work/all") # for the first one
+for program in "${programs[@]}"; do
+    ldd "$program" | grep libgpiod
+    GPIO_VM_TIME=virtual $vm/run.sh $cache "$work/out" $vm/runs_guest.sh "$program" "${files[@]}" "${all[@]}"
+    all=()
+    cat "$work/out/link.txt"
+    python3 $vm/runs_judge.py "$work/out"
+done
