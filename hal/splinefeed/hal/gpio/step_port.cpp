@@ -266,7 +266,7 @@ void StepPort::work() noexcept {
         }
         const std::uint64_t due = clock_.due_ns(gathered_tick_ * ns_per_tick);
         if (due > now + slice_ns) {
-            wait_until_ns(now + slice_ns / 2, 0);
+            wait_until_ns(now + slice_ns, 0);
             continue;
         }
         wait_until_ns(due, settings_.real_time.spin_ns);
