@@ -113,7 +113,7 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_option("--trace", job.trace, "T.csv: positions and speed at every sample period")->group(group);
     app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);
     app.add_option("--edges", job.edges,
-                   "E.csv: what the step and direction lines do, on a virtual clock; docs/gpio.md")
+                   "E.csv: what the step and direction lines do, on a virtual clock; docs/pulse_train.md")
         ->group(group);
     app.add_option("--curve-out", job.curve_out, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
