@@ -89,3 +89,40 @@ TEST_CASE("Clock estimate: an answer that came quicker than the line is not to t
     CHECK(estimate.drive_us(host_us) == 1000);
     CHECK(estimate.drive_us(host_us + 2ULL * step_us) == 1000 + 2LL * step_us);
 }
+
+TEST_CASE("Clock estimate: what both of two exchanges allow is known better than from either") {
+    ClockEstimate estimate;
+    const std::uint64_t now = Drive::origin_us;
+    const auto exchange = [&](std::uint64_t at_us, std::uint64_t out, std::uint64_t back) {
+        estimate.sample(at_us, at_us + out + back, static_cast<std::uint32_t>(at_us + out));
+    };
+    exchange(now, 20, 1000); // the drive's clock is 0 to 1000 us too fast, or up to 20 too slow, for all that is known
+    CHECK(std::llabs(estimate.drive_us(now) - static_cast<std::int64_t>(now)) >= 480);
+    exchange(now + 2000, 500, 520); // 480 too slow to 520 too fast: so it is 20 too slow to 520 too fast
+    CHECK(estimate.uncertainty_us() <= 272.0);
+    const std::int64_t error = static_cast<std::int32_t>(estimate.drive_clock(now) - static_cast<std::uint32_t>(now));
+    CHECK(std::llabs(error) <= 272);
+}
+
+TEST_CASE("Clock estimate: the truth is within its uncertainty, which is that of the tightest exchange or less") {
+    std::mt19937_64 random(11);
+    bool better = false;
+    for (int round = 0; round < 500; ++round) {
+        ClockEstimate estimate;
+        std::uint64_t tightest = UINT64_MAX;
+        for (unsigned i = 0; i < 40; ++i) { // of one half second
+            const std::uint64_t at = Drive::origin_us + i * 5000U;
+            const std::uint64_t out = 20 + random() % 2000;
+            const std::uint64_t back = 20 + random() % 2000;
+            estimate.sample(at, at + out + back, static_cast<std::uint32_t>(at + out));
+            tightest = std::min(tightest, out + back);
+            const std::int64_t error =
+                static_cast<std::int32_t>(estimate.drive_clock(at) - static_cast<std::uint32_t>(at));
+            const double known_to = estimate.uncertainty_us();
+            REQUIRE(std::fabs(static_cast<double>(error)) <= known_to + 1.0);
+            REQUIRE(known_to <= 0.5 * static_cast<double>(tightest) + 1.0);
+            better = better || known_to < 0.4 * static_cast<double>(tightest);
+        }
+    }
+    CHECK(better);
+}

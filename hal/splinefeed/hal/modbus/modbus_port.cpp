@@ -65,7 +65,7 @@ std::optional<DriveFailure> ModbusPort::open() {
 }
 
 double ModbusPort::least_segment_us() {
-    double least = 0.0;
+    double least = pvt::shortest_ticks / ticks_per_us;
     for (const auto& bus : buses_) {
         least = std::max(least, splinefeed::hal::modbus::least_segment_us(*bus, settings_.timing));
     }

@@ -51,6 +51,9 @@ const char* describe(DriveProblem problem) noexcept {
     case DriveProblem::none: return "nothing is wrong";
     case DriveProblem::unreachable: return "there is no connection; check host or device, port and cable";
     case DriveProblem::silent: return "it does not answer; check power, unit number, baud rate and parity";
+    case DriveProblem::damaged:
+        return "it answers, and the checksum of its status never holds; check the cable, and the drive's own checksum "
+               "(docs/pvt_map.md)";
     case DriveProblem::not_pvt: return "it has not the map splinefeed-pvt; give the profile that it has";
     case DriveProblem::words_swapped:
         return "its 32-bit numbers have the low word first; splinefeed-pvt has the high word first: set the drive or "
@@ -117,7 +120,8 @@ DriveProblem PvtClient::open(int least_axes) noexcept {
     }
     axes_ = identity.axes;
     if (!read_status()) {
-        return report_.problem = DriveProblem::silent;
+        const bool answers = report_.last_fault == LinkFault::none;
+        return report_.problem = answers ? DriveProblem::damaged : DriveProblem::silent;
     }
     report_.answered_us = monotonic_us();
     // Another number than that of whoever was here before: its late blocks are refused.

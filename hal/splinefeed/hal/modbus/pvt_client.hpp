@@ -18,6 +18,7 @@ enum class DriveProblem : std::uint8_t {
     none,
     unreachable,   ///< no connection
     silent,        ///< connected, but no answer
+    damaged,       ///< it answers, and the checksum of its status never holds
     not_pvt,       ///< no magic number: another map
     words_swapped, ///< the drive, or a gateway, has the other word order
     version,       ///< of the map
