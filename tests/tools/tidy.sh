@@ -14,7 +14,7 @@ if [[ ${SPLINEFEED_LONG:-0} == 1 ]]; then checks=(--checks='clang-analyzer-*'); 
 # A header is seen by the source of its name.
 changed() {
     if [[ ${SPLINEFEED_LONG:-0} != 1 ]] && git rev-parse --git-dir >/dev/null 2>&1; then
-        { git log -25 --name-only --format= && git diff --name-only HEAD; } | sed 's/\.hpp$/.cpp/' | sort -u
+        { git log -5 --name-only --format= && git diff --name-only HEAD; } | sed 's/\.hpp$/.cpp/' | sort -u
     else
         sources firmware_core hal host_sim
     fi
