@@ -123,11 +123,12 @@ private:
     }
 
     void enable(const toml::table& table) {
-        check_.require_known(table, {"line", "active"}, "[enable]");
+        check_.require_known(table, {"line", "active", "settle_ms"}, "[enable]");
         EnableLine enable;
         enable.active_level = level(table, "active", true);
         enable.line = lines_.output(check_.required(table, "line", "[enable]", "a line"), "line of [enable]",
                                     !enable.active_level);
+        check_.take(table, "settle_ms", {0, 60000}, enable.settle_ms);
         map_.enable = enable;
     }
 

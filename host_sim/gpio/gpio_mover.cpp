@@ -36,7 +36,9 @@ bool GpioMover::look(const std::optional<Until>& until, Moved& moved) {
         if (until && change->input == until->input && change->active == until->active && !moved.came) {
             moved.came = true;
             moved.counts_at = change->counts;
-        } else if (change->active && map_->inputs[change->input].role == hal::gpio::InputRole::drive_fault) {
+        } else if (const hal::gpio::InputRole role = map_->inputs[change->input].role;
+                   change->active && moved.trouble.empty() && !moved.came &&
+                   (role == hal::gpio::InputRole::drive_fault || role == hal::gpio::InputRole::limit)) {
             moved.trouble = fmt::format("the {} acts", inputs_->name(change->input));
         }
     }

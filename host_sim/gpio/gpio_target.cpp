@@ -63,7 +63,8 @@ hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, con
             .real_time = {.priority = map.thread.priority,
                           .cpu = map.thread.cpu,
                           .spin_ns = map.thread.spin_us * ns_per_us},
-            .tolerated_ns = std::uint64_t{map.thread.tolerated_late_us} * ns_per_us};
+            .tolerated_ns = std::uint64_t{map.thread.tolerated_late_us} * ns_per_us,
+            .settle_ms = map.enable ? map.enable->settle_ms : 0};
 }
 
 GpioTarget::GpioTarget(const GpioAddress& address, const MachineDescription& machine, const RunWishes& wishes)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The whole pipeline on a microcontroller: plans a small path and prints a hash over every integer of every feed
 // segment. The same source on the host must print the same hash.
-#include "platform.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/smooth_trajectory.hpp"
+#include "write_value.hpp"
 
 #include <array>
 #include <cstdint>
@@ -115,17 +115,6 @@ private:
     std::uint64_t state_ = 0xcbf29ce484222325U;
 };
 
-[[gnu::noinline]] void write_line(const char* name, std::uint64_t value) {
-    constexpr char digits[] = "0123456789abcdef";
-    char text[] = " 0x0000000000000000\n";
-    for (unsigned i = 18; i > 2; --i) {
-        text[i] = digits[value & 0xfU];
-        value >>= 4;
-    }
-    write_text(name);
-    write_text(text);
-}
-
 constexpr std::int64_t units(std::int32_t um) {
     return um * (std::int64_t{1} << Position::fraction_bits) / 1000;
 }
@@ -144,17 +133,17 @@ constexpr std::int64_t units(std::int32_t um) {
 
 [[gnu::noinline]] Trajectory<Real>& build_trajectory(G2Spline<Real>& curve) {
     auto& window = window_storage.build();
-    write_line("bytes: curve      ", sizeof curve);
-    write_line("bytes: arc length ", sizeof(ArcLength<Real>));
-    write_line("bytes: feed plan  ", sizeof(FeedPlan<Real>));
-    write_line("bytes: its window ", sizeof window);
-    write_line("bytes: stream     ", sizeof(SegmentStream<Real>) + sizeof(PassageSampler<Real>));
+    write_value("bytes: curve      ", sizeof curve);
+    write_value("bytes: arc length ", sizeof(ArcLength<Real>));
+    write_value("bytes: feed plan  ", sizeof(FeedPlan<Real>));
+    write_value("bytes: its window ", sizeof window);
+    write_value("bytes: stream     ", sizeof(SegmentStream<Real>) + sizeof(PassageSampler<Real>));
     if constexpr (jerk_limited) {
         auto& cells = cells_storage.build();
         auto& places = places_storage.build();
-        write_line("bytes: smooth plan", sizeof(SmoothPlan<Real>));
-        write_line("bytes: its window ", sizeof cells);
-        write_line("bytes: mean       ", sizeof(SmoothSampler<Real>) + sizeof places);
+        write_value("bytes: smooth plan", sizeof(SmoothPlan<Real>));
+        write_value("bytes: its window ", sizeof cells);
+        write_value("bytes: mean       ", sizeof(SmoothSampler<Real>) + sizeof places);
         return trajectory_storage.build(curve, *limits, window, SmoothStorage<Real>{cells, places});
     } else {
         return trajectory_storage.build(curve, *limits, window);
@@ -185,7 +174,7 @@ int main() {
             }
         }
     }
-    write_line("segments          ", segments);
-    write_line("hash              ", hash.value());
+    write_value("segments          ", segments);
+    write_value("hash              ", hash.value());
     return 0;
 }

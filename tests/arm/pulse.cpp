@@ -2,8 +2,8 @@
 // The pulse train on a microcontroller: a hash over every step and edge, which the host must print, too, and what it
 // costs.
 #include "instructions.hpp"
-#include "platform.hpp"
 #include "splinefeed/s5_pulse_train/pulse_train.hpp"
+#include "write_value.hpp"
 
 #include <cstdint>
 
@@ -96,17 +96,6 @@ struct Cost {
         value /= 10;
     } while (value != 0);
     write_text(digit);
-}
-
-[[gnu::noinline]] void write_value(const char* name, std::uint64_t value) {
-    constexpr char digits[] = "0123456789abcdef";
-    char text[] = " 0x0000000000000000\n";
-    for (unsigned i = 18; i > 2; --i) {
-        text[i] = digits[value & 0xfU];
-        value >>= 4;
-    }
-    write_text(name);
-    write_text(text);
 }
 
 /// Measured empty, then with the calls: what a call costs, on average.

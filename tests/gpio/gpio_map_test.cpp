@@ -72,6 +72,7 @@ TEST_CASE("GPIO map: lines by chip, bits in the order of the machine's axes, saf
 TEST_CASE("GPIO map: enable, inputs, homing and the thread") {
     const LineMap map = parse_gpio_map("consumer = \"mill\"\n" + good + R"([enable]
 line = 20
+settle_ms = 250
 active = "low"
 [[input]]
 role = "e-stop"
@@ -109,6 +110,7 @@ tolerated_late_us = 10000
     CHECK(map.consumer == "mill");
     REQUIRE(map.enable.has_value());
     CHECK_FALSE(map.enable->active_level);
+    CHECK(map.enable->settle_ms == 250);
     CHECK((map.enable->line == LineBit{0, 5}));
     CHECK(map.chips[0].outputs[5].safe_level);
     REQUIRE(map.inputs.size() == 4);

@@ -243,6 +243,27 @@ TEST_CASE("one motion after another: counts go on") {
     }
 }
 
+TEST_CASE("the drives have the time to switch on that they were given, and a cut does not wait for it") {
+    const std::vector<FeedSegment> segments = RandomSegments(10).smooth(axes, 60, 8000, 3000.0);
+    RecordingWriter writer;
+    StepPortSettings slow = settings();
+    slow.settle_ms = 200;
+    {
+        StepPort port({wired(writer)}, slow);
+        INFO(port.start());
+        REQUIRE(run(port, segments, [](std::size_t) {}) == PortPhase::idle);
+        CHECK(writer.rows()[1].at_ns >= writer.rows()[0].at_ns + 200'000'000);
+    }
+    slow.settle_ms = 60'000;
+    StepPort port({wired(writer)}, slow);
+    INFO(port.start());
+    port.cut();
+    while (port.poll().phase != PortPhase::fault) {
+        sleep_ms(1);
+    }
+    CHECK((writer.rows().back().levels & enable_mask) != 0); // off
+}
+
 TEST_CASE("nothing to move is a motion that is over") {
     RecordingWriter writer;
     StepPort port({wired(writer)}, settings());

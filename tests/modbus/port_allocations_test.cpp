@@ -2,9 +2,9 @@
 //
 // A short motion through the port and its buses against simulated drives in processes of their own: nothing is
 // allocated once the drives are prepared.
-#include "counted_allocations.hpp"
 #include "drive/drive_process.hpp"
 #include "splinefeed/hal/modbus/modbus_port.hpp"
+#include "support/allocations.hpp"
 #include "support/catch.hpp"
 
 #include <thread>
@@ -52,7 +52,7 @@ TEST_CASE("Port: no allocation after prepare, in any of its threads", "[modbus]"
     REQUIRE_FALSE(port.open());
     constexpr int segments = 700; // more than a ring, so that it is refilled on the way
     REQUIRE_FALSE(port.prepare(smooth_segment(0, segments)));
-    const std::size_t before = counted_allocations();
+    const std::size_t before = allocations();
     const std::uint64_t until_us = monotonic_us() + 5'000'000;
     bool taken = true;
     for (int i = 0; i < segments && taken;) {
@@ -68,7 +68,7 @@ TEST_CASE("Port: no allocation after prepare, in any of its threads", "[modbus]"
         port.poll();
         sleep_until_us(monotonic_us() + 500);
     }
-    const std::size_t after = counted_allocations();
+    const std::size_t after = allocations();
     CHECK(port.phase() == ModbusPhase::done);
     CHECK(port.report(0).counts.segments == segments);
     CHECK(port.report(1).counts.segments == segments);
@@ -90,9 +90,9 @@ TEST_CASE("Allocations of other threads are counted", "[modbus]") {
     }
     std::size_t grown = 0;
     std::thread([&] {
-        const std::size_t before = counted_allocations();
+        const std::size_t before = allocations();
         const std::vector<int> some(static_cast<std::size_t>(std::rand() % 2) + 1000); // not to be optimised away
-        grown = counted_allocations() - before + (some.empty() ? 1 : 0);
+        grown = allocations() - before + (some.empty() ? 1 : 0);
     }).join();
     CHECK(grown > 0);
 }

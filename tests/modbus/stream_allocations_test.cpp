@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "counted_allocations.hpp"
 #include "drive/smooth_track.hpp"
 #include "host_sim/drive/shipped_profiles.hpp"
 #include "splinefeed/hal/modbus/block_stream.hpp"
 #include "splinefeed/hal/modbus/cyclic_stream.hpp"
+#include "support/allocations.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::hal::modbus;
@@ -17,7 +17,7 @@ TEST_CASE("Streams allocate when they are made, and never again") {
     BlockStream frames(kinco, {});
     BlockStream group(lexium, {});
     CyclicStream cyclic(index, {});
-    const std::size_t before = splinefeed_test::counted_allocations();
+    const std::size_t before = splinefeed_test::allocations();
     frames.begin(0.0);
     group.begin(0.0);
     std::size_t writes = 0;
@@ -26,7 +26,7 @@ TEST_CASE("Streams allocate when they are made, and never again") {
         writes += cyclic.frame(track, now_us).size();
         track.release(now_us);
     }
-    const std::size_t after = splinefeed_test::counted_allocations();
+    const std::size_t after = splinefeed_test::allocations();
     CHECK(writes > 300);
     CHECK(after == before); // trivially under a sanitizer, which is not counted
 }

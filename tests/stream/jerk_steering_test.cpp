@@ -55,11 +55,7 @@ TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stre
         if (plain.endless || plain.segments.size() > 20'000) {
             continue; // minutes of the machine's time
         }
-        std::vector<Event> events = random_events(random, plain.segments.size());
-        if (random.chance(0.2)) {
-            events.push_back(
-                {events.back().segment + static_cast<std::size_t>(random.decades(1.0, 300.0)), Order::abort});
-        }
+        const std::vector<Event> events = random_events_and_abort(random, plain.segments.size());
         const SteeredRun run = run_steered<S>(path, machine, window, events);
         most = std::max(most, require_limits(run, machine).jerk);
         REQUIRE(run.finished);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// How often this executable has called operator new; for executables that link allocations_test.cpp.
+// How often all threads of this executable together have called operator new.
 #pragma once
 
 #include <cstddef>
@@ -8,5 +7,7 @@
 namespace splinefeed_test {
 
 [[nodiscard]] std::size_t allocations() noexcept;
+/// False under a sanitizer, which has an operator new of its own.
+[[nodiscard]] bool allocations_are_counted() noexcept;
 
 } // namespace splinefeed_test

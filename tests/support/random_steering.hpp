@@ -50,4 +50,14 @@ inline std::vector<Event> random_events(Random& random, std::size_t segments) {
     return events;
 }
 
+/// The same, and of five one with an abort behind them.
+inline std::vector<Event> random_events_and_abort(Random& random, std::size_t segments) {
+    std::vector<Event> events = random_events(random, segments);
+    if (random.chance(0.2)) {
+        const auto later = static_cast<std::size_t>(random.decades(1.0, 300.0));
+        events.push_back({events.back().segment + later, Order::abort});
+    }
+    return events;
+}
+
 } // namespace splinefeed_test

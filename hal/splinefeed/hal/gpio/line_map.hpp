@@ -43,7 +43,8 @@ struct AxisLines {
 /// Switches all drives on.
 struct EnableLine {
     LineBit line;
-    bool active_level = true; ///< drives are on; its safe level is the other one
+    bool active_level = true;      ///< drives are on; its safe level is the other one
+    std::uint32_t settle_ms = 500; ///< from there to the first step, 0 to 60000
 };
 
 enum class InputRole : std::uint8_t { e_stop, limit, home, drive_fault, probe };

@@ -55,6 +55,10 @@ std::string StepPort::start() {
         state_.store(State::failed);
         return {};
     }
+    if (!on_) {
+        on_ = true;
+        settled_ns_ = monotonic_ns() + settings_.settle_ms * ns_per_ms;
+    }
     std::promise<std::string> claimed;
     std::future<std::string> missing = claimed.get_future();
     ends_.store(false);
@@ -248,7 +252,7 @@ void StepPort::work() noexcept {
             return;
         }
         const bool idle = state_.load(std::memory_order_relaxed) == State::idle;
-        const bool ready = !(idle && !filled()) && (gathered_ || gather());
+        const bool ready = !(idle && (now < settled_ns_ || !filled())) && (gathered_ || gather());
         if (!idle) {
             watch_supply(now);
         }

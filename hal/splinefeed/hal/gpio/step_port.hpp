@@ -37,6 +37,7 @@ struct StepPortSettings {
     StepTiming timing{};
     RealTimeSettings real_time{};
     std::uint64_t tolerated_ns = 100'000; ///< EdgeClockSettings
+    std::uint32_t settle_ms = 0;          ///< from switching the drives on to the first step
     std::uint32_t buffer_ms = 50;         ///< what is held of a motion: how long a feed hold takes to act
 };
 
@@ -133,6 +134,8 @@ private:
     std::int64_t gathered_tick_ = 0;
     PerAxis<bool> stepped_{};      // by what was gathered
     std::uint64_t overdue_ns_ = 0; // it was already when the thread looked at it
+    std::uint64_t settled_ns_ = 0; // since they were switched on
+    bool on_ = false;              // the drives
     bool have_ = false;
     bool gathered_ = false;
     bool finished_ = false; // the train's

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Replaces operator new in this executable by one that counts. In a file of its own, so that no compiler sees through a
-// pair of new and delete.
-#include "counted_allocations.hpp"
+// Replaces operator new in every executable of tests by one that counts. In a file of its own, so that no compiler sees
+// through a pair of new and delete.
+#include "allocations.hpp"
 
 #include <atomic>
 #include <cstdlib>
@@ -24,7 +24,7 @@ std::atomic<std::size_t> count{0};
 
 } // namespace
 
-std::size_t splinefeed_test::counted_allocations() noexcept {
+std::size_t splinefeed_test::allocations() noexcept {
     return count.load();
 }
 
