@@ -18,10 +18,15 @@ nlohmann::ordered_json to_json(const GpioSummary& gpio) {
         json["position_mm"] = change.position_mm ? nlohmann::ordered_json(*change.position_mm) : nullptr;
         changes.push_back(std::move(json));
     }
+    nlohmann::ordered_json late = nlohmann::ordered_json::array();
+    for (const GpioSummary::Octave& octave : gpio.late) {
+        late.push_back({{"below_s", octave.below_s}, {"edges", octave.edges}});
+    }
     return {{"edges", gpio.edges},
             {"median_late_s", gpio.median_late_s},
             {"percent_late_s", gpio.percent_late_s},
             {"most_late_s", gpio.most_late_s},
+            {"late", std::move(late)},
             {"stretched_s", gpio.stretched_s},
             {"slowdowns", gpio.slowdowns},
             {"began_monotonic_s", gpio.began_monotonic_s},

@@ -23,6 +23,12 @@ struct GpioSummary {
     double median_late_s = 0.0; ///< ends of octaves: half of them, 99 of 100 came sooner
     double percent_late_s = 0.0;
     double most_late_s = 0.0;
+    /// So many edges came later than the one before says, and less than this late. [s]
+    struct Octave {
+        double below_s = 0.0;
+        std::uint64_t edges = 0;
+    };
+    std::vector<Octave> late;       ///< where there were any, in rising order
     double stretched_s = 0.0;       ///< by so much the motion took longer than planned, for edges that came too late
     std::uint64_t slowdowns = 0;    ///< the plan was not ready in time: all axes slowed down, and went on
     double began_monotonic_s = 0.0; ///< when the run began, by CLOCK_MONOTONIC

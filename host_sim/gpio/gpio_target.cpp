@@ -29,6 +29,16 @@ GpioChips taken(const hal::gpio::LineMap& map, const MachineDescription& machine
     throw TargetError(error.what());
 }
 
+std::vector<GpioSummary::Octave> octaves(const hal::gpio::LateHistogram& late) {
+    std::vector<GpioSummary::Octave> some;
+    for (std::size_t i = 0; i < hal::gpio::LateHistogram::octaves; ++i) {
+        if (late.count(i) > 0) {
+            some.push_back({static_cast<double>(std::uint64_t{1} << i) / us_per_s, late.count(i)});
+        }
+    }
+    return some;
+}
+
 /// What the thread of a port will lack.
 std::string lacking(const hal::gpio::RealTimeSettings& settings) {
     std::string missing;
@@ -203,6 +213,7 @@ void GpioTarget::describe(Summary& summary) const {
                                .median_late_s = static_cast<double>(late.below_us(0.5)) / us_per_s,
                                .percent_late_s = static_cast<double>(late.below_us(0.99)) / us_per_s,
                                .most_late_s = static_cast<double>(late.most_ns()) / ns_per_s,
+                               .late = octaves(late),
                                .stretched_s = static_cast<double>(report.stretched_ns) / ns_per_s,
                                .slowdowns = report.slowdowns,
                                .began_monotonic_s = static_cast<double>(began_ns_) / ns_per_s,

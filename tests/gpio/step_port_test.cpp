@@ -3,6 +3,7 @@
 #include "../pulse/random_segments.hpp"
 #include "recording_writer.hpp"
 #include "splinefeed/hal/gpio/step_port.hpp"
+#include "support/allocations.hpp"
 #include "support/catch.hpp"
 
 #include <chrono>
@@ -262,6 +263,30 @@ TEST_CASE("the drives have the time to switch on that they were given, and a cut
         sleep_ms(1);
     }
     CHECK((writer.rows().back().levels & enable_mask) != 0); // off
+}
+
+TEST_CASE("nothing is allocated while a motion runs") {
+    if (!allocations_are_counted()) {
+        WARN("SKIPPED: the sanitizer has an operator new of its own");
+        return;
+    }
+    class Silent final : public LineWriter {
+    public:
+        [[nodiscard]] bool set(std::uint64_t /*mask*/, std::uint64_t /*levels*/) noexcept override { return true; }
+    };
+    const std::vector<FeedSegment> segments = RandomSegments(11).smooth(axes, 200, 8000, 4000.0);
+    Silent writer;
+    ChipOutputs chip{.writer = &writer};
+    chip.step[0] = {1, 0};
+    chip.step[1] = {2, 0};
+    StepPort port({chip}, settings());
+    INFO(port.start());
+    const std::size_t before = allocations();
+    const PortPhase end = run(port, segments, [](std::size_t) {});
+    const std::size_t after = allocations();
+    CHECK(end == PortPhase::idle);
+    CHECK(port.report().edges > 100);
+    CHECK(after == before);
 }
 
 TEST_CASE("nothing to move is a motion that is over") {

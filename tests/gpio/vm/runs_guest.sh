@@ -102,6 +102,12 @@ if [ -e all ]; then
     begin fixed there.csv
     ends
     machine=machine.toml
+    # A line of another chip.
+    sed "s|^direction = 5|direction = { chip = \"$(chip_path aux)\", offset = 3 }|" lines.toml >two.toml
+    target="gpio://$chip?map=two.toml"
+    begin two_chips there.csv
+    ends
+    target="gpio://$chip?map=lines.toml"
     while :; do :; done &
     busy=$!
     begin busy there.csv

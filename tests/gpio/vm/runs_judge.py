@@ -153,13 +153,16 @@ def whole(run, status=0, *words):
 def judge(out):
     wiring = read_lines(f"{out}/lines.csv")
     with open(f"{out}/lines.csv", encoding="ascii") as file:
-        number = {row[3]: int(row[0]) for row in csv.reader(file) if row[0].isdigit()}
+        rows = [row for row in csv.reader(file) if row[0].isdigit()]
+    number = {row[3]: int(row[0]) for row in rows}
+    elsewhere = {**wiring, next(int(row[0]) for row in rows if row[1:3] == ["aux", "3"]): ("z", "dir")}
+    del elsewhere[number["Z_DIR"]]
     SAFE_NUMBERS.extend(number[name] for name in ("ENABLE", "X_STEP", "Y_STEP", "Z_STEP"))
     switch_us = split_trace(f"{out}/trace.txt")
     runs = {}
 
-    def run(name):
-        runs[name] = Run(out, name, wiring)
+    def run(name, lines=wiring):
+        runs[name] = Run(out, name, lines)
         return runs[name]
 
     path61 = whole(run("path61"))
@@ -197,6 +200,7 @@ def judge(out):
     if os.path.exists(f"{out}/square.status"):
         for name in ("square", "star", "fixed", "busy"):
             whole(run(name))
+        whole(run("two_chips", elsewhere))
         run("limit_at_once").ended(1, "the limit of axis x", "--home")
         whole(run("drive_fault"), 1, "the drive-fault (", "held on the path")
         run("probe_nothing").ended(1, "the probe did not touch")

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Any bytes as a map file: a map whose lines are all there and each once, or one line that says what is wrong.
+#include "host_sim/gpio_map.hpp"
+#include "host_sim/input_error.hpp"
+#include "host_sim/machine_file.hpp"
+
+#include <cstdlib>
+#include <set>
+#include <string_view>
+#include <utility>
+
+using namespace splinefeed::hal::gpio;
+using namespace splinefeed::host;
+
+namespace {
+
+void require(bool holds) {
+    if (!holds) {
+        std::abort();
+    }
+}
+
+void require_sound(const LineMap& map, const MachineDescription& machine) {
+    std::set<std::pair<unsigned, unsigned>> outputs;
+    const auto output = [&](LineBit line) {
+        require(line.chip < map.chips.size() && line.bit < map.chips[line.chip].outputs.size());
+        require(outputs.insert({line.chip, line.bit}).second);
+    };
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        require(map.axis[k].motors == static_cast<unsigned>(machine.motors[k].count));
+        for (unsigned m = 0; m < map.axis[k].motors; ++m) {
+            output(map.axis[k].motor[m].step);
+            output(map.axis[k].motor[m].direction);
+        }
+        require(!map.home[k] || map.home[k]->slow_mm_s <= map.home[k]->fast_mm_s);
+    }
+    if (map.enable) {
+        output(map.enable->line);
+    }
+    std::set<std::pair<unsigned, unsigned>> inputs;
+    for (const MappedInput& input : map.inputs) {
+        require(input.line.chip < map.chips.size() && input.line.bit < map.chips[input.line.chip].inputs.size());
+        require(inputs.insert({input.line.chip, input.line.bit}).second);
+        require(input.axis < machine.settings.axes);
+    }
+    for (const ChipLines& chip : map.chips) {
+        require(chip.outputs.size() <= most_lines && chip.inputs.size() <= most_lines);
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const MachineDescription machine = default_machine();
+    try {
+        const std::string_view text(reinterpret_cast<const char*>(data), size);
+        require_sound(parse_gpio_map(text, "fuzz.toml", machine, "/dev/gpiochip0"), machine);
+    } catch (const InputError& error) {
+        require(std::string_view(error.what()).find('\n') == std::string_view::npos);
+    }
+    return 0;
+}
