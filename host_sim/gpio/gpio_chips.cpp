@@ -84,7 +84,7 @@ std::vector<std::uint64_t> GpioChips::set_times_ns(int calls) {
         std::uint64_t mask = 0;
         for (std::size_t i = 0; i < map_->chips[c].outputs.size(); ++i) {
             mask |= std::uint64_t{1} << i;
-            levels |= std::uint64_t{map_->chips[c].outputs[i].safe_level} << i;
+            levels |= std::uint64_t{map_->chips[c].outputs[i].safe_level ? 1U : 0U} << i;
         }
         std::vector<std::uint64_t> times;
         std::uint64_t sum = 0;

@@ -35,8 +35,7 @@ GpioInputs::GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& 
                                .debounce_us = input.debounce_us,
                                .cuts = input.role == InputRole::e_stop});
         }
-        auto watch =
-            std::make_unique<InputWatch>(*inputs.source, std::move(watched), port.log(), [&port] { port.cut(); });
+        auto watch = std::make_unique<InputWatch>(*inputs.source, watched, port.log(), [&port] { port.cut(); });
         if (!watch->start()) {
             throw TargetError(fmt::format("the inputs of {} cannot be read: {}",
                                           map.chips[map.inputs[inputs.input.front()].line.chip].chip,

@@ -69,8 +69,8 @@ bool soon(F condition) {
 }
 
 struct Bench {
-    explicit Bench(std::vector<WatchedInput> inputs)
-        : watch(source, std::move(inputs), log, [this] { cuts.fetch_add(1); }) {}
+    explicit Bench(const std::vector<WatchedInput>& inputs)
+        : watch(source, inputs, log, [this] { cuts.fetch_add(1); }) {}
 
     InputChange next() {
         std::optional<InputChange> change;

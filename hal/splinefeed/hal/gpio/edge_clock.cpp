@@ -17,7 +17,7 @@ void EdgeClock::start(std::uint64_t at_ns, std::int64_t motion_ns) noexcept {
 }
 
 void EdgeClock::stop(std::uint64_t at_ns) noexcept {
-    const double reserve = static_cast<double>(settings_.reserve_ns);
+    const auto reserve = static_cast<double>(settings_.reserve_ns);
     const double risen = at_ns > base_ns_ ? static_cast<double>(at_ns - base_ns_) / (2.0 * reserve) : 0.0;
     rate_ = mode_ == Mode::rising ? std::min(risen, 1.0) : 1.0;
     base_motion_ns_ = motion_ns(at_ns);
@@ -48,7 +48,7 @@ std::int64_t EdgeClock::motion_ns(std::uint64_t now_ns) const noexcept {
         return base_motion_ns_ - (mode_ == Mode::running ? static_cast<std::int64_t>(base_ns_ - now_ns) : 0);
     }
     const std::uint64_t passed = now_ns - base_ns_;
-    const double reserve = static_cast<double>(settings_.reserve_ns);
+    const auto reserve = static_cast<double>(settings_.reserve_ns);
     const auto t = static_cast<double>(passed);
     switch (mode_) {
     case Mode::running: break;
@@ -71,7 +71,7 @@ std::uint64_t EdgeClock::planned_ns(std::int64_t motion_ns) const noexcept {
     if (way <= 0) {
         return base_ns_;
     }
-    const double reserve = static_cast<double>(settings_.reserve_ns);
+    const auto reserve = static_cast<double>(settings_.reserve_ns);
     const auto m = static_cast<double>(way);
     if (mode_ == Mode::rising) {
         return base_ns_ + (m < reserve ? static_cast<std::uint64_t>(std::llround(2.0 * std::sqrt(reserve * m)))

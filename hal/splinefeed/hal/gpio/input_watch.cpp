@@ -19,7 +19,7 @@ constexpr int lost_edge = 3; // so many looks with another level than the edges 
 
 } // namespace
 
-InputWatch::InputWatch(InputSource& source, std::vector<WatchedInput> inputs, const StepLog& log,
+InputWatch::InputWatch(InputSource& source, const std::vector<WatchedInput>& inputs, const StepLog& log,
                        std::function<void()> cut)
     : source_(&source), active_(inputs.size()), reader_(log), cut_(std::move(cut)) {
     for (const WatchedInput& input : inputs) {

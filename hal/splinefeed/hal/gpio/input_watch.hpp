@@ -38,7 +38,8 @@ class InputWatch {
 public:
     /// @param cut  from its thread: cuts the machine off; also where the chip says nothing any more
     /// All arguments must outlive it.
-    InputWatch(InputSource& source, std::vector<WatchedInput> inputs, const StepLog& log, std::function<void()> cut);
+    InputWatch(InputSource& source, const std::vector<WatchedInput>& inputs, const StepLog& log,
+               std::function<void()> cut);
     InputWatch(const InputWatch&) = delete;
     InputWatch& operator=(const InputWatch&) = delete;
     ~InputWatch();

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <future>
+#include <span>
 
 namespace splinefeed::hal::gpio {
 
@@ -180,27 +181,31 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
     }
 }
 
+template <class Engine>
+bool StepPort::next_of(PulseTrain<Engine>& train, Edge& edge) noexcept {
+    while (!train.next(edge)) {
+        FeedSegment segment;
+        // In this order: what was submitted before complete() is seen.
+        const bool complete = complete_.load(std::memory_order_acquire);
+        if (ring_.pop(segment)) {
+            train.take(segment);
+            taken_.fetch_add(1, std::memory_order_relaxed);
+        } else if (complete && !finished_) {
+            train.finish();
+            finished_ = true;
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
 // The next edge of the motion, as far as it is known.
 bool StepPort::next(Edge& edge) noexcept {
-    return std::visit(
-        [&](auto& train) {
-            while (!train.next(edge)) {
-                FeedSegment segment;
-                // In this order: what was submitted before complete() is seen.
-                const bool complete = complete_.load(std::memory_order_acquire);
-                if (ring_.pop(segment)) {
-                    train.take(segment);
-                    taken_.fetch_add(1, std::memory_order_relaxed);
-                } else if (complete && !finished_) {
-                    train.finish();
-                    finished_ = true;
-                } else {
-                    return false;
-                }
-            }
-            return true;
-        },
-        train_);
+    if (auto* const train = std::get_if<PulseTrain<StepIntervals>>(&train_)) {
+        return next_of(*train, edge);
+    }
+    return next_of(*std::get_if<PulseTrain<FixedRate>>(&train_), edge);
 }
 
 // All edges of the next instant, as far as they are known: before the wait, so that a line changes when it is over.
@@ -293,8 +298,8 @@ bool StepPort::do_submit(const FeedSegment& segment) noexcept {
     if (state == State::cut || state == State::failed) {
         return false;
     }
-    const auto end = segment.end_velocity.begin() + settings_.axes;
-    at_rest_.store(std::all_of(segment.end_velocity.begin(), end, [](std::int64_t v) { return v == 0; }));
+    const auto moving = std::span(segment.end_velocity).first(static_cast<std::size_t>(settings_.axes));
+    at_rest_.store(std::all_of(moving.begin(), moving.end(), [](std::int64_t v) { return v == 0; }));
     ring_.push(segment);
     submitted_ticks_.fetch_add(segment.duration_ticks);
     return true;

@@ -94,6 +94,8 @@ private:
     [[nodiscard]] static Train train_for(const StepPortSettings& settings);
     void work() noexcept;
     [[nodiscard]] bool next(Edge& edge) noexcept;
+    template <class Engine>
+    [[nodiscard]] bool next_of(PulseTrain<Engine>& train, Edge& edge) noexcept;
     [[nodiscard]] bool filled() const noexcept;
     void watch_supply(std::uint64_t now_ns) noexcept;
     [[nodiscard]] bool gather() noexcept;
