@@ -34,6 +34,8 @@ public:
         }
         return true;
     }
+    /// As lines are before a port has them.
+    void begin_with(std::uint64_t levels) { levels_ = levels; }
     void stall_after(std::size_t rows, int ms) {
         stalls_after_ = rows;
         stall_ms_ = ms;

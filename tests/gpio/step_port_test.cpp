@@ -86,7 +86,8 @@ std::vector<std::int64_t> planned_instants(const std::vector<FeedSegment>& segme
 using Levels = std::map<unsigned, std::vector<std::uint64_t>>; // of a line: when it changed
 
 /// Steps that the lines made on an axis, and the times of each line's changes. The first row is how they begin.
-std::int64_t replay(const std::vector<RecordingWriter::Row>& rows, unsigned axis, Levels& changes) {
+std::int64_t replay(const std::vector<RecordingWriter::Row>& rows, unsigned axis, Levels& changes,
+                    bool on_edge = false) {
     const bool inverted = axis == 1;
     std::int64_t count = 0;
     for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -98,7 +99,7 @@ std::int64_t replay(const std::vector<RecordingWriter::Row>& rows, unsigned axis
                 changes[line].push_back(rows[i].at_ns);
             }
         }
-        if ((changed >> 2 * axis & 1U) != 0 && step) {
+        if ((changed >> 2 * axis & 1U) != 0 && (step || on_edge)) {
             count += up ? 1 : -1;
         }
     }
@@ -227,11 +228,14 @@ TEST_CASE("a chip that does not obey any more is a fault with the system's reaso
     CHECK(writer.rows().size() <= 41);
 }
 
-TEST_CASE("one motion after another: counts go on") {
+TEST_CASE("one motion after another: counts go on, and so do lines of which each edge is a step") {
     RecordingWriter writer;
-    StepPort port({wired(writer)}, settings());
+    writer.begin_with(0b1100U); // idle: the second axis is inverted
+    StepSettings step;
+    step.step_on_edge = GENERATE(false, true);
+    StepPort port({wired(writer)}, settings(step));
     PerAxis<std::int64_t> expected{};
-    for (const std::uint64_t seed : {7U, 8U}) {
+    for (const std::uint64_t seed : {7U, 8U, 9U, 10U}) {
         const std::vector<FeedSegment> segments = RandomSegments(seed).smooth(axes, 60, 8000, 3000.0);
         INFO(port.start());
         REQUIRE(run(port, segments, [](std::size_t) {}) == PortPhase::idle);
@@ -240,6 +244,8 @@ TEST_CASE("one motion after another: counts go on") {
         for (unsigned k = 0; k < axes; ++k) {
             expected[k] += nearest_step(segments.back().end[k]) - nearest_step(segments.front().start[k]);
             CHECK(port.counts(static_cast<int>(k)) == expected[k]);
+            Levels changes;
+            CHECK(replay(writer.rows(), k, changes, step.step_on_edge) == expected[k]);
         }
     }
 }

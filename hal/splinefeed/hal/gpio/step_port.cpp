@@ -82,6 +82,7 @@ void StepPort::reset() noexcept {
     ring_.clear();
     std::fill(change_.begin(), change_.end(), Change{});
     up_ = {};
+    base_ = level_;
     have_ = false;
     gathered_ = false;
     overdue_ns_ = 0;
@@ -127,14 +128,15 @@ bool StepPort::enable(bool on) noexcept {
 }
 
 void StepPort::collect(const Edge& edge) noexcept {
+    // Where each edge is a step a line stays as the motion before left it.
+    const bool turned = edge.line == Line::step && settings_.timing.step_on_edge && base_[edge.axis];
+    const bool level = edge.level != turned;
     for (std::size_t c = 0; c < chips_.size(); ++c) {
         const LevelMasks& lines = edge.line == Line::step ? chips_[c].step[edge.axis] : chips_[c].direction[edge.axis];
         change_[c].mask |= lines.mask;
-        change_[c].levels |= edge.level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
+        change_[c].levels |= level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
     }
-    if (edge.line == Line::direction) {
-        up_[edge.axis] = edge.level;
-    }
+    (edge.line == Line::direction ? up_ : level_)[edge.axis] = level;
 }
 
 bool StepPort::write_collected() noexcept {

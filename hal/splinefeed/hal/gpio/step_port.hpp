@@ -120,6 +120,8 @@ private:
     LateHistogram late_;
     PerAxis<std::atomic<std::int64_t>> counts_{};
     PerAxis<bool> up_{};
+    PerAxis<bool> level_{}; // of the step line, with step_on_edge
+    PerAxis<bool> base_{};  // the same where the motion began, which takes it for low
     std::atomic<std::uint64_t> submitted_ticks_{0};
     std::atomic<std::uint64_t> motion_ns_{0}; // of the last edge, or what has passed
     std::atomic<std::uint64_t> taken_{0};
