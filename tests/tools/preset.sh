@@ -7,7 +7,7 @@ if [[ ${3-} == --if-long && ${SPLINEFEED_LONG:-0} != 1 ]]; then skip "takes 5 mi
 
 preset=$1
 need "$2"
-# Sanitizers take several times as long: but with --long the core alone, its tests and fuzzers, in Fixed, whose integers may
+# Sanitizers take several times as long: but with --long the core alone, its tests and the fuzzer of the pulse train, in Fixed, whose integers may
 # overflow, where a test is made in every scalar; and nothing that takes ten seconds then.
 less=()
 host=ON
