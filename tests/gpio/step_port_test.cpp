@@ -153,6 +153,7 @@ TEST_CASE("segments that come too late make all axes slow down on the path, and 
     REQUIRE(run(port, segments, [](std::size_t i) { sleep_ms(i == 150 ? 300 : 0); }) == PortPhase::idle);
     check_rows(writer.rows(), segments, port, {});
     CHECK(port.report().slowdowns >= 1);
+    CHECK(port.report().slowdowns < 10); // it goes on when there is enough, not hop by hop
 }
 
 TEST_CASE("a thread that stood still goes on where it was, and catches nothing up") {
