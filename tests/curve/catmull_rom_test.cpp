@@ -5,6 +5,7 @@
 
 #include "splinefeed/splines/catmull_rom_points.hpp"
 #include "support/curve_harness.hpp"
+#include "support/places.hpp"
 #include "support/spline_points.hpp"
 
 #if __has_include(<nlohmann/json.hpp>)
@@ -128,7 +129,7 @@ TEST_CASE("catmull-rom: uniform streaming is the whole-curve method bit by bit",
 #ifdef SPLINEFEED_HAS_JSON
 TEMPLATE_TEST_CASE("catmull-rom: reference vectors", "[curve][catmull_rom][golden]", double, float, Fixed) {
     using S = TestType;
-    std::ifstream file(SPLINEFEED_SOURCE_DIR "/tests/golden/004_catmull_rom.json");
+    std::ifstream file(splinefeed::test::source_folder() + "/tests/golden/004_catmull_rom.json");
     REQUIRE(file.good());
     const auto golden = nlohmann::json::parse(file);
     const auto number = [](const nlohmann::json& text) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/command_states.hpp"
 #include "support/catch.hpp"
+#include "support/places.hpp"
 
 #include <cstdio>
 #include <fstream>
@@ -11,7 +12,7 @@ using splinefeed::hal::modbus::PvtCommand;
 using splinefeed::hal::modbus::PvtState;
 
 TEST_CASE("command states: as the table of docs/pvt_map.md has them", "[drive][command_states]") {
-    std::ifstream document(SPLINEFEED_SOURCE_DIR "/docs/pvt_map.md");
+    std::ifstream document(splinefeed::test::source_folder() + "/docs/pvt_map.md");
     REQUIRE(document);
     std::string line;
     while (std::getline(document, line) && line != "## Commands") {

@@ -2,6 +2,7 @@
 // DriveProcess: `splinefeed drive` as a process of its own.
 #pragma once
 
+#include "support/places.hpp"
 #include "tool/tool.hpp"
 
 #include <csignal>
@@ -23,8 +24,8 @@ public:
             dup2(ends[1], STDOUT_FILENO);
             close(ends[0]);
             close(ends[1]);
-            const std::string command =
-                "cd '" + tool.folder() + "' && exec '" SPLINEFEED_TOOL "' drive " + arguments + " 2>.drive_error";
+            const std::string command = "cd '" + tool.folder() + "' && exec '" + splinefeed::test::tool_path() +
+                                        "' drive " + arguments + " 2>.drive_error";
             execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
             _exit(127);
         }

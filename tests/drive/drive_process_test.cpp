@@ -3,6 +3,7 @@
 #include "drive_process.hpp"
 #include "pvt_bench.hpp"
 #include "support/catch.hpp"
+#include "support/places.hpp"
 
 #include <modbus/modbus.h>
 #include <poll.h>
@@ -315,8 +316,8 @@ TEST_CASE("drive: pymodbus drives it, from the document alone", "[drive][process
         return;
     }
     DriveProcess drive(tool, "--listen tcp://127.0.0.1:0 --axes 3 --position 10,-20,30");
-    const auto call = tool.shell("/usr/bin/python3 " SPLINEFEED_SOURCE_DIR "/tests/drive/pvt_client.py " +
-                                 std::to_string(drive.port()));
+    const auto call = tool.shell("/usr/bin/python3 " + splinefeed::test::source_folder() +
+                                 "/tests/drive/pvt_client.py " + std::to_string(drive.port()));
     CAPTURE(call.output, call.error);
     CHECK(call.status == 0);
     CHECK(call.output == "executed 9 end 110 -220 330\n");

@@ -3,6 +3,7 @@
 
 #include "host_sim/machine_file.hpp"
 #include "support/catch.hpp"
+#include "support/places.hpp"
 
 using namespace splinefeed::host;
 using namespace splinefeed::hal::gpio;
@@ -145,7 +146,7 @@ tolerated_late_us = 10000
 }
 
 TEST_CASE("GPIO map: the example is one for the example's machine") {
-    const std::string examples = std::string(SPLINEFEED_SOURCE_DIR) + "/examples/";
+    const std::string examples = splinefeed::test::source_folder() + "/examples/";
     const LineMap map =
         read_gpio_map(examples + "gpio_lines.toml", read_machine_file(examples + "three_axis.toml"), chip);
     CHECK(map.chips.size() == 2);

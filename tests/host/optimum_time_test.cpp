@@ -6,6 +6,7 @@
 #include "host_sim/bezier_source.hpp"
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"
+#include "support/places.hpp"
 #include "support/rounds.hpp"
 
 using namespace splinefeed_test;
@@ -227,7 +228,7 @@ TEST_CASE("the machine stops in a cusp") {
 TEST_CASE("the butterfly takes what an independent computation says") {
     // TOPP-RA by collocation in numpy, on a grid of 0.01 mm
     const splinefeed::host::CurveFile file = splinefeed::host::read_curve_file(
-        SPLINEFEED_SOURCE_DIR "/examples/butterfly.json", splinefeed::host::ScalarKind::dual);
+        splinefeed::test::source_folder() + "/examples/butterfly.json", splinefeed::host::ScalarKind::dual);
     struct Case {
         double feed, acceleration, seconds;
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/golden.hpp"
+#include "support/places.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -210,7 +211,7 @@ private:
 } // namespace
 
 json golden_set(const std::string& file) {
-    std::ifstream stream(std::string(SPLINEFEED_SOURCE_DIR) + "/tests/golden/" + file);
+    std::ifstream stream(splinefeed::test::source_folder() + "/tests/golden/" + file);
     return json::parse(stream);
 }
 

@@ -2,6 +2,7 @@
 //
 // What an operator does while a program runs, from the command line.
 #include "support/catch.hpp"
+#include "support/places.hpp"
 #include "tool.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ std::vector<std::vector<double>> rows_of(const std::string& text) {
 TEST_CASE("A hold adds the time that it stands and changes nothing of where the program ends") {
     const Tool tool;
     tool.write("line.csv", line);
-    const std::string path61 = "'" SPLINEFEED_SOURCE_DIR "/examples/path61.csv'";
+    const std::string path61 = "'" + splinefeed::test::source_folder() + "/examples/path61.csv'";
     for (const std::string& program : {std::string("line.csv"), path61}) {
         const Run plain = run(tool, "", program);
         REQUIRE(plain.call.status == 0);

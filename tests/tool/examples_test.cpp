@@ -2,6 +2,7 @@
 //
 // The worked examples, as docs/curves.md tells to run them.
 #include "support/catch.hpp"
+#include "support/places.hpp"
 #include "tool.hpp"
 
 #include <nlohmann/json.hpp>
@@ -12,7 +13,7 @@ using splinefeed::test::Tool;
 
 namespace {
 
-const std::string examples = "'" SPLINEFEED_SOURCE_DIR "/examples/";
+const std::string examples = "'" + splinefeed::test::source_folder() + "/examples/";
 
 json run(const Tool& tool, const std::string& arguments) {
     const Call call = tool("run " + arguments + " --summary json --quiet");

@@ -2,6 +2,7 @@
 //
 // Machines with a jerk limit, from the command line.
 #include "support/catch.hpp"
+#include "support/places.hpp"
 #include "tool.hpp"
 
 #include <nlohmann/json.hpp>
@@ -13,7 +14,7 @@ using splinefeed::test::Tool;
 
 namespace {
 
-const std::string examples = "'" SPLINEFEED_SOURCE_DIR "/examples/";
+const std::string examples = "'" + splinefeed::test::source_folder() + "/examples/";
 const std::string machine = " -m " + examples + "jerk_limited.toml'";
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "tool.hpp"
 
 #include "support/catch.hpp"
+#include "support/places.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-const std::string examples = SPLINEFEED_SOURCE_DIR "/examples/";
+const std::string examples = splinefeed::test::source_folder() + "/examples/";
 
 } // namespace
 
@@ -49,7 +50,8 @@ TEST_CASE("surface: standard input is read as json, by name or without") {
     const Tool tool;
     const Call named = tool("surface '" + examples + "dome.json'");
     for (const std::string options : {"-", "- --format json", "--format json --quiet -"}) {
-        const Call piped = tool.shell("'" SPLINEFEED_TOOL "' surface " + options + " < '" + examples + "dome.json'");
+        const Call piped =
+            tool.shell("'" + splinefeed::test::tool_path() + "' surface " + options + " < '" + examples + "dome.json'");
         CAPTURE(options, piped.error);
         CHECK(piped.status == 0);
         CHECK(piped.output == named.output);

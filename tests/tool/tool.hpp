@@ -2,6 +2,7 @@
 // Tool: calls the built program `splinefeed` and takes what it says.
 #pragma once
 
+#include "support/places.hpp"
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -38,7 +39,7 @@ public:
 
     /// Runs `splinefeed ARGUMENTS` in the folder; the shell reads the arguments.
     [[nodiscard]] Call operator()(const std::string& arguments) const {
-        return shell("'" SPLINEFEED_TOOL "' " + arguments);
+        return shell("'" + splinefeed::test::tool_path() + "' " + arguments);
     }
 
     [[nodiscard]] Call shell(const std::string& command) const {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/catch.hpp"
+#include "support/places.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -271,7 +272,8 @@ TEST_CASE("A pipe moves the machine before it ends") {
     const Tool tool;
     // The writer waits for the first feed segments before it sends the rest.
     const Call call =
-        tool.shell("mkfifo in && { '" SPLINEFEED_TOOL "' run in --format csv --segments - --quiet > s.csv & } && "
+        tool.shell("mkfifo in && { '" + splinefeed::test::tool_path() +
+                   "' run in --format csv --segments - --quiet > s.csv & } && "
                    "tool=$! && exec 3>in && "
                    "awk 'BEGIN { for (i = 0; i < 20000; ++i) print i * 0.05 \",\" (i % 2) * 0.01 }' >&3 && "
                    "for i in $(seq 100); do [ $(wc -l < s.csv) -gt 100 ] && break; sleep 0.1; done && "
@@ -288,8 +290,8 @@ TEST_CASE("What is wrong in a pipe after the first move ends in a controlled sto
     const std::string rows = "awk 'BEGIN { for (i = 0; i < 12000; ++i) print i * 0.008 \",\" 0; ";
     for (const auto& [last, part] : {std::pair{"print \"1,nan\" }'", "-:12001: y 'nan'"},
                                      std::pair{"print \"150,1\"; print \"0,1\" }'", "-:12001: axis x goes to"}}) {
-        const Call call =
-            tool.shell(rows + last + " | '" SPLINEFEED_TOOL "' run - -m machine.toml --trace t.csv --summary json");
+        const Call call = tool.shell(rows + last + " | '" + splinefeed::test::tool_path() +
+                                     "' run - -m machine.toml --trace t.csv --summary json");
         CAPTURE(last, call.error);
         CHECK(call.status == 1);
         CHECK(lines(call.error) == 1);
