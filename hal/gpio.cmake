@@ -37,14 +37,13 @@ else()
     return()
 endif()
 
-find_package(Threads QUIET)
 file(GLOB gpio_sources CONFIGURE_DEPENDS splinefeed/hal/gpio/*.cpp)
 list(FILTER gpio_sources EXCLUDE REGEX "/lines_v[12]\\.cpp$")
 add_library(splinefeed_hal_gpio STATIC ${gpio_sources} splinefeed/hal/gpio/lines_v${gpiod_version}.cpp)
 add_library(splinefeed::hal_gpio ALIAS splinefeed_hal_gpio)
 splinefeed_options(splinefeed_hal_gpio)
 target_include_directories(splinefeed_hal_gpio SYSTEM PRIVATE ${SPLINEFEED_GPIOD_INCLUDE})
-target_link_libraries(splinefeed_hal_gpio PUBLIC splinefeed_hal
+target_link_libraries(splinefeed_hal_gpio PUBLIC splinefeed_hal_rt
                                           PRIVATE Threads::Threads
                                                   $<BUILD_INTERFACE:${SPLINEFEED_GPIOD_LIBRARY}>$<INSTALL_INTERFACE:gpiod>)
 target_compile_definitions(splinefeed_hal_gpio INTERFACE SPLINEFEED_HAS_GPIO=${gpiod_version})

@@ -2,7 +2,7 @@
 // LinkCounts: how the wire to a drive did so far.
 #pragma once
 
-#include "splinefeed/hal/modbus/modbus_link.hpp"
+#include "splinefeed/hal/modbus/modbus_line.hpp"
 
 namespace splinefeed::hal::modbus {
 

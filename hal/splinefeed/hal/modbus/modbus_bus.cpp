@@ -10,19 +10,19 @@ constexpr std::uint64_t rest_us = 500; // where no drive needs anything
 } // namespace
 
 PvtClient& ModbusBus::add(int unit) {
-    drives_.push_back(std::make_unique<PvtClient>(link_, unit));
+    drives_.push_back(std::make_unique<PvtClient>(*link_, unit));
     return *drives_.back();
 }
 
 void ModbusBus::start() {
     stopping_.store(false);
-    thread_ = std::thread([this] { run(); });
+    thread_ = link_->clock().start([this] { run(); });
 }
 
 void ModbusBus::stop() noexcept {
     stopping_.store(true);
-    if (thread_.joinable()) {
-        thread_.join();
+    if (thread_) {
+        thread_->join();
     }
 }
 
@@ -34,7 +34,7 @@ void ModbusBus::run() noexcept {
         }
         busy_us_.store(thread_us(), std::memory_order_relaxed);
         if (!spoke) {
-            sleep_until_us(monotonic_us() + rest_us);
+            link_->clock().sleep_us(rest_us);
         }
     }
 }

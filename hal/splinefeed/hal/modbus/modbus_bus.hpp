@@ -4,22 +4,20 @@
 
 #include "splinefeed/hal/modbus/pvt_client.hpp"
 
-#include <thread>
-
 namespace splinefeed::hal::modbus {
 
 /// Each drive in turn gets one exchange, as often as it needs one. Between start() and stop() nobody else uses the
 /// link.
 class ModbusBus {
 public:
-    ModbusBus(const LinkAddress& address, const LinkTiming& timing) : link_(address, timing) {}
+    explicit ModbusBus(std::unique_ptr<ModbusLine> link) : link_(std::move(link)) {}
     ModbusBus(const ModbusBus&) = delete;
     ModbusBus& operator=(const ModbusBus&) = delete;
     ~ModbusBus() { stop(); }
 
     /// Before start(). The reference stays valid.
     PvtClient& add(int unit);
-    [[nodiscard]] ModbusLink& link() noexcept { return link_; }
+    [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
     [[nodiscard]] const std::vector<std::unique_ptr<PvtClient>>& drives() const noexcept { return drives_; }
 
     void start();
@@ -30,9 +28,9 @@ public:
 private:
     void run() noexcept;
 
-    ModbusLink link_;
+    std::unique_ptr<ModbusLine> link_;
     std::vector<std::unique_ptr<PvtClient>> drives_;
-    std::thread thread_;
+    std::unique_ptr<ClockThread> thread_;
     std::atomic<bool> stopping_{false};
     std::atomic<std::uint64_t> busy_us_{0};
 };

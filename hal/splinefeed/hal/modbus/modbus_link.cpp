@@ -5,7 +5,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <modbus/modbus.h>
 #include <netdb.h>
 #include <netinet/in.h>
@@ -15,7 +14,6 @@ namespace splinefeed::hal::modbus {
 namespace {
 
 constexpr std::uint64_t us_per_s = 1'000'000;
-constexpr std::uint64_t ns_per_us = 1000;
 // What is still under way arrives before it is thrown away; asked again at once, a peer would be a reply behind for
 // ever.
 constexpr std::uint64_t settle_us = 5000;
@@ -56,50 +54,10 @@ LinkFault fault_of(int error) noexcept {
 
 } // namespace
 
-std::uint64_t monotonic_us() noexcept {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return static_cast<std::uint64_t>(now.tv_sec) * us_per_s + static_cast<std::uint64_t>(now.tv_nsec) / ns_per_us;
-}
-
-std::uint64_t thread_us() noexcept {
-    timespec used{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
-    return static_cast<std::uint64_t>(used.tv_sec) * 1'000'000U + static_cast<std::uint64_t>(used.tv_nsec) / 1000U;
-}
-
-void sleep_until_us(std::uint64_t instant_us) noexcept {
-    const timespec until{static_cast<time_t>(instant_us / us_per_s),
-                         static_cast<long>((instant_us % us_per_s) * ns_per_us)};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-    }
-}
-
-const char* describe(LinkFault fault) noexcept {
-    switch (fault) {
-    case LinkFault::none: return "it answers";
-    case LinkFault::timeout:
-        return "no answer in time; is it powered, is the unit number right, are baud rate and parity those of the "
-               "drive?";
-    case LinkFault::disconnected: return "the connection is gone; is the cable plugged in, is the port open?";
-    case LinkFault::corrupt: return "an answer with a wrong checksum; look for noise, termination and the baud rate";
-    case LinkFault::wrong_unit: return "another unit answered; two drives may have the same number";
-    case LinkFault::wrong_length: return "an answer that does not fit the request; another master may be on the line";
-    case LinkFault::exception: return "the drive refused the request";
-    }
-    return "";
-}
-
-const char* exception_name(std::uint8_t code) noexcept {
-    constexpr std::array<const char*, 12> names{
-        "none", "illegal function",     "illegal address", "illegal value",         "device failure", "acknowledge",
-        "busy", "negative acknowledge", "memory parity",   "not a known exception", "gateway path",   "gateway target"};
-    return code < names.size() ? names[code] : names[9];
-}
-
 struct ModbusLink::Context {
     LinkAddress address;
     LinkTiming timing;
+    Clock* clock = nullptr;
     modbus_t* modbus = nullptr;
     std::uint64_t quiet_from_us = 0; // the last byte on the line
     int error = 0;
@@ -119,8 +77,8 @@ struct ModbusLink::Context {
     }
 };
 
-ModbusLink::ModbusLink(const LinkAddress& address, const LinkTiming& timing)
-    : context_(std::make_unique<Context>(Context{.address = address, .timing = timing})) {
+ModbusLink::ModbusLink(const LinkAddress& address, const LinkTiming& timing, Clock& clock)
+    : context_(std::make_unique<Context>(Context{.address = address, .timing = timing, .clock = &clock})) {
     constexpr int data_bits = 8;
     const std::string host = address.wire == Wire::tcp ? resolved(address.host) : address.host;
     context_->no_host = host.empty();
@@ -137,13 +95,17 @@ ModbusLink::ModbusLink(const LinkAddress& address, const LinkTiming& timing)
 
 ModbusLink::~ModbusLink() {
     if (context_->modbus != nullptr) {
-        close();
+        ModbusLink::close();
         modbus_free(context_->modbus);
     }
 }
 
 const LinkAddress& ModbusLink::address() const noexcept {
     return context_->address;
+}
+
+Clock& ModbusLink::clock() const noexcept {
+    return *context_->clock;
 }
 
 bool ModbusLink::connected() const noexcept {
@@ -155,7 +117,7 @@ const char* ModbusLink::error() const noexcept {
 }
 
 std::uint64_t ModbusLink::next_us() const noexcept {
-    return std::max(monotonic_us(), context_->next_us());
+    return std::max(context_->clock->now_us(), context_->next_us());
 }
 
 void ModbusLink::resynchronise() noexcept {
@@ -178,7 +140,7 @@ bool ModbusLink::connect() noexcept {
     }
     context.connected = true;
     context.dirty = context.address.wire == Wire::rtu; // the other end of a new connection has nothing to say
-    context.quiet_from_us = monotonic_us();
+    context.quiet_from_us = context.clock->now_us();
     return true;
 }
 
@@ -193,7 +155,7 @@ template <class Call>
 LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expected, const Call& call) noexcept {
     Context& context = *context_;
     LinkAnswer answer;
-    answer.sent_us = answer.answered_us = monotonic_us();
+    answer.sent_us = answer.answered_us = context.clock->now_us();
     if (!context.connected) {
         answer.fault = LinkFault::disconnected;
         return answer;
@@ -201,8 +163,8 @@ LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expect
     const bool lost = context.lost();
     const std::uint64_t quiet = context.next_us();
     if (answer.sent_us < quiet) {
-        sleep_until_us(quiet);
-        answer.sent_us = monotonic_us();
+        context.clock->sleep_until_us(quiet);
+        answer.sent_us = context.clock->now_us();
     }
     if (context.dirty) {
         modbus_flush(context.modbus);
@@ -214,7 +176,7 @@ LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expect
     modbus_set_slave(context.modbus, unit);
     errno = 0;
     const int done = call(context.modbus);
-    answer.answered_us = context.quiet_from_us = monotonic_us();
+    answer.answered_us = context.quiet_from_us = context.clock->now_us();
     context.failures = done == expected ? 0 : lost ? 1 : context.failures + 1;
     if (done == expected) {
         answer.arrived_us = answer.sent_us + frame_us(context.address, bytes.request);

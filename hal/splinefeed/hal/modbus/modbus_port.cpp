@@ -34,7 +34,8 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
         };
         auto bus = std::find_if(buses_.begin(), buses_.end(), same);
         if (bus == buses_.end()) {
-            buses_.push_back(std::make_unique<ModbusBus>(drive.link, settings.timing));
+            buses_.push_back(
+                std::make_unique<ModbusBus>(settings.make_line(drive.link, settings.timing, *settings.clock)));
             bus = buses_.end() - 1;
         }
         for (const int axis : drive.machine_axis) {
@@ -77,11 +78,11 @@ std::optional<DriveFailure> ModbusPort::command_all(PvtCommand command) {
     for (PortDrive& drive : drives_) {
         drive.command(command);
     }
-    const std::uint64_t until = monotonic_us() + command_us;
+    const std::uint64_t until = settings_.clock->now_us() + command_us;
     do {
-        sleep_until_us(monotonic_us() + look_every_us);
+        settings_.clock->sleep_us(look_every_us);
         look();
-    } while (!carried_out() && monotonic_us() < until);
+    } while (!carried_out() && settings_.clock->now_us() < until);
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         const DriveReport& seen = drives_[i].seen();
         if (seen.command_pending || seen.command_refused || seen.problem != DriveProblem::none) {
@@ -95,9 +96,9 @@ std::optional<DriveFailure> ModbusPort::command_all(PvtCommand command) {
 
 // Out of whatever state somebody left them in: what still moves comes to rest by itself.
 std::optional<DriveFailure> ModbusPort::enable_all() {
-    const std::uint64_t until = monotonic_us() + settings_.away_us;
+    const std::uint64_t until = settings_.clock->now_us() + settings_.away_us;
     for (;;) {
-        sleep_until_us(monotonic_us() + look_every_us);
+        settings_.clock->sleep_us(look_every_us);
         look();
         bool ready = true;
         for (std::size_t i = 0; i < drives_.size(); ++i) {
@@ -126,9 +127,9 @@ std::optional<DriveFailure> ModbusPort::home_all() {
     if (const auto failure = command_all(PvtCommand::home)) {
         return failure;
     }
-    const std::uint64_t until = monotonic_us() + homing_us;
+    const std::uint64_t until = settings_.clock->now_us() + homing_us;
     for (;;) {
-        sleep_until_us(monotonic_us() + look_every_us);
+        settings_.clock->sleep_us(look_every_us);
         look();
         const bool given_up = now_us_ > until || (settings_.interrupted != nullptr && settings_.interrupted());
         bool homing = false;
@@ -224,7 +225,7 @@ bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
 }
 
 void ModbusPort::look() noexcept {
-    now_us_ = monotonic_us();
+    now_us_ = settings_.clock->now_us();
     for (PortDrive& drive : drives_) {
         drive.look(now_us_, times_);
     }

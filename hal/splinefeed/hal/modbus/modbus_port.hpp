@@ -26,6 +26,8 @@ struct ModbusPortSettings {
     bool home = false;                  ///< prepare() has the drives find their references first
     bool (*interrupted)() = nullptr;    ///< asked meanwhile: a quick stop
     LinkTiming timing{};
+    MakeLine make_line = make_link;
+    Clock* clock = &system_clock(); ///< outlives the port
 };
 
 /// Which drive it is about, and what.

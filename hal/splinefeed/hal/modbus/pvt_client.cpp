@@ -72,7 +72,7 @@ const char* describe(DriveProblem problem) noexcept {
     return "";
 }
 
-PvtClient::PvtClient(ModbusLink& link, int unit) : link_(&link), unit_(unit), queue_(queue_capacity) {}
+PvtClient::PvtClient(ModbusLine& link, int unit) : link_(&link), unit_(unit), queue_(queue_capacity) {}
 
 // A few times, with a new connection where the old one broke.
 template <class Attempt>
@@ -123,7 +123,7 @@ DriveProblem PvtClient::open(int least_axes) noexcept {
         const bool answers = report_.last_fault == LinkFault::none;
         return report_.problem = answers ? DriveProblem::damaged : DriveProblem::silent;
     }
-    report_.answered_us = monotonic_us();
+    report_.answered_us = link_->clock().now_us();
     // Another number than that of whoever was here before: its late blocks are refused.
     session_ = static_cast<std::uint16_t>(report_.answered_us ^ (report_.answered_us >> 16U));
     counter_ = report_.status.last_command;
@@ -271,7 +271,7 @@ bool PvtClient::reconnect(std::uint64_t now_us) noexcept {
 }
 
 bool PvtClient::step() noexcept {
-    const std::uint64_t now = monotonic_us();
+    const std::uint64_t now = link_->clock().now_us();
     if (!link_->connected() && !reconnect(now)) {
         return false;
     }

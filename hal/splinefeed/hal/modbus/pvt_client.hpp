@@ -4,7 +4,7 @@
 
 #include "splinefeed/hal/modbus/clock_estimate.hpp"
 #include "splinefeed/hal/modbus/link_counts.hpp"
-#include "splinefeed/hal/modbus/modbus_link.hpp"
+#include "splinefeed/hal/modbus/modbus_line.hpp"
 #include "splinefeed/hal/modbus/pvt_map.hpp"
 
 #include <atomic>
@@ -45,7 +45,7 @@ struct DriveReport {
     std::uint8_t exception = 0;    ///< with LinkFault::exception
     bool command_pending = false;  ///< the last command() is still under way
     bool command_refused = false;  ///< it was refused, in the state in which the drive was
-    std::uint64_t answered_us = 0; ///< monotonic clock, of the last good answer
+    std::uint64_t answered_us = 0; ///< the line's clock, of the last good answer
     std::uint64_t said_us = 0;     ///< and when the drive said it, at the earliest
 };
 
@@ -55,7 +55,7 @@ public:
     static constexpr std::size_t queue_capacity = 2048;
 
     /// @param link  must outlive it; shared with the other drives of the bus
-    PvtClient(ModbusLink& link, int unit);
+    PvtClient(ModbusLine& link, int unit);
 
     /// Connects and checks who is there. As the next two before the bus runs.
     [[nodiscard]] DriveProblem open(int least_axes) noexcept;
@@ -64,7 +64,7 @@ public:
     LinkAnswer probe() noexcept;
     [[nodiscard]] int axes() const noexcept { return axes_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
-    [[nodiscard]] const ModbusLink& link() const noexcept { return *link_; }
+    [[nodiscard]] const ModbusLine& link() const noexcept { return *link_; }
 
     // The planner's side.
     /// Segments that push takes now: what was executed makes room.
@@ -107,7 +107,7 @@ private:
     bool reconnect(std::uint64_t now_us) noexcept;
     LinkAnswer exchange(std::span<const std::uint16_t> block, std::span<std::uint16_t> status) noexcept;
 
-    ModbusLink* link_;
+    ModbusLine* link_;
     int unit_;
     int axes_ = 0;
     std::vector<PvtSegment> queue_; // by sequence number; from executed to pushed

@@ -25,7 +25,7 @@ std::uint64_t TargetMotion::time_us(std::uint64_t now_us) noexcept {
 }
 
 TargetDrive& TargetBus::add(const DriveProfile& profile, int unit) {
-    drives_.emplace_back(profile, link_, unit);
+    drives_.emplace_back(profile, *link_, unit);
     return drives_.back().drive;
 }
 
@@ -33,16 +33,17 @@ std::uint32_t TargetBus::shortest_period_us() {
     std::uint32_t sum = 0;
     std::uint32_t longest_own = least_period_us;
     std::uint32_t longest_read = 0;
-    const bool serial = link_.address().wire == Wire::rtu;
+    const bool serial = link_->address().wire == Wire::rtu;
     for (Place& place : drives_) {
         const DriveProfile& profile = place.drive.profile();
-        StreamCost cost = stream_cost(profile, link_.address());
+        StreamCost cost = stream_cost(profile, link_->address());
         if (!serial) {
-            const std::uint64_t before = monotonic_us();
+            const std::uint64_t before = link_->clock().now_us();
             for (int i = 0; i < probes; ++i) {
                 static_cast<void>(place.drive.read_next());
             }
-            cost.read_us = static_cast<std::uint32_t>(margin * static_cast<double>(monotonic_us() - before) / probes);
+            cost.read_us =
+                static_cast<std::uint32_t>(margin * static_cast<double>(link_->clock().now_us() - before) / probes);
             cost.target_us = (profile.group_for(GroupUse::target) != nullptr ? 1 : frames_a_target) * cost.read_us;
         }
         sum += cost.target_us;
@@ -55,13 +56,13 @@ std::uint32_t TargetBus::shortest_period_us() {
 
 void TargetBus::start(TargetMotion& motion, std::uint32_t period_us) {
     stopping_.store(false);
-    thread_ = std::thread([this, &motion, period_us] { run(motion, period_us); });
+    thread_ = link_->clock().start([this, &motion, period_us] { run(motion, period_us); });
 }
 
 void TargetBus::stop() noexcept {
     stopping_.store(true);
-    if (thread_.joinable()) {
-        thread_.join();
+    if (thread_) {
+        thread_->join();
     }
 }
 
@@ -81,7 +82,7 @@ void TargetBus::keep(Place& place) noexcept {
 
 // By the time at which its frame arrives.
 void TargetBus::tell(Place& place, TargetMotion& motion, std::uint32_t period_us) noexcept {
-    const std::uint64_t arrives_us = link_.next_us() + stream_cost(place.drive.profile(), link_.address()).arrival_us;
+    const std::uint64_t arrives_us = link_->next_us() + stream_cost(place.drive.profile(), link_->address()).arrival_us;
     bool told_end = false;
     {
         const std::lock_guard lock(motion.mutex);
@@ -119,7 +120,7 @@ void TargetBus::watch(const Place& place, TargetMotion& motion, std::uint64_t no
 
 void TargetBus::told(Place& place, TargetMotion& motion, bool sent, std::uint32_t period_us) noexcept {
     const LinkAnswer& answer = place.drive.last_answer();
-    const std::uint64_t arrived_us = sent ? (answer.arrived_us + answer.replied_us) / 2 : monotonic_us();
+    const std::uint64_t arrived_us = sent ? (answer.arrived_us + answer.replied_us) / 2 : link_->clock().now_us();
     const bool ended = place.ended_us != 0;
     const std::uint64_t due_us = place.told_us + period_us;
     const std::uint64_t latest_us = sent ? answer.replied_us : arrived_us;
@@ -139,10 +140,10 @@ void TargetBus::told(Place& place, TargetMotion& motion, bool sent, std::uint32_
 }
 
 void TargetBus::run(TargetMotion& motion, std::uint32_t period_us) noexcept {
-    std::uint64_t next_us = monotonic_us();
+    std::uint64_t next_us = link_->clock().now_us();
     std::size_t asked = 0;
     while (!stopping_.load(std::memory_order_relaxed)) {
-        sleep_until_us(next_us);
+        link_->clock().sleep_until_us(next_us);
         next_us += period_us;
         if (quick_stop_.load(std::memory_order_relaxed)) {
             for (Place& place : drives_) {
@@ -151,11 +152,11 @@ void TargetBus::run(TargetMotion& motion, std::uint32_t period_us) noexcept {
             }
             return;
         }
-        if (!link_.connected() && !link_.connect()) {
+        if (!link_->connected() && !link_->connect()) {
             for (Place& place : drives_) {
                 keep(place);
                 const std::lock_guard lock(motion.mutex);
-                watch(place, motion, monotonic_us(), period_us);
+                watch(place, motion, link_->clock().now_us(), period_us);
             }
             continue;
         }
@@ -166,7 +167,7 @@ void TargetBus::run(TargetMotion& motion, std::uint32_t period_us) noexcept {
         static_cast<void>(place.drive.read_next());
         keep(place);
         busy_us_.store(thread_us(), std::memory_order_relaxed);
-        const std::uint64_t now = monotonic_us();
+        const std::uint64_t now = link_->clock().now_us();
         if (now > next_us + period_us) { // behind: never a burst of old targets
             next_us += (now - next_us) / period_us * period_us;
         }

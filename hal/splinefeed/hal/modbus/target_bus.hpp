@@ -10,7 +10,6 @@
 #include <atomic>
 #include <deque>
 #include <mutex>
-#include <thread>
 
 namespace splinefeed::hal::modbus {
 
@@ -47,14 +46,14 @@ public:
     /// A target that comes later than this, beyond a period, has all stop. [us]
     static constexpr std::uint32_t allowed_late_us = 20'000;
 
-    TargetBus(const LinkAddress& address, const LinkTiming& timing) : link_(address, timing) {}
+    explicit TargetBus(std::unique_ptr<ModbusLine> link) : link_(std::move(link)) {}
     TargetBus(const TargetBus&) = delete;
     TargetBus& operator=(const TargetBus&) = delete;
     ~TargetBus() { stop(); }
 
     /// Before start(). References stay valid.
     TargetDrive& add(const DriveProfile& profile, int unit);
-    [[nodiscard]] ModbusLink& link() noexcept { return link_; }
+    [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
     [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
     [[nodiscard]] TargetDrive& drive(std::size_t i) noexcept { return drives_[i].drive; }
 
@@ -73,7 +72,7 @@ public:
 
 private:
     struct Place {
-        Place(const DriveProfile& profile, ModbusLink& link, int unit) : drive(profile, link, unit) {}
+        Place(const DriveProfile& profile, ModbusLine& link, int unit) : drive(profile, link, unit) {}
 
         TargetDrive drive;
         TargetReport report;
@@ -87,10 +86,10 @@ private:
     void told(Place& place, TargetMotion& motion, bool sent, std::uint32_t period_us) noexcept;
     void keep(Place& place) noexcept;
 
-    ModbusLink link_;
+    std::unique_ptr<ModbusLine> link_;
     std::deque<Place> drives_;
     mutable std::mutex mutex_; // of the reports
-    std::thread thread_;
+    std::unique_ptr<ClockThread> thread_;
     std::atomic<bool> stopping_{false};
     std::atomic<bool> quick_stop_{false};
     std::atomic<std::uint64_t> busy_us_{0};

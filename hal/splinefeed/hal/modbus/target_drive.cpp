@@ -14,7 +14,7 @@ constexpr std::uint64_t homing_us = 300'000'000;
 
 } // namespace
 
-TargetDrive::TargetDrive(const DriveProfile& profile, ModbusLink& link, int unit)
+TargetDrive::TargetDrive(const DriveProfile& profile, ModbusLine& link, int unit)
     : profile_(&profile), link_(&link), unit_(unit), status_(profile) {}
 
 std::string TargetDrive::trouble(const char* what) const {
@@ -148,9 +148,9 @@ bool TargetDrive::command(DriveCommand command) noexcept {
     }
     int failed = 0;
     while (!sequence.finished()) {
-        sleep_until_us(sequence.due_us());
+        link_->clock().sleep_until_us(sequence.due_us());
         if (write(sequence.next())) {
-            sequence.told(monotonic_us());
+            sequence.told(link_->clock().now_us());
         } else if (++failed > attempts) {
             return false;
         }
@@ -188,7 +188,7 @@ std::string TargetDrive::enable(const TargetSettings& settings) {
         return trouble("it cannot be enabled");
     }
     for (int i = 0; i < attempts; ++i) {
-        sleep_until_us(monotonic_us() + settle_us);
+        link_->clock().sleep_us(settle_us);
         if (read_status() && reading_.state == DriveState::enabled) {
             std::string what = settings.home ? home(settings) : std::string();
             return what.empty() ? follow() : what;
@@ -221,9 +221,9 @@ std::string TargetDrive::home(const TargetSettings& settings) {
         !command(DriveCommand::home)) {
         return trouble("it cannot be homed");
     }
-    const std::uint64_t begun = monotonic_us();
+    const std::uint64_t begun = link_->clock().now_us();
     for (;;) {
-        sleep_until_us(monotonic_us() + settle_us);
+        link_->clock().sleep_us(settle_us);
         if (settings.interrupted != nullptr && settings.interrupted()) {
             static_cast<void>(command(DriveCommand::quick_stop));
             return "interrupted while it was homed; it was stopped";
@@ -232,7 +232,7 @@ std::string TargetDrive::home(const TargetSettings& settings) {
             return trouble("it does not answer while it is homed");
         }
         const bool stands = reading_.state == DriveState::enabled && (profile_->homed ? reading_.homed : reading_.done);
-        const std::uint64_t now = monotonic_us();
+        const std::uint64_t now = link_->clock().now_us();
         if (stands && now > begun + homing_begins_us) { // what it says may be of the time before
             break;
         }

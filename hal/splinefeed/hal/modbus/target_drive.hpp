@@ -6,7 +6,7 @@
 #include "splinefeed/hal/modbus/command_sequence.hpp"
 #include "splinefeed/hal/modbus/cyclic_stream.hpp"
 #include "splinefeed/hal/modbus/link_counts.hpp"
-#include "splinefeed/hal/modbus/modbus_link.hpp"
+#include "splinefeed/hal/modbus/modbus_line.hpp"
 #include "splinefeed/hal/modbus/status_frames.hpp"
 
 #include <string>
@@ -27,7 +27,7 @@ struct TargetSettings {
 class TargetDrive {
 public:
     /// All must outlive it.
-    TargetDrive(const DriveProfile& profile, ModbusLink& link, int unit);
+    TargetDrive(const DriveProfile& profile, ModbusLine& link, int unit);
 
     /// Connects, checks the identity, writes the init list, reads the status. Empty, or what is wrong.
     [[nodiscard]] std::string open();
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] std::uint64_t heard_us() const noexcept { return heard_us_; }
     [[nodiscard]] const DriveProfile& profile() const noexcept { return *profile_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
-    [[nodiscard]] ModbusLink& link() noexcept { return *link_; }
+    [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
 
 private:
     [[nodiscard]] TargetFrames& frames() noexcept { return block_ ? block_->frames() : cyclic_->frames(); }
@@ -78,7 +78,7 @@ private:
     [[nodiscard]] std::string trouble(const char* what) const;
 
     const DriveProfile* profile_;
-    ModbusLink* link_;
+    ModbusLine* link_;
     int unit_;
     StatusFrames status_;
     std::optional<BlockStream> block_;

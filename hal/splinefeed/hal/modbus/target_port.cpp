@@ -41,7 +41,7 @@ TargetPort::TargetPort(const std::vector<TargetWiring>& wiring, const TargetPort
                     timing.before_us = std::max(timing.before_us, link.silence_before_us + link.silence_after_us);
                 }
             }
-            buses_.push_back(std::make_unique<TargetBus>(drive.link, timing));
+            buses_.push_back(std::make_unique<TargetBus>(settings.make_line(drive.link, timing, *settings.clock)));
             bus = buses_.end() - 1;
         }
         Place place;
@@ -95,7 +95,7 @@ std::string TargetPort::prepare(const FeedSegment& first) {
     for (const Place& place : places_) {
         motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(place));
     }
-    began_us_ = monotonic_us();
+    began_us_ = settings_.clock->now_us();
     const auto ahead_us = static_cast<std::uint32_t>(motion_.ahead_us);
     settings_.buffer_us = std::max(settings_.buffer_us, 2 * (settings_.reserve_us + ahead_us));
     for (const auto& bus : buses_) {
@@ -128,7 +128,7 @@ double TargetPort::position_counts(std::size_t drive) const noexcept {
 }
 
 bool TargetPort::heard(std::size_t drive) const noexcept {
-    const std::uint64_t now = monotonic_us();
+    const std::uint64_t now = settings_.clock->now_us();
     return now < report(drive).heard_us + recent_us + std::uint64_t{drives()} * period_us_;
 }
 
@@ -192,7 +192,7 @@ int TargetPort::do_room() const noexcept {
         return 0;
     }
     const std::lock_guard lock(motion_.mutex);
-    const std::uint64_t now = motion_.clock.time_us(monotonic_us());
+    const std::uint64_t now = motion_.clock.time_us(settings_.clock->now_us());
     const std::uint64_t held = motion_.track.end_us() - std::min(now, motion_.track.end_us());
     const std::uint64_t most = settings_.buffer_us + period_us_;
     const std::uint64_t room = held < most ? (most - held) / segment_us_ + 1 : 0;
@@ -228,7 +228,7 @@ void TargetPort::stop(Phase then) noexcept {
     }
     const std::lock_guard lock(motion_.mutex);
     if (!motion_.clock.stopping()) {
-        motion_.clock.stop(monotonic_us());
+        motion_.clock.stop(settings_.clock->now_us());
     }
     phase_ = Phase::stopping;
     after_stop_ = then;
@@ -236,7 +236,7 @@ void TargetPort::stop(Phase then) noexcept {
 
 // False: a drive is in trouble.
 bool TargetPort::watch() noexcept {
-    const std::uint64_t now = monotonic_us();
+    const std::uint64_t now = settings_.clock->now_us();
     for (std::size_t i = 0; i < places_.size(); ++i) {
         const TargetReport seen = report(i);
         if (seen.reading.state == DriveState::fault) {
@@ -278,7 +278,7 @@ bool TargetPort::arrived() noexcept {
 // As far as the clock tells.
 std::uint64_t TargetPort::executed() const noexcept {
     const std::lock_guard lock(motion_.mutex);
-    return std::min(motion_.clock.time_us(monotonic_us()) / segment_us_, submitted_);
+    return std::min(motion_.clock.time_us(settings_.clock->now_us()) / segment_us_, submitted_);
 }
 
 // Any bus may have stopped the clock, for all.
@@ -325,7 +325,7 @@ void TargetPort::follow_clock(std::uint64_t now_us) noexcept {
 }
 
 PortState TargetPort::do_poll() noexcept {
-    const std::uint64_t now = monotonic_us();
+    const std::uint64_t now = settings_.clock->now_us();
     const bool ends = phase_ == Phase::halted || phase_ == Phase::done || phase_ == Phase::fault ||
                       (phase_ == Phase::stopping && after_stop_ != Phase::waiting);
     if (!ends && !watch()) {

@@ -24,6 +24,8 @@ struct TargetPortSettings {
     std::uint32_t buffer_us = 300'000;  ///< motion that is planned ahead
     std::uint32_t away_us = 5'000'000;  ///< a drive that was not heard for this long: the port gives up
     LinkTiming timing{};
+    MakeLine make_line = make_link;
+    Clock* clock = &system_clock(); ///< outlives the port
 };
 
 class TargetPort final : public MotionPort {
