@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/stop_sequence.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::hal {
+
+const char* name(StopRequest request) noexcept {
+    switch (request) {
+    case StopRequest::none: return "none";
+    case StopRequest::hold: return "feed hold";
+    case StopRequest::quick_stop: return "quick stop";
+    case StopRequest::disable: return "power off";
+    }
+    return "";
+}
+
+void StopSequence::reset() noexcept {
+    std::fill(axes_.begin(), axes_.end(), Axis());
+    asked_ = StopRequest::none;
+}
+
+std::uint64_t StopSequence::bound_us(StopRequest request) const noexcept {
+    return request == StopRequest::hold         ? times_.hold_us
+           : request == StopRequest::quick_stop ? times_.quick_stop_us
+                                                : times_.disable_us;
+}
+
+void StopSequence::request(StopRequest request, std::uint64_t now_us) noexcept {
+    asked_ = std::max(asked_, request);
+    for (Axis& axis : axes_) {
+        if (request > axis.report.request) {
+            axis = {.report = {request, StopState::moving, axis.report.said_us}, .since_us = now_us};
+        }
+    }
+}
+
+// What was said before the request was executed tells of the time before. Standing counts from the first status that
+// says so: a shaft still settles behind it.
+void StopSequence::judge(Axis& axis, const StopFacts& facts) const noexcept {
+    axis.report.said_us = facts.said_us;
+    axis.executed = facts.executed >= axis.report.request;
+    const bool stands = axis.executed && facts.standstill && !facts.start_pending && facts.said_us >= facts.executed_us;
+    axis.stood_us = !stands ? 0 : axis.stood_us == 0 ? facts.said_us : axis.stood_us;
+    const bool settled = stands && facts.said_us >= axis.stood_us + times_.settle_us;
+    axis.report.state = settled ? StopState::confirmed : axis.executed ? StopState::stopping : StopState::moving;
+}
+
+// What was confirmed once and moves again has no time left.
+void StopSequence::escalate(Axis& axis, std::uint64_t now_us) const noexcept {
+    if (now_us <= axis.since_us + bound_us(axis.report.request)) {
+        return;
+    }
+    if (axis.report.request >= times_.last) {
+        axis.report.state = StopState::unconfirmed;
+        return;
+    }
+    axis.report.request = static_cast<StopRequest>(static_cast<int>(axis.report.request) + 1);
+    axis.since_us = now_us;
+    axis.stood_us = 0;
+    axis.executed = false;
+    axis.report.state = StopState::moving;
+}
+
+void StopSequence::update(std::uint64_t now_us, std::span<const StopFacts> facts) noexcept {
+    for (std::size_t i = 0; i < axes_.size() && requested(); ++i) {
+        judge(axes_[i], facts[i]);
+        if (axes_[i].report.state != StopState::confirmed) {
+            escalate(axes_[i], now_us);
+        }
+    }
+}
+
+StopRequest StopSequence::to_send(std::size_t axis) const noexcept {
+    return axes_[axis].executed ? StopRequest::none : axes_[axis].report.request;
+}
+
+StopReport StopSequence::report(std::size_t axis) const noexcept {
+    return axes_[axis].report;
+}
+
+bool StopSequence::settled() const noexcept {
+    return requested() && std::all_of(axes_.begin(), axes_.end(), [](const Axis& axis) {
+               return axis.report.state == StopState::confirmed || axis.report.state == StopState::unconfirmed;
+           });
+}
+
+bool StopSequence::all_confirmed() const noexcept {
+    return requested() && std::all_of(axes_.begin(), axes_.end(),
+                                      [](const Axis& axis) { return axis.report.state == StopState::confirmed; });
+}
+
+} // namespace splinefeed::hal
