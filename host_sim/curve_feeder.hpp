@@ -40,6 +40,10 @@ public:
     /// Pushes the next waypoint, or finishes; false when there was none. Throws InputError; the curve then ends with
     /// the waypoints before. @pre the curve is starved
     bool more(Pushed& pushed);
+    /// Whether more() answers at once, or will within so long, for which it waits. A closed curve is read whole before.
+    [[nodiscard]] bool wait_for_row(WaypointRows::Patience patience) {
+        return finished_ || input_->choice().closed || input_rows_->wait(patience);
+    }
 
     /// Waypoints of the input so far.
     [[nodiscard]] std::uint64_t rows() const noexcept { return rows_read_; }

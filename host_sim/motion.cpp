@@ -11,9 +11,15 @@
 
 namespace splinefeed::host {
 
+namespace {
+
+constexpr std::chrono::milliseconds wait_slice{1}; // for input, before the target is looked at again
+
+} // namespace
+
 template <Scalar S>
 Motion<S>::Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits,
-                  PathInput& input, const PathLimits& path_limits, Outputs& outputs, RunTarget* target)
+                  PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target)
     : job_(&job), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs), target_(target),
       optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
       feeder_(input), tee_(feeder_, input.name(),
@@ -34,6 +40,12 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
     for (;;) {
         operate();
         obey_target();
+        if (target_ != nullptr && target_->over()) {
+            break;
+        }
+        if (paused_ && feeder_.wait_for_row(Clock::duration::zero())) {
+            read();
+        }
         if (pull(segment)) {
             if (segments_ == 0 && tee_.failure()) {
                 std::rethrow_exception(tee_.failure());
@@ -48,10 +60,33 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
             if (!stand()) {
                 break;
             }
-        } else {
+        } else if (feeder_.wait_for_row(late_ ? Clock::duration::zero() : wait_slice)) {
             read();
+        } else if (!wait()) {
+            break;
         }
     }
+}
+
+// The input pauses: a machine that moves cannot wait, one that stands does for a while.
+template <Scalar S>
+bool Motion<S>::late() const {
+    return paused_ && target_->room() && (moves_ || Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms));
+}
+
+// All that is known is travelled. False where nothing will ever move the machine.
+template <Scalar S>
+bool Motion<S>::wait() {
+    paused_ = paused_.value_or(Clock::now());
+    if (moves_ || !held_by_target_) {
+        if (!late_ || moves_ || segments_ == 0) {
+            return true;
+        }
+        FeedSegment segment;
+        trajectory_.stand(segment); // drives that wait for more before they begin get it
+        return execute(segment);
+    }
+    return false;
 }
 
 template <Scalar S>
@@ -84,9 +119,8 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     }
     // Whatever ended the run: the drives come to rest at the end of what they have.
     if (!target_->finish()) {
-        stopped_ = target_->why();
-    } else if (!target_->holds().empty()) {
-        stopped_ = target_->achieved() ? std::string() : target_->holds();
+        stopped_ = target_->ending();
+        return stopped_;
     }
     return stopped_.empty() ? stopped_ : stopped_ + target_->where();
 }
@@ -94,7 +128,8 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
 template <Scalar S>
 bool Motion<S>::pull(FeedSegment& segment) {
     const Clock::time_point start = Clock::now();
-    const bool item = trajectory_.next(segment);
+    late_ = late();
+    const bool item = trajectory_.next(segment, late_ ? Starvation::goes_on : Starvation::waits);
     planning_ += Clock::now() - start;
     return item;
 }
@@ -119,11 +154,11 @@ void Motion<S>::obey_target() {
     if (target_ == nullptr) {
         return;
     }
-    if (!held_by_target_ && !target_->holds().empty()) {
+    if (!held_by_target_ && target_->hold_asked()) {
         held_by_target_ = true;
         trajectory_.hold();
     }
-    switch (RunTarget::take_steering()) {
+    switch (target_->take_steering()) {
     case UserSteering::none: break;
     case UserSteering::hold:
         held_by_user_ = true;
@@ -152,6 +187,7 @@ bool Motion<S>::stand() {
 // Gives the curve one more waypoint, or tells it that there are none.
 template <Scalar S>
 void Motion<S>::read() {
+    paused_.reset();
     if (read_all_) {
         throw std::logic_error("the curve asks for waypoints after its end");
     }
@@ -178,9 +214,11 @@ bool Motion<S>::execute(const FeedSegment& segment) {
     ++segments_;
     bool rest = trajectory_.activity() == Activity::running;
     bool moves = false;
+    bool ends_in_motion = false;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         rest = rest && segment.end_velocity[k] == 0;
         moves = moves || segment.start_velocity[k] != 0;
+        ends_in_motion = ends_in_motion || segment.end_velocity[k] != 0;
     }
     rest = rest && moves;
     rests_ += rest ? 1U : 0U;
@@ -191,9 +229,10 @@ bool Motion<S>::execute(const FeedSegment& segment) {
     }
     share_.segment(segment);
     if (target_ != nullptr && !target_->submit(segment)) {
-        stopped_ = target_->why();
+        stopped_ = target_->ending();
         return false;
     }
+    moves_ = ends_in_motion;
     return true;
 }
 

@@ -6,8 +6,8 @@
 #include "outputs.hpp"
 #include "path_tee.hpp"
 #include "planner.hpp"
-#include "run_target.hpp"
 #include "summary.hpp"
+#include "supervision.hpp"
 
 #include <chrono>
 #include <string>
@@ -16,12 +16,18 @@
 namespace splinefeed::host {
 
 /// One run. A waypoint is read only when the planner is out of segments.
+///
+/// Without a target it waits for its input. With one a machine that moves cannot: while the target needs segments the
+/// motion goes on with what is known, comes to rest at the end of that, and starts again when more comes. At rest it
+/// starts with what is known when the input has paused for pause_ms.
 template <Scalar S>
 class Motion {
 public:
+    static constexpr int pause_ms = 100;
+
     /// All arguments must outlive it.
     Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits, PathInput& input,
-           const PathLimits& path_limits, Outputs& outputs, RunTarget* target = nullptr);
+           const PathLimits& path_limits, Outputs& outputs, Supervision* target = nullptr);
     Motion(const Motion&) = delete;
     Motion& operator=(const Motion&) = delete;
 
@@ -38,6 +44,8 @@ private:
     void execute_all(std::optional<std::uint64_t> waypoints);
     bool pull(FeedSegment& segment);
     void read();
+    [[nodiscard]] bool late() const;
+    [[nodiscard]] bool wait();
     void operate();
     void obey_target();
     bool stand();
@@ -50,7 +58,7 @@ private:
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
-    RunTarget* target_; // null: the simulated machine alone
+    Supervision* target_; // null: the simulated machine alone
     WaypointError error_;
     OptimumTime optimum_;
     LimitShare share_;
@@ -66,6 +74,9 @@ private:
     std::uint64_t segments_ = 0;
     std::uint64_t rests_ = 0; // instants at which all axes stood still
     bool read_all_ = false;
+    bool moves_ = false;                      // at the end of the last segment
+    bool late_ = false;                       // the last pull could not wait for input
+    std::optional<Clock::time_point> paused_; // since then the input has nothing
     bool held_by_user_ = false;
     bool held_by_target_ = false; // and ends there
 };

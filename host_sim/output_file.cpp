@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -19,6 +21,17 @@ namespace splinefeed::host {
 namespace {
 
 constexpr mode_t new_file_mode = 0666; // the user's umask narrows it
+
+/// Temporaries that have a name. Locked while one gets its name, and until it has taken its target's place.
+struct Named {
+    std::mutex mutex;
+    std::vector<std::string> paths;
+};
+
+Named& named() {
+    static Named all;
+    return all;
+}
 
 std::string folder_of(const std::string& target) {
     const std::filesystem::path folder = std::filesystem::path(target).parent_path();
@@ -47,6 +60,15 @@ const char* remedy(int error) {
 }
 
 } // namespace
+
+std::atomic<std::uint64_t> OutputFile::writes_{0};
+
+void OutputFile::discard_all() noexcept {
+    named().mutex.lock(); // for good
+    for (const std::string& path : named().paths) {
+        unlink(path.c_str());
+    }
+}
 
 void OutputFile::fail(const char* action, int error) const {
     throw OutputError(fmt::format("{}: {}: {}; {}", path_ == "-" ? "standard output" : path_, action,
@@ -102,10 +124,12 @@ void OutputFile::open_temporary() {
         return;
     }
 #endif
+    const std::lock_guard lock(named().mutex);
     for (int n = 0;; ++n) {
         temporary_ = temporary_name(target_, n);
         descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, new_file_mode);
         if (descriptor_ >= 0) {
+            named().paths.push_back(temporary_);
             return;
         }
         if (errno != EEXIST) {
@@ -126,9 +150,15 @@ void OutputFile::discard() noexcept {
     }
     descriptor_ = -1;
     if (!temporary_.empty()) {
+        const std::lock_guard lock(named().mutex);
         unlink(temporary_.c_str());
-        temporary_.clear();
+        forget_temporary();
     }
+}
+
+void OutputFile::forget_temporary() noexcept {
+    std::erase(named().paths, temporary_);
+    temporary_.clear();
 }
 
 void OutputFile::flush() {
@@ -137,6 +167,7 @@ void OutputFile::flush() {
     while (!rest.empty()) {
         const ssize_t written = write(descriptor_, rest.data(), rest.size());
         if (written >= 0) {
+            writes_.fetch_add(1, std::memory_order_relaxed);
             rest.remove_prefix(static_cast<std::size_t>(written));
         } else if (errno != EINTR) {
             fail("cannot write", errno);
@@ -145,13 +176,14 @@ void OutputFile::flush() {
     buffer_.clear();
 }
 
-// Gives a nameless temporary a name.
+// Gives a nameless temporary a name. Locked.
 void OutputFile::name_temporary() {
     const std::string nameless = fmt::format("/proc/self/fd/{}", descriptor_);
     for (int n = 0;; ++n) {
         const std::string name = temporary_name(target_, n);
         if (linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
             temporary_ = name;
+            named().paths.push_back(name);
             return;
         }
         if (errno != EEXIST) {
@@ -166,6 +198,7 @@ void OutputFile::commit() {
         descriptor_ = -1;
         return;
     }
+    const std::lock_guard lock(named().mutex);
     if (replaces_ && temporary_.empty()) {
         name_temporary();
     }
@@ -177,7 +210,7 @@ void OutputFile::commit() {
         if (rename(temporary_.c_str(), target_.c_str()) != 0) {
             fail("cannot replace", errno);
         }
-        temporary_.clear();
+        forget_temporary();
     }
 }
 

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -53,6 +55,12 @@ public:
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
+    /// For a process that is about to end while threads still write: removes what every file without commit() has left,
+    /// and lets no commit() put anything in its place any more: one that is called waits for the end.
+    static void discard_all() noexcept;
+    /// Calls of the system that took something, of all files: it stands still where writing is blocked.
+    [[nodiscard]] static std::uint64_t writes() noexcept { return writes_.load(std::memory_order_relaxed); }
+
 private:
     static constexpr std::size_t large = std::size_t{1} << 18;
 
@@ -66,7 +74,10 @@ private:
     void flush();
     void name_temporary();
     void discard() noexcept;
+    void forget_temporary() noexcept;
     [[noreturn]] void fail(const char* action, int error) const;
+
+    static std::atomic<std::uint64_t> writes_;
 
     std::string path_;      // as given, for messages
     std::string target_;    // path_ with symbolic links followed

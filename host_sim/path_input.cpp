@@ -2,17 +2,16 @@
 #include "path_input.hpp"
 
 #include "input_error.hpp"
+#include "input_stream.hpp"
+#include "row_queue.hpp"
 #include "text_file.hpp"
 
 #include "host_sim/methods/points_description.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
-#include <fstream>
-#include <iostream>
+#include <istream>
 
 namespace splinefeed::host {
 
@@ -29,32 +28,23 @@ bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
 class TableRows final : public WaypointRows {
 public:
     TableRows(const std::string& path, const std::string& name, const std::vector<std::string>& axes)
-        : reader_(open(path, name), name, axes.empty() ? every_axis : axes, axes.empty()) {}
+        : file_(path, name), reader_(stream_, name, axes.empty() ? every_axis : axes, axes.empty()) {}
 
     bool next(WaypointRow& out) override { return reader_.next(out); }
     [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return reader_.axes(); }
 
-private:
-    std::istream& open(const std::string& path, const std::string& name) {
-        if (path == "-") {
-            return std::cin;
-        }
-        errno = 0;
-        file_.open(path, std::ios::binary);
-        if (!file_) {
-            throw InputError(name, 0, fmt::format("cannot be opened: {}", std::strerror(errno)));
-        }
-        return file_;
-    }
+    void stop() noexcept override { file_.stop(); }
 
-    std::ifstream file_;
+private:
+    InputStream file_;
+    std::istream stream_{&file_};
     WaypointReader reader_;
 };
 
 } // namespace
 
 PathInput::PathInput(const Job& job, const std::vector<std::string>& machine_axes)
-    : name_(job.input), path_(job.input) {
+    : name_(job.input), path_(job.input), read_ahead_(job.command == Command::run && job.target != "sim") {
     if (job.format == InputFormat::json) {
         open_description(job, machine_axes);
         return;
@@ -126,10 +116,9 @@ void PathInput::open_description(const Job& job, const std::vector<std::string>&
 }
 
 std::unique_ptr<WaypointRows> PathInput::rows() {
-    if (opened_) {
-        return std::move(opened_);
-    }
-    return std::make_unique<TableRows>(path_, name_, machine_axes_);
+    std::unique_ptr<WaypointRows> rows =
+        opened_ ? std::move(opened_) : std::make_unique<TableRows>(path_, name_, machine_axes_);
+    return read_ahead_ ? std::make_unique<RowQueue>(std::move(rows)) : std::move(rows);
 }
 
 } // namespace splinefeed::host

@@ -5,21 +5,13 @@
 #include "curve_choice.hpp"
 #include "curve_file.hpp"
 #include "job.hpp"
-#include "waypoint_reader.hpp"
+#include "waypoint_rows.hpp"
 
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace splinefeed::host {
-
-/// Waypoints in order. Throws InputError where one is wrong.
-class WaypointRows {
-public:
-    virtual ~WaypointRows() = default;
-    /// False when there are no more.
-    virtual bool next(WaypointRow& out) = 0;
-};
 
 class PathInput {
 public:
@@ -40,7 +32,8 @@ public:
     [[nodiscard]] std::uint64_t points_read() const noexcept { return points_read_; }
     /// Whether rows() can be called again: the input is no pipe.
     [[nodiscard]] bool repeatable() const noexcept { return repeatable_; }
-    /// The waypoints, from the first; once only where the input is not repeatable. @pre segments() is null
+    /// The waypoints, from the first, read ahead by a thread where a run moves a real machine; once only where the
+    /// input is not repeatable. @pre segments() is null
     [[nodiscard]] std::unique_ptr<WaypointRows> rows();
     /// Name for messages.
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
@@ -58,6 +51,7 @@ private:
     std::unique_ptr<WaypointRows> opened_;
     std::uint64_t points_read_ = 0;
     bool repeatable_ = true;
+    bool read_ahead_ = false;
 };
 
 } // namespace splinefeed::host

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pvt_target.hpp"
 
+#include "signal_watch.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -24,7 +26,7 @@ std::vector<DriveWiring> pvt_wiring(const DriveTable& table) {
 
 PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, bool home)
     : machine_(&machine), table_(std::move(table)),
-      port_(pvt_wiring(table_), {.home = home, .interrupted = &RunTarget::interrupted}) {
+      port_(pvt_wiring(table_), {.home = home, .interrupted = &SignalWatch::interrupted}) {
     if (const auto failure = port_.open()) {
         throw TargetError(drive_sentence(table_, port_, *failure));
     }
@@ -46,6 +48,11 @@ std::string drive_sentence(const DriveTable& table, const ModbusPort& port, cons
         text += fmt::format(" (last: {})", describe(report.last_fault));
     }
     return text;
+}
+
+std::string PvtTarget::halted(bool quick) const {
+    return quick ? "interrupted twice: all axes stopped, each for itself"
+                 : "interrupted: all drives were held on the path";
 }
 
 std::string PvtTarget::where() const {

@@ -31,6 +31,8 @@ private:
     [[nodiscard]] std::string prepare(const FeedSegment& first) override;
     void complete() override { port_.complete(); }
     void quick_stop() override { port_.quick_stop(); }
+    [[nodiscard]] std::string halted(bool quick) const override;
+    void release() noexcept override { port_.close(); }
     [[nodiscard]] std::string fault() const override { return drive_sentence(table_, port_, *port_.failure()); }
 
     const MachineDescription* machine_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runner.hpp"
 
+#include "abandon.hpp"
 #include "input_error.hpp"
 #include "link_report.hpp"
 #include "machine_file.hpp"
@@ -9,10 +10,12 @@
 #include "path_tee.hpp"
 #include "run_target.hpp"
 #include "summary.hpp"
+#include "supervision.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <optional>
 
 namespace splinefeed::host {
 
@@ -109,6 +112,11 @@ Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& tar
 
 template <Scalar S>
 int move_machine(const Job& job) {
+    // First of all: threads that are started later have the same signals blocked.
+    std::optional<SignalWatch> signals;
+    if (job.target != "sim") {
+        signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
+    }
     MachineDescription machine = job.machine.empty() ? default_machine() : read_machine_file(job.machine);
     auto limits = MotionLimits<S>::make(machine.settings);
     if (!limits.has_value()) {
@@ -123,12 +131,14 @@ int move_machine(const Job& job) {
         waypoints = draw<S>(input, {.limits = &path_limits});
     }
     std::unique_ptr<RunTarget> target;
-    if (job.target != "sim") {
+    std::optional<Supervision> supervision;
+    if (signals) {
         target = make_run_target(job.target, machine, job.wishes);
         limits = fitted<S>(machine, *target, job.quiet);
+        supervision.emplace(*target, *signals);
     }
     Outputs outputs(job, input.curve_name(), input.choice().closed, machine);
-    Motion<S> motion(job, machine, *limits, input, path_limits, outputs, target.get());
+    Motion<S> motion(job, machine, *limits, input, path_limits, outputs, supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
     print(motion.summary(), job.summary);

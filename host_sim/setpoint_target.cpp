@@ -2,6 +2,7 @@
 #include "setpoint_target.hpp"
 
 #include "input_error.hpp"
+#include "signal_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ std::vector<TargetWiring> target_wiring(const DriveTable& table, const MachineDe
 
 SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machine, bool home)
     : machine_(&machine), table_(std::move(table)),
-      port_(target_wiring(table_, machine), {.home = home, .interrupted = &RunTarget::interrupted}) {
+      port_(target_wiring(table_, machine), {.home = home, .interrupted = &SignalWatch::interrupted}) {
     if (const std::string what = port_.open(); !what.empty()) {
         throw TargetError(sentence(what));
     }
@@ -77,6 +78,11 @@ std::string SetpointTarget::note() const {
     return fmt::format("the drives are told where to be every {:.2f} ms; between two targets the machine may be up to "
                        "{:.1f} um off the path",
                        port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
+}
+
+std::string SetpointTarget::halted(bool quick) const {
+    return quick ? "interrupted twice: all axes stopped, each for itself"
+                 : "interrupted: all drives were held on the path";
 }
 
 std::string SetpointTarget::where() const {

@@ -102,6 +102,14 @@ std::vector<std::uint64_t> GpioChips::set_times_ns(int calls) {
     return slowest;
 }
 
+void GpioChips::make_safe() noexcept {
+    for (const std::unique_ptr<Writer>& writer : writer_) {
+        if (writer) {
+            writer->lines().make_safe();
+        }
+    }
+}
+
 std::string GpioChips::name(LineBit input) const {
     const hal::gpio::ChipLines& chip = map_->chips[input.chip];
     const hal::gpio::LineName& line = chip.inputs[input.bit].line;

@@ -31,6 +31,8 @@ public:
     [[nodiscard]] std::vector<Inputs> inputs();
     /// A call that sets lines takes so long, on the slowest chip: of each of `calls` calls, which change nothing. [ns]
     [[nodiscard]] std::vector<std::uint64_t> set_times_ns(int calls);
+    /// All outputs take their safe levels, as at the end. @pre nobody sets any more
+    void make_safe() noexcept;
     /// Its name for messages: "/dev/gpiochip0 X_LIMIT".
     [[nodiscard]] std::string name(hal::gpio::LineBit input) const;
 

@@ -19,8 +19,9 @@ constexpr std::chrono::milliseconds poll_every{1};
 } // namespace
 
 GpioMover::GpioMover(const MachineDescription& machine, const hal::gpio::LineMap& map, GpioInputs& inputs,
-                     hal::gpio::StepPort& port, std::function<bool()> interrupted)
-    : machine_(&machine), map_(&map), inputs_(&inputs), port_(&port), interrupted_(std::move(interrupted)) {}
+                     hal::gpio::StepPort& port, std::function<int()> interrupts, std::function<void()> quick_stop)
+    : machine_(&machine), map_(&map), inputs_(&inputs), port_(&port), interrupts_(std::move(interrupts)),
+      quick_stop_(std::move(quick_stop)) {}
 
 double GpioMover::mm_of(int axis, std::int64_t count) const noexcept {
     return static_cast<double>(count) / machine_->settings.axis[static_cast<unsigned>(axis)].steps_per_mm;
@@ -42,8 +43,12 @@ bool GpioMover::look(const std::optional<Until>& until, Moved& moved) {
             moved.trouble = fmt::format("the {} acts", inputs_->name(change->input));
         }
     }
-    if (interrupted_() && moved.trouble.empty()) {
+    const int interrupts = interrupts_();
+    if (interrupts > 0 && moved.trouble.empty()) {
         moved.trouble = "interrupted";
+    }
+    if (interrupts > 1) {
+        quick_stop_();
     }
     return !moved.came && moved.trouble.empty();
 }

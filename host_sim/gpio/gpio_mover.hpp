@@ -12,9 +12,11 @@ namespace splinefeed::host {
 /// Machine positions are counts: those of the port and, for each axis, an origin that the switch tells.
 class GpioMover {
 public:
-    /// All arguments outlive it. @param interrupted  the user wants an end
+    /// All arguments outlive it.
+    /// @param interrupts  how often the user has asked for an end: once holds a move, and it is the last one
+    /// @param quick_stop  called for the second time
     GpioMover(const MachineDescription& machine, const hal::gpio::LineMap& map, GpioInputs& inputs,
-              hal::gpio::StepPort& port, std::function<bool()> interrupted);
+              hal::gpio::StepPort& port, std::function<int()> interrupts, std::function<void()> quick_stop);
 
     /// Each axis that has a home switch finds it, the last axis of the machine file first: fast, back off, slow, and
     /// stands clear of it. Within the machine's limits. Empty, or what went wrong and what would be right.
@@ -57,7 +59,8 @@ private:
     const hal::gpio::LineMap* map_;
     GpioInputs* inputs_;
     hal::gpio::StepPort* port_;
-    std::function<bool()> interrupted_;
+    std::function<int()> interrupts_;
+    std::function<void()> quick_stop_;
     PerAxis<std::int64_t> origin_{};
 };
 

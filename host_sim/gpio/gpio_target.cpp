@@ -3,6 +3,7 @@
 
 #include "host_sim/gpio_map.hpp"
 #include "host_sim/input_error.hpp"
+#include "host_sim/signal_watch.hpp"
 #include "host_sim/step_lines.hpp"
 
 #include <algorithm>
@@ -80,7 +81,8 @@ hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, con
 GpioTarget::GpioTarget(const GpioAddress& address, const MachineDescription& machine, const RunWishes& wishes)
     : machine_(&machine), wishes_(wishes), map_(read_gpio_map(address.map, machine, address.chip)),
       chips_(taken(map_, machine)), port_(chips_.outputs(), port_settings(machine, map_)),
-      inputs_(map_, machine, chips_, port_), mover_(machine, map_, inputs_, port_, [] { return interrupted(); }),
+      inputs_(map_, machine, chips_, port_),
+      mover_(machine, map_, inputs_, port_, &SignalWatch::interrupts, [this] { quick_stop(); }),
       missing_(awake_.missing() + lacking(port_settings(machine, map_).real_time)),
       began_ns_(hal::gpio::monotonic_ns()) {
     const std::vector<std::uint64_t> times = chips_.set_times_ns(calls);
@@ -181,6 +183,11 @@ void GpioTarget::complete() {
 void GpioTarget::quick_stop() {
     quick_ = true;
     port_.cut();
+}
+
+void GpioTarget::release() noexcept {
+    port_.stop();
+    chips_.make_safe();
 }
 
 std::string GpioTarget::fault() const {

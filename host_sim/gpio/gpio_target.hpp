@@ -28,6 +28,9 @@ private:
     void complete() override;
     void hold() override { holds_ = "interrupted: held on the path"; }
     void quick_stop() override;
+    [[nodiscard]] std::string halted(bool /*quick*/) const override { return holds_; }
+    [[nodiscard]] bool stands_dry() const override { return port_.stands_dry(); }
+    void release() noexcept override;
     void look() override;
     [[nodiscard]] std::string fault() const override;
 

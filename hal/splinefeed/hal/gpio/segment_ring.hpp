@@ -35,8 +35,12 @@ public:
         tail_.store(tail + 1, std::memory_order_release);
         return true;
     }
+    /// The reader's: the next one, which stays. @pre not empty
+    [[nodiscard]] const FeedSegment& front() const noexcept {
+        return segment_[tail_.load(std::memory_order_relaxed) % segment_.size()];
+    }
     [[nodiscard]] bool empty() const noexcept {
-        return tail_.load(std::memory_order_relaxed) == head_.load(std::memory_order_acquire);
+        return tail_.load(std::memory_order_acquire) == head_.load(std::memory_order_acquire);
     }
     /// @pre neither thread is at it
     void clear() noexcept { tail_.store(head_.load()); }

@@ -90,6 +90,7 @@ void StepPort::reset() noexcept {
     submitted_ticks_.store(0);
     motion_ns_.store(0);
     complete_.store(false);
+    dry_.store(true);
     if (state_.load() != State::failed && !was_cut()) {
         state_.store(State::idle);
     }
@@ -170,9 +171,11 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
     const auto motion = static_cast<std::uint64_t>(std::max<std::int64_t>(clock_.motion_ns(now_ns), 0));
     motion_ns_.store(motion, std::memory_order_relaxed);
     if (clock_.stopping()) {
-        if (clock_.stands(now_ns) && filled()) {
+        const bool resumes = clock_.stands(now_ns) && filled();
+        if (resumes) {
             clock_.resume(now_ns);
         }
+        dry_.store(!resumes && clock_.stands(now_ns), std::memory_order_relaxed);
         return;
     }
     const std::uint64_t end = submitted_ticks_.load(std::memory_order_relaxed) * ns_per_tick;
@@ -273,6 +276,7 @@ void StepPort::work() noexcept {
         }
         if (idle) {
             clock_.start(now + lead_ns, 0);
+            dry_.store(false, std::memory_order_relaxed);
             state_.store(State::running);
         }
         const std::uint64_t due = clock_.due_ns(gathered_tick_ * ns_per_tick);

@@ -75,6 +75,8 @@ public:
         return counts_[static_cast<unsigned>(axis)].load(std::memory_order_relaxed);
     }
     [[nodiscard]] bool was_cut() const noexcept { return cut_.load(std::memory_order_relaxed); }
+    /// No step comes, because segments do not, and completely stopped.
+    [[nodiscard]] bool stands_dry() const noexcept { return dry_.load(std::memory_order_relaxed); }
     /// Where all axes stood at an instant.
     [[nodiscard]] const StepLog& log() const noexcept { return log_; }
     [[nodiscard]] const LateHistogram& late() const noexcept { return late_; }
@@ -134,6 +136,7 @@ private:
     std::atomic<bool> complete_{false};
     std::atomic<bool> cut_{false};
     std::atomic<bool> ends_{false};
+    std::atomic<bool> dry_{true};
     Edge edge_; // the next one, where have_
     std::int64_t gathered_tick_ = 0;
     PerAxis<bool> stepped_{};      // by what was gathered

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/supervision.hpp"
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <unistd.h>
+#include <vector>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+/// Takes and executes at once; it says what it was told, in order.
+class TalkingTarget final : public RunTarget {
+public:
+    class Port final : public hal::MotionPort {
+    public:
+        explicit Port(TalkingTarget& target) : target_(&target) {}
+
+    private:
+        [[nodiscard]] int do_room() const noexcept override { return target_->takes ? 1 : 0; }
+        [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override {
+            target_->said("segment " + std::to_string(segment.index));
+            return target_->phase == hal::PortPhase::running;
+        }
+        hal::PortState do_poll() noexcept override { return {target_->phase, 0}; }
+        void do_halt() noexcept override { target_->phase = hal::PortPhase::halted; }
+
+        TalkingTarget* target_;
+    };
+
+    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
+    [[nodiscard]] bool resamples() const noexcept override { return false; }
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    [[nodiscard]] std::string prepare(const FeedSegment& /*first*/) override {
+        said("prepare");
+        return refusal;
+    }
+    void complete() override {
+        said("complete");
+        phase = hal::PortPhase::idle;
+    }
+    void hold() override {
+        said("hold");
+        if (halts) {
+            port().halt();
+        }
+    }
+    void quick_stop() override {
+        said("quick stop");
+        port().halt();
+    }
+    [[nodiscard]] std::string holds() const override { return reason; }
+    [[nodiscard]] bool achieved() const override { return false; }
+    [[nodiscard]] bool stands_dry() const override { return dry; }
+    [[nodiscard]] std::string fault() const override { return "a fault"; }
+    [[nodiscard]] std::string halted(bool quick) const override { return quick ? "stopped" : "held"; }
+    void release() noexcept override { said("release"); }
+    [[nodiscard]] std::string where() const override { return "; there"; }
+    void describe(Summary& /*summary*/) const override {}
+
+    void said(const std::string& what) {
+        const std::lock_guard lock(mutex_);
+        said_.push_back(what);
+    }
+    [[nodiscard]] std::vector<std::string> told() const {
+        const std::lock_guard lock(mutex_);
+        return said_;
+    }
+
+    // Before the thread, or atomic.
+    std::string refusal;
+    std::string reason;
+    std::atomic<bool> takes{true};
+    std::atomic<bool> halts{true};
+    std::atomic<bool> dry{false};
+    std::atomic<hal::PortPhase> phase{hal::PortPhase::running};
+
+private:
+    Port port_{*this};
+    mutable std::mutex mutex_;
+    std::vector<std::string> said_;
+};
+
+FeedSegment segment(std::uint32_t index) {
+    FeedSegment one;
+    one.index = index;
+    one.duration_ticks = 8000;
+    return one;
+}
+
+/// The signal comes, and the watch has counted it.
+void request(int count) {
+    REQUIRE(kill(getpid(), SIGINT) == 0);
+    for (int i = 0; i < 5000 && SignalWatch::interrupts() < count; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    REQUIRE(SignalWatch::interrupts() == count);
+}
+
+template <class Condition>
+bool comes(Condition condition) {
+    for (int i = 0; i < 5000 && !condition(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return condition();
+}
+
+using Told = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("a run's segments reach the target in order, and then its end", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    Supervision supervision(target, signals);
+    Told expected{"prepare"};
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        REQUIRE(supervision.submit(segment(i)));
+        expected.push_back("segment " + std::to_string(i));
+    }
+    CHECK(supervision.finish());
+    expected.emplace_back("complete");
+    CHECK(target.told() == expected);
+    CHECK(supervision.where() == "; there");
+}
+
+TEST_CASE("the planner is ahead of a port that takes nothing by no more than is handed over", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    target.takes = false;
+    Supervision supervision(target, signals);
+    std::uint32_t i = 0;
+    while (supervision.room()) {
+        REQUIRE(supervision.submit(segment(i++)));
+    }
+    CHECK(i == Supervision::hand_over_us / 1000);
+    request(1);
+    CHECK_FALSE(supervision.submit(segment(i)));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "held; there");
+    CHECK(target.told() == Told{"prepare", "hold"});
+}
+
+TEST_CASE("a signal is obeyed while the planner does nothing, the second one at once", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    target.halts = false;
+    Supervision supervision(target, signals);
+    REQUIRE(supervision.submit(segment(0)));
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    request(1);
+    CHECK(comes([&] { return target.told().back() == "hold"; }));
+    CHECK_FALSE(supervision.over());
+    request(2);
+    CHECK(comes([&] { return supervision.over(); }));
+    CHECK(target.told() == Told{"prepare", "segment 0", "hold", "quick stop"});
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "stopped; there");
+}
+
+TEST_CASE("two signals before the first look are a quick stop", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    target.halts = false;
+    Supervision supervision(target, signals);
+    REQUIRE(supervision.submit(segment(0)));
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    // Two signals of different kinds are both pending, however late the watch is woken.
+    REQUIRE(kill(getpid(), SIGTERM) == 0);
+    REQUIRE(kill(getpid(), SIGHUP) == 0);
+    CHECK(comes([&] { return supervision.over(); }));
+    CHECK(target.told().back() == "quick stop");
+    CHECK_FALSE(supervision.finish());
+}
+
+TEST_CASE("a signal before the first segment leaves the drives alone", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    Supervision supervision(target, signals);
+    request(1);
+    REQUIRE(supervision.submit(segment(0)));
+    CHECK_FALSE(supervision.finish());
+    CHECK(target.told().empty());
+    CHECK(supervision.ending() == "interrupted before anything was moved; the drives were not enabled");
+}
+
+TEST_CASE("what a target refuses or why it fails ends the run", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    SECTION("refused") {
+        target.refusal = "refused";
+    }
+    SECTION("fault") {
+        target.phase = hal::PortPhase::fault;
+    }
+    Supervision supervision(target, signals);
+    REQUIRE(supervision.submit(segment(0)));
+    CHECK(comes([&] { return supervision.over(); }));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == (target.refusal.empty() ? "a fault; there" : "refused; there"));
+}
+
+TEST_CASE("a plan that is to be held and delivers nothing ends the run where the machine stands", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    target.reason = "a limit acts";
+    Supervision supervision(target, signals);
+    REQUIRE(supervision.submit(segment(0)));
+    CHECK(comes([&] { return supervision.hold_asked(); }));
+    SECTION("it moves on what the port holds, then it stands") {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        CHECK_FALSE(supervision.over());
+        target.dry = true;
+        CHECK(comes([&] { return supervision.over(); }));
+    }
+    SECTION("the planner brakes") {
+        REQUIRE(supervision.submit(segment(1)));
+    }
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "a limit acts; there");
+}
+
+TEST_CASE("a planner that leaves before the end has the axes held", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    {
+        Supervision supervision(target, signals);
+        REQUIRE(supervision.submit(segment(0)));
+    }
+    const Told told = target.told();
+    CHECK(std::count(told.begin(), told.end(), "hold") == 1);
+    CHECK(target.phase == hal::PortPhase::halted);
+}
