@@ -30,7 +30,7 @@ void StopSequence::request(StopRequest request, std::uint64_t now_us) noexcept {
     asked_ = std::max(asked_, request);
     for (Axis& axis : axes_) {
         if (request > axis.report.request) {
-            axis = {.report = {request, StopState::moving, axis.report.said_us}, .since_us = now_us};
+            axis = {.report = {.request = request, .said_us = axis.report.said_us}, .since_us = now_us};
         }
     }
 }
@@ -39,6 +39,7 @@ void StopSequence::request(StopRequest request, std::uint64_t now_us) noexcept {
 // says so: a shaft still settles behind it.
 void StopSequence::judge(Axis& axis, const StopFacts& facts) const noexcept {
     axis.report.said_us = facts.said_us;
+    axis.report.on_path = facts.on_path;
     axis.executed = facts.executed >= axis.report.request;
     const bool stands = axis.executed && facts.standstill && !facts.start_pending && facts.said_us >= facts.executed_us;
     axis.stood_us = !stands ? 0 : axis.stood_us == 0 ? facts.said_us : axis.stood_us;

@@ -44,6 +44,7 @@ struct StopFacts {
     bool start_pending = false;
     StopRequest executed = StopRequest::none; ///< the strongest request that it is known to have executed
     std::uint64_t executed_us = 0;            ///< when that was so, at the latest
+    bool on_path = true;                      ///< where it stands all axes together are on the path
 };
 
 /// How long each request may take until it is confirmed, from when it was made: with the link's delays and retries, the
@@ -61,9 +62,12 @@ struct StopReport {
     StopRequest request = StopRequest::none; ///< the one that is in force
     StopState state = StopState::moving;
     std::uint64_t said_us = 0; ///< when it was heard last; 0: never
+    bool on_path = false;      ///< StopFacts::on_path
 
     /// It was held, on the path, and that is known.
-    [[nodiscard]] bool held() const noexcept { return request == StopRequest::hold && state == StopState::confirmed; }
+    [[nodiscard]] bool held() const noexcept {
+        return request == StopRequest::hold && state == StopState::confirmed && on_path;
+    }
 };
 
 /// Pure: no time of its own, no I/O. It allocates when it is made, and never again.

@@ -23,11 +23,12 @@ constexpr std::uint64_t command_us = 3'000'000; // for a command to be carried o
 constexpr std::uint64_t homing_us = 300'000'000;
 constexpr std::uint64_t look_every_us = 1000;
 constexpr double ticks_per_us = 8.0;
+constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before a hold becomes a quick stop
 
 } // namespace
 
 ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortSettings& settings)
-    : settings_(settings) {
+    : settings_(settings), facts_(wiring.size()), stop_(wiring.size(), {}) {
     for (const DriveWiring& drive : wiring) {
         const auto same = [&](const auto& bus) {
             return bus->link().address().same_wire(drive.link);
@@ -42,6 +43,7 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
             axes_ = std::max(axes_, axis + 1);
         }
         drives_.emplace_back(drive, (*bus)->add(drive.link.unit));
+        stops_.emplace_back(drives_.back().client());
     }
 }
 
@@ -50,6 +52,12 @@ ModbusPort::~ModbusPort() {
 }
 
 void ModbusPort::close() noexcept {
+    const bool ended = phase_ == ModbusPhase::halted || phase_ == ModbusPhase::done || phase_ == ModbusPhase::fault;
+    if (prepared_ && !ended) {
+        begin_stop(StopRequest::hold);
+        await_stop();
+    }
+    prepared_ = false;
     for (const auto& bus : buses_) {
         bus->stop();
     }
@@ -138,6 +146,7 @@ std::optional<DriveFailure> ModbusPort::home_all() {
             homing = homing || turns;
             if (drives_[i].seen().problem != DriveProblem::none || (turns && given_up)) {
                 quick_stop();
+                await_stop();
                 const DriveProblem problem = drives_[i].seen().problem;
                 return DriveFailure{i, problem == DriveProblem::none ? DriveProblem::not_homed : problem};
             }
@@ -166,9 +175,13 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
             return DriveFailure{i, problem};
         }
     }
+    stop_times_.hold_us = lead_us + static_cast<std::uint64_t>(2.0 * times_.reserve_us) +
+                          stop_exchanges * settings_.timing.answer_us + stop_times_.settle_us;
+    stop_.set_times(stop_times_);
     for (const auto& bus : buses_) {
         bus->start();
     }
+    prepared_ = true;
     if (const auto failure = enable_all()) {
         return failure;
     }
@@ -241,9 +254,10 @@ void ModbusPort::enter(ModbusPhase phase) noexcept {
     }
 }
 
+// The others stop on the path; then it is in fault.
 void ModbusPort::fail(std::size_t drive, DriveProblem problem) noexcept {
     failure_ = DriveFailure{drive, problem};
-    enter(ModbusPhase::fault);
+    begin_stop(StopRequest::hold);
 }
 
 bool ModbusPort::carried_out() const noexcept {
@@ -342,15 +356,63 @@ void ModbusPort::wait() noexcept {
     }
 }
 
-void ModbusPort::halting() noexcept {
-    for (PortDrive& drive : drives_) {
-        if (drive.heard(times_) && drive.status().state == PvtState::running && drive.seen().clock.known()) {
-            drive.tell(PvtCommand::hold, drive.seen().clock.drive_clock(entered_us_ + lead_us));
+void ModbusPort::begin_stop(StopRequest request) noexcept {
+    look();
+    if (!stop_.requested()) {
+        hold_at_us_ = now_us_ + lead_us;
+    }
+    stop_.request(request, now_us_);
+    if (phase_ != ModbusPhase::halting) {
+        enter(ModbusPhase::halting);
+    }
+}
+
+// Whether all drives stand at one place of the path: all slowed down from one instant on, or none moved; at the end of
+// the motion it does not matter how.
+bool ModbusPort::on_path() const noexcept {
+    std::uint32_t most = executed();
+    bool at_end = true;
+    bool in_time = true;
+    bool at_rest = true;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        most = std::max(most, drives_[i].status().executed);
+        at_end = at_end && drives_[i].executed_all();
+        in_time = in_time && stops_[i].hold() == PvtStop::Hold::in_time;
+        at_rest = at_rest && stops_[i].hold() == PvtStop::Hold::at_rest;
+    }
+    return at_end || (most - executed() <= 1 && (in_time || at_rest));
+}
+
+void ModbusPort::follow_stop() noexcept {
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        stops_[i].see(drives_[i].seen());
+        facts_[i] = stops_[i].facts();
+    }
+    const bool together = on_path();
+    for (StopFacts& facts : facts_) {
+        facts.on_path = together;
+    }
+    stop_.update(now_us_, facts_);
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        if (const StopRequest request = stop_.to_send(i); request != StopRequest::none) {
+            stops_[i].tell(request, hold_at_us_);
         }
     }
-    if (all_stand()) {
-        enter(ModbusPhase::halted);
+    if (phase_ == ModbusPhase::halting && stop_.settled()) {
+        enter(failure_ ? ModbusPhase::fault : ModbusPhase::halted);
     }
+}
+
+void ModbusPort::await_stop() noexcept {
+    while (phase_ == ModbusPhase::halting) {
+        settings_.clock->sleep_us(look_every_us);
+        look();
+        follow_stop();
+    }
+}
+
+std::uint64_t ModbusPort::longest_stop_us() const noexcept {
+    return stop_times_.hold_us + stop_times_.quick_stop_us + stop_times_.disable_us;
 }
 
 PortState ModbusPort::do_poll() noexcept {
@@ -367,10 +429,10 @@ PortState ModbusPort::do_poll() noexcept {
         break;
     case ModbusPhase::running: watch(); break;
     case ModbusPhase::stopping: stop(); break;
-    case ModbusPhase::halting: halting(); break;
+    case ModbusPhase::halting:
     case ModbusPhase::halted:
-    case ModbusPhase::done:
-    case ModbusPhase::fault: break;
+    case ModbusPhase::fault: follow_stop(); break;
+    case ModbusPhase::done: break;
     }
     const PortPhase phase = phase_ == ModbusPhase::fault    ? PortPhase::fault
                             : phase_ == ModbusPhase::done   ? PortPhase::idle
@@ -380,17 +442,12 @@ PortState ModbusPort::do_poll() noexcept {
 }
 
 void ModbusPort::quick_stop() noexcept {
-    look();
-    enter(ModbusPhase::halting);
-    for (PortDrive& drive : drives_) {
-        drive.quick_stop();
-    }
+    begin_stop(StopRequest::quick_stop);
 }
 
 void ModbusPort::do_halt() noexcept {
     if (phase_ != ModbusPhase::fault && phase_ != ModbusPhase::done) {
-        look();
-        enter(ModbusPhase::halting);
+        begin_stop(StopRequest::hold);
     }
 }
 

@@ -57,8 +57,14 @@ public:
     /// Enables all drives, homes them if so set, and calls where they stand `start`: a feed segment's start, from which
     /// the motion begins.
     [[nodiscard]] std::optional<DriveFailure> prepare(const FeedSegment& first);
-    /// Every axis stops as hard as it can, off the path, ahead of everything else. Ends like halt().
+    /// Every axis stops as hard as it can, off the path, ahead of everything else. Ends like halt(): when every drive
+    /// has confirmed its stop, or did not within its time; stop_report() says which.
     void quick_stop() noexcept;
+    /// How a drive was stopped: by halt(), quick_stop(), or because the port is in fault. Nothing asked for: request
+    /// none.
+    [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.report(drive); }
+    /// The longest that a stop takes, whatever answers. [us] After prepare().
+    [[nodiscard]] std::uint64_t longest_stop_us() const noexcept;
     /// No more segments come.
     void complete() noexcept { complete_ = true; }
 
@@ -75,7 +81,7 @@ public:
     [[nodiscard]] std::uint32_t resumes() const noexcept { return resumes_; }
     /// Processor time of the threads of all buses. [us]
     [[nodiscard]] std::uint64_t busy_us() const noexcept;
-    /// Ends the threads. The drives stay enabled and stand.
+    /// Ends the threads. What still moves is held first. The drives stay enabled and stand.
     void close() noexcept;
 
 private:
@@ -93,7 +99,10 @@ private:
     void stop() noexcept;
     [[nodiscard]] bool all_stand() const noexcept;
     void wait() noexcept;
-    void halting() noexcept;
+    void begin_stop(StopRequest request) noexcept;
+    void follow_stop() noexcept;
+    void await_stop() noexcept;
+    [[nodiscard]] bool on_path() const noexcept;
     [[nodiscard]] bool carried_out() const noexcept;
     [[nodiscard]] std::optional<DriveFailure> enable_all();
     [[nodiscard]] std::optional<DriveFailure> command_all(PvtCommand command);
@@ -103,6 +112,11 @@ private:
     ModbusPortSettings settings_;
     std::vector<std::unique_ptr<ModbusBus>> buses_;
     std::vector<PortDrive> drives_;
+    std::vector<PvtStop> stops_; // of each drive
+    std::vector<StopFacts> facts_;
+    StopSequence stop_;
+    StopTimes stop_times_;
+    std::uint64_t hold_at_us_ = 0;
     PortTimes times_;
     std::optional<DriveFailure> failure_;
     ModbusPhase phase_ = ModbusPhase::filling;
@@ -114,6 +128,7 @@ private:
     std::uint32_t resumes_ = 0;
     int axes_ = 0; // of the machine
     bool complete_ = false;
+    bool prepared_ = false; // the buses run
 };
 
 } // namespace splinefeed::hal::modbus

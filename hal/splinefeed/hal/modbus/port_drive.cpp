@@ -78,11 +78,6 @@ void PortDrive::tell(PvtCommand command, std::uint32_t argument) noexcept {
     }
 }
 
-void PortDrive::quick_stop() noexcept {
-    client_->interrupt(PvtCommand::quick_stop);
-    told_ = seen_.command_pending = true;
-}
-
 void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
     const bool held = status().state == PvtState::held;
     forget();

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "splinefeed/hal/modbus/duration_trim.hpp"
-#include "splinefeed/hal/modbus/pvt_client.hpp"
+#include "splinefeed/hal/modbus/pvt_stop.hpp"
 
 #include <utility>
 
@@ -66,7 +66,6 @@ public:
     [[nodiscard]] bool pending() const noexcept { return seen_.command_pending; }
     /// What tell() told was refused.
     [[nodiscard]] bool refused() const noexcept { return told_ && seen_.command_refused; }
-    void quick_stop() noexcept;
     /// It is to begin, or to go on, at that instant of our clock.
     void start(std::uint64_t at_us, const PortTimes& times) noexcept;
     /// To the end of that segment; where that is too near by now, as soon as it can.

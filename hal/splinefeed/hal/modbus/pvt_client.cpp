@@ -191,9 +191,9 @@ void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSeg
     ++counter_;
 }
 
-void PvtClient::interrupt(PvtCommand command) noexcept {
+void PvtClient::interrupt(PvtCommand command, std::uint32_t argument) noexcept {
     const std::lock_guard lock(mutex_);
-    order_ = {command, 0, {}};
+    order_ = {command, argument, {}};
     report_.command_pending = true;
     report_.command_refused = false;
     ++counter_;
@@ -324,6 +324,9 @@ void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<
     if (const DriveProblem problem = judge(status); problem != DriveProblem::none) {
         report_.problem = problem;
         report_.status = status;
+        report_.answered_us = answer.answered_us;
+        report_.said_us = answer.arrived_us;
+        answer_order(status, block); // it can still be stopped
         return;
     }
     keep(status, block);
@@ -346,28 +349,39 @@ void PvtClient::end_order() noexcept {
     report_.command_pending = false;
 }
 
-void PvtClient::keep(const PvtStatus& status, const PvtBlock& block) noexcept {
-    LinkCounts& counts = report_.counts;
-    const bool ordered = order_.command != PvtCommand::none && block.command == order_.command;
+// What became of the order in the block.
+void PvtClient::answer_order(const PvtStatus& status, const PvtBlock& block) noexcept {
+    if (order_.command == PvtCommand::none || block.command != order_.command || block.command_counter != counter_) {
+        return;
+    }
     if (status.refused == PvtRefusal::none) {
-        refusals_in_row_ = 0;
-        if (ordered && status.last_command == counter_) {
-            began_ = began_ || order_.command == PvtCommand::begin;
+        if (status.last_command == counter_) {
+            const bool loses_ring = order_.command == PvtCommand::quick_stop || order_.command == PvtCommand::disable;
+            began_ = (began_ || order_.command == PvtCommand::begin) && !loses_ring;
             end_order();
         }
+    } else if (status.refused != PvtRefusal::checksum && status.refused != PvtRefusal::no_room &&
+               status.refused != PvtRefusal::gap) {
+        report_.command_refused = true; // its state changed on the way: whoever gave the order looks at it again
+        end_order();
+    }
+}
+
+void PvtClient::keep(const PvtStatus& status, const PvtBlock& block) noexcept {
+    LinkCounts& counts = report_.counts;
+    if (status.refused == PvtRefusal::none) {
+        refusals_in_row_ = 0;
     } else if (status.refused == PvtRefusal::checksum) {
         ++counts.corrupt;
     } else if (status.refused != PvtRefusal::no_room && status.refused != PvtRefusal::gap) {
         // Without a session every block is refused that only asks how the drive is.
-        refusals_in_row_ = static_cast<std::uint16_t>(refusals_in_row_ + (began_ || ordered ? 1 : 0));
-        if (ordered) { // its state changed on the way: whoever gave the order looks at it again
-            report_.command_refused = true;
-            end_order();
-        }
+        const bool counts_as_one = began_ || block.command != PvtCommand::none;
+        refusals_in_row_ = static_cast<std::uint16_t>(refusals_in_row_ + (counts_as_one ? 1 : 0));
         if (refusals_in_row_ >= most_refusals) {
             report_.problem = DriveProblem::refused;
         }
     }
+    answer_order(status, block);
     report_.status = status;
     if (began_) {
         counts.segments = status.next;

@@ -74,8 +74,9 @@ public:
     [[nodiscard]] std::uint32_t pushed() const noexcept { return tail_.load(std::memory_order_relaxed); }
     /// Has the drive carry out a command, before any more segments. @pre none is pending
     void command(PvtCommand command, std::uint32_t argument = 0, const PvtSegment& place = {}) noexcept;
-    /// The same, in place of one that is pending.
-    void interrupt(PvtCommand command) noexcept;
+    /// The same, in place of one that is pending: should that one still arrive, the drive does not execute it any more
+    /// once it has executed this one.
+    void interrupt(PvtCommand command, std::uint32_t argument = 0) noexcept;
     /// While true no segments are sent: the drive has the end that it is to have.
     void hold_back(bool on) noexcept { held_back_.store(on, std::memory_order_relaxed); }
     [[nodiscard]] DriveReport report() const noexcept;
@@ -102,6 +103,7 @@ private:
     [[nodiscard]] DriveProblem judge(const PvtStatus& status) const noexcept;
     void keep(const PvtStatus& status, const PvtBlock& block) noexcept;
     void see_clock(const LinkAnswer& answer) noexcept;
+    void answer_order(const PvtStatus& status, const PvtBlock& block) noexcept;
     void end_order() noexcept;
     void count(const LinkAnswer& answer) noexcept;
     bool reconnect(std::uint64_t now_us) noexcept;

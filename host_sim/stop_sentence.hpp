@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// stop_sentence: what may be said of drives that were stopped, and nothing beyond.
+#pragma once
+
+#include "splinefeed/hal/stop_sequence.hpp"
+
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+struct StoppedDrive {
+    std::string name; ///< as the user wrote it
+    hal::StopReport report;
+};
+
+/// "interrupted: all drives were held on the path" where that is known, or what is known instead.
+[[nodiscard]] std::string stop_sentence(const std::vector<StoppedDrive>& drives, bool twice);
+
+/// "; NAME did not confirm its stop and may still move", for each such drive; empty: none.
+[[nodiscard]] std::string unconfirmed_drives(const std::vector<StoppedDrive>& drives);
+
+} // namespace splinefeed::host

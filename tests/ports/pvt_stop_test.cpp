@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Stops of drives that interpolate, on a virtual clock.
+#include "ports/pvt_plant.hpp"
+#include "support/catch.hpp"
+
+using namespace splinefeed::hal;
+using namespace splinefeed::hal::modbus;
+using namespace splinefeed_test;
+
+namespace {
+
+const SmoothMotion motion = smooth_motion(20000.0, 2, 150, 2000);
+
+void prepare(PvtPlant& plant) {
+    plant.make();
+    plant.look();
+    REQUIRE_FALSE(plant.port->open());
+    REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
+    plant.began_us = plant.clock.now_us();
+}
+
+/// Half a second later nothing has moved since.
+void check_stands_since(PvtPlant& plant, std::uint64_t instant_us) {
+    plant.port.reset();
+    plant.clock.sleep_us(500'000);
+    for (const std::uint64_t moved_us : plant.moved_us) {
+        CHECK(moved_us <= instant_us);
+    }
+}
+
+/// Runs the motion until the port is done, or it has stopped; asked for stops at these instants after prepare().
+PortPhase run(PvtPlant& plant, std::uint64_t hold_us, std::uint64_t quick_us = UINT64_MAX) {
+    ModbusPort& port = *plant.port;
+    const std::uint64_t began_us = plant.began_us;
+    std::size_t& next = plant.next;
+    bool held = false;
+    bool quick = false;
+    PortPhase phase = PortPhase::running;
+    while (phase == PortPhase::running && plant.clock.now_us() < began_us + 20'000'000) {
+        const std::uint64_t now_us = plant.clock.now_us() - began_us;
+        if (!held && now_us >= hold_us) {
+            held = true;
+            port.halt();
+        }
+        if (!quick && now_us >= quick_us) {
+            quick = true;
+            port.quick_stop();
+        }
+        while (next < motion.segments.size() && port.room() > 0 && port.submit(motion.segments[next])) {
+            ++next;
+        }
+        if (next == motion.segments.size()) {
+            port.complete();
+        }
+        phase = port.poll().phase;
+        plant.clock.sleep_us(1000);
+    }
+    return phase;
+}
+
+} // namespace
+
+TEST_CASE("PVT port, virtual: a whole motion, every segment once, on the path", "[ports]") {
+    PvtPlant plant({.clock_ppm = {150.0, -150.0, 0.0}});
+    prepare(plant);
+    CHECK(run(plant, UINT64_MAX) == PortPhase::idle);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(plant.executed_once(i) == motion.segments.size());
+    }
+    CHECK(plant.port->resumes() == 0);
+    INFO(plant.off_path_counts << " counts");
+    CHECK(plant.off_path_counts < motion.fastest_counts_s * 0.0004);
+    CHECK(plant.off_path_counts > 0.0);
+    plant.port->close();
+}
+
+TEST_CASE("PVT port, virtual: a hold at any time about the start is a hold: nothing moves behind it", "[ports]") {
+    for (std::uint64_t hold_us = 0; hold_us < 250'000; hold_us += 2300) {
+        PvtPlant plant({});
+        prepare(plant);
+        INFO("hold at " << hold_us << " us");
+        CHECK(run(plant, hold_us) == PortPhase::halted);
+        const std::uint64_t halted_us = plant.clock.now_us();
+        CHECK(halted_us - plant.began_us < hold_us + 400'000);
+        for (std::size_t i = 0; i < 3; ++i) {
+            CHECK(plant.port->stop_report(i).held());
+            CHECK(plant.executed_once(i).has_value());
+        }
+        CHECK(plant.off_path_counts < motion.fastest_counts_s * 0.0004);
+        check_stands_since(plant, halted_us);
+    }
+}
+
+TEST_CASE("PVT port, virtual: a quick stop at any time, alone or behind a hold, stops every drive", "[ports]") {
+    for (std::uint64_t quick_us = 0; quick_us < 400'000; quick_us += 7900) {
+        for (const std::uint64_t hold_us : {UINT64_MAX, quick_us, quick_us > 30'000 ? quick_us - 30'000 : 0}) {
+            PvtPlant plant({});
+            prepare(plant);
+            INFO("hold at " << hold_us << ", quick stop at " << quick_us << " us");
+            CHECK(run(plant, hold_us, quick_us) == PortPhase::halted);
+            const std::uint64_t halted_us = plant.clock.now_us();
+            CHECK(halted_us - plant.began_us < quick_us + 200'000);
+            for (std::size_t i = 0; i < 3; ++i) {
+                CHECK(plant.port->stop_report(i).state == StopState::confirmed);
+                // A hold before the start may be over by then.
+                CHECK((plant.port->stop_report(i).request == StopRequest::quick_stop ||
+                       halted_us < plant.began_us + quick_us));
+            }
+            check_stands_since(plant, halted_us);
+        }
+    }
+}
+
+TEST_CASE("PVT port, virtual: a drive that does not answer any more is unconfirmed, in bounded time", "[ports]") {
+    for (const std::uint64_t hold_us : {20'000U, 70'000U, 200'000U}) {
+        PvtPlant plant({});
+        prepare(plant);
+        plant.stations[1]->mute.push_back({plant.began_us + hold_us, UINT64_MAX});
+        CHECK(run(plant, hold_us) == PortPhase::halted);
+        const std::uint64_t halted_us = plant.clock.now_us();
+        CHECK(halted_us - plant.began_us < hold_us + plant.port->longest_stop_us() + 5000);
+        CHECK(plant.port->stop_report(1).state == StopState::unconfirmed);
+        CHECK_FALSE(plant.port->stop_report(0).held()); // the other one went on
+        CHECK(plant.port->stop_report(0).state == StopState::confirmed);
+        CHECK(plant.port->stop_report(2).state == StopState::confirmed);
+    }
+}
+
+TEST_CASE("PVT port, virtual: a drive that is away for a moment confirms, but not that it is on the path", "[ports]") {
+    PvtPlant plant({});
+    prepare(plant);
+    plant.wires[1]->unplugged.push_back({plant.began_us + 190'000, plant.began_us + 500'000});
+    CHECK(run(plant, 200'000) == PortPhase::halted);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(plant.port->stop_report(i).state == StopState::confirmed);
+        CHECK(plant.port->stop_report(i).held() == false);
+    }
+    CHECK(plant.now_off_counts > motion.fastest_counts_s * 0.01);
+    check_stands_since(plant, plant.clock.now_us());
+}
+
+TEST_CASE("PVT port, virtual: a port that goes while its drives run holds them first", "[ports]") {
+    PvtPlant plant({});
+    prepare(plant);
+    for (int i = 0; i < 200; ++i) {
+        while (plant.port->room() > 0 && plant.port->submit(motion.segments[plant.next])) {
+            ++plant.next;
+        }
+        plant.port->poll();
+        plant.clock.sleep_us(1000);
+    }
+    CHECK(plant.moved_us[0] > plant.clock.now_us() - 5000);
+    plant.port.reset();
+    check_stands_since(plant, plant.clock.now_us());
+    CHECK(plant.off_path_counts < motion.fastest_counts_s * 0.0004);
+}
