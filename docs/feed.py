@@ -1,14 +1,19 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Cycle times with limited jerk, as the tables of docs/feed.md: of a curve, or of random splines against the least time
-that an independent judge finds for the same curve and limits (DIR holds check_run.py; needs python3-numpy, -scipy)."""
+"""Cycle times with limited jerk, as the tables of docs/feed.md: of a curve, or of random splines, against the least time
+that tests/judge finds for the same curve and limits (needs python3-numpy, python3-scipy)."""
 import argparse
 import json
 import math
 import pathlib
 import random
 import subprocess
+import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests" / "judge"))
+
+from judge import judged_files  # noqa: E402
 
 CASES = [(40, 500, 20000), (50, 1000, 50000), (100, 3000, 60000), (200, 3000, 60000), (250, 2000, 20000), (300, 2500, 50000)]
 TIERS = ("optimal", "bounded")
@@ -30,11 +35,21 @@ def seconds(tool, program, machine_text, folder, *options):
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["cycle_time_s"]
 
 
+def files(folder):
+    return ["--trace", str(folder / "trace.csv"), "--curve-out", str(folder / "curve.json")]
+
+
+def least_time(folder):
+    """Of the run whose files these are; and the largest use of a jerk limit."""
+    found = judged_files(folder / "machine.toml", folder / "curve.json", folder / "trace.csv", kind="jerk")
+    return found["least_time_s"], max(found["use"]["jerk"].values())
+
+
 def curve_table(tool, curve, folder):
     for feed, acceleration, jerk in CASES:
         limits = [(feed, acceleration, jerk)] * 2
-        times = [seconds(tool, curve, machine("xy", feed, limits, tier), folder) for tier in TIERS]
-        print("| {:g} / {:g} / {:g} | {:.3f} | {:.3f} |".format(feed, acceleration, jerk, *times))
+        times = [seconds(tool, curve, machine("xy", feed, limits, tier), folder, *files(folder)) for tier in TIERS]
+        print("| {:g} / {:g} / {:g} | {:.3f} | {:.3f} | {:.3f} |".format(feed, acceleration, jerk, *times, least_time(folder)[0]))
 
 
 def random_points(numbers):
@@ -59,14 +74,7 @@ def random_limits(numbers):
     return feed, [(feed * share(0.4), acceleration * share(0.3), jerk * share(0.3)) for _ in "xyz"]
 
 
-def least_time(yardstick, folder):
-    command = ["/usr/bin/python3", str(pathlib.Path(yardstick) / "check_run.py"), "--trace", str(folder / "trace.csv"),
-               "--machine", str(folder / "machine.toml"), "--curve", str(folder / "curve.json"), "--optimum", "jerk"]
-    judged = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
-    return judged["optimum.jerk_s"], judged["use.jerk"]
-
-
-def random_table(tool, yardstick, count, folder):
+def random_table(tool, count, folder):
     ratios = {tier: [] for tier in TIERS}
     print("| spline | least | optimal | bounded | A / J of the first axis | jerk use of optimal |\n|---|---|---|---|---|---|")
     for seed in range(1, count + 1):
@@ -77,10 +85,10 @@ def random_table(tool, yardstick, count, folder):
         feed, limits = random_limits(numbers)
         least, use = 0.0, 0.0
         for tier in TIERS:
-            files = [] if least else ["--trace", str(folder / "trace.csv"), "--curve-out", str(folder / "curve.json")]
-            time = seconds(tool, program, machine("xyz", feed, limits, tier), folder, "--corner-angle", "180", *files)
+            wanted = [] if least else files(folder)
+            time = seconds(tool, program, machine("xyz", feed, limits, tier), folder, "--corner-angle", "180", *wanted)
             if not least:
-                least, use = least_time(yardstick, folder)
+                least, use = least_time(folder)
             ratios[tier].append(time / least)
         print("| {} | {:.4f} s | {:.4f} | {:.4f} | {:.0f} ms | {:.4f} |".format(
             seed, least, *(ratios[tier][-1] for tier in TIERS), 1e3 * limits[0][1] / limits[0][2], use), flush=True)
@@ -95,16 +103,15 @@ def main():
     parser.add_argument("--tool", default="build/release/bin/splinefeed")
     parser.add_argument("--curve", help="a curve .json in two dimensions")
     parser.add_argument("--random", type=int, default=0, metavar="COUNT", help="so many random splines")
-    parser.add_argument("--yardstick", metavar="DIR", help="where the judge is, for --random")
     arguments = parser.parse_args()
-    if not arguments.curve and not (arguments.random > 0 and arguments.yardstick):
-        parser.error("what is to be run? --curve FILE, or --random COUNT with --yardstick DIR")
+    if not arguments.curve and arguments.random <= 0:
+        parser.error("what is to be run? --curve FILE or --random COUNT")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         if arguments.curve:
             curve_table(arguments.tool, arguments.curve, folder)
         if arguments.random:
-            random_table(arguments.tool, arguments.yardstick, arguments.random, folder)
+            random_table(arguments.tool, arguments.random, folder)
 
 
 if __name__ == "__main__":

@@ -56,7 +56,7 @@ void require_closed(const std::vector<CurveSegment<S>>& segments) {
     REQUIRE(static_cast<double>(joint.curvature_jump) <= static_cast<double>(6.0L * jump));
     if (!std::same_as<S, float>) {
         REQUIRE(static_cast<double>(joint.curvature_jump) <=
-                static_cast<double>(1e-6L * std::max(1e-3L, joint.curvature)));
+                static_cast<double>(5e-9L * std::max(1e-3L, joint.curvature)));
     }
 }
 

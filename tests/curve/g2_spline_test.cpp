@@ -175,7 +175,7 @@ TEMPLATE_TEST_CASE("g2: joints have equal position, tangent and curvature", "[cu
                 REQUIRE(static_cast<double>(joint.direction) <= static_cast<double>(4.0L * e / leg));
                 // kappa = 2/3 |second difference| / leg^2: four points wrong by e, and the leg itself
                 const Real jump = 2.0L * (8.0L / 3.0L * e / (leg * leg) + 4.0L * joint.curvature * e / leg);
-                const Real relative = 1e-6L * std::max(1e-3L, joint.curvature);
+                const Real relative = 1e-8L * std::max(1e-3L, joint.curvature);
                 REQUIRE(static_cast<double>(joint.curvature_jump) <= static_cast<double>(jump));
                 if (!std::same_as<TestType, float> && leg > 0.06L) {
                     REQUIRE(static_cast<double>(joint.curvature_jump) <= static_cast<double>(relative));

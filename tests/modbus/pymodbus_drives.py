@@ -47,7 +47,7 @@ def run(options, folder, program, spoils=("", "", ""), away_s=0.0, tolerance_mm=
         stopped = drives[-1].process
         for at, what in ((2.0, signal.SIGSTOP), (2.0 + away_s, signal.SIGCONT)):
             threading.Timer(at, stopped.send_signal, [what]).start()
-    return run_and_judge(name, tolerance_mm or options.tolerance_mm, 1 if away_s else 0,
+    return run_and_judge(name, tolerance_mm or options.tolerance_mm, (1, 1) if away_s else (0, 0),
                          [options.tool, "run", program, "-m", machine], folder, steps, drives)
 
 

@@ -6,12 +6,25 @@ import subprocess
 import threading
 import time
 
-STOOD_STILL_S = 0.005  # a wake-up so late: more than the drives' clocks and targets are told apart by
+STOOD_STILL_S = 0.005  # a wake-up so late makes a line's answers late
+DELAYS = 4  # a message passes so many processes, each of which may be woken late
 ATTEMPTS = 3
 
 
 class OffTime(str):
-    """A problem of the instants at which things happened; all others are to be had on any host."""
+    """A problem of the instants at which things happened, which a host that stands still for stall_s may cause; all others are
+    to be had on any host."""
+
+    def __new__(cls, text, stall_s=STOOD_STILL_S):
+        problem = super().__new__(cls, text)
+        problem.stall_s = stall_s
+        return problem
+
+    @classmethod
+    def off_path(cls, worst_mm, stated_mm, speed_mm_s):
+        """The excess is what the axes move while a message is late: a shorter stall does not excuse it."""
+        return cls(f"the shafts leave the planned path by {worst_mm:.6f} mm; {stated_mm} mm are stated",
+                   max(0.001, (worst_mm - stated_mm) / speed_mm_s / DELAYS))
 
 
 class HostStoodStill(str):
@@ -51,8 +64,9 @@ class Call:
     stood_still_s: float
 
     def excused(self, problems):
-        """They as they are, but where all of them are of time and the host did not keep it."""
-        if self.stood_still_s < STOOD_STILL_S or not all(isinstance(problem, OffTime) for problem in problems):
+        """They as they are, but where all of them are of time and the host stood still for long enough to explain each. How long it
+        did is measured here; what the tool says of time excuses nothing."""
+        if not all(isinstance(problem, OffTime) and self.stood_still_s >= problem.stall_s for problem in problems):
             return problems
         return [HostStoodStill(f"{problem}; this host stood still for {1000 * self.stood_still_s:.1f} ms") for problem in problems]
 
@@ -71,6 +85,7 @@ def called(command, folder, stall_s=0.0):
         except subprocess.TimeoutExpired:
             process.kill()
             raise
+    print(f"this host stood still for {1000 * watch.longest_s:.1f} ms at most")
     return Call(process.returncode, output, errors, watch.longest_s)
 
 

@@ -48,8 +48,8 @@ def run(options):
         addresses = [f"modbus-rtu://{ours}{baud}" for ours, _ in cables] or [drive.tcp_address() for drive in drives]
         machine, steps = machine_file(options.machine, folder, addresses)
         command = [*options.under, options.tool, "run", options.program, "-m", machine]
-        return run_and_judge(options.wire, options.tolerance_mm, 1 if options.faults else 0, command, folder, steps, drives,
-                             options.stall_ms / 1000)
+        asked = (1, 1) if options.faults else (0, 2 if options.stall_ms else 0)
+        return run_and_judge(options.wire, options.tolerance_mm, asked, command, folder, steps, drives, options.stall_ms / 1000)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,15 @@ const std::string machine = " -m " + examples + "jerk_limited.toml'";
 
 TEST_CASE("A jerk-limited machine keeps its limits and ends where an acceleration-limited one does") {
     const Tool tool;
-    for (const char* program : {"path61.csv'", "circle720.csv'", "square.csv'", "star.csv'", "butterfly.json'"}) {
+    // Over the least time without a jerk limit, as measured and rounded up: what a jerk limit costs is in it, most for
+    // the star's 29 stops. tests/judge/gates.py holds the least time with it against the run.
+    struct Program {
+        const char* file;
+        double over_least;
+    };
+    for (const auto& [program, over_least] :
+         {Program{"path61.csv'", 1.010}, Program{"circle720.csv'", 1.029}, Program{"square.csv'", 1.033},
+          Program{"star.csv'", 1.203}, Program{"butterfly.json'", 1.035}}) {
         for (const char* scalar : {" --scalar fixed", " --scalar double"}) {
             const Call call = tool("run " + examples + program + machine + scalar + " --summary json --quiet");
             CAPTURE(program, scalar, call.error);
@@ -29,13 +37,13 @@ TEST_CASE("A jerk-limited machine keeps its limits and ends where an acceleratio
             const json summary = json::parse(call.output);
             double most = 0.0;
             for (const auto& [axis, use] : summary["limit_use"]["jerk"].items()) {
-                CHECK(use.get<double>() <= 1.0);
+                CHECK(use.get<double>() <= 0.9956); // as measured and rounded up: the plan keeps a reserve
                 most = std::max(most, use.get<double>());
             }
-            CHECK(most > 0.9);
+            CHECK(most > 0.995);
             const double seconds = summary["cycle_time_s"].get<double>();
             CHECK(seconds >= summary["optimum_time_s"].get<double>());
-            CHECK(seconds <= 1.25 * summary["optimum_time_s"].get<double>()); // most for the star's 29 stops
+            CHECK(seconds <= over_least * summary["optimum_time_s"].get<double>());
         }
     }
 }
