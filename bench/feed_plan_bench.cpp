@@ -164,7 +164,7 @@ void worst_window(benchmark::State& state) {
     constexpr double least = 1e-4; // [s], of a prepare() that plans
     const auto machine = limits<double>(jerk, JerkTier::optimal);
     std::vector<double> windows;
-    std::uint32_t slow_legs = 0;
+    std::uint64_t slow_legs = 0;
     for (auto _ : state) {
         const auto stages = std::make_unique<JerkStages>(state.range(0), machine);
         JerkPlan<double>& plan = stages->plan;
@@ -189,7 +189,7 @@ void worst_window(benchmark::State& state) {
     std::sort(windows.begin(), windows.end());
     state.counters["worst_ms"] = 1e3 * windows.back();
     state.counters["all_but_0.1%_ms"] = 1e3 * windows[windows.size() - 1 - windows.size() / 1000];
-    state.counters["slow_legs"] = slow_legs;
+    state.counters["slow_legs"] = static_cast<double>(slow_legs);
 }
 
 /// From rest to rest on a straight line, the closed form: moves that reach every limit, some, or none.

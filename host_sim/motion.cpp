@@ -263,7 +263,7 @@ template <Scalar S>
 Summary Motion<S>::summary() const {
     Summary summary;
     summary.cycle_time_s = machine_.cycle_time_s();
-    summary.length_mm = to_mm(Position{trajectory_.arc_length().travelled_raw()});
+    summary.length_mm = length_to_mm(trajectory_.arc_length().travelled());
     summary.waypoints = feeder_.rows();
     summary.curve_segments = tee_.segments();
     summary.feed_segments = segments_;

@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept {
         return sizeof(ArcLength<S>) + sizeof(FeedPlan<S>) + window_.size() * sizeof(PlannedCell<S>) +
                (smooth_ ? sizeof(SmoothPlan<S>) + sizeof(SmoothSampler<S>) : 0) +
-               smooth_cells_.size() * sizeof(SmoothCell<S>) + places_.size() * sizeof(Position) +
+               smooth_cells_.size() * sizeof(SmoothCell<S>) + places_.size() * sizeof(PathPosition) +
                (jerk_limited_ ? sizeof(JerkPlan<S>) : 0) + cells_.size() * sizeof(Cell<S>) +
                nodes_.size() * sizeof(JerkNode);
     }
@@ -64,7 +64,7 @@ private:
     std::vector<Cell<S>> cells_;
     std::vector<JerkNode> nodes_;
     std::vector<SmoothCell<S>> smooth_cells_;
-    std::vector<Position> places_;
+    std::vector<PathPosition> places_;
     std::unique_ptr<Trajectory<S>> plain_;
     std::unique_ptr<SmoothTrajectory<S>> smooth_;
     std::unique_ptr<JerkTrajectory<S>> jerk_limited_;

@@ -12,7 +12,7 @@ namespace splinefeed {
 template <Scalar S>
 struct SmoothStorage {
     std::span<SmoothCell<S>> cells;
-    std::span<Position> places; ///< SmoothSampler::places_for() the limits
+    std::span<PathPosition> places; ///< SmoothSampler::places_for() the limits
 };
 
 /// A Trajectory for limits that are jerk_limited, in the scalar of the pipeline.

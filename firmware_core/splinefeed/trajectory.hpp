@@ -87,6 +87,8 @@ protected:
     }
 
 private:
+    friend struct CounterSeam;
+
     ArcLength<S> arc_length_;
     FeedPlan<S> feed_plan_;
     MotionPlan<S>* plan_;

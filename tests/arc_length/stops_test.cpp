@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Where the machine must stop, how cells are graded there, and that the source may starve anywhere.
+#include "splinefeed/number/path_position.hpp"
 #include "splinefeed/s3_feed_plan/motion_limits.hpp"
 #include "support/catch.hpp"
 #include "support/cell_reference.hpp"
@@ -232,7 +233,7 @@ TEMPLATE_TEST_CASE("lengths and segments are counted", "[arc_length]", double, f
     while (arc_length.next(cell) == Pull::item) {
     }
     REQUIRE(arc_length.segments() == 2);
-    REQUIRE(to_mm(Position{arc_length.travelled_raw()}) == Approx(15.0).epsilon(1e-6));
+    REQUIRE(length_to_mm(arc_length.travelled()) == Approx(15.0).epsilon(1e-6));
     REQUIRE(arc_length.next(cell) == Pull::finished);
     REQUIRE(arc_length.next(cell) == Pull::finished);
 }

@@ -85,7 +85,7 @@ using Pipeline = std::conditional_t<jerk_limited, SmoothTrajectory<Real>, Trajec
 Static<Pipeline> trajectory_storage;
 Static<std::array<PlannedCell<Real>, FeedPlan<Real>::smallest_window>> window_storage;
 Static<std::array<SmoothCell<Real>, SmoothPlan<Real>::smallest_window>> cells_storage;
-Static<std::array<Position, SmoothSampler<Real>::places_for(*limits)>> places_storage;
+Static<std::array<PathPosition, SmoothSampler<Real>::places_for(*limits)>> places_storage;
 FeedSegment segment;
 
 // Some functions are kept apart from main, so that what they need on the stack is not below the deepest call.

@@ -67,7 +67,6 @@ TEST_CASE("a cell's demand is that of all that the average can reach", "[feed_pl
         const Real ticks = static_cast<Real>(cells[i].smoothing_q8) / 256.0L;
         const Real ahead = reach(cells, i, ticks, false);
         const Real behind = reach(cells, i, ticks, true);
-        const Real start = static_cast<Real>(cells[i].start.raw);
         std::size_t first = i;
         while (cells[first].bound_sq > 0.0) {
             --first;
@@ -77,9 +76,9 @@ TEST_CASE("a cell's demand is that of all that the average can reach", "[feed_pl
             ++end;
         }
         for (std::size_t j = first; j < end; ++j) { // of the same leg
-            const Real from =
-                (static_cast<Real>(cells[j].start.raw) - start) * 0x1p-40L - real(cells[i].cell.length_mm);
-            const Real to = (static_cast<Real>(cells[j].start.raw) - start) * 0x1p-40L + real(cells[j].cell.length_mm);
+            const Real way = static_cast<Real>(units_between(cells[i].start, cells[j].start)) * 0x1p-40L;
+            const Real from = way - real(cells[i].cell.length_mm);
+            const Real to = way + real(cells[j].cell.length_mm);
             if (from < ahead && -to < behind) {
                 const auto own = PathDemand<double>::of(cells[j].cell, limits, 1e4, 1e4);
                 for (unsigned k = 0; k < 2; ++k) {

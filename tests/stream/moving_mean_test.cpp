@@ -15,7 +15,7 @@ namespace {
 __extension__ using Int128 = __int128;
 
 /// The nearest integer to the mean of N + f positions, counted back from the newest, in 1/256.
-std::int64_t mean_of(const std::vector<std::int64_t>& positions, std::uint32_t duration_q8) {
+std::uint64_t mean_of(const std::vector<std::uint64_t>& positions, std::uint32_t duration_q8) {
     Int128 sum = 0;
     std::size_t i = positions.size();
     std::uint32_t left = duration_q8;
@@ -24,7 +24,7 @@ std::int64_t mean_of(const std::vector<std::int64_t>& positions, std::uint32_t d
         sum += static_cast<Int128>(part) * (positions.back() - positions[--i]);
         left -= part;
     }
-    return positions.back() - static_cast<std::int64_t>((sum + duration_q8 / 2) / duration_q8);
+    return positions.back() - static_cast<std::uint64_t>((sum + duration_q8 / 2) / duration_q8);
 }
 
 } // namespace
@@ -32,16 +32,25 @@ std::int64_t mean_of(const std::vector<std::int64_t>& positions, std::uint32_t d
 TEST_CASE("the moving mean is that of the last positions, to the last digit", "[stream][mean]") {
     std::mt19937_64 random{414};
     CAPTURE("seed 414");
+    // 100 m from the start; so that both ends of the range are passed; and where each tick is a long way.
+    const auto [start, shortest_log2] = GENERATE(table<std::uint64_t, int>({
+        {(std::uint64_t{1} << 57) + 12345, 20},
+        {~std::uint64_t{0} << 40, 20},
+        {std::uint64_t{1} << 63 >> 1, 20},
+        {(std::uint64_t{1} << 63) - 5, 20},
+        {~std::uint64_t{0} - 5, 12},
+    }));
     for (const std::uint32_t duration : {256U, 257U, 300U, 512U, 4444U, 1024U * 256U}) {
-        std::vector<Position> storage(MovingMean::places_for(duration));
+        std::vector<PathPosition> storage(MovingMean::places_for(duration));
         MovingMean mean(storage);
-        std::int64_t place = (std::int64_t{1} << 57) + 12345; // 100 m from the start
+        std::uint64_t place = start;
         mean.reset({place}, duration);
-        std::vector<std::int64_t> positions(mean.reach() + 1, place);
-        CAPTURE(duration);
+        std::vector<std::uint64_t> positions(mean.reach() + 1, place);
+        CAPTURE(start, duration);
         REQUIRE(mean.value().raw == place);
-        for (int i = 0; i < 5000; ++i) {
-            place += static_cast<std::int64_t>(random() >> (20 + random() % 40)); // up to 16 mm a tick
+        for (int i = 0; i < 3000; ++i) {
+            // up to 16 mm a tick, and with 12 up to 4 m
+            place += random() >> (static_cast<unsigned>(shortest_log2) + random() % 40);
             positions.push_back(place);
             mean.push({place});
             REQUIRE(mean.value().raw == mean_of(positions, duration));
@@ -54,11 +63,11 @@ TEST_CASE("the moving mean is that of the last positions, to the last digit", "[
 }
 
 TEST_CASE("a position that goes back counts as the one before", "[stream][mean]") {
-    std::vector<Position> storage(MovingMean::places_for(1024));
+    std::vector<PathPosition> storage(MovingMean::places_for(1024));
     MovingMean mean(storage);
     mean.reset({1000}, 1024);
     mean.push({1010});
-    const Position before = mean.value();
+    const PathPosition before = mean.value();
     mean.push({1009});
     CHECK(mean.value().raw >= before.raw);
     for (int i = 0; i < 5; ++i) {

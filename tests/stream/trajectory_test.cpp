@@ -181,7 +181,7 @@ TEMPLATE_TEST_CASE("the state tells why there is no segment", "[stream][trajecto
     CHECK_FALSE(trajectory.next(segment));
     CHECK(trajectory.state() == Pull::finished);
     CHECK(trajectory.arc_length().segments() == 1);
-    CHECK(to_mm(Position{trajectory.arc_length().travelled_raw()}) == Approx(3.0).epsilon(1e-6));
+    CHECK(length_to_mm(trajectory.arc_length().travelled()) == Approx(3.0).epsilon(1e-6));
     CHECK(trajectory.feed_plan().window_limited() == 0);
 }
 

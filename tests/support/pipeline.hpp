@@ -39,7 +39,7 @@ Real seconds_in(const PlannedCell<S>& c) {
 template <Scalar S>
 struct Planned {
     std::vector<PlannedCell<S>> cells;
-    std::uint32_t limited = 0; ///< FeedPlan::window_limited
+    std::uint64_t limited = 0; ///< FeedPlan::window_limited
     std::size_t passes = 0;    ///< calls that took cells in, each followed by one pass over the window
     std::size_t starvations = 0;
     [[nodiscard]] double seconds() const {
@@ -59,12 +59,12 @@ Planned<S> plan_of(CurveSource<S>& source, const MotionLimits<S>& limits, std::s
     FeedPlan<S> plan(arc_length, limits, window);
     Planned<S> planned;
     while (planned.cells.size() < most) {
-        const std::int64_t before = arc_length.travelled_raw();
+        const Wide before = arc_length.travelled();
         const Pull pull = plan.prepare();
         if (pull == Pull::finished) {
             break;
         }
-        planned.passes += arc_length.travelled_raw() != before ? 1U : 0U;
+        planned.passes += arc_length.travelled() != before ? 1U : 0U;
         if (pull == Pull::starved) {
             ++planned.starvations;
             continue;
@@ -101,14 +101,14 @@ public:
     [[nodiscard]] Trajectory<S>& trajectory() {
         return plain_ ? *plain_ : smooth_ ? static_cast<Trajectory<S>&>(*smooth_) : *jerk_limited_;
     }
-    [[nodiscard]] std::uint32_t slow_legs() const { return jerk_limited_ ? jerk_limited_->jerk_plan().slow_legs() : 0; }
+    [[nodiscard]] std::uint64_t slow_legs() const { return jerk_limited_ ? jerk_limited_->jerk_plan().slow_legs() : 0; }
 
 private:
     std::vector<PlannedCell<S>> window_;
     std::vector<Cell<S>> cells_;
     std::vector<JerkNode> nodes_;
     std::vector<SmoothCell<S>> smooth_cells_;
-    std::vector<Position> places_;
+    std::vector<PathPosition> places_;
     std::unique_ptr<Trajectory<S>> plain_;
     std::unique_ptr<SmoothTrajectory<S>> smooth_;
     std::unique_ptr<JerkTrajectory<S>> jerk_limited_;

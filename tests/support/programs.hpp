@@ -117,9 +117,9 @@ private:
 
 struct Stream {
     std::vector<FeedSegment> segments;
-    std::uint32_t limited = 0;
+    std::uint64_t limited = 0;
     bool endless = false;
-    std::uint32_t slow_legs = 0; ///< JerkPlan::slow_legs
+    std::uint64_t slow_legs = 0; ///< JerkPlan::slow_legs
 };
 
 constexpr std::size_t most_segments = 400'000;

@@ -31,7 +31,7 @@ struct CurveSegment {
     S feed_mm_s{};                   ///< programmed feed; 0: the machine's
     S max_feed_mm_s{};               ///< that no feed override goes beyond; 0: none
     bool stop_at_end = false;        ///< the feed is zero at the end (a corner)
-    std::uint32_t waypoint = 0;      ///< index of the waypoint (or segment of a file) it leads to
+    std::uint32_t waypoint = 0;      ///< index of the waypoint (or segment of a file) it leads to, modulo 2^32
 
     /// The feed without an override: the programmed one, not above its maximum; 0: the machine's.
     [[nodiscard]] constexpr S block_feed_mm_s() const noexcept {

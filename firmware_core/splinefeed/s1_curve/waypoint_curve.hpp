@@ -100,10 +100,12 @@ protected:
     std::array<Knot<S>, capacity> ring_{};
     std::uint64_t known_ = 0;  ///< knots pushed so far
     std::uint64_t oldest_ = 0; ///< first knot that is still needed
-    std::uint32_t pushed_ = 0;
+    std::uint32_t pushed_ = 0; ///< index of the next waypoint, modulo 2^32
     bool finished_ = false;
 
 private:
+    friend struct CounterSeam;
+
     void decide_corner(std::uint64_t i) noexcept;
     [[nodiscard]] S span_of(S length) const noexcept;
 };

@@ -157,7 +157,8 @@ void ArcLength<S>::fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out
         out.origin[k] = displaced(segment.origin[k], from[k], segment.unit_log2);
         out.power[k][0] = from[k] - distance<S>(segment.origin[k], out.origin[k], segment.unit_log2);
     }
-    travelled_ = displaced(travelled_, out.length_mm, 0);
+    const Position length = displaced(Position{}, out.length_mm, 0);
+    travelled_ = add(travelled_, Wide{0U, static_cast<std::uint64_t>(length.raw)});
 }
 
 template <Scalar S>

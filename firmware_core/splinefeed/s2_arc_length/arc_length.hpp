@@ -63,10 +63,12 @@ public:
     Pull next(Cell<S>& out) noexcept;
 
     /// Length of all cells so far, in units of 2^-40 mm.
-    [[nodiscard]] std::int64_t travelled_raw() const noexcept { return travelled_.raw; }
-    [[nodiscard]] std::uint32_t segments() const noexcept { return segments_; }
+    [[nodiscard]] Wide travelled() const noexcept { return travelled_; }
+    [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
 
 private:
+    friend struct CounterSeam; // a test starts counters near their ends
+
     static constexpr int deepest = 18; ///< halvings of a segment; then a piece is taken as it is
 
     enum class Verdict : std::uint8_t { fine, coarse, cusp };
@@ -96,12 +98,12 @@ private:
     std::array<CurveSegment<S>, 2> slots_{};
     std::array<Piece<S>, deepest + 2> stack_{};
     PieceMeasure<S> m_{}; // of the piece that is being judged
-    Position travelled_{};
+    Wide travelled_{};
     S grade_mm_{};
     PerAxis<S> cusp_from_{}; // in units of the current segment, from its origin
     PerAxis<S> cusp_to_{};
     S nothing_{}; // in units of the current segment
-    std::uint32_t segments_ = 0;
+    std::uint64_t segments_ = 0;
     unsigned current_ = 0;
     int depth_ = 0; // pieces on the stack
     bool has_current_ = false;

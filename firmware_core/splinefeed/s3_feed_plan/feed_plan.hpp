@@ -66,7 +66,7 @@ public:
     void forget() noexcept;
 
     /// How often the window was too short to tell the plan from that of an unlimited one (0: the plan is the same).
-    [[nodiscard]] std::uint32_t window_limited() const noexcept { return window_limited_; }
+    [[nodiscard]] std::uint64_t window_limited() const noexcept { return window_limited_; }
 
 private:
     [[nodiscard]] PlannedCell<S>& at(std::size_t i) noexcept { return window_[ring_index(head_ + i, window_.size())]; }
@@ -100,7 +100,7 @@ private:
     S at_{};          // where the next passage starts in the front cell
     S speed_sq_{};    // v^2 there
     S wanted_exit_{}; // at the end of the front cell, once a passage is chosen
-    std::uint32_t window_limited_ = 0;
+    std::uint64_t window_limited_ = 0;
     bool planned_ = false; // the window, as it is
     bool chosen_ = false;  // passage_ is the front's
     bool hopping_ = false; // passage_ is the first half of one from rest to rest

@@ -35,7 +35,7 @@ public:
     void clear() noexcept override;
 
     /// How often a leg could not be planned as fast as it should be: it is travelled slower, within all limits.
-    [[nodiscard]] std::uint32_t slow_legs() const noexcept { return slow_legs_; }
+    [[nodiscard]] std::uint64_t slow_legs() const noexcept { return slow_legs_; }
 
 private:
     using MotionPlan<S>::passage_;
@@ -63,7 +63,7 @@ private:
     std::size_t planned_ = 0;   // cells from the front on that have a plan, at rest at its end
     std::size_t halt_ = 0;      // cells from the front on to the stop that a hold made; 0: none
     std::size_t hops_ = 1;      // cells that are hopped where no plan is found; twice as many each time
-    std::uint32_t slow_legs_ = 0;
+    std::uint64_t slow_legs_ = 0;
     double on_line_mm_ = 0.0; // of the cell, already travelled
     bool chosen_ = false;
     bool planned_all_ = false; // nothing came in since the last plan

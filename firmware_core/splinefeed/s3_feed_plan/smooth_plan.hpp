@@ -32,7 +32,7 @@ public:
     /// What the passage takes, in ticks.
     [[nodiscard]] S ticks() const noexcept { return ticks_; }
     /// Path length at the start of the passage's cell.
-    [[nodiscard]] Position cell_start() const noexcept { return window_.at(window_.front()).start; }
+    [[nodiscard]] PathPosition cell_start() const noexcept { return window_.at(window_.front()).start; }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override {
         at_ = fraction;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "splinefeed/base/ring_index.hpp"
+#include "splinefeed/number/path_position.hpp"
 #include "splinefeed/s3_feed_plan/jerk_bound.hpp"
 
 #include <span>
@@ -17,9 +18,9 @@ namespace splinefeed {
 template <Scalar S>
 struct SmoothCell {
     Cell<S> cell{};
-    Position start{}; ///< path length at its start
-    S bound_sq{};     ///< at its start: no motion is faster, whatever the steering
-    S bound_ticks{};  ///< least time in it
+    PathPosition start{}; ///< where it starts on the path
+    S bound_sq{};         ///< at its start: no motion is faster, whatever the steering
+    S bound_ticks{};      ///< least time in it
     PathDemand<S> own{};
     PathDemand<S> demand{}; ///< of all places where the average can be while the motion is in the cell
     std::uint32_t smoothing_q8 = 0;
@@ -82,7 +83,7 @@ private:
     std::size_t size_ = 0;
     std::size_t front_ = 0;
     std::size_t prepared_ = 0; // cells from the oldest on
-    Position end_{};           // of the path as it is known
+    PathPosition end_{};       // of the path as it is known
     S end_bound_sq_{};         // there
     Smoothing<S> smoothing_{}; // of the leg that is being prepared
     std::size_t bounded_ = 0;  // cells with a bound of the leg's own, from the oldest on

@@ -18,7 +18,7 @@ inline constexpr std::int64_t units_per_count = std::int64_t{3} << 30;
 struct FeedSegment {
     std::uint64_t index = 0;
     std::uint32_t duration_ticks = 0;
-    std::uint32_t waypoint = 0; ///< index of the waypoint that the segment leads to or passes
+    std::uint32_t waypoint = 0; ///< index of the waypoint that the segment leads to or passes, modulo 2^32
     PerAxis<std::int64_t> start{};
     PerAxis<std::int64_t> end{};
     PerAxis<std::int64_t> start_velocity{};

@@ -34,6 +34,8 @@ public:
     [[nodiscard]] const PerAxis<Position>& position() const noexcept { return sampler_->position(); }
 
 private:
+    friend struct CounterSeam;
+
     void push_control(const PerAxis<Position>& position) noexcept;
     void repeat_control() noexcept;
     void write(FeedSegment& out) noexcept;

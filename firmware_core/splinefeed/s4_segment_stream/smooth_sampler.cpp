@@ -45,7 +45,7 @@ void SmoothSampler<S>::travel() noexcept {
         x = passage.stretch.from +
             passage.stretch.length() * (share * (passage.linear + (one - passage.linear) * share));
     }
-    const Position there = displaced(plan_->cell_start(), x == one ? length : length * x, -fine);
+    const PathPosition there = displaced(plan_->cell_start(), x == one ? length : length * x, -fine);
     const S before = distance<S>(tick_start_, place_, -fine);
     const S way = distance<S>(place_, there, -fine);
     const S part = ticks > S{} ? quotient_or_max(time, ticks) : S{};
@@ -128,22 +128,23 @@ Pull SmoothSampler<S>::tick(Starvation starvation) noexcept {
         travel();
     }
     in_tick_ = false;
-    mean_.push({smaller(displaced(tick_start_, sum_, -fine).raw, place_.raw)});
+    const PathPosition mean = displaced(tick_start_, sum_, -fine);
+    mean_.push(units_between(mean, place_) > 0 ? mean : place_);
     return Pull::item;
 }
 
 // Where the mean is on the curve.
 template <Scalar S>
-void SmoothSampler<S>::locate(Position mean) noexcept {
+void SmoothSampler<S>::locate(PathPosition mean) noexcept {
     for (;;) {
         const SmoothCell<S>& here = plan_->oldest();
-        const Position end = displaced(here.start, here.cell.length_mm, 0);
-        if (mean > end && plan_->can_release()) {
+        const std::int64_t beyond = units_between(displaced(here.start, here.cell.length_mm, 0), mean);
+        if (beyond > 0 && plan_->can_release()) {
             plan_->release();
             continue;
         }
         waypoint_ = here.cell.waypoint;
-        if (mean >= end && here.cell.stop_at_end) {
+        if (beyond >= 0 && here.cell.stop_at_end) {
             position_ = here.cell.end;
             return;
         }

@@ -15,7 +15,7 @@ template <Scalar S>
 class SmoothSampler final : public Sampler<S> {
 public:
     /// @param places  the caller's, at least places_for() the limits
-    SmoothSampler(SmoothPlan<S>& plan, std::span<Position> places) noexcept : plan_(&plan), mean_(places) {}
+    SmoothSampler(SmoothPlan<S>& plan, std::span<PathPosition> places) noexcept : plan_(&plan), mean_(places) {}
 
     [[nodiscard]] static constexpr std::size_t places_for(const MotionLimits<S>& limits) noexcept {
         return MovingMean::places_for(larger(limits.smoothing_q8, limits.most_smoothing_q8));
@@ -33,7 +33,7 @@ private:
     void travel() noexcept;
     void follow_steering() noexcept;
     void arrive() noexcept;
-    void locate(Position mean) noexcept;
+    void locate(PathPosition mean) noexcept;
 
     using Sampler<S>::position_;
     using Sampler<S>::origin_;
@@ -41,13 +41,13 @@ private:
 
     SmoothPlan<S>* plan_;
     MovingMean mean_;
-    Position place_{};         // of the motion, along the path
-    Position tick_start_{};    // and at the start of the tick
-    S sum_{};                  // mean over the part of the tick that has passed, times that part, from tick_start_
-    S left_{};                 // part of the tick that is still to come
-    S elapsed_{};              // time since the start of the passage [ticks]
-    std::uint32_t rested_ = 0; // ticks since the motion came to rest
-    std::uint32_t dwell_ = 0;  // until the mean has come to rest, and twice more
+    PathPosition place_{};      // of the motion
+    PathPosition tick_start_{}; // and at the start of the tick
+    S sum_{};                   // mean over the part of the tick that has passed, times that part, from tick_start_
+    S left_{};                  // part of the tick that is still to come
+    S elapsed_{};               // time since the start of the passage [ticks]
+    std::uint32_t rested_ = 0;  // ticks since the motion came to rest
+    std::uint32_t dwell_ = 0;   // until the mean has come to rest, and twice more
     bool rests_ = true;
     bool in_passage_ = false;
     bool in_tick_ = false;

@@ -56,6 +56,8 @@ public:
     [[nodiscard]] std::int64_t now() const noexcept { return (passed_ - (steps_.bits != 0 ? 1 : 0)) * tick_ticks_; }
 
 private:
+    friend struct CounterSeam;
+
     TickParts parts_;
     TickDda<static_cast<unsigned>(max_axes)> dda_{};
     StepBits steps_{};        // of the tick passed last, not delivered yet

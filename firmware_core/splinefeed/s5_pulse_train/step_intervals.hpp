@@ -60,6 +60,8 @@ public:
     }
 
 private:
+    friend struct CounterSeam;
+
     PerAxis<AxisCrossings> axis_{};
     std::int64_t start_ = 0;     // of the segment [ticks]
     std::uint32_t duration_ = 0; // of the segment [ticks]

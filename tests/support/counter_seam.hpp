@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// CounterSeam: starts counters where a run of years would have taken them. The classes that count name it their friend.
+#pragma once
+
+#include "splinefeed/number/wide.hpp"
+
+#include <cstdint>
+
+namespace splinefeed {
+
+struct CounterSeam {
+    /// A Trajectory's: path length [2^-40 mm], segments of the curve, feed segments.
+    template <class Trajectory>
+    static void travelled(Trajectory& trajectory, Wide length, std::uint64_t curve_segments,
+                          std::uint64_t feed_segments) {
+        trajectory.arc_length_.travelled_ = length;
+        trajectory.arc_length_.segments_ = curve_segments;
+        trajectory.stream_.index_ = feed_segments;
+    }
+    /// Index of the next waypoint of a WaypointCurve.
+    template <class Curve>
+    static void pushed(Curve& curve, std::uint32_t waypoints) {
+        curve.pushed_ = waypoints;
+    }
+    /// Start of the next segment of a StepIntervals [ticks].
+    template <class Engine>
+    static void started(Engine& engine, std::int64_t ticks) {
+        engine.start_ = ticks;
+    }
+    /// Ticks of a FixedRate.
+    template <class Engine>
+    static void passed(Engine& engine, std::int64_t ticks) {
+        engine.passed_ = ticks;
+    }
+};
+
+} // namespace splinefeed

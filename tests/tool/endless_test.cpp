@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// Paths of more than 2^23 mm, to their ends.
+#include "support/catch.hpp"
+#include "support/rounds.hpp"
+#include "tool.hpp"
+
+#include <nlohmann/json.hpp>
+
+using splinefeed::test::Call;
+using splinefeed::test::Tool;
+
+namespace {
+
+constexpr double move_mm = 60000.0;
+
+/// To and fro between x = 0 and 60000 mm.
+std::string to_and_fro(int points) {
+    std::string rows;
+    for (int i = 0; i < points; ++i) {
+        rows += i % 2 == 0 ? "0,0\n" : "60000,0\n";
+    }
+    return rows;
+}
+
+/// A machine at 10 m/s. @param jerk_plan  empty: no jerk limit
+std::string machine_of(int sample_period_us, const std::string& jerk_plan) {
+    std::string text = "sample_period_us = " + std::to_string(sample_period_us) + "\n[path]\nmax_feed_mm_s = 10000\n";
+    text += jerk_plan.empty() ? "" : "jerk_plan = \"" + jerk_plan + "\"\n";
+    for (const char* const name : {"x", "y"}) {
+        text += std::string("[[axis]]\nname = \"") + name +
+                "\"\nmax_velocity_mm_s = 10000\nmax_acceleration_mm_s2 = 20000\nsteps_per_mm = 10\n";
+        text += jerk_plan.empty() ? "" : "max_jerk_mm_s3 = 1000000\n";
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("a path of more than 2^23 mm is planned to its end, and its length is true", "[endless]") {
+    const bool whole = splinefeed_test::rounds(0, 1) == 1; // minutes
+    const int points = whole ? 400 : 145;                  // 2.4e7 and 8.64e6 mm
+    const Tool tool;
+    tool.write("far.csv", to_and_fro(points));
+    struct Planner {
+        const char* jerk_plan;
+        double most; // of the least time without a jerk limit
+    };
+    for (const Planner planner : {Planner{"", 1.01}, Planner{"bounded", 1.02}, Planner{"optimal", 1.1}}) {
+        if (planner.jerk_plan == std::string("optimal") && !whole) {
+            continue; // some 20 s of its own; what it measures lengths with is the others'
+        }
+        // With a short period a segment lasts 0.5 ms.
+        tool.write("m.toml", machine_of(whole ? 4000 : 100000, planner.jerk_plan));
+        for (const char* const scalar : {"fixed", "double"}) {
+            const Call call =
+                tool(std::string("plan far.csv -m m.toml --curve polyline --quiet --summary json --scalar ") + scalar);
+            CAPTURE(planner.jerk_plan, scalar, call.error);
+            REQUIRE(call.status == 0);
+            const auto summary = nlohmann::json::parse(call.output);
+            CHECK(summary["length_mm"].get<double>() == Approx((points - 1) * move_mm).epsilon(1e-12));
+            CHECK(summary["cycle_time_s"].get<double>() > summary["optimum_time_s"].get<double>());
+            CHECK(summary["cycle_time_s"].get<double>() < planner.most * summary["optimum_time_s"].get<double>());
+        }
+    }
+}
+
+TEST_CASE("float takes moves up to 512 mm, and says so", "[endless]") {
+    const Tool tool;
+    tool.write("far.csv", to_and_fro(3));
+    tool.write("m.toml", machine_of(100000, ""));
+    const Call call = tool("plan far.csv -m m.toml --curve polyline --quiet --scalar float");
+    CHECK(call.status == 2);
+    CHECK(call.error == "far.csv:2: two successive waypoints must be at most 65536 mm apart, in float 512 mm\n");
+}
