@@ -51,8 +51,19 @@ std::string drive_sentence(const DriveTable& table, const ModbusPort& port, cons
 }
 
 std::string PvtTarget::halted(bool quick) const {
-    return quick ? "interrupted twice: all axes stopped, each for itself"
-                 : "interrupted: all drives were held on the path";
+    return stop_sentence(stopped(), quick);
+}
+
+std::string PvtTarget::fault() const {
+    return drive_sentence(table_, port_, *port_.failure()) + unconfirmed_drives(stopped());
+}
+
+std::vector<StoppedDrive> PvtTarget::stopped() const {
+    std::vector<StoppedDrive> drives;
+    for (std::size_t i = 0; i < port_.drives(); ++i) {
+        drives.push_back({table_.drives[i].address.text, port_.stop_report(i)});
+    }
+    return drives;
 }
 
 std::string PvtTarget::where() const {

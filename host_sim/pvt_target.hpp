@@ -4,6 +4,7 @@
 
 #include "drive_table.hpp"
 #include "run_target.hpp"
+#include "stop_sentence.hpp"
 
 #include "splinefeed/hal/modbus/modbus_port.hpp"
 
@@ -33,7 +34,8 @@ private:
     void quick_stop() override { port_.quick_stop(); }
     [[nodiscard]] std::string halted(bool quick) const override;
     void release() noexcept override { port_.close(); }
-    [[nodiscard]] std::string fault() const override { return drive_sentence(table_, port_, *port_.failure()); }
+    [[nodiscard]] std::string fault() const override;
+    [[nodiscard]] std::vector<StoppedDrive> stopped() const;
 
     const MachineDescription* machine_;
     DriveTable table_;

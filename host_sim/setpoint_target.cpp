@@ -81,8 +81,19 @@ std::string SetpointTarget::note() const {
 }
 
 std::string SetpointTarget::halted(bool quick) const {
-    return quick ? "interrupted twice: all axes stopped, each for itself"
-                 : "interrupted: all drives were held on the path";
+    return stop_sentence(stopped(), quick);
+}
+
+std::string SetpointTarget::fault() const {
+    return sentence(port_.trouble()) + unconfirmed_drives(stopped());
+}
+
+std::vector<StoppedDrive> SetpointTarget::stopped() const {
+    std::vector<StoppedDrive> drives;
+    for (std::size_t i = 0; i < port_.drives(); ++i) {
+        drives.push_back({table_.drives[i].address.text, port_.stop_report(i)});
+    }
+    return drives;
 }
 
 std::string SetpointTarget::where() const {

@@ -4,6 +4,7 @@
 
 #include "drive_table.hpp"
 #include "run_target.hpp"
+#include "stop_sentence.hpp"
 
 #include "splinefeed/hal/modbus/target_port.hpp"
 
@@ -33,7 +34,8 @@ private:
     void quick_stop() override { port_.quick_stop(); }
     [[nodiscard]] std::string halted(bool quick) const override;
     void release() noexcept override { port_.close(); }
-    [[nodiscard]] std::string fault() const override { return sentence(port_.trouble()); }
+    [[nodiscard]] std::string fault() const override;
+    [[nodiscard]] std::vector<StoppedDrive> stopped() const;
 
     [[nodiscard]] std::string sentence(const std::string& trouble) const;
     [[nodiscard]] std::size_t axis_of(std::size_t drive) const noexcept;

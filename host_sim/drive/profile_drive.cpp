@@ -239,6 +239,17 @@ void ProfileDrive::obey(DriveCommand command) {
     }
 }
 
+void ProfileDrive::stop_by_itself() {
+    constexpr std::uint16_t quick_stop_word = 0x0002;
+    if (profile_.cia402) {
+        static_cast<void>(machine_.control(quick_stop_word, axis_));
+    } else if (tells(DriveState::quick_stop)) {
+        obey(DriveCommand::quick_stop);
+    } else {
+        axis_.trip(AxisFault::following_error);
+    }
+}
+
 void ProfileDrive::power_cycle() {
     registers_.reset();
     axis_.power_cycle();

@@ -39,6 +39,8 @@ public:
     [[nodiscard]] double position_counts(int /*axis*/) const override { return axis_.shaft().position_counts(); }
 
     [[nodiscard]] PositioningAxis& axis() noexcept { return axis_; }
+    /// As by an input of its own: a quick stop, or where its profile knows no such state, a fault.
+    void stop_by_itself();
 
 private:
     [[nodiscard]] hal::modbus::FieldIndex index_of(hal::modbus::FieldRole role) const noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stops of drives that interpolate, on a virtual clock.
 #include "ports/pvt_plant.hpp"
+#include "ports/run_plant.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::hal;
@@ -19,51 +20,12 @@ void prepare(PvtPlant& plant) {
     plant.began_us = plant.clock.now_us();
 }
 
-/// Half a second later nothing has moved since.
-void check_stands_since(PvtPlant& plant, std::uint64_t instant_us) {
-    plant.port.reset();
-    plant.clock.sleep_us(500'000);
-    for (const std::uint64_t moved_us : plant.moved_us) {
-        CHECK(moved_us <= instant_us);
-    }
-}
-
-/// Runs the motion until the port is done, or it has stopped; asked for stops at these instants after prepare().
-PortPhase run(PvtPlant& plant, std::uint64_t hold_us, std::uint64_t quick_us = UINT64_MAX) {
-    ModbusPort& port = *plant.port;
-    const std::uint64_t began_us = plant.began_us;
-    std::size_t& next = plant.next;
-    bool held = false;
-    bool quick = false;
-    PortPhase phase = PortPhase::running;
-    while (phase == PortPhase::running && plant.clock.now_us() < began_us + 20'000'000) {
-        const std::uint64_t now_us = plant.clock.now_us() - began_us;
-        if (!held && now_us >= hold_us) {
-            held = true;
-            port.halt();
-        }
-        if (!quick && now_us >= quick_us) {
-            quick = true;
-            port.quick_stop();
-        }
-        while (next < motion.segments.size() && port.room() > 0 && port.submit(motion.segments[next])) {
-            ++next;
-        }
-        if (next == motion.segments.size()) {
-            port.complete();
-        }
-        phase = port.poll().phase;
-        plant.clock.sleep_us(1000);
-    }
-    return phase;
-}
-
 } // namespace
 
 TEST_CASE("PVT port, virtual: a whole motion, every segment once, on the path", "[ports]") {
     PvtPlant plant({.clock_ppm = {150.0, -150.0, 0.0}});
     prepare(plant);
-    CHECK(run(plant, UINT64_MAX) == PortPhase::idle);
+    CHECK(run(plant, motion, {}) == PortPhase::idle);
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(plant.executed_once(i) == motion.segments.size());
     }
@@ -79,7 +41,7 @@ TEST_CASE("PVT port, virtual: a hold at any time about the start is a hold: noth
         PvtPlant plant({});
         prepare(plant);
         INFO("hold at " << hold_us << " us");
-        CHECK(run(plant, hold_us) == PortPhase::halted);
+        CHECK(run(plant, motion, {.hold_us = hold_us}) == PortPhase::halted);
         const std::uint64_t halted_us = plant.clock.now_us();
         CHECK(halted_us - plant.began_us < hold_us + 400'000);
         for (std::size_t i = 0; i < 3; ++i) {
@@ -97,7 +59,7 @@ TEST_CASE("PVT port, virtual: a quick stop at any time, alone or behind a hold, 
             PvtPlant plant({});
             prepare(plant);
             INFO("hold at " << hold_us << ", quick stop at " << quick_us << " us");
-            CHECK(run(plant, hold_us, quick_us) == PortPhase::halted);
+            CHECK(run(plant, motion, {.hold_us = hold_us, .quick_us = quick_us}) == PortPhase::halted);
             const std::uint64_t halted_us = plant.clock.now_us();
             CHECK(halted_us - plant.began_us < quick_us + 200'000);
             for (std::size_t i = 0; i < 3; ++i) {
@@ -116,7 +78,7 @@ TEST_CASE("PVT port, virtual: a drive that does not answer any more is unconfirm
         PvtPlant plant({});
         prepare(plant);
         plant.stations[1]->mute.push_back({plant.began_us + hold_us, UINT64_MAX});
-        CHECK(run(plant, hold_us) == PortPhase::halted);
+        CHECK(run(plant, motion, {.hold_us = hold_us}) == PortPhase::halted);
         const std::uint64_t halted_us = plant.clock.now_us();
         CHECK(halted_us - plant.began_us < hold_us + plant.port->longest_stop_us() + 5000);
         CHECK(plant.port->stop_report(1).state == StopState::unconfirmed);
@@ -130,7 +92,7 @@ TEST_CASE("PVT port, virtual: a drive that is away for a moment confirms, but no
     PvtPlant plant({});
     prepare(plant);
     plant.wires[1]->unplugged.push_back({plant.began_us + 190'000, plant.began_us + 500'000});
-    CHECK(run(plant, 200'000) == PortPhase::halted);
+    CHECK(run(plant, motion, {.hold_us = 200'000}) == PortPhase::halted);
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(plant.port->stop_report(i).state == StopState::confirmed);
         CHECK(plant.port->stop_report(i).held() == false);

@@ -28,7 +28,7 @@ constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before 
 } // namespace
 
 ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortSettings& settings)
-    : settings_(settings), facts_(wiring.size()), stop_(wiring.size(), {}) {
+    : settings_(settings), stop_(wiring.size()) {
     for (const DriveWiring& drive : wiring) {
         const auto same = [&](const auto& bus) {
             return bus->link().address().same_wire(drive.link);
@@ -43,7 +43,7 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
             axes_ = std::max(axes_, axis + 1);
         }
         drives_.emplace_back(drive, (*bus)->add(drive.link.unit));
-        stops_.emplace_back(drives_.back().client());
+        stop_.add(drives_.back().client());
     }
 }
 
@@ -358,47 +358,15 @@ void ModbusPort::wait() noexcept {
 
 void ModbusPort::begin_stop(StopRequest request) noexcept {
     look();
-    if (!stop_.requested()) {
-        hold_at_us_ = now_us_ + lead_us;
-    }
-    stop_.request(request, now_us_);
+    stop_.request(request, now_us_, now_us_ + lead_us);
     if (phase_ != ModbusPhase::halting) {
         enter(ModbusPhase::halting);
     }
 }
 
-// Whether all drives stand at one place of the path: all slowed down from one instant on, or none moved; at the end of
-// the motion it does not matter how.
-bool ModbusPort::on_path() const noexcept {
-    std::uint32_t most = executed();
-    bool at_end = true;
-    bool in_time = true;
-    bool at_rest = true;
-    for (std::size_t i = 0; i < drives_.size(); ++i) {
-        most = std::max(most, drives_[i].status().executed);
-        at_end = at_end && drives_[i].executed_all();
-        in_time = in_time && stops_[i].hold() == PvtStop::Hold::in_time;
-        at_rest = at_rest && stops_[i].hold() == PvtStop::Hold::at_rest;
-    }
-    return at_end || (most - executed() <= 1 && (in_time || at_rest));
-}
-
 void ModbusPort::follow_stop() noexcept {
-    for (std::size_t i = 0; i < drives_.size(); ++i) {
-        stops_[i].see(drives_[i].seen());
-        facts_[i] = stops_[i].facts();
-    }
-    const bool together = on_path();
-    for (StopFacts& facts : facts_) {
-        facts.on_path = together;
-    }
-    stop_.update(now_us_, facts_);
-    for (std::size_t i = 0; i < drives_.size(); ++i) {
-        if (const StopRequest request = stop_.to_send(i); request != StopRequest::none) {
-            stops_[i].tell(request, hold_at_us_);
-        }
-    }
-    if (phase_ == ModbusPhase::halting && stop_.settled()) {
+    stop_.follow(now_us_, drives_);
+    if (phase_ == ModbusPhase::halting && stop_.sequence().settled()) {
         enter(failure_ ? ModbusPhase::fault : ModbusPhase::halted);
     }
 }

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "splinefeed/hal/modbus/modbus_bus.hpp"
-#include "splinefeed/hal/modbus/port_drive.hpp"
+#include "splinefeed/hal/modbus/pvt_group_stop.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 
 #include <optional>
@@ -62,7 +62,7 @@ public:
     void quick_stop() noexcept;
     /// How a drive was stopped: by halt(), quick_stop(), or because the port is in fault. Nothing asked for: request
     /// none.
-    [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.report(drive); }
+    [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.sequence().report(drive); }
     /// The longest that a stop takes, whatever answers. [us] After prepare().
     [[nodiscard]] std::uint64_t longest_stop_us() const noexcept;
     /// No more segments come.
@@ -102,7 +102,6 @@ private:
     void begin_stop(StopRequest request) noexcept;
     void follow_stop() noexcept;
     void await_stop() noexcept;
-    [[nodiscard]] bool on_path() const noexcept;
     [[nodiscard]] bool carried_out() const noexcept;
     [[nodiscard]] std::optional<DriveFailure> enable_all();
     [[nodiscard]] std::optional<DriveFailure> command_all(PvtCommand command);
@@ -112,11 +111,8 @@ private:
     ModbusPortSettings settings_;
     std::vector<std::unique_ptr<ModbusBus>> buses_;
     std::vector<PortDrive> drives_;
-    std::vector<PvtStop> stops_; // of each drive
-    std::vector<StopFacts> facts_;
-    StopSequence stop_;
+    PvtGroupStop stop_;
     StopTimes stop_times_;
-    std::uint64_t hold_at_us_ = 0;
     PortTimes times_;
     std::optional<DriveFailure> failure_;
     ModbusPhase phase_ = ModbusPhase::filling;

@@ -28,10 +28,10 @@ public:
         stopping_ = false;
     }
     [[nodiscard]] bool stopping() const noexcept { return stopping_; }
-    [[nodiscard]] bool stands(std::uint64_t now_us) const noexcept {
-        return stopping_ && now_us >= stop_us_ + fall_us();
-    }
+    [[nodiscard]] bool stands(std::uint64_t now_us) const noexcept { return stopping_ && now_us >= standing_from_us(); }
 
+    /// When it stands at the earliest. @pre stopping()
+    [[nodiscard]] std::uint64_t standing_from_us() const noexcept { return stop_us_ + fall_us(); }
     /// The motion's time at that instant; 0 before its start.
     [[nodiscard]] std::uint64_t time_us(std::uint64_t now_us) const noexcept {
         if (now_us <= start_us_) {

@@ -31,6 +31,8 @@ struct DriveReading {
 /// again.
 class StatusFrames {
 public:
+    static constexpr std::size_t most_reads = 5;
+
     /// The profile must outlive it.
     explicit StatusFrames(const DriveProfile& profile);
 
@@ -42,8 +44,6 @@ public:
     [[nodiscard]] DriveReading reading() const noexcept;
 
 private:
-    static constexpr std::size_t most_reads = 5;
-
     void append(FieldIndex index) noexcept;
     [[nodiscard]] bool holds_now(const std::optional<FieldTest>& test, bool otherwise) const noexcept;
     [[nodiscard]] DriveState state() const noexcept;

@@ -73,6 +73,11 @@ TargetReport TargetBus::report(std::size_t drive) const noexcept {
 
 void TargetBus::keep(Place& place) noexcept {
     const std::lock_guard lock(mutex_);
+    if (const std::uint64_t said_us = place.drive.said_us(); said_us > place.report.said_us) {
+        place.report.said_us = said_us;
+        place.shaft.see(said_us, place.drive.reading().position_q16);
+        place.report.still_us = place.shaft.still_us();
+    }
     place.report.reading = place.drive.reading();
     place.report.heard_us = place.drive.heard_us();
     place.report.fault = place.drive.last_answer().fault;
@@ -135,39 +140,62 @@ void TargetBus::told(Place& place, TargetMotion& motion, bool sent, std::uint32_
         place.told_us = arrived_us;
     }
     const std::lock_guard lock(mutex_);
+    place.report.told_us = place.told_us;
     place.report.told_end = ended;
     place.report.late_us = std::max(place.report.late_us, late_us);
 }
 
-void TargetBus::run(TargetMotion& motion, std::uint32_t period_us) noexcept {
-    std::uint64_t next_us = link_->clock().now_us();
-    std::size_t asked = 0;
-    while (!stopping_.load(std::memory_order_relaxed)) {
-        link_->clock().sleep_until_us(next_us);
-        next_us += period_us;
-        if (quick_stop_.load(std::memory_order_relaxed)) {
-            for (Place& place : drives_) {
-                static_cast<void>(place.drive.command(DriveCommand::quick_stop));
-                keep(place);
-            }
-            return;
+void TargetBus::carry_out(Place& place, StopRequest request) noexcept {
+    if (place.report.executed >= request || !place.drive.stop(request)) {
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    place.report.executed = request;
+    place.report.executed_us = place.drive.last_answer().answered_us;
+}
+
+// One frame of one drive's in turn; of drives that are to stop of each, since they get no targets.
+void TargetBus::read_statuses() noexcept {
+    const std::size_t next = asked_++ % drives_.size();
+    for (std::size_t i = 0; i < drives_.size() && link_->connected(); ++i) {
+        Place& place = drives_[i];
+        if (i == next || place.wanted.load(std::memory_order_relaxed) != StopRequest::none) {
+            static_cast<void>(place.drive.read_next());
         }
-        if (!link_->connected() && !link_->connect()) {
-            for (Place& place : drives_) {
-                keep(place);
-                const std::lock_guard lock(motion.mutex);
-                watch(place, motion, link_->clock().now_us(), period_us);
-            }
-            continue;
-        }
-        for (Place& place : drives_) {
-            tell(place, motion, period_us);
-        }
-        Place& place = drives_[asked++ % drives_.size()];
-        static_cast<void>(place.drive.read_next());
         keep(place);
+    }
+}
+
+// What a bus does in a period.
+void TargetBus::turn(TargetMotion& motion, std::uint32_t period_us) noexcept {
+    if (!link_->connected() && !link_->connect()) {
+        for (Place& place : drives_) {
+            keep(place);
+            const std::lock_guard lock(motion.mutex);
+            watch(place, motion, link_->clock().now_us(), period_us);
+        }
+        return;
+    }
+    for (Place& place : drives_) {
+        const StopRequest wanted = place.wanted.load(std::memory_order_relaxed);
+        if (wanted == StopRequest::none) {
+            tell(place, motion, period_us);
+        } else {
+            carry_out(place, wanted);
+        }
+    }
+    read_statuses();
+}
+
+void TargetBus::run(TargetMotion& motion, std::uint32_t period_us) noexcept {
+    Clock& clock = link_->clock();
+    std::uint64_t next_us = clock.now_us();
+    while (!stopping_.load(std::memory_order_relaxed)) {
+        clock.sleep_until_us(next_us);
+        next_us += period_us;
+        turn(motion, period_us);
         busy_us_.store(thread_us(), std::memory_order_relaxed);
-        const std::uint64_t now = link_->clock().now_us();
+        const std::uint64_t now = clock.now_us();
         if (now > next_us + period_us) { // behind: never a burst of old targets
             next_us += (now - next_us) / period_us * period_us;
         }

@@ -6,6 +6,7 @@
 #include "splinefeed/hal/modbus/motion_clock.hpp"
 #include "splinefeed/hal/modbus/stream_cost.hpp"
 #include "splinefeed/hal/modbus/target_drive.hpp"
+#include "splinefeed/hal/standstill.hpp"
 
 #include <atomic>
 #include <deque>
@@ -34,6 +35,11 @@ struct TargetMotion {
 struct TargetReport {
     DriveReading reading;
     std::uint64_t heard_us = 0;
+    std::uint64_t said_us = 0;  ///< when it said the reading, at the earliest; 0: it has not yet, while it runs
+    std::uint64_t still_us = 0; ///< for how long its position has not changed by then
+    std::uint64_t told_us = 0;  ///< when the last target arrived; 0: none did
+    StopRequest executed = StopRequest::none; ///< of what stop() asked for
+    std::uint64_t executed_us = 0;
     LinkCounts counts;
     std::uint64_t late_us = 0;         ///< most that a target came later than a period after the one before
     LinkFault fault = LinkFault::none; ///< of the last exchange
@@ -67,8 +73,11 @@ public:
     [[nodiscard]] TargetReport report(std::size_t drive) const noexcept;
     /// Processor time of the thread. [us]
     [[nodiscard]] std::uint64_t busy_us() const noexcept { return busy_us_.load(std::memory_order_relaxed); }
-    /// Has every drive stop as hard as it can, ahead of everything.
-    void quick_stop() noexcept { quick_stop_.store(true, std::memory_order_relaxed); }
+    /// Has a drive stop, ahead of everything, again and again until it has answered; from then on it gets no targets.
+    /// @pre a quick stop or more
+    void stop_drive(std::size_t drive, StopRequest request) noexcept {
+        drives_[drive].wanted.store(request, std::memory_order_relaxed);
+    }
 
 private:
     struct Place {
@@ -76,6 +85,8 @@ private:
 
         TargetDrive drive;
         TargetReport report;
+        Standstill shaft{2 << physical_bits};
+        std::atomic<StopRequest> wanted{StopRequest::none};
         std::uint64_t told_us = 0;  // when the last target arrived; 0: none did
         std::uint64_t ended_us = 0; // when it was told the end; 0: not yet
     };
@@ -85,13 +96,16 @@ private:
     static void watch(const Place& place, TargetMotion& motion, std::uint64_t now_us, std::uint32_t period_us) noexcept;
     void told(Place& place, TargetMotion& motion, bool sent, std::uint32_t period_us) noexcept;
     void keep(Place& place) noexcept;
+    void carry_out(Place& place, StopRequest request) noexcept;
+    void read_statuses() noexcept;
+    void turn(TargetMotion& motion, std::uint32_t period_us) noexcept;
 
     std::unique_ptr<ModbusLine> link_;
     std::deque<Place> drives_;
     mutable std::mutex mutex_; // of the reports
     std::unique_ptr<ClockThread> thread_;
     std::atomic<bool> stopping_{false};
-    std::atomic<bool> quick_stop_{false};
+    std::size_t asked_ = 0; // of the statuses
     std::atomic<std::uint64_t> busy_us_{0};
 };
 

@@ -94,6 +94,7 @@ bool TargetDrive::read_next() noexcept {
         return false;
     }
     status_.take(i, in);
+    said_us_[i] = answer_.arrived_us;
     reading_ = status_.reading();
     return true;
 }
@@ -141,7 +142,25 @@ std::string TargetDrive::open() {
     return persist([&] { return read_status(); }) ? std::string() : trouble("its status cannot be read");
 }
 
+std::uint64_t TargetDrive::said_us() const noexcept {
+    return *std::min_element(said_us_.begin(), said_us_.begin() + static_cast<int>(status_.reads().size()));
+}
+
+bool TargetDrive::stop(StopRequest request) noexcept {
+    for (const DriveCommand way : {DriveCommand::quick_stop, DriveCommand::halt, DriveCommand::disable}) {
+        const bool suits = request != StopRequest::disable || way == DriveCommand::disable;
+        if (suits && !profile_->steps_of(way).empty()) {
+            return command(way, 0);
+        }
+    }
+    return false;
+}
+
 bool TargetDrive::command(DriveCommand command) noexcept {
+    return this->command(command, attempts);
+}
+
+bool TargetDrive::command(DriveCommand command, int failures) noexcept {
     CommandSequence sequence(*profile_, frames());
     if (!sequence.begin(command)) {
         return false;
@@ -151,7 +170,7 @@ bool TargetDrive::command(DriveCommand command) noexcept {
         link_->clock().sleep_until_us(sequence.due_us());
         if (write(sequence.next())) {
             sequence.told(link_->clock().now_us());
-        } else if (++failed > attempts) {
+        } else if (++failed > failures) {
             return false;
         }
     }

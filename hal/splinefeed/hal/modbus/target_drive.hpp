@@ -8,6 +8,7 @@
 #include "splinefeed/hal/modbus/link_counts.hpp"
 #include "splinefeed/hal/modbus/modbus_line.hpp"
 #include "splinefeed/hal/modbus/status_frames.hpp"
+#include "splinefeed/hal/stop_sequence.hpp"
 
 #include <string>
 
@@ -48,6 +49,10 @@ public:
     bool read_next() noexcept;
     /// Sends a command from its first to its last frame, ahead of everything.
     bool command(DriveCommand command) noexcept;
+    /// Stops it by what its profile has, the first of: for a quick stop quick_stop, halt, disable; to switch it off
+    /// disable. Does not try again, so that other drives of the wire need not wait. False: it was not answered, or the
+    /// profile has no such command.
+    bool stop(StopRequest request) noexcept;
 
     [[nodiscard]] const DriveReading& reading() const noexcept { return reading_; }
     [[nodiscard]] bool told_end(const SegmentTrack& track, std::uint64_t motion_us) const noexcept;
@@ -57,12 +62,15 @@ public:
     [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
     [[nodiscard]] const LinkAnswer& last_answer() const noexcept { return answer_; }
     [[nodiscard]] std::uint64_t heard_us() const noexcept { return heard_us_; }
+    /// When reading() was said, the oldest part of it; 0: not all of it was read yet.
+    [[nodiscard]] std::uint64_t said_us() const noexcept;
     [[nodiscard]] const DriveProfile& profile() const noexcept { return *profile_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
 
 private:
     [[nodiscard]] TargetFrames& frames() noexcept { return block_ ? block_->frames() : cyclic_->frames(); }
+    bool command(DriveCommand command, int failures) noexcept;
     bool write(const RegisterWrite& write) noexcept;
     bool read(std::uint16_t address, std::span<std::uint16_t> out) noexcept;
     bool note(const LinkAnswer& answer) noexcept;
@@ -88,7 +96,8 @@ private:
     LinkAnswer answer_;
     LinkCounts counts_;
     std::uint64_t heard_us_ = 0;
-    std::size_t asked_ = 0; // frames of the status so far
+    std::size_t asked_ = 0;                                         // frames of the status so far
+    std::array<std::uint64_t, StatusFrames::most_reads> said_us_{}; // each of them
 };
 
 } // namespace splinefeed::hal::modbus

@@ -21,11 +21,15 @@ constexpr std::uint64_t arrive_us = 5'000'000; // for the drives to say that the
 constexpr std::uint64_t settle_us = 50'000;    // of their shafts
 constexpr double ramp_of_path = 4.0;           // BlockSettings::acceleration
 constexpr double us_per_s = 1e6;
+constexpr std::uint64_t look_every_us = 1000;
+constexpr double stand_counts = 2.0; // from where it was told to stand, when it does
+constexpr unsigned stop_turns = 10;  // of the buses, until what a drive was told and says is known
 
 } // namespace
 
 TargetPort::TargetPort(const std::vector<TargetWiring>& wiring, const TargetPortSettings& settings)
-    : settings_(settings), motion_(track_segments, settings.reserve_us) {
+    : settings_(settings), motion_(track_segments, settings.reserve_us), facts_(wiring.size()),
+      stop_(wiring.size(), {}) {
     for (const TargetWiring& drive : wiring) {
         const auto same = [&](const auto& bus) {
             return bus->link().address().same_wire(drive.link);
@@ -93,8 +97,13 @@ std::string TargetPort::prepare(const FeedSegment& first) {
         place.offset_units = drive.reading().position_q16 * (units_per_count >> physical_bits) - first.start[axis];
     }
     for (const Place& place : places_) {
-        motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(place));
+        motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(place.wiring, period_us_));
     }
+    const std::uint64_t turns_us = stop_turns * std::uint64_t{period_us_} * places_.size() + stand_still_us;
+    stop_times_.hold_us = lead_us + 2 * settings_.reserve_us + turns_us + answers_us();
+    stop_times_.quick_stop_us += turns_us;
+    stop_times_.disable_us += turns_us;
+    stop_.set_times(stop_times_);
     began_us_ = settings_.clock->now_us();
     const auto ahead_us = static_cast<std::uint32_t>(motion_.ahead_us);
     settings_.buffer_us = std::max(settings_.buffer_us, 2 * (settings_.reserve_us + ahead_us));
@@ -102,6 +111,17 @@ std::string TargetPort::prepare(const FeedSegment& first) {
         bus->start(motion_, period_us_);
     }
     return {};
+}
+
+// A few exchanges in a row that fail, on the slowest wire.
+std::uint64_t TargetPort::answers_us() const noexcept {
+    constexpr std::uint64_t lost = 4;
+    std::uint64_t longest_us = settings_.timing.answer_us;
+    for (const Place& place : places_) {
+        const LinkSettings& link = place.wiring.profile->link;
+        longest_us = std::max<std::uint64_t>(longest_us, link.response_timeout_us + link.turnaround_us);
+    }
+    return lost * longest_us;
 }
 
 void TargetPort::complete() noexcept {
@@ -132,26 +152,6 @@ bool TargetPort::heard(std::size_t drive) const noexcept {
     return now < report(drive).heard_us + recent_us + std::uint64_t{drives()} * period_us_;
 }
 
-// How far ahead a target is: a block's at the next one, a cyclic one at the end of the drive's own period.
-std::uint32_t TargetPort::horizon_us(const Place& place) const noexcept {
-    const DriveProfile& profile = *place.wiring.profile;
-    return profile.stream == StreamWay::cyclic ? std::max(period_us_, profile.period_us) : period_us_;
-}
-
-// Half a unit of the position's register, more where targets overlap, and what half a unit of the speed's makes in a
-// period.
-double TargetPort::rounding_counts(const Place& place) const noexcept {
-    const auto unit = [&](FieldRole role) {
-        const RegisterField* const field = place.wiring.profile->field_of(role);
-        return field == nullptr ? 0.0 : std::fabs(static_cast<double>(physical_of(*field, 1))) / (1 << physical_bits);
-    };
-    const double speeds = place.wiring.profile->stream == StreamWay::blocks
-                              ? unit(FieldRole::profile_velocity) * period_us_ / us_per_s
-                              : 0.0;
-    const double overlap = static_cast<double>(horizon_us(place)) / period_us_;
-    return 0.5 * (unit(FieldRole::target_position) * overlap + speeds);
-}
-
 double TargetPort::deviation_counts(std::size_t drive) const noexcept {
     const Place& place = places_[drive];
     const double late_s = static_cast<double>(report(drive).late_us) / us_per_s;
@@ -159,18 +159,19 @@ double TargetPort::deviation_counts(std::size_t drive) const noexcept {
     // Speed and ramp stay as they were for as long.
     double late = place.wiring.acceleration_counts_s2 * late_s * (period_s + late_s);
     if (place.wiring.profile->stream == StreamWay::cyclic) { // and beyond its own period it stands
-        late += place.speed_counts_s * std::max(0.0, late_s - (horizon_us(place) / us_per_s - period_s));
+        late +=
+            place.speed_counts_s * std::max(0.0, late_s - (horizon_us(place.wiring, period_us_) / us_per_s - period_s));
     }
     // Then all stop: what the path goes on meanwhile.
     const double stopped_s = 2.0 * period_s + (TargetBus::allowed_late_us + settings_.reserve_us) / us_per_s;
     late = std::min(late, place.speed_counts_s * stopped_s);
-    return place.deviation_counts + rounding_counts(place) + late;
+    return place.deviation_counts + rounding_counts(place.wiring, period_us_) + late;
 }
 
 double TargetPort::deviation_bound_counts(std::size_t drive) const noexcept {
     const Place& place = places_[drive];
     const double period_s = period_us_ / us_per_s;
-    return place.wiring.acceleration_counts_s2 * period_s * period_s / 8.0 + rounding_counts(place);
+    return place.wiring.acceleration_counts_s2 * period_s * period_s / 8.0 + rounding_counts(place.wiring, period_us_);
 }
 
 std::uint64_t TargetPort::busy_us() const noexcept {
@@ -182,6 +183,16 @@ std::uint64_t TargetPort::busy_us() const noexcept {
 }
 
 void TargetPort::close() noexcept {
+    if (began_us_ != 0 && phase_ != Phase::done) {
+        if (!stop_.requested()) {
+            begin_stop(StopRequest::hold);
+        }
+        while (phase_ == Phase::ending) {
+            settings_.clock->sleep_us(look_every_us);
+            follow_stop(settings_.clock->now_us());
+        }
+    }
+    began_us_ = 0;
     for (const auto& bus : buses_) {
         bus->stop();
     }
@@ -220,41 +231,59 @@ bool TargetPort::do_submit(const FeedSegment& segment) noexcept {
     return motion_.track.push(moved);
 }
 
-// All of them slow down, on the path.
-void TargetPort::stop(Phase then) noexcept {
-    if (phase_ == Phase::filling || phase_ == Phase::waiting) { // nothing moves
-        phase_ = then;
-        return;
+// All of them slow down, on the path; what is not on it stops for itself.
+void TargetPort::begin_stop(StopRequest request) noexcept {
+    const std::uint64_t now = settings_.clock->now_us();
+    if (!stop_.requested()) {
+        stop_began_us_ = now;
     }
-    const std::lock_guard lock(motion_.mutex);
-    if (!motion_.clock.stopping()) {
-        motion_.clock.stop(settings_.clock->now_us());
+    stop_.request(request, now);
+    if (phase_ != Phase::filling) { // else the motion's clock was never started, and never will be
+        const std::lock_guard lock(motion_.mutex);
+        if (!motion_.clock.stopping()) {
+            motion_.clock.stop(now);
+        }
     }
-    phase_ = Phase::stopping;
-    after_stop_ = then;
+    phase_ = Phase::ending;
 }
 
 // False: a drive is in trouble.
 bool TargetPort::watch() noexcept {
     const std::uint64_t now = settings_.clock->now_us();
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        const TargetReport seen = report(i);
-        if (seen.reading.state == DriveState::fault) {
-            trouble_ = "it is in fault, code " + std::to_string(seen.reading.fault_code) + "; see its manual";
-        } else if (now > std::max(seen.heard_us, began_us_) + settings_.away_us) {
-            trouble_ = std::string("it does not answer any more: ") + describe(seen.fault);
-        } else if (seen.clamped) {
-            trouble_ = "a register cannot hold the position or speed that it was to be told; check scale and clamp in "
-                       "its profile";
-        } else if (seen.reading.state == DriveState::disabled) {
-            trouble_ = "it was disabled while it moved";
-        } else {
-            continue;
+        trouble_ = places_[i].watch.trouble(report(i), now, settings_.away_us, began_us_);
+        if (!trouble_.empty()) {
+            trouble_with_ = i;
+            return false;
         }
-        trouble_with_ = i;
-        return false;
     }
     return true;
+}
+
+void TargetPort::follow_stop(std::uint64_t now_us) noexcept {
+    bool together = true;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const TargetReport seen = report(i);
+        const double tolerance = stand_counts + rounding_counts(places_[i].wiring, period_us_);
+        facts_[i] = stop_facts(seen, motion_, stop_began_us_);
+        together = together && stands_on_path(seen, motion_, places_[i].wiring.axis, tolerance);
+    }
+    for (StopFacts& facts : facts_) {
+        facts.on_path = together;
+    }
+    stop_.update(now_us, facts_);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (const StopRequest request = stop_.to_send(i); request > StopRequest::hold) {
+            places_[i].bus->stop_drive(places_[i].index, request);
+        }
+    }
+    if (phase_ == Phase::ending && stop_.settled()) {
+        phase_ = trouble_.empty() ? Phase::halted : Phase::fault;
+    }
+}
+
+std::uint64_t TargetPort::longest_stop_us() const noexcept {
+    return stop_times_.hold_us + stop_times_.quick_stop_us + stop_times_.disable_us;
 }
 
 // A cyclic drive has no move that could be done: it counts where it stands.
@@ -302,13 +331,12 @@ void TargetPort::follow_clock(std::uint64_t now_us) noexcept {
         motion_.track.release(time_us > keep_us ? time_us - keep_us : 0);
         if (motion_.clock.stopping()) {
             phase_ = Phase::stopping;
-            after_stop_ = Phase::waiting;
         } else if (motion_.complete && time_us >= end_us) {
             phase_ = Phase::arriving;
             arriving_us_ = now_us;
         }
         break;
-    case Phase::stopping: phase_ = motion_.clock.stands(now_us) ? after_stop_ : phase_; break;
+    case Phase::stopping: phase_ = motion_.clock.stands(now_us) ? Phase::waiting : phase_; break;
     case Phase::waiting:
         if (filled && all_heard && now_us > stood_us_ + settle_us) {
             motion_.clock.resume(now_us + lead_us);
@@ -317,6 +345,7 @@ void TargetPort::follow_clock(std::uint64_t now_us) noexcept {
         }
         break;
     case Phase::arriving:
+    case Phase::ending:
     case Phase::halted:
     case Phase::done:
     case Phase::fault: break;
@@ -326,10 +355,8 @@ void TargetPort::follow_clock(std::uint64_t now_us) noexcept {
 
 PortState TargetPort::do_poll() noexcept {
     const std::uint64_t now = settings_.clock->now_us();
-    const bool ends = phase_ == Phase::halted || phase_ == Phase::done || phase_ == Phase::fault ||
-                      (phase_ == Phase::stopping && after_stop_ != Phase::waiting);
-    if (!ends && !watch()) {
-        stop(Phase::fault);
+    if (!stop_.requested() && phase_ != Phase::done && !watch()) {
+        begin_stop(StopRequest::hold);
     }
     follow_clock(now);
     there_us_ = phase_ != Phase::arriving || !arrived() ? 0 : there_us_ == 0 ? now : there_us_;
@@ -337,7 +364,10 @@ PortState TargetPort::do_poll() noexcept {
         phase_ = Phase::done;
     } else if (phase_ == Phase::arriving && now > arriving_us_ + arrive_us) {
         trouble_ = "it does not say that it has arrived";
-        phase_ = Phase::fault;
+        begin_stop(StopRequest::hold);
+    }
+    if (stop_.requested()) {
+        follow_stop(now);
     }
     const PortPhase phase = phase_ == Phase::fault    ? PortPhase::fault
                             : phase_ == Phase::halted ? PortPhase::halted
@@ -348,15 +378,12 @@ PortState TargetPort::do_poll() noexcept {
 
 void TargetPort::do_halt() noexcept {
     if (takes() || phase_ == Phase::arriving) {
-        stop(Phase::halted);
+        begin_stop(StopRequest::hold);
     }
 }
 
 void TargetPort::quick_stop() noexcept {
-    for (const auto& bus : buses_) {
-        bus->quick_stop();
-    }
-    phase_ = Phase::halted;
+    begin_stop(StopRequest::quick_stop);
 }
 
 } // namespace splinefeed::hal::modbus

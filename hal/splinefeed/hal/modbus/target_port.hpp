@@ -3,19 +3,12 @@
 // of them along one motion clock.
 #pragma once
 
-#include "splinefeed/hal/modbus/target_bus.hpp"
+#include "splinefeed/hal/modbus/target_stop.hpp"
+#include "splinefeed/hal/modbus/target_watch.hpp"
+#include "splinefeed/hal/modbus/target_wiring.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 
 namespace splinefeed::hal::modbus {
-
-/// A drive of one axis.
-struct TargetWiring {
-    LinkAddress link;
-    const DriveProfile* profile = nullptr; ///< must outlive the port
-    int axis = 0;                          ///< of the machine
-    double acceleration_counts_s2 = 1e6;   ///< of that axis, as planned
-    double ramp_counts_s2 = 0.0;           ///< what the drive is set to, where its profile has no register for it
-};
 
 struct TargetPortSettings {
     std::uint32_t reserve_us = 100'000; ///< motion on which a stop on the path takes place
@@ -47,8 +40,14 @@ public:
     [[nodiscard]] std::string prepare(const FeedSegment& first);
     /// No more segments come.
     void complete() noexcept;
-    /// Every axis stops as hard as its drive can, off the path.
+    /// Every axis stops as hard as its drive can, off the path. Ends like halt(): when every drive has confirmed its
+    /// stop, or did not within its time; stop_report() says which.
     void quick_stop() noexcept;
+    /// How a drive was stopped: by halt(), quick_stop(), or because the port is in fault. Nothing asked for: request
+    /// none.
+    [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.report(drive); }
+    /// The longest that a stop takes, whatever answers. [us] After prepare().
+    [[nodiscard]] std::uint64_t longest_stop_us() const noexcept;
 
     /// Why it is in fault; the drive that it is about.
     [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
@@ -70,10 +69,11 @@ public:
     /// How often all stopped together, because targets came late, and went on.
     [[nodiscard]] std::uint32_t resumes() const noexcept { return resumes_; }
     [[nodiscard]] std::uint64_t busy_us() const noexcept;
+    /// Ends the threads. What still moves is held first.
     void close() noexcept;
 
 private:
-    enum class Phase : std::uint8_t { filling, running, arriving, stopping, waiting, halted, done, fault };
+    enum class Phase : std::uint8_t { filling, running, arriving, stopping, waiting, ending, halted, done, fault };
 
     struct Place {
         TargetWiring wiring;
@@ -82,6 +82,7 @@ private:
         std::int64_t offset_units = 0; // the drive's position less the machine's
         double deviation_counts = 0.0; // between targets alone
         double speed_counts_s = 0.0;   // the largest
+        TargetWatch watch;
     };
 
     [[nodiscard]] int do_room() const noexcept override;
@@ -89,14 +90,14 @@ private:
     PortState do_poll() noexcept override;
     void do_halt() noexcept override;
 
-    [[nodiscard]] std::uint32_t horizon_us(const Place& place) const noexcept;
-    [[nodiscard]] double rounding_counts(const Place& place) const noexcept;
+    [[nodiscard]] std::uint64_t answers_us() const noexcept;
     bool watch() noexcept;
-    void stop(Phase then) noexcept;
+    void begin_stop(StopRequest request) noexcept;
+    void follow_stop(std::uint64_t now_us) noexcept;
     void follow_clock(std::uint64_t now_us) noexcept;
     [[nodiscard]] bool takes() const noexcept {
         return phase_ == Phase::filling || phase_ == Phase::running || phase_ == Phase::waiting ||
-               (phase_ == Phase::stopping && after_stop_ == Phase::waiting);
+               phase_ == Phase::stopping;
     }
     [[nodiscard]] bool arrived() noexcept;
     [[nodiscard]] std::uint64_t executed() const noexcept;
@@ -105,12 +106,15 @@ private:
     mutable TargetMotion motion_; // the buses' threads use it to their end
     std::vector<std::unique_ptr<TargetBus>> buses_;
     std::vector<Place> places_;
+    std::vector<StopFacts> facts_; // of each drive
+    StopSequence stop_;
+    StopTimes stop_times_;
+    std::uint64_t stop_began_us_ = 0;
     std::string trouble_;
     std::size_t trouble_with_ = 0;
     Phase phase_ = Phase::filling;
-    Phase after_stop_ = Phase::halted;
     std::uint64_t arriving_us_ = 0;
-    std::uint64_t began_us_ = 0; // the buses' threads
+    std::uint64_t began_us_ = 0; // the buses' threads; 0: not yet
     std::uint64_t stood_us_ = 0; // when it began to wait
     std::uint64_t there_us_ = 0; // all have arrived since then; 0: not yet
     std::uint64_t submitted_ = 0;

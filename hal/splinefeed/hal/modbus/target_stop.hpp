@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// target_stop: what is known of the stop of a drive that is told where to be.
+#pragma once
+
+#include "splinefeed/hal/modbus/target_bus.hpp"
+
+namespace splinefeed::hal::modbus {
+
+/// A position that has not changed for this long stands. [us]
+inline constexpr std::uint64_t stand_still_us = 40'000;
+
+/// @param began_us  when the stop was asked for
+[[nodiscard]] StopFacts stop_facts(const TargetReport& seen, TargetMotion& motion, std::uint64_t began_us) noexcept;
+
+/// Whether it follows, and is where the motion stands. [counts] @pre the motion is stopping, or never began
+[[nodiscard]] bool stands_on_path(const TargetReport& seen, TargetMotion& motion, int axis,
+                                  double tolerance_counts) noexcept;
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/target_wiring.hpp"
+
+#include "splinefeed/hal/modbus/field_codec.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr double us_per_s = 1e6;
+
+} // namespace
+
+std::uint32_t horizon_us(const TargetWiring& wiring, std::uint32_t period_us) noexcept {
+    const DriveProfile& profile = *wiring.profile;
+    return profile.stream == StreamWay::cyclic ? std::max(period_us, profile.period_us) : period_us;
+}
+
+double rounding_counts(const TargetWiring& wiring, std::uint32_t period_us) noexcept {
+    const auto unit = [&](FieldRole role) {
+        const RegisterField* const field = wiring.profile->field_of(role);
+        return field == nullptr ? 0.0 : std::fabs(static_cast<double>(physical_of(*field, 1))) / (1 << physical_bits);
+    };
+    const double speeds =
+        wiring.profile->stream == StreamWay::blocks ? unit(FieldRole::profile_velocity) * period_us / us_per_s : 0.0;
+    const double overlap = static_cast<double>(horizon_us(wiring, period_us)) / period_us;
+    return 0.5 * (unit(FieldRole::target_position) * overlap + speeds);
+}
+
+} // namespace splinefeed::hal::modbus

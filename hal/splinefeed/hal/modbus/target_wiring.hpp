@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// TargetWiring: a drive that is told where to be, the axis that it moves, and how near to a target it can get.
+#pragma once
+
+#include "splinefeed/hal/modbus/drive_profile.hpp"
+#include "splinefeed/hal/modbus/link_address.hpp"
+
+namespace splinefeed::hal::modbus {
+
+/// A drive of one axis.
+struct TargetWiring {
+    LinkAddress link;
+    const DriveProfile* profile = nullptr; ///< must outlive the port
+    int axis = 0;                          ///< of the machine
+    double acceleration_counts_s2 = 1e6;   ///< of that axis, as planned
+    double ramp_counts_s2 = 0.0;           ///< what the drive is set to, where its profile has no register for it
+};
+
+/// How far ahead a target is: a block's at the next one, a cyclic one at the end of the drive's own period.
+[[nodiscard]] std::uint32_t horizon_us(const TargetWiring& wiring, std::uint32_t period_us) noexcept;
+
+/// What its registers round: half a unit of the position's, more where targets overlap, and what half a unit of the
+/// speed's makes in a period. [counts]
+[[nodiscard]] double rounding_counts(const TargetWiring& wiring, std::uint32_t period_us) noexcept;
+
+} // namespace splinefeed::hal::modbus
