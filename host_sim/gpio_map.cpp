@@ -194,11 +194,12 @@ private:
     }
 
     void thread(const toml::table& table) {
-        check_.require_known(table, {"priority", "cpu", "spin_us", "tolerated_late_us"}, "[thread]");
+        check_.require_known(table, {"priority", "cpu", "spin_us", "tolerated_late_us", "stall_ms"}, "[thread]");
         constexpr std::int64_t most_cpu = 1023; // of cpu_set_t
         check_.take(table, "priority", {1, 98}, map_.thread.priority);
         check_.take(table, "spin_us", {0, 1000}, map_.thread.spin_us);
         check_.take(table, "tolerated_late_us", {0, 10000}, map_.thread.tolerated_late_us);
+        check_.take(table, "stall_ms", {1, 10000}, map_.thread.stall_ms);
         if (const toml::node* cpu = table.get("cpu")) {
             map_.thread.cpu = static_cast<unsigned>(check_.whole(*cpu, "cpu", {0, most_cpu}));
         }

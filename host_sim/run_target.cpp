@@ -15,7 +15,7 @@ std::unique_ptr<RunTarget> make_run_target(const std::string& target, const Mach
                                            const RunWishes& wishes) {
 #ifdef SPLINEFEED_HAS_GPIO
     if (is_gpio_address(target)) {
-        return std::make_unique<GpioTarget>(parse_gpio_address(target), machine, wishes);
+        return make_gpio_target(parse_gpio_address(target), machine, wishes);
     }
 #endif
     if (wishes.probe) {

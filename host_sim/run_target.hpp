@@ -51,12 +51,11 @@ public:
     virtual void quick_stop() = 0;
     /// Before each poll of the port.
     virtual void look() {}
-    /// Why the plan is to be held on its path, and ends there; empty: it is not.
+    /// Why the plan is to be held on its path, and ends there; empty: it is not. A planner that does not deliver the
+    /// way to standstill in time is the target's business: its port becomes halted then.
     [[nodiscard]] virtual std::string holds() const { return {}; }
     /// And whether that was what the run was for.
     [[nodiscard]] virtual bool achieved() const { return false; }
-    /// The axes stand, because no segments came: it tells what a held plan does that delivers none.
-    [[nodiscard]] virtual bool stands_dry() const { return false; }
     /// Why the port is in fault.
     [[nodiscard]] virtual std::string fault() const = 0;
     /// How the axes were stopped, after hold() or quick_stop().

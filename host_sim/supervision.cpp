@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::uint64_t poll_every_us = 1000;
 constexpr std::uint64_t us_per_s = 1'000'000;
-constexpr std::uint64_t dry_for_us = 250'000;       // a plan that brakes delivers within that
 constexpr std::uint64_t halt_us = 10 * us_per_s;    // then a hold becomes a quick stop,
 constexpr std::uint64_t give_up_us = 15 * us_per_s; // and then nobody waits for the port any more
 constexpr int looks_a_second = 100;
@@ -94,16 +93,6 @@ void Supervision::hand_over() {
     }
 }
 
-// A plan that was told to hold, and does not deliver the way to its standstill, since its thread is blocked.
-bool Supervision::held_dry(std::uint64_t now_us) {
-    if (!hold_asked() || completed_ || !ring_.empty() || !target_->stands_dry()) {
-        dry_us_ = 0;
-        return false;
-    }
-    dry_us_ = dry_us_ == 0 ? now_us : dry_us_;
-    return now_us > dry_us_ + dry_for_us;
-}
-
 // Returns why the run ended; empty: all was executed.
 std::string Supervision::supervise() {
     const FeedSegment first = ring_.front();
@@ -129,7 +118,7 @@ std::string Supervision::supervise() {
         if (phase == hal::PortPhase::halted) {
             return target_->halted(obeyed_ > 1);
         }
-        if ((phase == hal::PortPhase::idle && completed_) || held_dry(now_us)) {
+        if (phase == hal::PortPhase::idle && completed_) {
             return target_->achieved() ? std::string() : target_->holds();
         }
         if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {

@@ -57,7 +57,6 @@ private:
     [[nodiscard]] std::string supervise();
     void obey();
     void hand_over();
-    [[nodiscard]] bool held_dry(std::uint64_t now_us);
     void await_planner() noexcept;
 
     RunTarget* target_;
@@ -72,7 +71,6 @@ private:
     // The thread's, and after over_ anybody's:
     int obeyed_ = 0; // requests of an end
     std::uint64_t obeyed_us_ = 0;
-    std::uint64_t dry_us_ = 0; // held and standing without segments since then; 0: it is not
     bool completed_ = false;
     bool began_ = false;
     std::string ending_; // empty: all was executed

@@ -15,26 +15,41 @@
 
 namespace splinefeed::host {
 
-/// The lines are safe from its making to its end, also where the program crashes.
-class GpioChips {
+/// The lines of a map, as a target uses them: a test has its own.
+class GpioLines {
 public:
-    /// Takes the lines. Throws hal::gpio::GpioError; then none was taken. `map` outlives it.
-    GpioChips(const hal::gpio::LineMap& map, const MachineDescription& machine);
+    GpioLines() = default;
+    GpioLines(const GpioLines&) = delete;
+    GpioLines& operator=(const GpioLines&) = delete;
+    virtual ~GpioLines() = default;
 
     /// What a port needs.
-    [[nodiscard]] std::vector<hal::gpio::ChipOutputs> outputs();
+    [[nodiscard]] virtual std::vector<hal::gpio::ChipOutputs> outputs() = 0;
     /// Of each chip that has inputs: where its edges come from, and the indices of its inputs in the map.
     struct Inputs {
         hal::gpio::InputSource* source;
         std::vector<std::size_t> input;
     };
-    [[nodiscard]] std::vector<Inputs> inputs();
+    [[nodiscard]] virtual std::vector<Inputs> inputs() = 0;
     /// A call that sets lines takes so long, on the slowest chip: of each of `calls` calls, which change nothing. [ns]
-    [[nodiscard]] std::vector<std::uint64_t> set_times_ns(int calls);
+    [[nodiscard]] virtual std::vector<std::uint64_t> set_times_ns(int calls) = 0;
     /// All outputs take their safe levels, as at the end. @pre nobody sets any more
-    void make_safe() noexcept;
+    virtual void make_safe() noexcept = 0;
     /// Its name for messages: "/dev/gpiochip0 X_LIMIT".
-    [[nodiscard]] std::string name(hal::gpio::LineBit input) const;
+    [[nodiscard]] virtual std::string name(hal::gpio::LineBit input) const = 0;
+};
+
+/// Those of real chips. They are safe from its making to its end, also where the program crashes.
+class GpioChips final : public GpioLines {
+public:
+    /// Takes the lines. Throws hal::gpio::GpioError; then none was taken. `map` outlives it.
+    GpioChips(const hal::gpio::LineMap& map, const MachineDescription& machine);
+
+    [[nodiscard]] std::vector<hal::gpio::ChipOutputs> outputs() override;
+    [[nodiscard]] std::vector<Inputs> inputs() override;
+    [[nodiscard]] std::vector<std::uint64_t> set_times_ns(int calls) override;
+    void make_safe() noexcept override;
+    [[nodiscard]] std::string name(hal::gpio::LineBit input) const override;
 
 private:
     class Writer final : public hal::gpio::LineWriter {

@@ -23,10 +23,10 @@ const char* role_name(InputRole role) noexcept {
     return "";
 }
 
-GpioInputs::GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& machine, GpioChips& chips,
-                       hal::gpio::StepPort& port)
+GpioInputs::GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& machine, GpioLines& chips,
+                       hal::gpio::StepPort& port, const hal::gpio::InputWatchSettings& settings)
     : map_(&map), machine_(&machine), chips_(&chips) {
-    for (GpioChips::Inputs& inputs : chips.inputs()) {
+    for (GpioLines::Inputs& inputs : chips.inputs()) {
         std::vector<hal::gpio::WatchedInput> watched;
         for (const std::size_t i : inputs.input) {
             const MappedInput& input = map.inputs[i];
@@ -35,7 +35,8 @@ GpioInputs::GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& 
                                .debounce_us = input.debounce_us,
                                .cuts = input.role == InputRole::e_stop});
         }
-        auto watch = std::make_unique<InputWatch>(*inputs.source, watched, port.log(), [&port] { port.cut(); });
+        auto watch = std::make_unique<InputWatch>(
+            *inputs.source, watched, port.log(), [&port] { port.cut(); }, settings);
         if (!watch->start()) {
             throw TargetError(fmt::format("the inputs of {} cannot be read: {}",
                                           map.chips[map.inputs[inputs.input.front()].line.chip].chip,
@@ -61,6 +62,16 @@ bool GpioInputs::active(std::size_t input) const {
         }
     }
     return false;
+}
+
+std::optional<std::size_t> GpioInputs::stopping() const {
+    for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
+        const InputRole role = map_->inputs[i].role;
+        if ((role == InputRole::limit || role == InputRole::drive_fault) && active(i)) {
+            return i;
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<std::size_t> GpioInputs::home_of(int axis) const {

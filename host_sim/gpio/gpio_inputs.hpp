@@ -22,12 +22,14 @@ class GpioInputs {
 public:
     /// Watches from here on. An e-stop, or a chip that is not heard any more, cuts the port off.
     /// Throws TargetError where levels cannot be read. All arguments outlive it.
-    GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& machine, GpioChips& chips,
-               hal::gpio::StepPort& port);
+    GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& machine, GpioLines& chips,
+               hal::gpio::StepPort& port, const hal::gpio::InputWatchSettings& settings);
 
     /// The oldest change that was not taken yet, of each chip.
     [[nodiscard]] std::optional<SwitchChange> take();
     [[nodiscard]] bool active(std::size_t input) const;
+    /// The first limit or drive fault that acts, as it was last known; nothing: none does.
+    [[nodiscard]] std::optional<std::size_t> stopping() const;
     /// Of an axis; nothing: it has none.
     [[nodiscard]] std::optional<std::size_t> home_of(int axis) const;
     /// Why a machine must not start: "the e-stop (/dev/gpiochip0 ESTOP) acts; release it". Empty: it may.
@@ -47,7 +49,7 @@ private:
 
     const hal::gpio::LineMap* map_;
     const MachineDescription* machine_;
-    GpioChips* chips_;
+    GpioLines* chips_;
     std::vector<Chip> watched_;
 };
 

@@ -3,10 +3,8 @@
 
 #include "host_sim/straight_motion.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <thread>
 
 namespace splinefeed::host {
 
@@ -14,14 +12,15 @@ namespace {
 
 constexpr double search_mm = 2000.0; // of an axis without travel limits
 constexpr double beyond = 1.2;       // of its travel
-constexpr std::chrono::milliseconds poll_every{1};
+constexpr std::uint64_t poll_every_us = 1000;
 
 } // namespace
 
 GpioMover::GpioMover(const MachineDescription& machine, const hal::gpio::LineMap& map, GpioInputs& inputs,
-                     hal::gpio::StepPort& port, std::function<int()> interrupts, std::function<void()> quick_stop)
+                     hal::gpio::StepPort& port, std::function<int()> interrupts, std::function<void()> quick_stop,
+                     hal::Clock& clock)
     : machine_(&machine), map_(&map), inputs_(&inputs), port_(&port), interrupts_(std::move(interrupts)),
-      quick_stop_(std::move(quick_stop)) {}
+      quick_stop_(std::move(quick_stop)), time_(&clock) {}
 
 double GpioMover::mm_of(int axis, std::int64_t count) const noexcept {
     return static_cast<double>(count) / machine_->settings.axis[static_cast<unsigned>(axis)].steps_per_mm;
@@ -31,17 +30,56 @@ void GpioMover::stands_at(int axis, std::int64_t count) noexcept {
     origin_[static_cast<unsigned>(axis)] = count - port_->counts(axis);
 }
 
-// Takes what the switches tell. False: the move shall be held.
+// What a move must not go on with, but the switch that it waits for.
+bool GpioMover::ends_move(std::size_t input, const std::optional<Until>& until) const noexcept {
+    const hal::gpio::InputRole role = map_->inputs[input].role;
+    return (role == hal::gpio::InputRole::drive_fault || role == hal::gpio::InputRole::limit) &&
+           !(until && until->input == input);
+}
+
+// What acts already: a limit of an axis that does not move is no news, and one that is left may act for a while.
+void GpioMover::begin(const PerAxis<bool>& moves, Way way, const std::optional<Until>& until, Moved& moved) const {
+    moved.tolerated.assign(map_->inputs.size(), false);
+    for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
+        const hal::gpio::MappedInput& input = map_->inputs[i];
+        if (!ends_move(i, until) || !inputs_->active(i)) {
+            continue;
+        }
+        const bool limit = input.role == hal::gpio::InputRole::limit;
+        const bool stays = limit && input.axis >= 0 && !moves[static_cast<unsigned>(input.axis)];
+        moved.tolerated[i] = stays || (limit && way == Way::off);
+        if (!moved.tolerated[i] && moved.trouble.empty()) {
+            moved.trouble =
+                fmt::format("the {} acts{}", inputs_->name(i), limit ? " already; move the axis off it by hand" : "");
+        }
+    }
+    if (interrupts_() > 0) {
+        moved.trouble = "interrupted";
+    }
+}
+
+// Takes what the switches tell: changes, and levels, since a change may have come before the move. False: the move
+// shall be held.
 bool GpioMover::look(const std::optional<Until>& until, Moved& moved) {
+    const auto acts = [&](std::size_t input) {
+        if (ends_move(input, until) && !moved.came && moved.trouble.empty()) {
+            moved.trouble = fmt::format("the {} acts", inputs_->name(input));
+        }
+    };
     while (const auto change = inputs_->take()) {
         if (until && change->input == until->input && change->active == until->active && !moved.came) {
             moved.came = true;
             moved.counts_at = change->counts;
-        } else if (const hal::gpio::InputRole role = map_->inputs[change->input].role;
-                   change->active && moved.trouble.empty() && !moved.came &&
-                   (role == hal::gpio::InputRole::drive_fault || role == hal::gpio::InputRole::limit)) {
-            moved.trouble = fmt::format("the {} acts", inputs_->name(change->input));
+        } else if (change->active) {
+            acts(change->input);
         }
+    }
+    for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
+        const bool active = inputs_->active(i);
+        if (active && !moved.tolerated[i]) {
+            acts(i);
+        }
+        moved.tolerated[i] = moved.tolerated[i] && active;
     }
     const int interrupts = interrupts_();
     if (interrupts > 0 && moved.trouble.empty()) {
@@ -53,49 +91,60 @@ bool GpioMover::look(const std::optional<Until>& until, Moved& moved) {
     return !moved.came && moved.trouble.empty();
 }
 
-GpioMover::Moved GpioMover::move(const PerAxis<double>& to_mm, double feed_mm_s, std::optional<Until> until) {
+GpioMover::Moved GpioMover::move(const PerAxis<double>& to_mm, double feed_mm_s, Way way, std::optional<Until> until) {
     PerAxis<double> from{};
+    PerAxis<bool> moves{};
     for (int k = 0; k < machine_->settings.axes; ++k) {
-        from[static_cast<unsigned>(k)] = position(k);
+        const auto axis = static_cast<unsigned>(k);
+        from[axis] = position(k);
+        moves[axis] = from[axis] != to_mm[axis];
+    }
+    Moved moved;
+    begin(moves, way, until, moved);
+    if (!moved.trouble.empty()) {
+        return moved;
     }
     StraightMotion motion(*machine_, from, to_mm, feed_mm_s);
     port_->stop();
     port_->reset();
     static_cast<void>(port_->start());
-    Moved moved;
+    const auto stopped = [this] {
+        const hal::PortPhase phase = port_->poll().phase;
+        return phase == hal::PortPhase::fault || phase == hal::PortPhase::halted;
+    };
     FeedSegment segment;
-    bool fault = false;
-    while (!fault && motion.next(segment)) {
+    bool over = false;
+    while (!over && motion.next(segment)) {
         for (;;) {
             if (!look(until, moved)) {
                 motion.hold();
             }
-            fault = port_->poll().phase == hal::PortPhase::fault;
-            if (fault || port_->room() > 0) {
+            over = stopped();
+            if (over || port_->room() > 0) {
                 break;
             }
-            std::this_thread::sleep_for(poll_every);
+            time_->sleep_us(poll_every_us);
         }
-        fault = fault || !port_->submit(segment);
+        over = over || !port_->submit(segment);
     }
     port_->complete();
-    while (!fault && port_->poll().phase != hal::PortPhase::idle) {
+    while (!over && port_->poll().phase != hal::PortPhase::idle) {
         static_cast<void>(look(until, moved));
-        fault = port_->poll().phase == hal::PortPhase::fault;
-        std::this_thread::sleep_for(poll_every);
+        over = stopped();
+        time_->sleep_us(poll_every_us);
     }
-    if (fault) {
+    if (port_->poll().phase == hal::PortPhase::fault) {
         moved.trouble = inputs_->trouble().empty() ? port_->trouble() : inputs_->trouble();
     }
     return moved;
 }
 
-GpioMover::Moved GpioMover::move_by(int axis, double mm, double feed_mm_s, std::optional<Until> until) {
+GpioMover::Moved GpioMover::move_by(int axis, double mm, double feed_mm_s, Way way, std::optional<Until> until) {
     PerAxis<double> to{};
     for (int k = 0; k < machine_->settings.axes; ++k) {
         to[static_cast<unsigned>(k)] = position(k) + (k == axis ? mm : 0.0);
     }
-    return move(to, feed_mm_s, until);
+    return move(to, feed_mm_s, way, until);
 }
 
 std::string GpioMover::home() {
@@ -119,32 +168,32 @@ std::string GpioMover::home(int axis) {
     const double towards = search.towards_high ? 1.0 : -1.0;
     Moved moved;
     if (inputs_->active(input)) { // it stands on its switch
-        moved = move_by(axis, -towards * span, search.slow_mm_s, Until{input, false});
+        moved = move_by(axis, -towards * span, search.slow_mm_s, Way::off, Until{input, false});
         if (moved.trouble.empty() && !moved.came) {
             moved.trouble =
                 fmt::format("the {} acts all along {} mm; look at its wire and `active`", inputs_->name(input), span);
         }
         if (moved.trouble.empty()) {
-            moved = move_by(axis, -towards * search.back_off_mm, search.slow_mm_s);
+            moved = move_by(axis, -towards * search.back_off_mm, search.slow_mm_s, Way::off);
         }
         if (!moved.trouble.empty()) {
             return moved.trouble;
         }
     }
-    moved = move_by(axis, towards * span, search.fast_mm_s, Until{input, true});
+    moved = move_by(axis, towards * span, search.fast_mm_s, Way::on, Until{input, true});
     if (!moved.trouble.empty() || !moved.came) {
         return !moved.trouble.empty() ? moved.trouble
                                       : fmt::format("the {} does not act within {} mm; look at `towards` and its wire",
                                                     inputs_->name(input), span);
     }
     const double over = moved.counts_at ? std::fabs(position(axis) - position_at(axis, (*moved.counts_at)[k])) : 0.0;
-    moved = move_by(axis, -towards * (over + search.back_off_mm), search.fast_mm_s);
+    moved = move_by(axis, -towards * (over + search.back_off_mm), search.fast_mm_s, Way::off);
     if (!moved.trouble.empty() || inputs_->active(input)) {
         return !moved.trouble.empty() ? moved.trouble
                                       : fmt::format("the {} still acts {} mm off its edge; raise back_off_mm",
                                                     inputs_->name(input), search.back_off_mm);
     }
-    moved = move_by(axis, 2.0 * towards * search.back_off_mm, search.slow_mm_s, Until{input, true});
+    moved = move_by(axis, 2.0 * towards * search.back_off_mm, search.slow_mm_s, Way::on, Until{input, true});
     if (!moved.trouble.empty() || !moved.counts_at) {
         return !moved.trouble.empty() ? moved.trouble
                : moved.came           ? "the instant of its switch's edge was lost"
@@ -153,11 +202,11 @@ std::string GpioMover::home(int axis) {
     const double steps_per_mm = machine_->settings.axis[k].steps_per_mm;
     origin_[k] = std::llround(search.position_mm * steps_per_mm) - (*moved.counts_at)[k];
     const double clear = search.position_mm - towards * search.back_off_mm;
-    return move_by(axis, clear - position(axis), search.fast_mm_s).trouble;
+    return move_by(axis, clear - position(axis), search.fast_mm_s, Way::off).trouble;
 }
 
 std::string GpioMover::go_to(const PerAxis<double>& mm) {
-    return move(mm, machine_->settings.max_feed_mm_s, std::nullopt).trouble;
+    return move(mm, machine_->settings.max_feed_mm_s, Way::on, std::nullopt).trouble;
 }
 
 } // namespace splinefeed::host

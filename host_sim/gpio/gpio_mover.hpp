@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace splinefeed::host {
 
@@ -16,7 +17,8 @@ public:
     /// @param interrupts  how often the user has asked for an end: once holds a move, and it is the last one
     /// @param quick_stop  called for the second time
     GpioMover(const MachineDescription& machine, const hal::gpio::LineMap& map, GpioInputs& inputs,
-              hal::gpio::StepPort& port, std::function<int()> interrupts, std::function<void()> quick_stop);
+              hal::gpio::StepPort& port, std::function<int()> interrupts, std::function<void()> quick_stop,
+              hal::Clock& clock);
 
     /// Each axis that has a home switch finds it, the last axis of the machine file first: fast, back off, slow, and
     /// stands clear of it. Within the machine's limits. Empty, or what went wrong and what would be right.
@@ -42,18 +44,24 @@ private:
         std::size_t input;
         bool active;
     };
+    /// Where a move leads: a limit that acts from its start is left on the way, or ends it before it begins.
+    enum class Way { on, off };
     struct Moved {
         std::string trouble;                            // empty: none
         std::optional<PerAxis<std::int64_t>> counts_at; // of the port, when what it waited for came
         bool came = false;
+        std::vector<bool> tolerated{}; // inputs that act since its start, and may
     };
 
     [[nodiscard]] double mm_of(int axis, std::int64_t count) const noexcept;
     [[nodiscard]] std::string home(int axis);
-    [[nodiscard]] Moved move(const PerAxis<double>& to_mm, double feed_mm_s, std::optional<Until> until);
+    [[nodiscard]] Moved move(const PerAxis<double>& to_mm, double feed_mm_s, Way way, std::optional<Until> until);
     /// One axis by so many mm.
-    [[nodiscard]] Moved move_by(int axis, double mm, double feed_mm_s, std::optional<Until> until = std::nullopt);
+    [[nodiscard]] Moved move_by(int axis, double mm, double feed_mm_s, Way way,
+                                std::optional<Until> until = std::nullopt);
     [[nodiscard]] bool look(const std::optional<Until>& until, Moved& moved);
+    void begin(const PerAxis<bool>& moves, Way way, const std::optional<Until>& until, Moved& moved) const;
+    [[nodiscard]] bool ends_move(std::size_t input, const std::optional<Until>& until) const noexcept;
 
     const MachineDescription* machine_;
     const hal::gpio::LineMap* map_;
@@ -61,6 +69,7 @@ private:
     hal::gpio::StepPort* port_;
     std::function<int()> interrupts_;
     std::function<void()> quick_stop_;
+    hal::Clock* time_;
     PerAxis<std::int64_t> origin_{};
 };
 

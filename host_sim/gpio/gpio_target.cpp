@@ -24,10 +24,20 @@ constexpr int calls = 500;    // to measure one by
 constexpr double share = 0.5; // of the time that calls may take
 constexpr std::uint32_t ns_per_us = 1000;
 
-GpioChips taken(const hal::gpio::LineMap& map, const MachineDescription& machine) try {
-    return {map, machine};
-} catch (const hal::gpio::GpioError& error) {
-    throw TargetError(error.what());
+/// A hold begins behind what was handed over, and takes the braking time of the path: each axis's from its full speed,
+/// twice, for feeds that brake along a bend. A plan that does not bring that in time is stopped by the port.
+hal::StopTimes stop_times(const MachineDescription& machine) {
+    constexpr double handed_over_s = 1.0;
+    double braking_s = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        const double jerk_s = axis.max_jerk_mm_s3 > 0.0 ? axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3 : 0.0;
+        braking_s = std::max(braking_s, axis.max_velocity_mm_s / axis.max_acceleration_mm_s2 + jerk_s);
+    }
+    return {.hold_us = static_cast<std::uint64_t>((handed_over_s + 2.0 * braking_s) * us_per_s),
+            .quick_stop_us = 200'000,
+            .disable_us = 200'000,
+            .settle_us = 2000};
 }
 
 std::vector<GpioSummary::Octave> octaves(const hal::gpio::LateHistogram& late) {
@@ -68,24 +78,35 @@ double asked_edges_per_s(const MachineDescription& machine) noexcept {
     return steps * (machine.step.step_on_edge ? 1.0 : 2.0);
 }
 
-hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map) {
+hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
+                                          hal::Clock* clock) {
+    const bool real = clock == nullptr;
     return {.axes = machine.settings.axes,
             .timing = checked_step_timing(machine),
-            .real_time = {.priority = map.thread.priority,
+            .real_time = {.priority = real ? map.thread.priority : 0,
                           .cpu = map.thread.cpu,
-                          .spin_ns = map.thread.spin_us * ns_per_us},
+                          .spin_ns = real ? map.thread.spin_us * ns_per_us : 0},
             .tolerated_ns = std::uint64_t{map.thread.tolerated_late_us} * ns_per_us,
-            .settle_ms = map.enable ? map.enable->settle_ms : 0};
+            .settle_ms = map.enable ? map.enable->settle_ms : 0,
+            .stall_ns = std::uint64_t{map.thread.stall_ms} * 1000 * ns_per_us,
+            .clock = clock};
 }
 
-GpioTarget::GpioTarget(const GpioAddress& address, const MachineDescription& machine, const RunWishes& wishes)
-    : machine_(&machine), wishes_(wishes), map_(read_gpio_map(address.map, machine, address.chip)),
-      chips_(taken(map_, machine)), port_(chips_.outputs(), port_settings(machine, map_)),
-      inputs_(map_, machine, chips_, port_),
-      mover_(machine, map_, inputs_, port_, &SignalWatch::interrupts, [this] { quick_stop(); }),
-      missing_(awake_.missing() + lacking(port_settings(machine, map_).real_time)),
-      began_ns_(hal::gpio::monotonic_ns()) {
-    const std::vector<std::uint64_t> times = chips_.set_times_ns(calls);
+GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
+                       const MachineDescription& machine, const RunWishes& wishes, hal::Clock* clock)
+    : machine_(&machine), wishes_(wishes), time_(clock != nullptr ? clock : &hal::system_clock()), map_(std::move(map)),
+      chips_(std::move(lines)), port_(chips_->outputs(), port_settings(machine, *map_, clock)),
+      // Above the thread that makes edges, which may spin: an e-stop must not wait for it.
+      inputs_(*map_, machine, *chips_, port_,
+              {.priority = clock == nullptr ? map_->thread.priority + 1 : 0, .clock = clock}),
+      mover_(
+          machine, *map_, inputs_, port_, &SignalWatch::interrupts, [this] { quick_stop(); }, *time_),
+      stop_(1, stop_times(machine)), began_ns_(time_->now_ns()) {
+    if (clock == nullptr) {
+        awake_.emplace();
+        missing_ = awake_->missing() + lacking(port_settings(machine, *map_).real_time);
+    }
+    const std::vector<std::uint64_t> times = chips_->set_times_ns(calls);
     const double mean_ns = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
     if (asked_edges_per_s(machine) > most_edges_per_s(mean_ns)) {
         throw UsageError(
@@ -95,16 +116,33 @@ GpioTarget::GpioTarget(const GpioAddress& address, const MachineDescription& mac
                         mean_ns / ns_per_us, most_edges_per_s(mean_ns), asked_edges_per_s(machine)));
     }
     const auto has = [&](InputRole role) {
-        return std::any_of(map_.inputs.begin(), map_.inputs.end(),
+        return std::any_of(map_->inputs.begin(), map_->inputs.end(),
                            [&](const auto& input) { return input.role == role; });
     };
     if (wishes.probe && !has(InputRole::probe)) {
-        throw UsageError(fmt::format("--probe: {} has no input with the role probe", address.map));
+        throw UsageError("--probe: the map has no input with the role probe");
     }
     if (wishes.home &&
-        std::none_of(map_.home.begin(), map_.home.end(), [](const auto& home) { return home.has_value(); })) {
-        throw UsageError(fmt::format("--home: {} has no axis with a home switch ([home.x] and an input)", address.map));
+        std::none_of(map_->home.begin(), map_->home.end(), [](const auto& home) { return home.has_value(); })) {
+        throw UsageError("--home: the map has no axis with a home switch ([home.x] and an input)");
     }
+}
+
+std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const MachineDescription& machine,
+                                             const RunWishes& wishes) {
+    auto map = std::make_unique<hal::gpio::LineMap>(read_gpio_map(address.map, machine, address.chip));
+    std::unique_ptr<GpioLines> lines;
+    try {
+        lines = std::make_unique<GpioChips>(*map, machine);
+    } catch (const hal::gpio::GpioError& error) {
+        throw TargetError(error.what());
+    }
+    return std::make_unique<GpioTarget>(std::move(map), std::move(lines), machine, wishes);
+}
+
+// The lines become safe when nobody sets any more.
+GpioTarget::~GpioTarget() {
+    port_.stop();
 }
 
 std::string GpioTarget::note() const {
@@ -140,13 +178,44 @@ std::string GpioTarget::prepare(const FeedSegment& first) {
     port_.stop();
     port_.reset();
     static_cast<void>(port_.start());
-    began_ns_ = hal::gpio::monotonic_ns();
+    began_ns_ = time_->now_ns();
     return {};
 }
 
 void GpioTarget::look() {
+    take_changes();
+    // Levels, too: a change may have been taken before the run.
+    if (const auto input = inputs_.stopping(); input && holds_.empty()) {
+        holds_ = fmt::format("the {} acts: held on the path", inputs_.name(*input));
+    }
+    follow_stop();
+}
+
+// What all axes do about it, as one: the plan holds; where it does not, the port stops; where that does not, it is cut.
+void GpioTarget::follow_stop() {
+    const std::uint64_t now_us = time_->now_us();
+    if (!holds_.empty()) {
+        stop_.request(hal::StopRequest::hold, now_us);
+    }
+    const hal::PortPhase phase = port_.poll().phase;
+    const hal::StopRequest executed = port_.was_cut() && phase == hal::PortPhase::fault ? hal::StopRequest::disable
+                                      : port_.halted()                                  ? hal::StopRequest::quick_stop
+                                      : completed_ && phase == hal::PortPhase::idle     ? hal::StopRequest::hold
+                                                                                        : hal::StopRequest::none;
+    executed_us_ = executed == hal::StopRequest::none ? 0 : executed_us_ == 0 ? now_us : executed_us_;
+    const hal::StopFacts facts{
+        .said_us = port_.looked_us(), .standstill = port_.stands(), .executed = executed, .executed_us = executed_us_};
+    stop_.update(now_us, {&facts, 1});
+    if (stop_.to_send(0) == hal::StopRequest::quick_stop) {
+        port_.quick_stop();
+    } else if (stop_.to_send(0) == hal::StopRequest::disable) {
+        port_.cut();
+    }
+}
+
+void GpioTarget::take_changes() {
     while (const auto change = inputs_.take()) {
-        const hal::gpio::MappedInput& input = map_.inputs[change->input];
+        const hal::gpio::MappedInput& input = map_->inputs[change->input];
         GpioSummary::Change told{
             .role = role_name(input.role),
             .axis = input.axis >= 0 ? machine_->axis_name[static_cast<unsigned>(input.axis)] : std::string(),
@@ -177,17 +246,24 @@ void GpioTarget::complete() {
     if (wishes_.probe && !probed_ && holds_.empty()) {
         holds_ = "the probe did not touch anything on the way";
     }
+    completed_ = true;
     port_.complete();
 }
 
 void GpioTarget::quick_stop() {
     quick_ = true;
-    port_.cut();
+    holds_ = "interrupted twice: stopped on the path";
+    stop_.request(hal::StopRequest::quick_stop, time_->now_us());
+    port_.quick_stop();
+}
+
+std::string GpioTarget::halted(bool /*quick*/) const {
+    return quick_ ? holds_ : holds_ + " (by the port: the plan did not bring the way to standstill in time)";
 }
 
 void GpioTarget::release() noexcept {
     port_.stop();
-    chips_.make_safe();
+    chips_->make_safe();
 }
 
 std::string GpioTarget::fault() const {
@@ -197,16 +273,21 @@ std::string GpioTarget::fault() const {
     if (!port_.was_cut()) {
         return port_.trouble();
     }
-    return quick_ ? "interrupted twice: cut off" : "the e-stop was pressed: cut off";
+    // Asked of the port as the last means, or of the switch.
+    return stop_.report(0).request == hal::StopRequest::disable ? holds_ + ", but the port did not stop: cut off"
+                                                                : "the e-stop was pressed: cut off";
 }
 
 std::string GpioTarget::where() const {
     if (!began_) {
         return "; nothing was moved";
     }
-    std::string text = port_.was_cut() ? "; drives are off, and where the machine stands is not known (find the "
-                                         "references again); the last steps were those to"
-                                       : "; the machine stands at";
+    std::string text = port_.place_known() ? "; the machine stands at"
+                       : port_.may_be_on()
+                           ? "; drives may still be on, since a line cannot be set, and where the machine "
+                             "stands is not known (find the references again); the last steps were those to"
+                           : "; drives are off, and where the machine stands is not known (find the "
+                             "references again); the last steps were those to";
     for (int k = 0; k < machine_->settings.axes; ++k) {
         text += fmt::format(" {}={:.4f}", machine_->axis_name[static_cast<unsigned>(k)], mover_.position(k));
     }

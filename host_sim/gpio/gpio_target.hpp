@@ -6,13 +6,18 @@
 #include "host_sim/gpio_address.hpp"
 #include "host_sim/run_target.hpp"
 
+#include "splinefeed/hal/stop_sequence.hpp"
+
 namespace splinefeed::host {
 
 class GpioTarget final : public RunTarget {
 public:
-    /// Takes the lines. Throws InputError, TargetError, and UsageError where the chip is too slow for the machine's
-    /// limits. `machine` outlives it.
-    GpioTarget(const GpioAddress& address, const MachineDescription& machine, const RunWishes& wishes);
+    /// Throws TargetError, and UsageError where the chip is too slow for the machine's limits. `machine` outlives it.
+    /// @param lines  of the map
+    /// @param clock  null: the system's, and the target asks the system for real time. Outlives it.
+    GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
+               const MachineDescription& machine, const RunWishes& wishes, hal::Clock* clock = nullptr);
+    ~GpioTarget() override;
 
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
     [[nodiscard]] bool resamples() const noexcept override { return false; }
@@ -28,20 +33,25 @@ private:
     void complete() override;
     void hold() override { holds_ = "interrupted: held on the path"; }
     void quick_stop() override;
-    [[nodiscard]] std::string halted(bool /*quick*/) const override { return holds_; }
-    [[nodiscard]] bool stands_dry() const override { return port_.stands_dry(); }
+    [[nodiscard]] std::string halted(bool quick) const override;
     void release() noexcept override;
     void look() override;
     [[nodiscard]] std::string fault() const override;
 
+    void take_changes();
+    void follow_stop();
+
     const MachineDescription* machine_;
     RunWishes wishes_;
-    hal::gpio::LineMap map_;
-    hal::gpio::AwakeHost awake_;
-    GpioChips chips_;
+    hal::Clock* time_;
+    std::optional<hal::gpio::AwakeHost> awake_;
+    std::unique_ptr<hal::gpio::LineMap> map_;
+    std::unique_ptr<GpioLines> chips_;
     hal::gpio::StepPort port_;
     GpioInputs inputs_;
     GpioMover mover_;
+    hal::StopSequence stop_; // all axes stop as one
+    std::uint64_t executed_us_ = 0;
     std::string missing_; // of real time
     std::string holds_;   // why the motion is held, and ends
     std::vector<GpioSummary::Change> changes_;
@@ -49,7 +59,12 @@ private:
     bool began_ = false; // the lines may have changed
     bool probed_ = false;
     bool quick_ = false;
+    bool completed_ = false;
 };
+
+/// Reads the map and takes the lines. Throws InputError, TargetError and UsageError.
+[[nodiscard]] std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address,
+                                                           const MachineDescription& machine, const RunWishes& wishes);
 
 /// How many lines a second may be set where a call takes so long: half of the time.
 [[nodiscard]] double most_edges_per_s(double call_ns) noexcept;
@@ -57,6 +72,6 @@ private:
 [[nodiscard]] double asked_edges_per_s(const MachineDescription& machine) noexcept;
 /// Of the map's thread.
 [[nodiscard]] hal::gpio::StepPortSettings port_settings(const MachineDescription& machine,
-                                                        const hal::gpio::LineMap& map);
+                                                        const hal::gpio::LineMap& map, hal::Clock* clock = nullptr);
 
 } // namespace splinefeed::host

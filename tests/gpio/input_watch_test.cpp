@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <chrono>
 #include <deque>
+#include <thread>
 
 using namespace splinefeed;
 using namespace splinefeed::hal::gpio;

@@ -185,6 +185,9 @@ def judge(out):
         told = [round(STEPS_PER_MM * mm) for mm in touched[0]["position_mm"]]
         probe.check(all(abs(a - b) <= 1 for a, b in zip(counts, told)), f"the probe is told at {told}, and was at {counts}")
 
+    stalled = run("stalled")
+    stalled.ended(1, "no step was made for longer than 40 ms", "is not known")
+    stalled.safe()
     still = whole(run("stands_still"))
     still.check(still.summary["gpio"]["stretched_s"] > 0.15, f"stretched by {still.summary['gpio']['stretched_s']} s")
     changes = [change for change in still.summary["gpio"]["changes"] if change["role"] == "probe"]

@@ -102,9 +102,13 @@ std::uint64_t EdgeClock::wait_for(std::int64_t motion_ns, std::uint64_t now_ns) 
     return now_ns - planned;
 }
 
-std::uint64_t EdgeClock::made(std::int64_t motion_ns, std::uint64_t at_ns) noexcept {
+std::uint64_t EdgeClock::late_ns(std::int64_t motion_ns, std::uint64_t at_ns) const noexcept {
     const std::uint64_t planned = planned_ns(motion_ns);
-    const std::uint64_t late = at_ns > planned ? at_ns - planned : 0;
+    return at_ns > planned ? at_ns - planned : 0;
+}
+
+std::uint64_t EdgeClock::made(std::int64_t motion_ns, std::uint64_t at_ns) noexcept {
+    const std::uint64_t late = late_ns(motion_ns, at_ns);
     last_ns_ = at_ns;
     last_motion_ns_ = motion_ns;
     if (late > settings_.tolerated_ns) {

@@ -39,6 +39,11 @@ public:
     /// Nothing before that time of the motion is left to be made. Where it is overdue by more than is tolerated, the
     /// whole motion moves, so that it is due now. Returns by how much. To be called before stop().
     std::uint64_t wait_for(std::int64_t motion_ns, std::uint64_t now_ns) noexcept;
+    /// How late edges at this time of the motion are, if they are made at that instant. @pre due_ns() was not never
+    [[nodiscard]] std::uint64_t late_ns(std::int64_t motion_ns, std::uint64_t at_ns) const noexcept;
+    /// Whether edges were made since start(), and the motion's time of the last ones.
+    [[nodiscard]] bool has_made() const noexcept { return last_motion_ns_ != INT64_MIN; }
+    [[nodiscard]] std::int64_t last_motion_ns() const noexcept { return last_motion_ns_; }
     /// They were made, at that instant. Returns how late they were. @pre due_ns() was not never
     std::uint64_t made(std::int64_t motion_ns, std::uint64_t at_ns) noexcept;
 

@@ -20,8 +20,9 @@ constexpr int lost_edge = 3; // so many looks with another level than the edges 
 } // namespace
 
 InputWatch::InputWatch(InputSource& source, const std::vector<WatchedInput>& inputs, const StepLog& log,
-                       std::function<void()> cut)
-    : source_(&source), active_(inputs.size()), reader_(log), cut_(std::move(cut)) {
+                       std::function<void()> cut, const InputWatchSettings& settings)
+    : source_(&source), active_(inputs.size()), reader_(log), cut_(std::move(cut)), priority_(settings.priority),
+      time_(settings.clock != nullptr ? settings.clock : &system_clock()) {
     for (const WatchedInput& input : inputs) {
         watched_.push_back({.input = input});
     }
@@ -29,8 +30,8 @@ InputWatch::InputWatch(InputSource& source, const std::vector<WatchedInput>& inp
 
 InputWatch::~InputWatch() {
     ends_.store(true);
-    if (thread_.joinable()) {
-        thread_.join();
+    if (thread_) {
+        thread_->join();
     }
 }
 
@@ -46,7 +47,12 @@ bool InputWatch::start() {
         watched_[i].debounce = Debounce(level, input.debounce_us);
         active_[i].store(level == input.active_level);
     }
-    thread_ = std::thread([this] { work(); });
+    thread_ = time_->start([this] {
+        if (priority_ > 0) { // what it lacks then is what the thread that makes edges lacks, which says so
+            static_cast<void>(claim_real_time({.priority = priority_}));
+        }
+        work();
+    });
     return true;
 }
 
@@ -139,9 +145,9 @@ std::uint32_t InputWatch::patience_us(std::uint64_t now_ns) const noexcept {
 
 void InputWatch::work() noexcept {
     std::array<InputEvent, events_at_once> events;
-    std::uint64_t next_look = monotonic_ns();
+    std::uint64_t next_look = time_->now_ns();
     while (!ends_.load()) {
-        const int count = source_->wait(events, patience_us(monotonic_ns()));
+        const int count = source_->wait(events, patience_us(time_->now_ns()));
         if (count < 0) {
             fail(errno);
             return;
@@ -154,7 +160,7 @@ void InputWatch::work() noexcept {
                 }
             }
         }
-        const std::uint64_t now = monotonic_ns();
+        const std::uint64_t now = time_->now_ns();
         settle(now);
         if (now >= next_look) {
             look(now);

@@ -5,13 +5,14 @@
 #include "splinefeed/hal/gpio/debounce.hpp"
 #include "splinefeed/hal/gpio/input_source.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 
 #include <array>
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace splinefeed::hal::gpio {
@@ -33,13 +34,19 @@ struct InputChange {
     std::optional<PerAxis<std::int64_t>> counts;
 };
 
+struct InputWatchSettings {
+    /// SCHED_FIFO; above that of the thread that makes edges, which may spin. 0: an ordinary thread.
+    int priority = 0;
+    Clock* clock = nullptr; ///< outlives the watch; null: the system's
+};
+
 /// Watches the inputs of one chip from start() to its end.
 class InputWatch {
 public:
     /// @param cut  from its thread: cuts the machine off; also where the chip says nothing any more
     /// All arguments must outlive it.
     InputWatch(InputSource& source, const std::vector<WatchedInput>& inputs, const StepLog& log,
-               std::function<void()> cut);
+               std::function<void()> cut, const InputWatchSettings& settings = {});
     InputWatch(const InputWatch&) = delete;
     InputWatch& operator=(const InputWatch&) = delete;
     ~InputWatch();
@@ -89,7 +96,9 @@ private:
     int error_ = 0;
     std::atomic<std::uint64_t> missed_{0};
     std::atomic<bool> ends_{false};
-    std::thread thread_;
+    int priority_;
+    Clock* time_;
+    std::unique_ptr<ClockThread> thread_;
 };
 
 } // namespace splinefeed::hal::gpio

@@ -72,6 +72,7 @@ struct ThreadSettings {
     std::optional<unsigned> cpu{};         ///< the one it is bound to
     std::uint32_t spin_us = 30;            ///< of each wait spent spinning, 0 to 1000
     std::uint32_t tolerated_late_us = 100; ///< an edge that comes later stretches time, 0 to 10000
+    std::uint32_t stall_ms = 40;           ///< while axes move, one that comes later is a fault, 1 to 10000
 };
 
 struct LineMap {

@@ -70,7 +70,8 @@ AwakeHost::~AwakeHost() {
 std::string claim_real_time(const RealTimeSettings& settings) {
     std::string missing;
     const sched_param param{.sched_priority = settings.priority};
-    if (const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param); error != 0) {
+    if (const int error = settings.priority > 0 ? pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) : 0;
+        error != 0) {
         missing += "its thread cannot go before others (SCHED_FIFO: " + reason(error) +
                    "): grant CAP_SYS_NICE, or rtprio in /etc/security/limits.conf; ";
     }

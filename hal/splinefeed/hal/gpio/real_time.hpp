@@ -9,7 +9,7 @@
 namespace splinefeed::hal::gpio {
 
 struct RealTimeSettings {
-    int priority = 80;              ///< of SCHED_FIFO, 1 to 98
+    int priority = 80;              ///< of SCHED_FIFO, 1 to 99; 0: as it is
     std::optional<unsigned> cpu{};  ///< to which the thread is bound
     std::uint32_t spin_ns = 30'000; ///< of each wait is spent spinning
 };

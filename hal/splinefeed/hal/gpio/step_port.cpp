@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <future>
 #include <span>
 
 namespace splinefeed::hal::gpio {
@@ -21,8 +20,11 @@ constexpr std::int64_t ns_per_tick = 125;
 constexpr std::uint64_t ns_per_ms = 1'000'000;
 constexpr std::size_t ring_segments = 4096;
 constexpr std::uint64_t lead_ns = 5 * ns_per_ms;   // longer than any set-up time
-constexpr std::uint64_t slice_ns = ns_per_ms / 2;  // of a sleep
 constexpr std::uint64_t supply_ns = ns_per_ms / 5; // between two looks for more segments
+constexpr std::uint64_t claim_ns = ns_per_ms / 10; // between two looks whether the thread has begun
+constexpr std::int64_t slow_ns = 10'000'000;       // steps further apart: any motor stops between two of them
+constexpr std::uint64_t ns_per_us = 1000;
+constexpr int stall_error = -1; // no errno
 
 std::uint64_t guard_of(const StepTiming& timing) noexcept {
     return std::max({timing.high, timing.low, timing.setup, timing.hold}) * std::uint64_t{ns_per_tick};
@@ -44,36 +46,46 @@ StepPort::StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& setti
       clock_({.guard_ns = guard_of(settings.timing),
               .tolerated_ns = settings.tolerated_ns,
               .reserve_ns = settings.buffer_ms * ns_per_ms * 2 / 5}),
-      ring_(ring_segments) {}
+      ring_(ring_segments), time_(settings.clock != nullptr ? settings.clock : &system_clock()) {}
 
 StepPort::~StepPort() {
     stop();
 }
 
 std::string StepPort::start() {
+    if (was_cut()) {
+        state_.store(State::cut);
+    }
+    if (!place_known()) {
+        return {};
+    }
     if (!enable(true)) {
-        error_.store(errno);
-        state_.store(State::failed);
+        fail(errno);
         return {};
     }
     if (!on_) {
         on_ = true;
-        settled_ns_ = monotonic_ns() + settings_.settle_ms * ns_per_ms;
+        settled_ns_ = time_->now_ns() + settings_.settle_ms * ns_per_ms;
     }
-    std::promise<std::string> claimed;
-    std::future<std::string> missing = claimed.get_future();
+    std::string missing;
     ends_.store(false);
-    thread_ = std::thread([this, &claimed] {
-        claimed.set_value(claim_real_time(settings_.real_time));
+    claimed_.store(false);
+    thread_ = time_->start([this, &missing] {
+        missing = claim_real_time(settings_.real_time);
+        claimed_.store(true);
         work();
     });
-    return missing.get();
+    while (!claimed_.load()) {
+        time_->sleep_until_ns(time_->now_ns() + claim_ns);
+    }
+    return missing;
 }
 
 void StepPort::stop() noexcept {
     ends_.store(true);
-    if (thread_.joinable()) {
-        thread_.join();
+    if (thread_) {
+        thread_->join();
+        thread_.reset();
     }
 }
 
@@ -90,8 +102,9 @@ void StepPort::reset() noexcept {
     submitted_ticks_.store(0);
     motion_ns_.store(0);
     complete_.store(false);
-    dry_.store(true);
-    if (state_.load() != State::failed && !was_cut()) {
+    dry_.store(false);
+    quick_stop_.store(false);
+    if (place_known()) {
         state_.store(State::idle);
     }
 }
@@ -102,6 +115,10 @@ StepPortReport StepPort::report() const noexcept {
 
 std::string StepPort::trouble() const {
     const int error = error_.load();
+    if (error == stall_error) {
+        return "no step was made for longer than " + std::to_string(settings_.stall_ns / ns_per_ms) +
+               " ms while axes moved, since the process or its host stood still; motors that stop at once lose steps";
+    }
     return error == 0 ? std::string("it was cut off")
                       : std::string("a line cannot be set: ") + std::strerror(error); // NOLINT(concurrency-mt-unsafe)
 }
@@ -126,6 +143,19 @@ bool StepPort::enable(bool on) noexcept {
         }
     }
     return write_collected();
+}
+
+// Nothing is on the way any more. What cannot be set now is tried again by the thread.
+void StepPort::switch_off() noexcept {
+    std::fill(change_.begin(), change_.end(), Change{});
+    off_ = enable(false);
+    may_be_on_.store(!off_);
+}
+
+void StepPort::fail(int error) noexcept {
+    error_.store(error);
+    switch_off();
+    state_.store(State::failed);
 }
 
 void StepPort::collect(const Edge& edge) noexcept {
@@ -165,13 +195,17 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
         gathered_ ? gathered_tick_ * ns_per_tick
                   : static_cast<std::int64_t>(submitted_ticks_.load(std::memory_order_relaxed)) * ns_per_tick;
     if (const std::uint64_t late = clock_.wait_for(to_be_made, now_ns); late > 0) {
+        if (stalled(late)) {
+            fail(stall_error);
+            return;
+        }
         overdue_ns_ += late;
         stretched_ns_.store(clock_.stretched_ns(), std::memory_order_relaxed);
     }
     const auto motion = static_cast<std::uint64_t>(std::max<std::int64_t>(clock_.motion_ns(now_ns), 0));
     motion_ns_.store(motion, std::memory_order_relaxed);
     if (clock_.stopping()) {
-        const bool resumes = clock_.stands(now_ns) && filled();
+        const bool resumes = clock_.stands(now_ns) && filled() && !quick_stop_.load(std::memory_order_relaxed);
         if (resumes) {
             clock_.resume(now_ns);
         }
@@ -183,6 +217,21 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
     if (!complete_.load(std::memory_order_acquire) && end < motion + reserve) {
         clock_.stop(now_ns);
         slowdowns_.fetch_add(at_rest_.load(std::memory_order_relaxed) ? 0 : 1, std::memory_order_relaxed);
+    }
+}
+
+// Edges of axes that were at rest, or as good as that, may come as late as they like.
+bool StepPort::stalled(std::uint64_t late_ns) const noexcept {
+    if (late_ns <= settings_.stall_ns || !clock_.has_made()) {
+        return false;
+    }
+    return gathered_ ? gathered_tick_ * ns_per_tick - clock_.last_motion_ns() < slow_ns
+                     : !at_rest_.load(std::memory_order_relaxed);
+}
+
+void StepPort::wait_until(std::uint64_t instant_ns, std::uint32_t spin_ns) const noexcept {
+    time_->sleep_until_ns(instant_ns - std::min<std::uint64_t>(spin_ns, instant_ns));
+    while (time_->now_ns() < instant_ns) {
     }
 }
 
@@ -228,69 +277,109 @@ bool StepPort::gather() noexcept {
     return true;
 }
 
-// False: a line could not be set.
-bool StepPort::make() noexcept {
-    gathered_ = false;
+void StepPort::make() noexcept {
     if (!write_collected()) {
-        return false;
+        fail(errno);
+        return;
     }
-    const std::uint64_t at_ns = monotonic_ns();
+    const std::uint64_t at_ns = time_->now_ns();
     for (unsigned k = 0; k < static_cast<unsigned>(settings_.axes); ++k) {
         if (stepped_[k]) {
             counts_[k].fetch_add(up_[k] ? 1 : -1, std::memory_order_relaxed);
             log_.add(at_ns, k, up_[k]);
         }
     }
-    late_.add(clock_.made(gathered_tick_ * ns_per_tick, at_ns) + overdue_ns_);
+    const std::int64_t motion_ns = gathered_tick_ * ns_per_tick;
+    const bool late_for_good = stalled(clock_.late_ns(motion_ns, at_ns));
+    late_.add(clock_.made(motion_ns, at_ns) + overdue_ns_);
+    gathered_ = false;
     overdue_ns_ = 0;
     edges_.fetch_add(1, std::memory_order_relaxed);
     stretched_ns_.store(clock_.stretched_ns(), std::memory_order_relaxed);
-    return true;
+    if (late_for_good) {
+        fail(stall_error);
+    }
 }
 
 bool StepPort::steps(const Edge& edge) const noexcept {
     return edge.line == Line::step && (edge.level || settings_.timing.step_on_edge);
 }
 
-void StepPort::work() noexcept {
-    while (!ends_.load(std::memory_order_relaxed)) {
-        const std::uint64_t now = monotonic_ns();
-        if (cut_.load(std::memory_order_acquire)) {
-            std::fill(change_.begin(), change_.end(), Change{}); // what was to come
-            static_cast<void>(enable(false));
-            state_.store(State::cut);
-            return;
+// False: no step is to be made any more.
+bool StepPort::obey(std::uint64_t now_ns) noexcept {
+    State state = state_.load(std::memory_order_relaxed);
+    if (cut_.load(std::memory_order_acquire) && state != State::cut) {
+        switch_off();
+        state_.store(state = State::cut);
+    }
+    if (state == State::cut || state == State::failed) {
+        if (!off_) {
+            switch_off();
         }
-        const bool idle = state_.load(std::memory_order_relaxed) == State::idle;
-        const bool ready = !(idle && (now < settled_ns_ || !filled())) && (gathered_ || gather());
-        if (!idle) {
-            watch_supply(now);
-        }
-        if (!ready) {
-            if (finished_) {
-                state_.store(State::done);
-                return;
-            }
-            wait_until_ns(now + supply_ns, 0);
-            continue;
-        }
-        if (idle) {
-            clock_.start(now + lead_ns, 0);
-            dry_.store(false, std::memory_order_relaxed);
-            state_.store(State::running);
-        }
-        const std::uint64_t due = clock_.due_ns(gathered_tick_ * ns_per_tick);
-        if (due > now + slice_ns) {
-            wait_until_ns(now + slice_ns, 0);
-            continue;
-        }
-        wait_until_ns(due, settings_.real_time.spin_ns);
-        if (!make()) {
-            error_.store(errno);
-            state_.store(State::failed);
+        return false;
+    }
+    if (quick_stop_.load(std::memory_order_acquire) && state == State::idle) {
+        state_.store(state = State::halted);
+    } else if (quick_stop_.load(std::memory_order_acquire) && state == State::running && !clock_.stopping()) {
+        clock_.stop(now_ns);
+    } else if (quick_stop_.load(std::memory_order_relaxed) && state == State::running && clock_.stands(now_ns)) {
+        state_.store(state = State::halted);
+    }
+    return state == State::idle || state == State::running;
+}
+
+void StepPort::advance(std::uint64_t now_ns) noexcept {
+    const bool idle = state_.load(std::memory_order_relaxed) == State::idle;
+    const bool ready = !(idle && (now_ns < settled_ns_ || !filled())) && (gathered_ || gather());
+    if (!idle) {
+        watch_supply(now_ns);
+        if (state_.load(std::memory_order_relaxed) == State::failed) {
             return;
         }
     }
+    if (!ready) {
+        if (finished_) {
+            state_.store(State::done);
+            return;
+        }
+        wait_until(now_ns + supply_ns, 0);
+        return;
+    }
+    if (idle) {
+        clock_.start(now_ns + lead_ns, 0);
+        state_.store(State::running);
+    }
+    const std::uint64_t due = clock_.due_ns(gathered_tick_ * ns_per_tick);
+    if (due > now_ns + slice_ns) {
+        wait_until(now_ns + slice_ns, 0);
+        return;
+    }
+    wait_until(due, settings_.real_time.spin_ns);
+    make();
+}
+
+void StepPort::work() noexcept {
+    while (!ends_.load(std::memory_order_relaxed)) {
+        const std::uint64_t now_ns = time_->now_ns();
+        looked_us_.store(now_ns / ns_per_us, std::memory_order_relaxed);
+        if (obey(now_ns)) {
+            advance(now_ns);
+        } else {
+            wait_until(now_ns + slice_ns, 0);
+        }
+    }
+}
+
+bool StepPort::stands() const noexcept {
+    switch (state_.load()) {
+    case State::running: return dry_.load(std::memory_order_relaxed);
+    case State::failed:
+    case State::idle:
+    case State::done:
+    case State::halted:
+    case State::cut: break;
+    }
+    return true;
 }
 
 int StepPort::do_room() const noexcept {
@@ -301,7 +390,7 @@ int StepPort::do_room() const noexcept {
 
 bool StepPort::do_submit(const FeedSegment& segment) noexcept {
     const State state = state_.load();
-    if (state == State::cut || state == State::failed) {
+    if (state == State::halted || state == State::cut || state == State::failed) {
         return false;
     }
     const auto moving = std::span(segment.end_velocity).first(static_cast<std::size_t>(settings_.axes));
@@ -317,6 +406,7 @@ PortState StepPort::do_poll() noexcept {
     case State::cut:
     case State::failed: return {PortPhase::fault, taken};
     case State::done: return {PortPhase::idle, taken};
+    case State::halted: return {PortPhase::halted, taken};
     case State::idle:
     case State::running: break;
     }

@@ -9,10 +9,11 @@
 #include "splinefeed/hal/gpio/segment_ring.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
 #include "splinefeed/hal/motion_port.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 #include "splinefeed/s5_pulse_train/pulse_train.hpp"
 
+#include <memory>
 #include <string>
-#include <thread>
 #include <variant>
 #include <vector>
 
@@ -39,6 +40,10 @@ struct StepPortSettings {
     std::uint64_t tolerated_ns = 100'000; ///< EdgeClockSettings
     std::uint32_t settle_ms = 0;          ///< from switching the drives on to the first step
     std::uint32_t buffer_ms = 50;         ///< what is held of a motion: how long a feed hold takes to act
+    /// Edges of axes that move came later than this: the motors have stopped at once, from whatever speed, and where
+    /// they stand is not known. That is a fault. The default is how long the clock takes to slow down to stand.
+    std::uint64_t stall_ns = 40'000'000;
+    Clock* clock = nullptr; ///< outlives the port; null: the system's. A test's own one, without spinning.
 };
 
 /// How the edges of a motion came.
@@ -52,20 +57,27 @@ struct StepPortReport {
 /// touches a file. Positions are counts that were stepped since the port was made.
 class StepPort final : public MotionPort {
 public:
+    static constexpr std::uint64_t slice_ns = 500'000; ///< its thread looks around as often
+
     /// Nothing is set and no thread runs yet.
     StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& settings);
     StepPort(const StepPort&) = delete;
     StepPort& operator=(const StepPort&) = delete;
     ~StepPort();
 
-    /// Enables the drives and waits for segments. Returns what real time lacks, as claim_real_time().
+    /// Enables the drives and waits for segments. Returns what real time lacks, as claim_real_time(). After a cut or a
+    /// fault it enables nothing, and the port stays as it is.
     [[nodiscard]] std::string start();
     /// No more segments come: it ends with the last one.
     void complete() noexcept { complete_.store(true, std::memory_order_release); }
-    /// From any thread, also a handler of signals: within half a millisecond and what a wake-up takes no line changes
-    /// any more, but enable, to off.
+    /// From any thread, also a handler of signals: within slice_ns, and what a wake-up and one call that sets lines
+    /// take, no line changes any more, but enable, to off. So it is from start() to stop(), whether anything moves or
+    /// not.
     void cut() noexcept { cut_.store(true, std::memory_order_release); }
-    /// Ends the thread; the drives stay enabled, unless they were cut.
+    /// From any thread: all axes slow down on the path, over twice the clock's reserve (40 ms), whatever the plan says,
+    /// and stay there: the port is halted.
+    void quick_stop() noexcept { quick_stop_.store(true, std::memory_order_release); }
+    /// Ends the thread; the drives stay enabled, unless they were cut or a line could not be set.
     void stop() noexcept;
     /// @pre stopped. For another motion, which may begin anywhere.
     void reset() noexcept;
@@ -75,8 +87,16 @@ public:
         return counts_[static_cast<unsigned>(axis)].load(std::memory_order_relaxed);
     }
     [[nodiscard]] bool was_cut() const noexcept { return cut_.load(std::memory_order_relaxed); }
-    /// No step comes, because segments do not, and completely stopped.
-    [[nodiscard]] bool stands_dry() const noexcept { return dry_.load(std::memory_order_relaxed); }
+    /// No axis moves: nothing has begun, all is executed, or the clock stands (where more segments come, it goes on).
+    [[nodiscard]] bool stands() const noexcept;
+    /// The port is fault-free, and its thread has ended a motion by quick_stop().
+    [[nodiscard]] bool halted() const noexcept { return state_.load() == State::halted; }
+    /// When its thread looked around last. [us]
+    [[nodiscard]] std::uint64_t looked_us() const noexcept { return looked_us_.load(std::memory_order_relaxed); }
+    /// Drives that were to be off may be on: the line could not be set.
+    [[nodiscard]] bool may_be_on() const noexcept { return may_be_on_.load(std::memory_order_relaxed); }
+    /// Whether the counts are where the motors stand, as far as a stepper tells.
+    [[nodiscard]] bool place_known() const noexcept { return !was_cut() && state_.load() != State::failed; }
     /// Where all axes stood at an instant.
     [[nodiscard]] const StepLog& log() const noexcept { return log_; }
     [[nodiscard]] const LateHistogram& late() const noexcept { return late_; }
@@ -86,22 +106,28 @@ public:
 
 private:
     using Train = std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>>;
-    enum class State : std::uint8_t { idle, running, done, cut, failed };
+    enum class State : std::uint8_t { idle, running, done, halted, cut, failed };
 
     [[nodiscard]] int do_room() const noexcept override;
     [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
     PortState do_poll() noexcept override;
-    void do_halt() noexcept override { cut(); }
+    void do_halt() noexcept override { quick_stop(); }
 
     [[nodiscard]] static Train train_for(const StepPortSettings& settings);
     void work() noexcept;
+    bool obey(std::uint64_t now_ns) noexcept;
+    void advance(std::uint64_t now_ns) noexcept;
+    void switch_off() noexcept;
+    void fail(int error) noexcept;
+    void wait_until(std::uint64_t instant_ns, std::uint32_t spin_ns) const noexcept;
+    [[nodiscard]] bool stalled(std::uint64_t late_ns) const noexcept;
     [[nodiscard]] bool next(Edge& edge) noexcept;
     template <class Engine>
     [[nodiscard]] bool next_of(PulseTrain<Engine>& train, Edge& edge) noexcept;
     [[nodiscard]] bool filled() const noexcept;
     void watch_supply(std::uint64_t now_ns) noexcept;
     [[nodiscard]] bool gather() noexcept;
-    [[nodiscard]] bool make() noexcept;
+    void make() noexcept;
     void collect(const Edge& edge) noexcept;
     [[nodiscard]] bool steps(const Edge& edge) const noexcept;
     [[nodiscard]] bool write_collected() noexcept;
@@ -136,17 +162,23 @@ private:
     std::atomic<bool> complete_{false};
     std::atomic<bool> cut_{false};
     std::atomic<bool> ends_{false};
-    std::atomic<bool> dry_{true};
+    std::atomic<bool> quick_stop_{false};
+    std::atomic<bool> dry_{false}; // the clock stands
+    std::atomic<bool> may_be_on_{false};
+    std::atomic<bool> claimed_{false}; // the thread has what it asked the system for
+    std::atomic<std::uint64_t> looked_us_{0};
     Edge edge_; // the next one, where have_
     std::int64_t gathered_tick_ = 0;
     PerAxis<bool> stepped_{};      // by what was gathered
     std::uint64_t overdue_ns_ = 0; // it was already when the thread looked at it
     std::uint64_t settled_ns_ = 0; // since they were switched on
     bool on_ = false;              // the drives
+    bool off_ = false;             // and they were switched off for good
     bool have_ = false;
     bool gathered_ = false;
     bool finished_ = false; // the train's
-    std::thread thread_;
+    Clock* time_;
+    std::unique_ptr<ClockThread> thread_;
 };
 
 } // namespace splinefeed::hal::gpio

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: MIT
+// How a run on GPIO lines stops, on a virtual clock: whatever asks for it, and whatever the planner does meanwhile.
+#include "host_sim/gpio/gpio_target.hpp"
+#include "host_sim/gpio_map.hpp"
+#include "host_sim/machine_file.hpp"
+#include "host_sim/straight_motion.hpp"
+#include "simulated_lines.hpp"
+#include "support/catch.hpp"
+#include "support/random_path.hpp"
+#include "support/rounds.hpp"
+#include "support/virtual_clock.hpp"
+
+#include <fmt/format.h>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr std::uint64_t ns_per_ms = 1'000'000;
+constexpr double to_x_mm = 200.0;
+constexpr double to_y_mm = 100.0;
+constexpr double steps_per_mm = 80.0;
+
+MachineDescription two_axes() {
+    MachineDescription machine = default_machine();
+    machine.settings.axes = 2;
+    machine.settings.max_feed_mm_s = 100.0;
+    for (unsigned k = 0; k < 2; ++k) {
+        machine.settings.axis[k].max_velocity_mm_s = 100.0;
+        machine.settings.axis[k].max_acceleration_mm_s2 = 1000.0;
+        machine.settings.axis[k].steps_per_mm = steps_per_mm;
+    }
+    return machine;
+}
+
+enum Input : std::size_t { e_stop, limit, home, drive_fault };
+
+const std::string map_text = R"([axis.x]
+step = 0
+direction = 1
+[axis.y]
+step = 2
+direction = 3
+[enable]
+line = 4
+settle_ms = 5
+[[input]]
+role = "e-stop"
+line = 10
+[[input]]
+role = "limit"
+axis = "x"
+line = 11
+[[input]]
+role = "home"
+axis = "x"
+line = 12
+[[input]]
+role = "drive-fault"
+line = 13
+[home.x]
+towards = "low"
+fast_mm_s = 20
+slow_mm_s = 2
+back_off_mm = 2
+position_mm = 0
+)";
+
+struct Bench {
+    Bench() {
+        auto own_map = std::make_unique<hal::gpio::LineMap>(parse_gpio_map(map_text, "m.toml", machine, "chip"));
+        map = own_map.get();
+        auto own_lines = std::make_unique<SimulatedLines>(*map, clock);
+        lines = own_lines.get();
+        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, RunWishes{}, &clock);
+    }
+
+    [[nodiscard]] double now_ms() const {
+        return static_cast<double>(clock.now_ns() - began_ns) / static_cast<double>(ns_per_ms);
+    }
+    /// Steps on the line of an axis from some row on: rising edges.
+    [[nodiscard]] std::int64_t steps(unsigned axis, std::size_t from_row = 1) const {
+        std::int64_t count = 0;
+        for (std::size_t i = std::max<std::size_t>(from_row, 1); i < lines->rows().size(); ++i) {
+            count += (~lines->rows()[i - 1].levels & lines->rows()[i].levels) >> (2 * axis) & 1U;
+        }
+        return count;
+    }
+    [[nodiscard]] double last_step_ms() const {
+        for (std::size_t i = lines->rows().size() - 1; i > 0; --i) {
+            if ((~lines->rows()[i - 1].levels & lines->rows()[i].levels & 0b101U) != 0) {
+                return static_cast<double>(lines->rows()[i].at_ns - began_ns) / static_cast<double>(ns_per_ms);
+            }
+        }
+        return 0.0;
+    }
+
+    VirtualClock clock;
+    MachineDescription machine = two_axes();
+    std::uint64_t began_ns = clock.now_ns();
+    hal::gpio::LineMap* map = nullptr;
+    SimulatedLines* lines = nullptr;
+    std::unique_ptr<GpioTarget> target;
+};
+
+/// What happens in a run, and when. [ms]
+struct Story {
+    enum class Cause { none, hold, quick_stop, hold_then_quick_stop, e_stop, limit, broken_line };
+    Cause cause = Cause::none;
+    double at_ms = 0.0;
+    bool blocked = false; ///< from that instant on the planner delivers nothing
+    bool told = true;     ///< a switch tells its edge; else only its level shows
+};
+
+struct Outcome {
+    hal::PortPhase phase = hal::PortPhase::running;
+    std::string why;
+    double standstill_ms = 0.0; ///< from the cause to the last step
+    double over_ms = 0.0;       ///< and to the end of the run
+    std::int64_t after = 0;     ///< steps after the end
+};
+
+/// As Supervision and Motion do it, each millisecond.
+Outcome run(Bench& bench, const Story& story) {
+    GpioTarget& target = *bench.target;
+    RunTarget& run_target = target;
+    StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
+    std::optional<FeedSegment> next(std::in_place);
+    REQUIRE(motion.next(*next));
+    REQUIRE(run_target.prepare(*next) == "");
+    bool caused = false;
+    bool twice = false;
+    bool completed = false;
+    Outcome outcome;
+    const double begin_ms = bench.now_ms();
+    double caused_ms = 0.0;
+    for (int i = 0; i < 30'000; ++i) {
+        const double t = bench.now_ms() - begin_ms;
+        if (!caused && story.cause != Story::Cause::none && t >= story.at_ms) {
+            caused = true;
+            caused_ms = bench.now_ms();
+            switch (story.cause) {
+            case Story::Cause::none: break;
+            case Story::Cause::hold:
+            case Story::Cause::hold_then_quick_stop: run_target.hold(); break;
+            case Story::Cause::quick_stop: run_target.quick_stop(); break;
+            case Story::Cause::e_stop: bench.lines->drive(e_stop, true, story.told); break;
+            case Story::Cause::limit: bench.lines->drive(limit, true, story.told); break;
+            case Story::Cause::broken_line: bench.lines->fail(true); break;
+            }
+        }
+        if (story.cause == Story::Cause::hold_then_quick_stop && caused && !twice && t >= story.at_ms + 20.0) {
+            twice = true;
+            run_target.quick_stop();
+        }
+        run_target.look();
+        if (!target.holds().empty()) {
+            motion.hold();
+        }
+        const bool delivers = !(caused && story.blocked);
+        while (delivers && next && run_target.port().room() > 0) {
+            if (!run_target.port().submit(*next)) {
+                break;
+            }
+            if (!motion.next(*next)) {
+                next.reset();
+            }
+        }
+        if (delivers && !next && !completed) {
+            completed = true;
+            run_target.complete();
+        }
+        outcome.phase = run_target.port().poll().phase;
+        if (outcome.phase != hal::PortPhase::running) {
+            break;
+        }
+        bench.clock.sleep_us(1000);
+    }
+    outcome.why = outcome.phase == hal::PortPhase::fault    ? run_target.fault()
+                  : outcome.phase == hal::PortPhase::halted ? run_target.halted(twice)
+                                                            : target.holds();
+    outcome.standstill_ms = std::max(0.0, bench.last_step_ms() - caused_ms);
+    outcome.over_ms = bench.now_ms() - caused_ms;
+    const std::size_t rows = bench.lines->rows().size();
+    bench.clock.sleep_us(500'000);
+    outcome.after = bench.steps(0, rows) + bench.steps(1, rows);
+    return outcome;
+}
+
+/// The last step of each axis lies on the straight line, and the target knows where.
+void require_on_path(const Bench& bench) {
+    const auto x = static_cast<double>(bench.steps(0));
+    const auto y = static_cast<double>(bench.steps(1));
+    CHECK(std::fabs(y - x * to_y_mm / to_x_mm) <= 1.0);
+    CHECK(bench.target->where() ==
+          fmt::format("; the machine stands at x={:.4f} y={:.4f} mm", x / steps_per_mm, y / steps_per_mm));
+}
+
+} // namespace
+
+TEST_CASE("a run on lines ends where its plan ends", "[stopping]") {
+    Bench bench;
+    const Outcome outcome = run(bench, {});
+    CHECK(outcome.phase == hal::PortPhase::idle);
+    CHECK(bench.steps(0) == 16'000);
+    CHECK(bench.steps(1) == 8'000);
+    CHECK(bench.lines->enabled());
+    bench.target.reset(); // the lines, which it owns, become safe with it
+}
+
+TEST_CASE("every stop stops, at any time, whether the planner delivers or is blocked", "[stopping]") {
+    using Cause = Story::Cause;
+    struct Kind {
+        const char* name;
+        Cause cause;
+        bool blocked;
+        double standstill_ms; // stated in docs/stopping.md
+        hal::PortPhase phase;
+        const char* why;
+    };
+    // 50 ms are held, 100 ms is the braking time, and a plan acts with its next segment.
+    const std::array kinds{
+        Kind{"signal", Cause::hold, false, 160.0, hal::PortPhase::idle, "interrupted: held on the path"},
+        Kind{"signal, planner blocked", Cause::hold, true, 100.0, hal::PortPhase::halted,
+             "interrupted: held on the path"},
+        Kind{"second signal", Cause::hold_then_quick_stop, false, 62.0, hal::PortPhase::halted, "interrupted twice"},
+        Kind{"two signals at once, planner blocked", Cause::quick_stop, true, 42.0, hal::PortPhase::halted,
+             "interrupted twice"},
+        Kind{"limit switch", Cause::limit, false, 162.0, hal::PortPhase::idle, "the limit of axis x (line 1) acts"},
+        Kind{"limit switch, planner blocked", Cause::limit, true, 102.0, hal::PortPhase::halted,
+             "the limit of axis x (line 1) acts"},
+        Kind{"e-stop", Cause::e_stop, false, 0.6, hal::PortPhase::fault, "the e-stop was pressed: cut off"},
+        Kind{"e-stop, planner blocked", Cause::e_stop, true, 0.6, hal::PortPhase::fault,
+             "the e-stop was pressed: cut off"},
+        Kind{"a line that cannot be set", Cause::broken_line, false, 0.6, hal::PortPhase::fault,
+             "a line cannot be set"},
+    };
+    const std::uint64_t seed = 20'261;
+    fmt::print("stops on GPIO lines, seed {}:\n", seed);
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        double worst_ms = 0.0;
+        double over_ms = 0.0;
+        std::int64_t after = 0;
+        for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(4)); ++round) {
+            RandomPath random(seed + 1000 * kind + round);
+            Story story{.cause = kinds[kind].cause,
+                        .at_ms = random.between(10.0, 2000.0),
+                        .blocked = kinds[kind].blocked,
+                        .told = true};
+            Bench bench;
+            CAPTURE(kinds[kind].name, story.at_ms, round);
+            const Outcome outcome = run(bench, story);
+            REQUIRE(outcome.phase == kinds[kind].phase);
+            CHECK(outcome.why.find(kinds[kind].why) != std::string::npos);
+            CHECK(outcome.standstill_ms <= kinds[kind].standstill_ms);
+            CHECK(outcome.after == 0);
+            if (outcome.phase != hal::PortPhase::fault) {
+                require_on_path(bench);
+            } else if (story.cause == Cause::e_stop) {
+                CHECK_FALSE(bench.lines->enabled());
+                CHECK(bench.target->where().find("drives are off") != std::string::npos);
+            } else {
+                CHECK(bench.target->where().find("may still be on") != std::string::npos);
+            }
+            worst_ms = std::max(worst_ms, outcome.standstill_ms);
+            over_ms = std::max(over_ms, outcome.over_ms);
+            after += outcome.after;
+        }
+        fmt::print("  {:38} standstill within {:7.2f} ms, end of the run within {:7.1f} ms, steps after it {}\n",
+                   kinds[kind].name, worst_ms, over_ms, after);
+    }
+}
+
+TEST_CASE("a switch whose edge nobody told stops the machine by its level", "[stopping]") {
+    Bench bench;
+    SECTION("limit") {
+        const Outcome outcome = run(bench, {.cause = Story::Cause::limit, .at_ms = 300.0, .told = false});
+        CHECK(outcome.phase == hal::PortPhase::idle);
+        CHECK(outcome.why.find("the limit of axis x") != std::string::npos);
+        CHECK(outcome.standstill_ms < 200.0);
+    }
+    SECTION("e-stop") {
+        const Outcome outcome = run(bench, {.cause = Story::Cause::e_stop, .at_ms = 300.0, .told = false});
+        CHECK(outcome.phase == hal::PortPhase::fault);
+        CHECK(outcome.standstill_ms < 25.0); // levels are looked at every 5 ms, three times
+    }
+}
+
+TEST_CASE("a host that stands still for longer than motors tolerate is a fault, a shorter time is made up for",
+          "[stopping]") {
+    const double stall_ms = GENERATE(20.0, 39.0, 45.0, 1000.0);
+    Bench bench;
+    StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
+    FeedSegment segment;
+    REQUIRE(motion.next(segment));
+    REQUIRE(static_cast<RunTarget&>(*bench.target).prepare(segment) == "");
+    RunTarget& target = *bench.target;
+    bool stalled = false;
+    bool more = true;
+    hal::PortPhase phase = hal::PortPhase::running;
+    for (int i = 0; i < 10'000 && phase == hal::PortPhase::running; ++i) {
+        while (more && target.port().room() > 0 && target.port().submit(segment)) {
+            more = motion.next(segment);
+        }
+        if (!more) {
+            target.complete();
+        }
+        if (!stalled && bench.now_ms() > 800.0) {
+            stalled = true;
+            bench.lines->stall(static_cast<std::uint64_t>(stall_ms * 1e6));
+        }
+        phase = target.port().poll().phase;
+        bench.clock.sleep_us(1000);
+    }
+    CAPTURE(stall_ms);
+    if (stall_ms < 40.0) {
+        CHECK(phase == hal::PortPhase::idle);
+        CHECK(bench.steps(0) == 16'000);
+    } else {
+        CHECK(phase == hal::PortPhase::fault);
+        CHECK(target.fault().find("no step was made for longer than 40 ms") != std::string::npos);
+        CHECK(target.where().find("is not known") != std::string::npos);
+        CHECK(bench.last_step_ms() < 800.0 + stall_ms + 2.0);
+        CHECK_FALSE(bench.lines->enabled());
+    }
+}
+
+TEST_CASE("homing", "[stopping]") {
+    VirtualClock clock;
+    const MachineDescription machine = two_axes();
+    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
+    SimulatedLines lines(map, clock);
+    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+    lines.drive(e_stop, false);
+    int interrupts = 0;
+    const auto homed = [&](auto meanwhile) {
+        GpioInputs inputs(map, machine, lines, port, {.clock = &clock});
+        GpioMover mover(
+            machine, map, inputs, port, [&] { return interrupts; }, [&] { port.quick_stop(); }, clock);
+        const auto friendly = clock.start([&] { meanwhile(); });
+        std::string what = mover.home();
+        friendly->join();
+        port.stop();
+        return what;
+    };
+    const auto after_ms = [&](double ms) {
+        clock.sleep_us(static_cast<std::uint64_t>(ms * 1000.0));
+    };
+    SECTION("does not drive on into a limit that acts from the start") {
+        lines.drive(limit, true, false);
+        CHECK(homed([] {}).find("the limit of axis x (line 1) acts already") != std::string::npos);
+        CHECK(lines.rows().empty());
+    }
+    SECTION("leaves home and limit that act both, and finds its reference") {
+        bool homes = true;
+        const auto switches = [&] { // home acts below 5 mm of where it stands now, the limit below 2 mm
+            const std::int64_t count = port.counts(0);
+            const std::array now{std::pair(limit, count < 160), std::pair(home, count < 400)};
+            for (const auto& [input, active] : now) {
+                if (lines.active(input) != active) {
+                    lines.drive(input, active);
+                }
+            }
+        };
+        switches();
+        std::string what;
+        {
+            GpioInputs inputs(map, machine, lines, port, {.clock = &clock});
+            GpioMover mover(
+                machine, map, inputs, port, [] { return 0; }, [] {}, clock);
+            const auto carriage = clock.start([&] {
+                for (; homes; clock.sleep_us(500)) {
+                    switches();
+                }
+            });
+            what = mover.home();
+            homes = false;
+            carriage->join();
+            CHECK(std::fabs(mover.position(0) - 2.0) < 1e-9); // back_off_mm clear of the edge, which is at 0
+            CHECK(std::llabs(port.counts(0) - 560) <= 2);     // the edge, and 2 mm
+            port.stop();
+        }
+        CHECK(what == "");
+    }
+    SECTION("ends at a limit that begins to act on the way") {
+        CHECK(homed([&] {
+                  after_ms(500.0);
+                  lines.drive(limit, true);
+              }).find("the limit of axis x (line 1) acts") != std::string::npos);
+    }
+    SECTION("is held by the first signal, and stopped at once by the second") {
+        double asked_ns = 0.0;
+        const bool second = GENERATE(false, true);
+        const std::string what = homed([&] {
+            after_ms(500.0);
+            interrupts = second ? 2 : 1;
+            asked_ns = static_cast<double>(clock.now_ns());
+        });
+        CHECK(what == "axis x does not find its reference: interrupted");
+        double last_ns = 0.0;
+        for (std::size_t i = 1; i < lines.rows().size(); ++i) {
+            if ((~lines.rows()[i - 1].levels & lines.rows()[i].levels & 1U) != 0) {
+                last_ns = static_cast<double>(lines.rows()[i].at_ns);
+            }
+        }
+        CHECK(last_ns - asked_ns <= (second ? 42e6 : 80e6)); // 20 mm/s are braked in 20 ms, behind the 50 that are held
+        CHECK(last_ns > asked_ns);
+    }
+}
+
+TEST_CASE("a port that was cut enables nothing, before and after", "[stopping]") {
+    VirtualClock clock;
+    const MachineDescription machine = two_axes();
+    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
+    SimulatedLines lines(map, clock);
+    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+    SECTION("before the start") {
+        port.cut();
+        CHECK(port.start().empty());
+        CHECK(lines.rows().empty());
+    }
+    SECTION("at rest, with the drives on, and started again") {
+        static_cast<void>(port.start());
+        CHECK(lines.enabled());
+        port.complete();
+        clock.sleep_us(10'000);
+        CHECK(port.poll().phase == hal::PortPhase::idle);
+        port.cut();
+        clock.sleep_us(1000);
+        CHECK_FALSE(lines.enabled());
+        port.stop();
+        port.reset();
+        const std::size_t rows = lines.rows().size();
+        static_cast<void>(port.start());
+        CHECK(lines.rows().size() == rows);
+    }
+    CHECK(port.poll().phase == hal::PortPhase::fault);
+    CHECK_FALSE(port.submit({}));
+    CHECK_FALSE(lines.enabled());
+    port.stop();
+}
+
+TEST_CASE("a line that cannot be set leaves no drive on, as soon as that can be", "[stopping]") {
+    VirtualClock clock;
+    const MachineDescription machine = two_axes();
+    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
+    SimulatedLines lines(map, clock);
+    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+    static_cast<void>(port.start());
+    CHECK(lines.enabled());
+    StraightMotion motion(machine, {}, {10.0, 0.0}, 50.0);
+    FeedSegment segment;
+    while (motion.next(segment) && port.room() > 0) {
+        REQUIRE(port.submit(segment));
+    }
+    clock.sleep_us(40'000);
+    lines.fail(true);
+    clock.sleep_us(20'000);
+    CHECK(port.poll().phase == hal::PortPhase::fault);
+    CHECK(port.may_be_on());
+    lines.fail(false);
+    clock.sleep_us(2000);
+    CHECK_FALSE(port.may_be_on());
+    CHECK_FALSE(lines.enabled());
+    port.stop();
+}
