@@ -165,6 +165,9 @@ class Run:
         if finished:
             self.check(sentence == "", f"done, and yet: {sentence}")
             return
+        if status < 0:  # the signal came before the program had begun to take signals
+            self.check(all(place == 0.0 for place in ends.values()), "killed, and something was moved")
+            return
         limit_s = stated["twice" if self.signals.endswith("twice") else "once"]
         if self.standstill_s > limit_s:
             self.problems.append(OffTime(f"{self.standstill_s:.3f} s to standstill, stated {limit_s}",

@@ -42,10 +42,10 @@ StepPort::Train StepPort::train_for(const StepPortSettings& settings) {
 
 // What is held is twice the reserve and more, so that a motion that has just begun is not told to slow down.
 StepPort::StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& settings)
-    : chips_(std::move(chips)), change_(chips_.size()), settings_(settings), train_(train_for(settings)),
-      clock_({.guard_ns = guard_of(settings.timing),
-              .tolerated_ns = settings.tolerated_ns,
-              .reserve_ns = settings.buffer_ms * ns_per_ms * 2 / 5}),
+    : lines_(std::move(chips), settings.axes, settings.timing.step_on_edge), settings_(settings),
+      train_(train_for(settings)), clock_({.guard_ns = guard_of(settings.timing),
+                                           .tolerated_ns = settings.tolerated_ns,
+                                           .reserve_ns = settings.buffer_ms * ns_per_ms * 2 / 5}),
       ring_(ring_segments), time_(settings.clock != nullptr ? settings.clock : &system_clock()) {}
 
 StepPort::~StepPort() {
@@ -59,7 +59,7 @@ std::string StepPort::start() {
     if (!place_known()) {
         return {};
     }
-    if (!enable(true)) {
+    if (!lines_.enable(true)) {
         fail(errno);
         return {};
     }
@@ -92,9 +92,7 @@ void StepPort::stop() noexcept {
 void StepPort::reset() noexcept {
     train_ = train_for(settings_);
     ring_.clear();
-    std::fill(change_.begin(), change_.end(), Change{});
-    up_ = {};
-    base_ = level_;
+    lines_.begin();
     have_ = false;
     gathered_ = false;
     overdue_ns_ = 0;
@@ -123,32 +121,10 @@ std::string StepPort::trouble() const {
                       : std::string("a line cannot be set: ") + std::strerror(error); // NOLINT(concurrency-mt-unsafe)
 }
 
-// Steps idle, directions down, where every motion begins.
-bool StepPort::enable(bool on) noexcept {
-    for (std::size_t c = 0; c < chips_.size(); ++c) {
-        const ChipOutputs& chip = chips_[c];
-        const auto take = [&](const LevelMasks& lines, bool level) {
-            change_[c].mask |= lines.mask;
-            change_[c].levels |= level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
-        };
-        take(chip.enable, on);
-        // With step_on_edge any change of a step line would be a step.
-        for (unsigned k = 0; k < static_cast<unsigned>(settings_.axes); ++k) {
-            if (!settings_.timing.step_on_edge) {
-                take(chip.step[k], false);
-            }
-            if (on) {
-                take(chip.direction[k], false);
-            }
-        }
-    }
-    return write_collected();
-}
-
 // Nothing is on the way any more. What cannot be set now is tried again by the thread.
 void StepPort::switch_off() noexcept {
-    std::fill(change_.begin(), change_.end(), Change{});
-    off_ = enable(false);
+    lines_.drop();
+    off_ = lines_.enable(false);
     may_be_on_.store(!off_);
 }
 
@@ -156,30 +132,6 @@ void StepPort::fail(int error) noexcept {
     error_.store(error);
     switch_off();
     state_.store(State::failed);
-}
-
-void StepPort::collect(const Edge& edge) noexcept {
-    // Where each edge is a step a line stays as the motion before left it.
-    const bool turned = edge.line == Line::step && settings_.timing.step_on_edge && base_[edge.axis];
-    const bool level = edge.level != turned;
-    for (std::size_t c = 0; c < chips_.size(); ++c) {
-        const LevelMasks& lines = edge.line == Line::step ? chips_[c].step[edge.axis] : chips_[c].direction[edge.axis];
-        change_[c].mask |= lines.mask;
-        change_[c].levels |= level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
-    }
-    (edge.line == Line::direction ? up_ : level_)[edge.axis] = level;
-}
-
-bool StepPort::write_collected() noexcept {
-    bool written = true;
-    for (std::size_t c = 0; c < chips_.size(); ++c) {
-        Change& change = change_[c];
-        if (change.mask != 0) {
-            written = chips_[c].writer->set(change.mask, change.levels) && written;
-        }
-        change = {};
-    }
-    return written;
 }
 
 bool StepPort::filled() const noexcept {
@@ -271,22 +223,22 @@ bool StepPort::gather() noexcept {
     gathered_tick_ = edge_.tick;
     stepped_ = {};
     do {
-        collect(edge_);
+        lines_.add(edge_);
         stepped_[edge_.axis] = stepped_[edge_.axis] || steps(edge_);
     } while ((have_ = next(edge_)) && edge_.tick == gathered_tick_);
     return true;
 }
 
 void StepPort::make() noexcept {
-    if (!write_collected()) {
+    if (!lines_.write()) {
         fail(errno);
         return;
     }
     const std::uint64_t at_ns = time_->now_ns();
     for (unsigned k = 0; k < static_cast<unsigned>(settings_.axes); ++k) {
         if (stepped_[k]) {
-            counts_[k].fetch_add(up_[k] ? 1 : -1, std::memory_order_relaxed);
-            log_.add(at_ns, k, up_[k]);
+            counts_[k].fetch_add(lines_.up(k) ? 1 : -1, std::memory_order_relaxed);
+            log_.add(at_ns, k, lines_.up(k));
         }
     }
     const std::int64_t motion_ns = gathered_tick_ * ns_per_tick;

@@ -4,7 +4,7 @@
 
 #include "splinefeed/hal/gpio/edge_clock.hpp"
 #include "splinefeed/hal/gpio/late_histogram.hpp"
-#include "splinefeed/hal/gpio/line_writer.hpp"
+#include "splinefeed/hal/gpio/line_changes.hpp"
 #include "splinefeed/hal/gpio/real_time.hpp"
 #include "splinefeed/hal/gpio/segment_ring.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
@@ -18,20 +18,6 @@
 #include <vector>
 
 namespace splinefeed::hal::gpio {
-
-/// Of one chip: the lines that an axis's edges change, and those that the levels of the edge invert.
-struct LevelMasks {
-    std::uint64_t mask = 0;
-    std::uint64_t inverted = 0; ///< of the mask: low where the level is true
-};
-
-/// A chip's outputs.
-struct ChipOutputs {
-    LineWriter* writer = nullptr; ///< outlives the port
-    PerAxis<LevelMasks> step{};
-    PerAxis<LevelMasks> direction{};
-    LevelMasks enable{}; ///< level true: the drives are on
-};
 
 struct StepPortSettings {
     int axes = 1;
@@ -128,18 +114,9 @@ private:
     void watch_supply(std::uint64_t now_ns) noexcept;
     [[nodiscard]] bool gather() noexcept;
     void make() noexcept;
-    void collect(const Edge& edge) noexcept;
     [[nodiscard]] bool steps(const Edge& edge) const noexcept;
-    [[nodiscard]] bool write_collected() noexcept;
-    [[nodiscard]] bool enable(bool on) noexcept;
 
-    struct Change {
-        std::uint64_t mask = 0;
-        std::uint64_t levels = 0;
-    };
-
-    std::vector<ChipOutputs> chips_;
-    std::vector<Change> change_; // of each chip, to be written at once
+    LineChanges lines_;
     StepPortSettings settings_;
     Train train_;
     EdgeClock clock_;
@@ -147,9 +124,6 @@ private:
     StepLog log_;
     LateHistogram late_;
     PerAxis<std::atomic<std::int64_t>> counts_{};
-    PerAxis<bool> up_{};
-    PerAxis<bool> level_{}; // of the step line, with step_on_edge
-    PerAxis<bool> base_{};  // the same where the motion began, which takes it for low
     std::atomic<std::uint64_t> submitted_ticks_{0};
     std::atomic<std::uint64_t> motion_ns_{0}; // of the last edge, or what has passed
     std::atomic<std::uint64_t> taken_{0};

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/gpio/line_changes.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+namespace splinefeed::hal::gpio {
+
+void LineChanges::begin() noexcept {
+    drop();
+    up_ = {};
+    base_ = level_;
+}
+
+void LineChanges::drop() noexcept {
+    std::fill(change_.begin(), change_.end(), Change{});
+}
+
+bool LineChanges::enable(bool on) noexcept {
+    for (std::size_t c = 0; c < chips_.size(); ++c) {
+        const ChipOutputs& chip = chips_[c];
+        const auto take = [&](const LevelMasks& lines, bool level) {
+            change_[c].mask |= lines.mask;
+            change_[c].levels |= level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
+        };
+        take(chip.enable, on);
+        // With step_on_edge any change of a step line would be a step.
+        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+            if (!step_on_edge_) {
+                take(chip.step[k], false);
+            }
+            if (on) {
+                take(chip.direction[k], false);
+            }
+        }
+    }
+    return write();
+}
+
+void LineChanges::add(const Edge& edge) noexcept {
+    // Where each edge is a step a line stays as the motion before left it.
+    const bool turned = edge.line == Line::step && step_on_edge_ && base_[edge.axis];
+    const bool level = edge.level != turned;
+    for (std::size_t c = 0; c < chips_.size(); ++c) {
+        const LevelMasks& lines = edge.line == Line::step ? chips_[c].step[edge.axis] : chips_[c].direction[edge.axis];
+        change_[c].mask |= lines.mask;
+        change_[c].levels |= level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
+    }
+    (edge.line == Line::direction ? up_ : level_)[edge.axis] = level;
+}
+
+bool LineChanges::write() noexcept {
+    int error = 0;
+    for (std::size_t c = 0; c < chips_.size(); ++c) {
+        Change& change = change_[c];
+        if (change.mask != 0 && !chips_[c].writer->set(change.mask, change.levels)) {
+            error = errno;
+        }
+        change = {};
+    }
+    errno = error != 0 ? error : errno;
+    return error == 0;
+}
+
+} // namespace splinefeed::hal::gpio

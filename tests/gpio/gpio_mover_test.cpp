@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// GpioMover on a virtual clock: homing, and what ends it.
+#include "gpio_bench.hpp"
+#include "host_sim/gpio/gpio_target.hpp"
+#include "support/catch.hpp"
+#include "support/virtual_clock.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+TEST_CASE("homing", "[stopping]") {
+    VirtualClock clock;
+    const MachineDescription machine = two_axes();
+    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
+    SimulatedLines lines(map, clock);
+    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+    lines.drive(e_stop, false);
+    int interrupts = 0;
+    const auto homed = [&](auto meanwhile) {
+        GpioInputs inputs(map, machine, lines, port, {.clock = &clock});
+        GpioMover mover(
+            machine, map, inputs, port, [&] { return interrupts; }, [&] { port.quick_stop(); }, clock);
+        const auto friendly = clock.start([&] { meanwhile(); });
+        std::string what = mover.home();
+        friendly->join();
+        port.stop();
+        return what;
+    };
+    const auto after_ms = [&](double ms) {
+        clock.sleep_us(static_cast<std::uint64_t>(ms * 1000.0));
+    };
+    SECTION("does not drive on into a limit that acts from the start") {
+        lines.drive(limit, true, false);
+        CHECK(homed([] {}).find("the limit of axis x (line 1) acts already") != std::string::npos);
+        CHECK(lines.rows().empty());
+    }
+    SECTION("leaves home and limit that act both, and finds its reference") {
+        bool homes = true;
+        const auto switches = [&] { // home acts below 5 mm of where it stands now, the limit below 2 mm
+            const std::int64_t count = port.counts(0);
+            const std::array now{std::pair(limit, count < 160), std::pair(home, count < 400)};
+            for (const auto& [input, active] : now) {
+                if (lines.active(input) != active) {
+                    lines.drive(input, active);
+                }
+            }
+        };
+        switches();
+        std::string what;
+        {
+            GpioInputs inputs(map, machine, lines, port, {.clock = &clock});
+            GpioMover mover(
+                machine, map, inputs, port, [] { return 0; }, [] {}, clock);
+            const auto carriage = clock.start([&] {
+                for (; homes; clock.sleep_us(500)) {
+                    switches();
+                }
+            });
+            what = mover.home();
+            homes = false;
+            carriage->join();
+            CHECK(std::fabs(mover.position(0) - 2.0) < 1e-9); // back_off_mm clear of the edge, which is at 0
+            CHECK(std::llabs(port.counts(0) - 560) <= 2);     // the edge, and 2 mm
+            port.stop();
+        }
+        CHECK(what == "");
+    }
+    SECTION("ends at a limit that begins to act on the way") {
+        CHECK(homed([&] {
+                  after_ms(500.0);
+                  lines.drive(limit, true);
+              }).find("the limit of axis x (line 1) acts") != std::string::npos);
+    }
+    SECTION("is held by the first signal, and stopped at once by the second") {
+        double asked_ns = 0.0;
+        const bool second = GENERATE(false, true);
+        const std::string what = homed([&] {
+            after_ms(500.0);
+            interrupts = second ? 2 : 1;
+            asked_ns = static_cast<double>(clock.now_ns());
+        });
+        CHECK(what == "axis x does not find its reference: interrupted");
+        double last_ns = 0.0;
+        for (std::size_t i = 1; i < lines.rows().size(); ++i) {
+            if ((~lines.rows()[i - 1].levels & lines.rows()[i].levels & 1U) != 0) {
+                last_ns = static_cast<double>(lines.rows()[i].at_ns);
+            }
+        }
+        CHECK(last_ns - asked_ns <= (second ? 42e6 : 80e6)); // 20 mm/s are braked in 20 ms, behind the 50 that are held
+        CHECK(last_ns > asked_ns);
+    }
+}

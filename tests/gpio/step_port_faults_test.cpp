@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// StepPort on a virtual clock: cuts, and lines that cannot be set.
+#include "gpio_bench.hpp"
+#include "host_sim/gpio/gpio_target.hpp"
+#include "host_sim/straight_motion.hpp"
+#include "support/catch.hpp"
+#include "support/virtual_clock.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+TEST_CASE("a port that was cut enables nothing, before and after", "[stopping]") {
+    VirtualClock clock;
+    const MachineDescription machine = two_axes();
+    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
+    SimulatedLines lines(map, clock);
+    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+    SECTION("before the start") {
+        port.cut();
+        CHECK(port.start().empty());
+        CHECK(lines.rows().empty());
+    }
+    SECTION("at rest, with the drives on, and started again") {
+        static_cast<void>(port.start());
+        CHECK(lines.enabled());
+        port.complete();
+        clock.sleep_us(10'000);
+        CHECK(port.poll().phase == hal::PortPhase::idle);
+        port.cut();
+        clock.sleep_us(1000);
+        CHECK_FALSE(lines.enabled());
+        port.stop();
+        port.reset();
+        const std::size_t rows = lines.rows().size();
+        static_cast<void>(port.start());
+        CHECK(lines.rows().size() == rows);
+    }
+    CHECK(port.poll().phase == hal::PortPhase::fault);
+    CHECK_FALSE(port.submit({}));
+    CHECK_FALSE(lines.enabled());
+    port.stop();
+}
+
+TEST_CASE("a line that cannot be set leaves no drive on, as soon as that can be", "[stopping]") {
+    VirtualClock clock;
+    const MachineDescription machine = two_axes();
+    const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
+    SimulatedLines lines(map, clock);
+    hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
+    static_cast<void>(port.start());
+    CHECK(lines.enabled());
+    StraightMotion motion(machine, {}, {10.0, 0.0}, 50.0);
+    FeedSegment segment;
+    while (motion.next(segment) && port.room() > 0) {
+        REQUIRE(port.submit(segment));
+    }
+    clock.sleep_us(40'000);
+    lines.fail(true);
+    clock.sleep_us(20'000);
+    CHECK(port.poll().phase == hal::PortPhase::fault);
+    CHECK(port.may_be_on());
+    lines.fail(false);
+    clock.sleep_us(2000);
+    CHECK_FALSE(port.may_be_on());
+    CHECK_FALSE(lines.enabled());
+    port.stop();
+}
