@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -221,6 +222,7 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
                                                                            {"--edges", &job.edges},
                                                                            {"--curve-out", &job.curve_out}}};
     const char* on_stdout = nullptr;
+    std::error_code ignored;
     for (std::size_t i = 0; i < files.size(); ++i) {
         const auto& [option, path] = files[i];
         const CLI::Option* const given = app.get_option_no_throw(option);
@@ -228,7 +230,7 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
             throw UsageError(fmt::format("{} needs the name of a file, or - for standard output", option));
         }
         for (std::size_t j = 0; j < i; ++j) {
-            if (!path->empty() && *path == *files[j].second) {
+            if (!path->empty() && *path == *files[j].second && !std::filesystem::is_character_file(*path, ignored)) {
                 throw UsageError(fmt::format("{} and {} both go to {}; give each its own", files[j].first, option,
                                              *path == "-" ? "standard output" : in_quotes(*path)));
             }
@@ -286,7 +288,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
             option->type_name(""); // the descriptions say what a value may be
         }
         command->allow_extras();
-        command->set_help_flag("--help", "print this");
+        command->set_help_flag("-h,--help", "print this");
     }
 }
 
@@ -297,7 +299,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     Job job;
     Typed typed;
     CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
-    app.set_help_flag("--help", "print this, or what a command takes: splinefeed run --help");
+    app.set_help_flag("-h,--help", "print this, or what a command takes: splinefeed run --help");
     app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
     app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
     app.require_subcommand(0, 1);

@@ -112,6 +112,12 @@ template <Scalar S>
 void CurveFeeder<S>::read_all() {
     WaypointRow row;
     while (input_rows_->next(row)) {
+        if (all_.size() == most_closed) {
+            throw InputError(input_->name(), row.line,
+                             fmt::format("a closed curve is kept in memory as a whole, and has at most {} waypoints; "
+                                         "leave --closed out, or take fewer",
+                                         most_closed));
+        }
         all_.push_back(row);
         ++rows_read_;
     }
@@ -147,7 +153,7 @@ bool CurveFeeder<S>::next_row(WaypointRow& row, Role& role) {
         return false;
     }
     role = pushed_ < lead ? Role::lead_in : pushed_ <= lead + count ? Role::path : Role::lead_out;
-    row = all_[row_of(pushed_)];
+    row = all_[row_of(static_cast<std::uint32_t>(pushed_))];
     return true;
 }
 
@@ -173,7 +179,7 @@ bool CurveFeeder<S>::more(Pushed& pushed) {
         if (const Status status = waypoints_->push(waypoint, role); !status.ok()) {
             throw InputError(input_->name(), row.line, describe(status.error()));
         }
-        pushed = {pushed_++, waypoint.position, role == Role::path};
+        pushed = {static_cast<std::uint32_t>(pushed_++), waypoint.position, role == Role::path};
         return true;
     } catch (...) {
         if (!finished_) {
@@ -207,8 +213,15 @@ std::uint64_t CurveFeeder<S>::line_of_row(std::uint32_t row) const noexcept {
     if (!all_.empty()) {
         return row < all_.size() ? all_[row].line : 0;
     }
-    const bool known = row < rows_read_ && row + remembered >= rows_read_;
-    return known ? lines_[row % remembered] : 0;
+    const std::uint64_t whole = whole_row(row);
+    const bool known = whole < rows_read_ && whole + remembered >= rows_read_;
+    return known ? lines_[whole % remembered] : 0;
+}
+
+template <Scalar S>
+std::uint64_t CurveFeeder<S>::whole_row(std::uint32_t row) const noexcept {
+    const auto ago = static_cast<std::uint32_t>(static_cast<std::uint32_t>(rows_read_) - row);
+    return rows_read_ >= ago ? rows_read_ - ago : row;
 }
 
 template <Scalar S>

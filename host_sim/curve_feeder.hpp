@@ -16,6 +16,10 @@
 #include <optional>
 #include <variant>
 
+namespace splinefeed {
+struct CounterSeam; // of tests
+} // namespace splinefeed
+
 namespace splinefeed::host {
 
 /// Owns the curve. more() pushes one waypoint at a time, so that nothing is read before the curve needs it.
@@ -33,7 +37,7 @@ public:
 
     /// What became of a waypoint that was pushed.
     struct Pushed {
-        std::uint32_t index = 0; ///< as CurveSegment::waypoint counts
+        std::uint32_t index = 0; ///< as CurveSegment::waypoint counts, modulo 2^32
         PerAxis<Position> position{};
         bool on_path = false; ///< false: lead-in or lead-out
     };
@@ -51,12 +55,17 @@ public:
     [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept;
     /// Line of the waypoint in its file; 0: unknown.
     [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept;
+    /// All of the index of a row that was read not long ago.
+    [[nodiscard]] std::uint64_t whole_row(std::uint32_t row) const noexcept;
     /// Memory of the curve stage.
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    static constexpr std::size_t lead = 16;         ///< waypoints beyond the seam that shape a closed curve
-    static constexpr std::size_t remembered = 1024; ///< lines
+    friend struct splinefeed::CounterSeam;
+
+    static constexpr std::size_t lead = 16;               ///< waypoints beyond the seam that shape a closed curve
+    static constexpr std::size_t remembered = 1024;       ///< lines
+    static constexpr std::size_t most_closed = 4'000'000; ///< waypoints of a closed curve, 400 MB
 
     template <class Curve, class... Arguments>
     void build(const Arguments&... arguments);
@@ -75,7 +84,7 @@ private:
     std::vector<WaypointRow> all_;     // closed: the whole input
     std::vector<std::uint64_t> lines_; // of row i at i % remembered
     std::uint64_t rows_read_ = 0;
-    std::uint32_t pushed_ = 0;
+    std::uint64_t pushed_ = 0;
     bool finished_ = false;
 };
 

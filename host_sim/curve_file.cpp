@@ -2,6 +2,7 @@
 #include "curve_file.hpp"
 
 #include "input_error.hpp"
+#include "json_text.hpp"
 #include "text_file.hpp"
 
 #include "host_sim/methods/method_table.hpp"
@@ -54,6 +55,9 @@ private:
             fail("there must be an object \"input\" beside \"method\"");
         }
         const auto& name = method.get_ref<const std::string&>();
+        if (name == "bspline_surface" || name == "bspline_skin") {
+            fail("this is a surface; splinefeed surface makes a tool path of it, which can be run");
+        }
         if (name == "bezier") {
             require_known_keys(*input);
             segments(*input);
@@ -234,23 +238,11 @@ void require_executable(const CurveFile& curve, const std::string& file) {
 }
 
 CurveFile parse_curve(std::string_view text, const std::string& file, ScalarKind scalar) {
-    try {
-        return Parser(json::parse(text), file, scalar).parse();
-    } catch (const json::parse_error& error) {
-        const std::size_t at = std::min<std::size_t>(error.byte == 0 ? 0 : error.byte - 1, text.size());
-        const auto line = static_cast<std::uint64_t>(
-            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-        std::string_view why = error.what();
-        why.remove_prefix(
-            std::min(why.size(), why.rfind("; last read") == std::string_view::npos ? 0 : why.find("while")));
-        throw InputError(file, line, fmt::format("not JSON: {}", why));
-    } catch (const json::out_of_range&) { // a number beyond the range of double
-        throw InputError(file, 0, "a number is out of range; coordinates must lie within +-1048576 mm");
-    }
+    return Parser(parse_json(text, file), file, scalar).parse();
 }
 
 CurveFile read_curve_file(const std::string& path, ScalarKind scalar) {
-    constexpr std::size_t largest = std::size_t{1} << 30;
+    constexpr std::size_t largest = std::size_t{1} << 28;
     return parse_curve(read_text_file(path, largest), path, scalar);
 }
 

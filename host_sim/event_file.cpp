@@ -49,6 +49,7 @@ OperatorEvent event_of(const std::vector<std::string_view>& fields, const std::s
         throw InputError(path, line, text);
     };
     OperatorEvent event;
+    event.line = line;
     if (!take_number(fields[0], longest_s, event.time_s)) {
         refuse(fmt::format("{}: the time must be a number of seconds, 0 to 86400", in_quotes(fields[0])));
     }

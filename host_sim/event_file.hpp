@@ -12,7 +12,8 @@ enum class Operation { hold, resume, abort, override_feed };
 struct OperatorEvent {
     double time_s = 0.0;
     Operation operation = Operation::hold;
-    double value = 0.0; ///< of an override: factor of the programmed feed, 0 to 2
+    double value = 0.0;     ///< of an override: factor of the programmed feed, 0 to 2
+    std::uint64_t line = 0; ///< in its file
 };
 
 /// Rows `t,hold|resume|abort` and `t,override,value` in order of time; an optional header t,event,value; comments (#)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "input_stream.hpp"
 
+#include "file_claims.hpp"
 #include "input_error.hpp"
 
 #include <cerrno>
@@ -21,15 +22,29 @@ InputStream::InputStream(const std::string& path, const std::string& name) {
         stop_ = eventfd(0, EFD_CLOEXEC);
     }
     if (stop_ < 0) {
-        throw InputError(name, 0, fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
+        const int error = errno;
+        close_all();
+        throw InputError(name, 0, fmt::format("cannot be opened: {}", std::generic_category().message(error)));
+    }
+    try {
+        FileClaims::reads(descriptor_, name);
+    } catch (...) {
+        close_all();
+        throw;
     }
 }
 
 InputStream::~InputStream() {
-    if (descriptor_ != STDIN_FILENO) {
+    close_all();
+}
+
+void InputStream::close_all() noexcept {
+    if (descriptor_ > STDIN_FILENO) {
         close(descriptor_);
     }
-    close(stop_);
+    if (stop_ >= 0) {
+        close(stop_);
+    }
 }
 
 void InputStream::stop() noexcept {

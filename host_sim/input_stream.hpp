@@ -11,7 +11,7 @@ namespace splinefeed::host {
 /// A failure of reading is thrown as std::ios_base::failure, as std::filebuf does.
 class InputStream final : public std::streambuf {
 public:
-    /// Opens the file; "-" is standard input. Throws InputError where it cannot be opened.
+    /// Opens the file; "-" is standard input. Throws InputError where it cannot be opened or is an output as well.
     /// @param name  for messages
     InputStream(const std::string& path, const std::string& name);
     InputStream(const InputStream&) = delete;
@@ -25,6 +25,8 @@ protected:
     int_type underflow() override;
 
 private:
+    void close_all() noexcept;
+
     int descriptor_ = -1;
     int stop_ = -1; // an eventfd
     std::array<char, std::size_t{1} << 16> buffer_{};

@@ -32,7 +32,7 @@ struct Fault {
     double value = 0.0;         ///< in `unit`; chain: the gap
     double limit = 0.0;         ///< as the machine file states it
     const char* unit = "";      ///< "mm", "mm/s", ...
-    std::uint32_t waypoint = 0; ///< index of the nearest waypoint, from 0
+    std::uint64_t waypoint = 0; ///< index of the nearest waypoint, from 0
     bool rotary = false;        ///< a rotary axis: degrees where the unit says mm
 };
 

@@ -112,7 +112,9 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     machine_.finish();
     optimum_.finish();
     if (const auto& fault = machine_.fault()) {
-        stopped_ = describe(*fault);
+        Fault whole = *fault;
+        whole.waypoint = feeder_.whole_row(static_cast<std::uint32_t>(fault->waypoint));
+        stopped_ = describe(whole);
     }
     if (target_ == nullptr) {
         return stopped_.empty() ? stopped_ : stopped_ + where();
@@ -291,6 +293,7 @@ Summary Motion<S>::summary() const {
     summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};
     summary.stopped = !stopped_.empty();
     summary.events = operated_;
+    summary.events_not_reached = events_.size() - operated_;
     summary.window_limited = trajectory_.feed_plan().window_limited();
     summary.stops = rests_ > 0 ? rests_ - 1 : 0;
     const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);

@@ -10,8 +10,13 @@
 #include "supervision.hpp"
 
 #include <chrono>
+#include <span>
 #include <string>
 #include <vector>
+
+namespace splinefeed {
+struct CounterSeam; // of tests
+} // namespace splinefeed
 
 namespace splinefeed::host {
 
@@ -37,8 +42,14 @@ public:
     [[nodiscard]] std::string run(std::optional<std::uint64_t> waypoints);
 
     [[nodiscard]] Summary summary() const;
+    /// What the operator was to do after the end of the run.
+    [[nodiscard]] std::span<const OperatorEvent> events_not_reached() const noexcept {
+        return std::span(events_).subspan(operated_);
+    }
 
 private:
+    friend struct splinefeed::CounterSeam;
+
     using Clock = std::chrono::steady_clock;
 
     void execute_all(std::optional<std::uint64_t> waypoints);

@@ -8,6 +8,7 @@
 //        ^committed     ^half     ^end of the window: any b
 #pragma once
 
+#include "compensated_sum.hpp"
 #include "path_grid.hpp"
 
 #include <chrono>
@@ -39,7 +40,7 @@ public:
     void finish();
 
     /// @pre finish() was called
-    [[nodiscard]] double seconds() const noexcept { return seconds_; }
+    [[nodiscard]] double seconds() const noexcept { return seconds_.value(); }
     [[nodiscard]] std::uint64_t nodes() const noexcept { return nodes_; }
     /// What all of this took.
     [[nodiscard]] std::chrono::steady_clock::duration spent() const noexcept { return spent_; }
@@ -65,7 +66,7 @@ private:
     std::vector<PathInterval> fresh_; // of one segment
     std::vector<Stage> stages_;       // from the committed node on
     double start_sq_ = 0.0;           // b at the committed node
-    double seconds_ = 0.0;
+    CompensatedSum seconds_;
     std::uint64_t nodes_ = 0;
     std::chrono::steady_clock::duration spent_{};
 };

@@ -4,6 +4,8 @@
 // anything behind. Elsewhere it is a hidden file, which only a kill can leave.
 #include "output_file.hpp"
 
+#include "file_claims.hpp"
+
 #include <cassert>
 #include <cerrno>
 #include <cstdlib>
@@ -78,6 +80,7 @@ void OutputFile::fail(const char* action, int error) const {
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(path_) {
     buffer_.reserve(large + large / 4);
     if (path_ == "-") {
+        FileClaims::writes(path_);
         descriptor_ = STDOUT_FILENO;
         return;
     }
@@ -93,6 +96,7 @@ void OutputFile::open() {
     if ((exists && S_ISDIR(status.st_mode)) || path_.back() == '/') {
         fail("cannot create", EISDIR);
     }
+    FileClaims::writes(path_);
     if (exists && !S_ISREG(status.st_mode)) {
         descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC); // replacing a device or a pipe would destroy it
         if (descriptor_ < 0) {
@@ -207,6 +211,9 @@ void OutputFile::commit() {
         fail("cannot write", errno);
     }
     if (replaces_) {
+        if (FileClaims::is_input(target_)) {
+            throw OutputError(path_ + ": an input was put there meanwhile; give the output a name of its own");
+        }
         if (rename(temporary_.c_str(), target_.c_str()) != 0) {
             fail("cannot replace", errno);
         }

@@ -30,7 +30,7 @@ public:
 /// Memory: one buffer of 256 KiB. Cost of append: a copy.
 class OutputFile {
 public:
-    /// Throws OutputError where nothing can be created.
+    /// Throws OutputError where nothing can be created, and where the file is an input or another output (FileClaims).
     explicit OutputFile(std::string path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;

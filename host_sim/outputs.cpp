@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "outputs.hpp"
 
+#include "file_claims.hpp"
+
 namespace splinefeed::host {
 
 Outputs::Outputs(const Job& job, std::string_view method, bool closed) {
@@ -11,6 +13,9 @@ Outputs::Outputs(const Job& job, std::string_view method, bool closed) {
 
 Outputs::Outputs(const Job& job, std::string_view method, bool closed, const MachineDescription& machine)
     : Outputs(job, method, closed) {
+    if (job.summary != SummaryKind::none) {
+        FileClaims::writes("-");
+    }
     if (!job.trace.empty()) {
         trace_.emplace(trace_file_.emplace(job.trace), machine);
     }

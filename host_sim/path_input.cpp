@@ -19,6 +19,9 @@ namespace {
 
 const std::vector<std::string> every_axis{"x", "y", "z", "a", "b", "c"};
 
+/// Of a curve that is made of all of them: about 2 GB.
+constexpr std::uint64_t most_points = 1'000'000;
+
 /// Whether two waypoints are one, as WaypointCurve::push has it for the streaming methods: 0.1 um on every axis.
 bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::fabs(x - y) < 1e-4; });
@@ -67,6 +70,12 @@ void PathInput::compute_from_points(const Job& job) {
     std::vector<PerAxis<double>> points;
     WaypointRow row;
     while (opened_->next(row)) {
+        if (points_read_ == most_points) {
+            throw InputError(name_, row.line,
+                             fmt::format("--curve {} is made of all points at once, and takes at most {}; take another "
+                                         "curve, which streams (g2), or fewer points",
+                                         method_name(choice_.method), most_points));
+        }
         if (row.feed_mm_s > 0.0 || row.max_feed_mm_s > 0.0 || row.corner != Corner::automatic) {
             throw InputError(name_, row.line,
                              fmt::format("--curve {} takes all points as one smooth curve; leave out the columns "

@@ -2,6 +2,7 @@
 #include "runner.hpp"
 
 #include "abandon.hpp"
+#include "file_claims.hpp"
 #include "input_error.hpp"
 #include "link_report.hpp"
 #include "machine_file.hpp"
@@ -12,10 +13,12 @@
 #include "summary.hpp"
 #include "supervision.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <optional>
+#include <span>
 
 namespace splinefeed::host {
 
@@ -66,6 +69,22 @@ int draw_curve(const Job& job) {
     static_cast<void>(draw<S>(input, {.writer = outputs.curve()}));
     outputs.commit();
     return 0;
+}
+
+/// Events that never happened: as a rule a time that was mistyped, or a run that was shorter than thought.
+void warn_of_events(const Job& job, std::span<const OperatorEvent> events, double end_s) {
+    constexpr std::size_t most = 3; // lines
+    if (job.quiet) {
+        return;
+    }
+    for (const OperatorEvent& event : events.first(std::min(events.size(), most))) {
+        fmt::print(stderr, "{}:{}: warning: the event at {} s did not happen: the run ended at {:.6g} s\n",
+                   printable(job.events), event.line, event.time_s, end_s);
+    }
+    if (events.size() > most) {
+        fmt::print(stderr, "{}: warning: nor did the {} events after them\n", printable(job.events),
+                   events.size() - most);
+    }
 }
 
 void print(const Summary& summary, SummaryKind kind) {
@@ -141,7 +160,9 @@ int move_machine(const Job& job) {
     Motion<S> motion(job, machine, *limits, input, path_limits, outputs, supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
-    print(motion.summary(), job.summary);
+    const Summary summary = motion.summary();
+    warn_of_events(job, motion.events_not_reached(), summary.cycle_time_s);
+    print(summary, job.summary);
     if (stopped.empty()) {
         return 0;
     }
@@ -157,6 +178,7 @@ int run_with(const Job& job) {
 } // namespace
 
 int run(const Job& job) {
+    const FileClaims claims;
     if (job.command == Command::link) {
         return report_link(job.link);
     }

@@ -136,7 +136,7 @@ PerAxis<double> SimulatedMachine::position_mm() const noexcept {
 void SimulatedMachine::trace_row() {
     untraced_ = 0;
     if (options_.trace != nullptr) {
-        options_.trace->row(cycle_time_s(), position_mm(), path_speed());
+        options_.trace->row(elapsed_ticks_, position_mm(), path_speed());
     }
 }
 

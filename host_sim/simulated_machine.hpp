@@ -19,11 +19,16 @@
 #include <string>
 #include <vector>
 
+namespace splinefeed {
+struct CounterSeam; // of tests
+} // namespace splinefeed
+
 namespace splinefeed::host {
 
 /// Takes what the axes were told, once per sample period.
 struct TraceSink {
-    virtual void row(double t_s, const PerAxis<double>& position_mm, double speed_mm_s) = 0;
+    /// @param ticks  since the start of the first segment, in 1/8 us
+    virtual void row(std::uint64_t ticks, const PerAxis<double>& position_mm, double speed_mm_s) = 0;
 
 protected:
     ~TraceSink() = default;
@@ -74,6 +79,8 @@ public:
     [[nodiscard]] PerAxis<double> position_mm() const noexcept;
 
 private:
+    friend struct splinefeed::CounterSeam;
+
     struct Motion;
 
     [[nodiscard]] int do_room() const noexcept override;

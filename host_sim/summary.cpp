@@ -79,6 +79,10 @@ void write_sentences(Lines out, const Summary& summary) {
     if (summary.stopped) {
         fmt::format_to(out, "The run was stopped before the end of the program.\n");
     }
+    if (summary.events_not_reached > 0) {
+        fmt::format_to(out, "The run was over before {} of the operator.\n",
+                       plural(summary.events_not_reached, "event"));
+    }
     if (summary.events > 0) {
         fmt::format_to(out, "It was steered: {} of the operator.\n", plural(summary.events, "event"));
     }
@@ -167,6 +171,10 @@ std::string to_json(const Summary& summary) {
     json["smoothing_bound_mm"] = summary.smoothing_bound_mm;
     json["peak_rss_bytes"] = summary.peak_rss_bytes;
     json["limit_share"] = share_json(summary);
+    if (summary.events + summary.events_not_reached > 0) {
+        json["events"] = summary.events;
+        json["events_not_reached"] = summary.events_not_reached;
+    }
     if (summary.link) {
         json["link"] = to_json(*summary.link);
     }

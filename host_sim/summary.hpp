@@ -41,8 +41,9 @@ struct Summary {
     std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; none: stopped or steered
     double planning_time_s = 0.0;
     MemoryBytes memory_bytes;
-    bool stopped = false;             ///< the run ended before the program did
-    std::uint64_t events = 0;         ///< of the operator
+    bool stopped = false;                 ///< the run ended before the program did
+    std::uint64_t events = 0;             ///< of the operator
+    std::uint64_t events_not_reached = 0; ///< the run was over before them
     std::uint64_t window_limited = 0; ///< how often the planning window was too short to tell the plan from the best
     std::uint64_t stops = 0;          ///< corners where the feed is zero, ends not counted
     double smoothing_bound_mm = 0.0;  ///< how far the emitted motion may be from the curve

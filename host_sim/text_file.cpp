@@ -2,36 +2,28 @@
 #include "text_file.hpp"
 
 #include "input_error.hpp"
+#include "input_stream.hpp"
 
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iostream>
+#include <ios>
 
 namespace splinefeed::host {
 
 std::string read_text_file(const std::string& path, std::size_t largest) {
-    std::ifstream file;
-    if (path != "-") {
-        errno = 0;
-        file.open(path, std::ios::binary);
-        if (!file) {
-            throw InputError(path, 0, fmt::format("cannot be opened: {}", std::strerror(errno)));
-        }
-    }
-    std::istream& input = path == "-" ? std::cin : file;
+    InputStream input(path, path);
     std::string text;
     std::array<char, 65536> block{};
-    while (input.read(block.data(), static_cast<std::streamsize>(block.size())) || input.gcount() > 0) {
-        text.append(block.data(), static_cast<std::size_t>(input.gcount()));
-        if (text.size() > largest) {
-            throw InputError(path, 0, fmt::format("is larger than the {} bytes that such a file may have", largest));
+    try {
+        for (std::streamsize count = 0; (count = input.sgetn(block.data(), block.size())) > 0;) {
+            text.append(block.data(), static_cast<std::size_t>(count));
+            if (text.size() > largest) {
+                throw InputError(path, 0,
+                                 fmt::format("is larger than the {} bytes that such a file may have", largest));
+            }
         }
-    }
-    if (input.bad()) {
+    } catch (const std::ios_base::failure&) {
         throw InputError(path, 0, "cannot be read; it must be a file or a pipe");
     }
     return text;

@@ -4,10 +4,14 @@
 #include "input_error.hpp"
 
 #include <cstdint>
+#include <fmt/format.h>
 
 namespace splinefeed::host {
 
 namespace {
+
+// A table in a table for each: the parser makes them, and gives them back, by calling itself.
+constexpr int most_dots = 16;
 
 bool starts_key(char c) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
@@ -48,6 +52,7 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
     Inside inside = Inside::nothing;
     bool any_letter = false; // not only ASCII
     bool line_starts = true;
+    int dots = 0;       // in the key that is being read, or in a number
     char before = '\n'; // the last character that is neither blank nor in a comment or text
     std::size_t line_begin = 0;
     std::uint64_t line = 1;
@@ -56,6 +61,7 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
         if (c == '\n') {
             ++line;
             line_begin = i + 1;
+            dots = 0;
             line_starts = true;
             inside = inside == Inside::comment ? Inside::nothing : inside;
             continue;
@@ -66,6 +72,11 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
                              "letters beyond ASCII may stand in comments and in texts like name = \"...\" only");
         }
         if (inside == Inside::nothing) {
+            constexpr std::string_view ends_key = "=,[]{}";
+            dots = ends_key.find(c) != std::string_view::npos ? 0 : dots + (c == '.' ? 1 : 0);
+            if (dots > most_dots) {
+                throw InputError(file, line, fmt::format("a name has more than {} parts, a.b.c...", most_dots));
+            }
             if (c == '[' && line_starts && !names_table(toml.substr(i + 1))) {
                 throw InputError(file, line, "after [ there must be the name of a table: [path] or [[axis]]");
             }

@@ -63,11 +63,16 @@ char* write_fixed(char* out, double value) {
     return write_digits(out, decimals, Decimals);
 }
 
-char* write_time(char* out, double t_s) {
-    const double microseconds = t_s * 1e6;
-    // A whole number of microseconds as a double is off by 2^-53 of itself, one of eighths at least by 0.125.
-    const bool whole = std::fabs(microseconds - std::nearbyint(microseconds)) < 0.01;
-    return whole ? write_fixed<6>(out, t_s) : write_fixed<9>(out, t_s);
+// In integers: a double would not know whole microseconds after two years.
+char* write_time(char* out, std::uint64_t ticks) {
+    constexpr std::uint64_t us_per_s = 1'000'000;
+    constexpr std::uint64_t ns_per_tick = 1000 / ticks_per_us;
+    const std::uint64_t us = ticks / ticks_per_us;
+    const std::uint64_t rest = ticks % ticks_per_us;
+    out = write_whole(out, us / us_per_s);
+    *out++ = '.';
+    out = write_digits(out, us % us_per_s, 6);
+    return rest == 0 ? out : write_digits(out, rest * ns_per_tick, 3);
 }
 
 } // namespace
@@ -81,9 +86,9 @@ TraceWriter::TraceWriter(OutputFile& file, const MachineDescription& machine)
     file.append(",speed\n");
 }
 
-void TraceWriter::row(double t_s, const PerAxis<double>& position_mm, double speed_mm_s) {
+void TraceWriter::row(std::uint64_t ticks, const PerAxis<double>& position_mm, double speed_mm_s) {
     std::array<char, (max_axes + 2) * longest_number> line; // NOLINT: written before it is read
-    char* out = write_time(line.data(), t_s);
+    char* out = write_time(line.data(), ticks);
     for (unsigned k = 0; k < axes_; ++k) {
         *out++ = ',';
         out = write_fixed<12>(out, position_mm[k]);

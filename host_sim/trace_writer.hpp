@@ -16,7 +16,7 @@ public:
     /// Writes the header. The caller commits the file, which must outlive the writer.
     TraceWriter(OutputFile& file, const MachineDescription& machine);
 
-    void row(double t_s, const PerAxis<double>& position_mm, double speed_mm_s) override;
+    void row(std::uint64_t ticks, const PerAxis<double>& position_mm, double speed_mm_s) override;
 
 private:
     OutputFile* file_;

@@ -49,6 +49,11 @@ struct Approach {
     double curvature = 0.0; // its derivative; of Gauss-Newton where that is not positive
 };
 
+// Whether an index comes before another one; they wrap.
+bool comes_before(std::uint32_t index, std::uint32_t other) {
+    return static_cast<std::int32_t>(index - other) < 0;
+}
+
 } // namespace
 
 double WaypointError::Piece::distance_mm(const PerAxis<Position>& position) const noexcept {
@@ -133,7 +138,7 @@ void WaypointError::segment(const CurveSegment<S>& segment) {
 }
 
 void WaypointError::advance(const Piece& piece, std::uint32_t waypoint) {
-    while (!pending_.empty() && pending_.front().index < waypoint) {
+    while (!pending_.empty() && comes_before(pending_.front().index, waypoint)) {
         const Pending& passed = pending_.front();
         double distance = piece.distance_mm(passed.position);
         if (any_segment_) {
@@ -148,7 +153,7 @@ void WaypointError::advance(const Piece& piece, std::uint32_t waypoint) {
 }
 
 double WaypointError::largest_mm() const noexcept {
-    if (!any_segment_ || pending_.empty() || pending_.front().index > last_waypoint_) {
+    if (!any_segment_ || pending_.empty() || comes_before(last_waypoint_, pending_.front().index)) {
         return largest_mm_;
     }
     // The last one reached waits for the segment after it, which may come nearer.

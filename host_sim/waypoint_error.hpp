@@ -16,7 +16,7 @@ namespace splinefeed::host {
 /// Memory: the waypoints that no segment has reached yet (the look-ahead of the curve). Cost: about 1 us a segment.
 class WaypointError {
 public:
-    /// Index as in CurveSegment::waypoint, increasing.
+    /// Index as in CurveSegment::waypoint, increasing modulo 2^32.
     void waypoint(std::uint32_t index, const PerAxis<Position>& position);
 
     template <Scalar S>

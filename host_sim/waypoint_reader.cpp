@@ -220,6 +220,10 @@ void WaypointReader::read_header(std::string_view line) {
                 fail(fmt::format("there is a column {}, but the machine has no such axis; it has {}", name,
                                  fmt::join(axes_, ", ")));
             }
+            if (name.find_first_of(";\t |") != std::string::npos) {
+                fail(fmt::format("{} is no name of a column; write commas between the names, like x,y,z",
+                                 in_quotes(field)));
+            }
             const std::string_view near = nearest_name(name, known);
             fail(fmt::format("unknown column {}{}; a waypoint file has {}", in_quotes(field),
                              near.empty() ? "" : fmt::format(", did you mean '{}'?", near), listed(known)));

@@ -31,6 +31,7 @@ nlohmann::ordered_json to_json(const GpioSummary& gpio) {
             {"slowdowns", gpio.slowdowns},
             {"began_monotonic_s", gpio.began_monotonic_s},
             {"missed", gpio.missed},
+            {"changes_left_out", gpio.changes_left_out},
             {"changes", std::move(changes)}};
 }
 
@@ -49,6 +50,9 @@ std::string to_text(const GpioSummary& gpio) {
     }
     if (gpio.missed > 0) {
         text += fmt::format("{} edges of inputs were lost.\n", gpio.missed);
+    }
+    if (gpio.changes_left_out > 0) {
+        text += fmt::format("{} older changes of inputs are left out.\n", gpio.changes_left_out);
     }
     for (const GpioSummary::Change& change : gpio.changes) {
         text += fmt::format("{:.6f} s: {}{}{} {}", change.time_s, change.role, change.axis.empty() ? "" : " of axis ",

@@ -2,10 +2,14 @@
 // GpioSummary: how the lines of a run did, and what its switches told.
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace splinefeed::host {
@@ -33,7 +37,18 @@ struct GpioSummary {
     std::uint64_t slowdowns = 0;    ///< the plan was not ready in time: all axes slowed down, and went on
     double began_monotonic_s = 0.0; ///< when the run began, by CLOCK_MONOTONIC
     std::uint64_t missed = 0;       ///< edges of inputs that the system lost
-    std::vector<Change> changes;
+    std::deque<Change> changes;     ///< the last ones
+    std::uint64_t changes_left_out = 0; ///< older ones
+
+    static constexpr std::size_t most_changes = 4096; ///< an input that never rests must not fill the memory
+    /// Takes one more; the oldest gives way.
+    void add(Change change) {
+        changes.push_back(std::move(change));
+        if (changes.size() > most_changes) {
+            changes.pop_front();
+            ++changes_left_out;
+        }
+    }
 };
 
 /// Keys as the members, and `_s` or `_mm` where they have one.

@@ -20,8 +20,8 @@ namespace {
 
 constexpr double ns_per_s = 1e9;
 constexpr double us_per_s = 1e6;
-constexpr int calls = 500;    // to measure one by
-constexpr double share = 0.5; // of the time that calls may take
+constexpr int calls = 500;            // to measure one by
+constexpr double share_of_time = 0.5; // that calls may take
 constexpr std::uint32_t ns_per_us = 1000;
 
 /// A hold begins behind what was handed over, and takes the braking time of the path: each axis's from its full speed,
@@ -60,7 +60,7 @@ std::string lacking(const hal::gpio::RealTimeSettings& settings) {
 } // namespace
 
 double most_edges_per_s(double call_ns) noexcept {
-    return share * ns_per_s / call_ns;
+    return share_of_time * ns_per_s / call_ns;
 }
 
 // Along a path at a feed f the axes make at most |steps_per_mm| f steps a second in all (Cauchy-Schwarz).
@@ -220,7 +220,7 @@ void GpioTarget::take_changes() {
             .role = role_name(input.role),
             .axis = input.axis >= 0 ? machine_->axis_name[static_cast<unsigned>(input.axis)] : std::string(),
             .active = change->active,
-            .time_s = (static_cast<double>(change->time_ns) - static_cast<double>(began_ns_)) / ns_per_s,
+            .time_s = static_cast<double>(static_cast<std::int64_t>(change->time_ns - began_ns_)) / ns_per_s,
             .position_mm = std::nullopt};
         if (change->counts) {
             told.position_mm.emplace();
@@ -228,7 +228,7 @@ void GpioTarget::take_changes() {
                 told.position_mm->push_back(mover_.position_at(k, (*change->counts)[static_cast<unsigned>(k)]));
             }
         }
-        changes_.push_back(std::move(told));
+        seen_.add(std::move(told));
         const bool stops = input.role == InputRole::limit || input.role == InputRole::drive_fault;
         if (!change->active || !holds_.empty()) {
             continue;
@@ -306,7 +306,8 @@ void GpioTarget::describe(Summary& summary) const {
                                .slowdowns = report.slowdowns,
                                .began_monotonic_s = static_cast<double>(began_ns_) / ns_per_s,
                                .missed = inputs_.missed(),
-                               .changes = changes_};
+                               .changes = seen_.changes,
+                               .changes_left_out = seen_.changes_left_out};
 }
 
 } // namespace splinefeed::host

@@ -54,7 +54,7 @@ private:
     std::uint64_t executed_us_ = 0;
     std::string missing_; // of real time
     std::string holds_;   // why the motion is held, and ends
-    std::vector<GpioSummary::Change> changes_;
+    GpioSummary seen_;    // of inputs
     std::uint64_t began_ns_;
     bool began_ = false; // the lines may have changed
     bool probed_ = false;

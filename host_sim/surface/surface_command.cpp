@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/curve_writer.hpp"
 #include "host_sim/input_error.hpp"
+#include "host_sim/json_text.hpp"
 #include "host_sim/output_file.hpp"
 #include "host_sim/surface/surface_arguments.hpp"
 #include "host_sim/text_file.hpp"
@@ -17,18 +18,8 @@ using nlohmann::json;
 
 json read_json(const std::string& file) {
     constexpr std::size_t largest = std::size_t{1} << 28;
-    const std::string text = read_text_file(file, largest);
-    try {
-        return json::parse(text);
-    } catch (const json::parse_error& error) {
-        const std::size_t at = std::min<std::size_t>(error.byte == 0 ? 0 : error.byte - 1, text.size());
-        const auto line = static_cast<std::uint64_t>(
-            1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-        throw InputError(file, line,
-                         "not JSON; a surface is like {\"method\": \"bspline_surface\", \"input\": {\"grid\": ...}}");
-    } catch (const json::out_of_range&) {
-        throw InputError(file, 0, "a number is out of range; coordinates must lie within +-1048576 mm");
-    }
+    return parse_json(read_text_file(file, largest), file,
+                      "a surface is like {\"method\": \"bspline_surface\", \"input\": {\"grid\": ...}}");
 }
 
 DescribedSurface read_surface(const std::string& file, ScalarKind scalar) {

@@ -130,3 +130,22 @@ TEST_CASE("time slows down to stand over twice the reserve and goes on alike, at
         }
     }
 }
+
+TEST_CASE("a clock keeps its law after hundreds of years") {
+    constexpr std::uint64_t reserve = 20'000'000;
+    for (const bool late : {false, true}) {
+        const std::uint64_t now = late ? std::uint64_t{1} << 63U : 1'000'000'000; // 292 years after it was switched on
+        const std::int64_t motion = late ? (std::int64_t{1} << 62U) : std::int64_t{0}; // of motion 146
+        EdgeClock clock({.guard_ns = 5'000, .tolerated_ns = 100'000, .reserve_ns = reserve});
+        clock.start(now, motion);
+        CHECK(clock.due_ns(motion + 12'345) == now + 12'345);
+        CHECK(clock.made(motion + 12'345, now + 12'345 + 250'000) == 250'000); // late: the motion moves
+        CHECK(clock.due_ns(motion + 13'345) == now + 263'345);
+        clock.stop(now + 1'000'000);
+        CHECK(clock.stands(now + 1'000'000 + 2 * reserve));
+        CHECK(clock.motion_ns(now + 1'000'000 + 2 * reserve) - motion == 750'000 + std::int64_t{reserve});
+        CHECK(clock.due_ns(motion + 100'000'000) == EdgeClock::never);
+        clock.resume(now + 100'000'000);
+        CHECK(clock.motion_ns(now + 100'000'000 + 4 * reserve) - motion == 750'000 + std::int64_t{4 * reserve});
+    }
+}

@@ -34,6 +34,20 @@ TEST_CASE("a log tells where the axes stood at any instant that was not asked fo
     CHECK(reader.counts_at(now) == counts);
 }
 
+TEST_CASE("instants of steps wrap after 36 years, and the steps stay in order") {
+    constexpr std::uint64_t wrap = std::uint64_t{1} << 60U;
+    StepLog log;
+    StepLog::Reader reader(log);
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        log.add(wrap - 10 + i, 0, true);
+    }
+    CHECK(reader.counts_at(wrap - 11).value()[0] == 0);
+    CHECK(reader.counts_at(wrap - 1).value()[0] == 10);
+    CHECK(reader.counts_at(wrap + 4).value()[0] == 15);
+    CHECK_FALSE(reader.counts_at(wrap - 1).has_value()); // asked for too late
+    CHECK(reader.counts_at(wrap + 100).value()[0] == 20);
+}
+
 TEST_CASE("a reader that lost steps says so") {
     StepLog log;
     StepLog::Reader reader(log);

@@ -140,3 +140,23 @@ TEST_CASE("the unusual gets a sentence") {
     CHECK(contains(text, "too short 1 time:"));
     CHECK(contains(text, "stops at 3 corners"));
 }
+
+TEST_CASE("events that the run did not reach are counted") {
+    Summary summary = sample();
+    summary.events_not_reached = 2;
+    CHECK(contains(to_text(summary), "The run was over before 2 events of the operator.\n"));
+    CHECK(nlohmann::json::parse(to_json(summary))["events_not_reached"] == 2);
+    CHECK(nlohmann::json::parse(to_json(summary))["events"] == 0);
+}
+
+TEST_CASE("of inputs that never rest the last changes are kept, and the others counted") {
+    GpioSummary gpio;
+    for (std::size_t i = 0; i < GpioSummary::most_changes + 3; ++i) {
+        gpio.add({.role = "limit", .axis = "x", .active = true, .time_s = static_cast<double>(i), .position_mm = {}});
+    }
+    CHECK(gpio.changes.size() == GpioSummary::most_changes);
+    CHECK(gpio.changes.front().time_s == 3.0);
+    CHECK(gpio.changes_left_out == 3);
+    CHECK(contains(to_text(gpio), "3 older changes of inputs are left out.\n"));
+    CHECK(nlohmann::json(to_json(gpio))["changes_left_out"] == 3);
+}

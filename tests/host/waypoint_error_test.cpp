@@ -147,3 +147,14 @@ TEST_CASE("far from the origin nothing is lost") {
     error.segment(line({500000.0, -500000.0}, {500001.0, -500000.0}, 1));
     CHECK(error.largest_mm() == Approx(1e-7).epsilon(1e-3));
 }
+
+TEST_CASE("waypoints are told apart where their index wraps") {
+    WaypointError error;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        error.waypoint(i - 3, at(i, i == 2 ? 0.5 : i == 4 ? -0.25 : 0.0));
+    }
+    for (std::uint32_t i = 1; i < 6; ++i) {
+        error.segment(line({i - 1.0, 0.0}, {static_cast<double>(i), 0.0}, i - 3));
+    }
+    CHECK(error.largest_mm() == Approx(0.5));
+}

@@ -17,6 +17,21 @@ struct CounterSeam {
         trajectory.arc_length_.segments_ = curve_segments;
         trajectory.stream_.index_ = feed_segments;
     }
+    /// A host's Motion: ticks and feed segments that its machine has executed, and rows that were read.
+    template <class Motion>
+    static void ran(Motion& motion, std::uint64_t ticks, std::uint64_t segments, std::uint64_t rows) {
+        motion.machine_.elapsed_ticks_ = ticks;
+        motion.machine_.executed_ = segments;
+        motion.segments_ = segments;
+        motion.feeder_.rows_read_ = rows;
+        motion.feeder_.pushed_ = rows;
+        pushed(*motion.feeder_.waypoints_, static_cast<std::uint32_t>(rows));
+    }
+    /// Its trajectory.
+    template <class Motion>
+    static auto& trajectory(Motion& motion) {
+        return motion.trajectory_;
+    }
     /// Index of the next waypoint of a WaypointCurve.
     template <class Curve>
     static void pushed(Curve& curve, std::uint32_t waypoints) {

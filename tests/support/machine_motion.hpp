@@ -125,11 +125,11 @@ struct Row {
 struct Recorder final : TraceSink {
     std::vector<Row> rows;
     std::size_t breaks_at = 1000000;
-    void row(double t_s, const PerAxis<double>& position_mm, double speed_mm_s) override {
+    void row(std::uint64_t ticks, const PerAxis<double>& position_mm, double speed_mm_s) override {
         if (rows.size() == breaks_at) {
             throw std::runtime_error("disk full");
         }
-        rows.push_back({t_s, position_mm[0], speed_mm_s});
+        rows.push_back({static_cast<double>(ticks) / 8e6, position_mm[0], speed_mm_s});
     }
 };
 

@@ -39,20 +39,27 @@ public:
                 const std::uint64_t entry = log_->entry_[tail_ % capacity].load(std::memory_order_relaxed);
                 std::atomic_thread_fence(std::memory_order_acquire);
                 lost_ = log_->head_.load(std::memory_order_relaxed) - tail_ >= capacity; // it is being written again
-                if (entry >> 4U > instant_ns || lost_) {
+                if (after(entry, instant_ns) || lost_) {
                     break;
                 }
                 counts_[(entry >> 1U) & 7U] += (entry & 1U) != 0 ? 1 : -1;
-                seen_ns_ = entry >> 4U;
+                seen_ = entry;
+                any_ = true;
             }
-            return lost_ || instant_ns < seen_ns_ ? std::nullopt : std::optional(counts_);
+            return lost_ || (any_ && after(seen_, instant_ns)) ? std::nullopt : std::optional(counts_);
         }
 
     private:
+        /// Whether an entry is later; instants in entries are modulo 2^60 ns, 36 years.
+        [[nodiscard]] static bool after(std::uint64_t entry, std::uint64_t instant_ns) noexcept {
+            return static_cast<std::int64_t>((entry & ~std::uint64_t{15}) - (instant_ns << 4U)) > 0;
+        }
+
         const StepLog* log_;
         std::uint64_t tail_ = 0;
-        std::uint64_t seen_ns_ = 0;
+        std::uint64_t seen_ = 0; // the last entry, where there is any
         PerAxis<std::int64_t> counts_{};
+        bool any_ = false;
         bool lost_ = false;
     };
 

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+//
+// Inputs are never overwritten, whatever the alias; what can be lost nowhere stays usable; every reader has a bound.
+#include "support/catch.hpp"
+#include "tool.hpp"
+
+#include <nlohmann/json.hpp>
+
+using splinefeed::test::Call;
+using splinefeed::test::Tool;
+
+namespace {
+
+const std::string program = "0,0,0\n1,1,0\n2,0,0\n";
+const std::string axis = "max_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n";
+const std::string machine = "[path]\nmax_feed_mm_s = 100\n[[axis]]\nname = \"x\"\n" + axis +
+                            "[[axis]]\nname = \"y\"\n" + axis + "[[axis]]\nname = \"z\"\n" + axis;
+const std::string events = "0.01,override,0.5\n";
+const std::string inputs = "p.csv m.toml e.csv";
+
+void write_inputs(const Tool& tool) {
+    tool.write("p.csv", program);
+    tool.write("m.toml", machine);
+    tool.write("e.csv", events);
+}
+
+bool untouched(const Tool& tool) {
+    return tool.read("p.csv") == program && tool.read("m.toml") == machine && tool.read("e.csv") == events;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+bool one_line(const std::string& text) {
+    return !text.empty() && text.find('\n') == text.size() - 1;
+}
+
+/// Refused, in one line that names the output.
+void require_refused(const Call& call, const std::string& names) {
+    CAPTURE(call.output, call.error);
+    REQUIRE(call.status == 2);
+    REQUIRE(call.output.empty());
+    REQUIRE(one_line(call.error));
+    REQUIRE(contains(call.error, names));
+}
+
+} // namespace
+
+TEST_CASE("an output that is an input is refused, by whatever name") {
+    const Tool tool;
+    write_inputs(tool);
+    REQUIRE(tool("run p.csv -m m.toml --events e.csv --quiet").status == 0);
+    REQUIRE(tool.shell("ln -s p.csv l_p.csv && ln -s m.toml l_m.toml && ln -s e.csv l_e.csv && ln -s \"$PWD\" d && "
+                       "ln p.csv h_p.csv && ln m.toml h_m.toml && ln e.csv h_e.csv")
+                .status == 0);
+    const std::string all = "run p.csv -m m.toml --events e.csv --quiet ";
+    for (const char* const input : {"p.csv", "m.toml", "e.csv"}) {
+        for (const char* const alias : {"", "./", "d/", "l_", "h_"}) {
+            const std::string name = std::string(alias) + input;
+            CAPTURE(name);
+            const Call call = tool(all + "--trace " + name);
+            require_refused(call, name);
+            REQUIRE(contains(call.error, "give the output a name of its own"));
+            REQUIRE(untouched(tool));
+        }
+    }
+    for (const char* const option : {"--segments", "--edges", "--curve-out"}) {
+        CAPTURE(option);
+        require_refused(tool(all + option + " l_p.csv"), "l_p.csv: it is the input p.csv as well");
+        require_refused(tool("plan p.csv --quiet " + std::string(option) + " p.csv"), "p.csv");
+        REQUIRE(untouched(tool));
+    }
+    require_refused(tool("run p.csv --quiet --trace t.csv --segments h_p.csv"), "h_p.csv");
+    REQUIRE(untouched(tool));
+    REQUIRE(tool.holds_only(inputs + " l_p.csv l_m.toml l_e.csv d h_p.csv h_m.toml h_e.csv"));
+}
+
+TEST_CASE("other commands do not overwrite what they read either") {
+    const Tool tool;
+    write_inputs(tool);
+    require_refused(tool("curve p.csv -o ./p.csv"), "p.csv");
+    REQUIRE(tool("curve p.csv -o c.json").status == 0);
+    const std::string curve = tool.read("c.json");
+    require_refused(tool("curve c.json -o ./c.json"), "c.json");
+    require_refused(tool("plan c.json --quiet --curve-out c.json"), "c.json");
+    CHECK(tool.read("c.json") == curve);
+    const std::string dome = R"({"method": "bspline_surface", "input": {"grid": [[[0,0,0],[0,9,1],[0,18,0]],
+        [[9,0,1],[9,9,2],[9,18,1]],[[18,0,0],[18,9,1],[18,18,0]]], "degree_u": 2, "degree_v": 2}})";
+    tool.write("dome.json", dome);
+    require_refused(tool("surface dome.json --along u --lines 3 -o ./dome.json"), "dome.json");
+    CHECK(tool.read("dome.json") == dome);
+    CHECK(untouched(tool));
+}
+
+TEST_CASE("two outputs are two files") {
+    const Tool tool;
+    write_inputs(tool);
+    require_refused(tool("run p.csv --quiet --trace a.csv --segments ./a.csv"), "./a.csv: it is the same file as");
+    tool.write("a.csv", "before");
+    REQUIRE(tool.shell("ln -s a.csv b.csv").status == 0);
+    require_refused(tool("run p.csv --quiet --trace a.csv --segments b.csv"), "b.csv: it is the same file as");
+    CHECK(tool.read("a.csv") == "before");
+    CHECK(tool("run p.csv --quiet --trace a.csv --segments c.csv").status == 0);
+    CHECK(contains(tool.read("a.csv"), "t,x,y,z"));
+    CHECK(tool.holds_only(inputs + " a.csv b.csv c.csv"));
+}
+
+TEST_CASE("standard input and output are files, too, where they were redirected") {
+    const Tool tool;
+    write_inputs(tool);
+    require_refused(tool("plan - --quiet --trace p.csv <p.csv"), "p.csv: it is the input on standard input as well");
+    const Call appended = tool.shell("'" + splinefeed::test::tool_path() + "' plan p.csv --quiet >>p.csv");
+    CHECK(appended.status == 2);
+    CHECK(contains(appended.error, "standard output: it is the input p.csv as well"));
+    const Call both = tool.shell("'" + splinefeed::test::tool_path() + "' plan p.csv --quiet --trace s.txt >>s.txt");
+    CHECK(both.status == 2);
+    CHECK(contains(both.error, "s.txt: it is the same file as the output on standard output"));
+    CHECK(untouched(tool));
+}
+
+TEST_CASE("devices and pipes take any number of outputs") {
+    const Tool tool;
+    write_inputs(tool);
+    CHECK(tool("run p.csv --quiet --trace /dev/null --segments /dev/null --edges /dev/null").status == 0);
+    CHECK(tool("plan - --quiet --trace /dev/stdout --summary text <p.csv | cat").status == 0);
+    const Call piped = tool.shell("mkfifo f && { cat f >got & } && '" + splinefeed::test::tool_path() +
+                                  "' run p.csv --quiet --trace f && wait");
+    CHECK(piped.status == 0);
+    CHECK(contains(tool.read("got"), "t,x,y,z"));
+}
+
+TEST_CASE("events that never happened are told") {
+    const Tool tool;
+    write_inputs(tool);
+    tool.write("e.csv", "# an operator\n0.01,override,0.5\n9000,hold\n9001,resume\n9002,hold\n9003,resume\n");
+    const Call call = tool("run p.csv --events e.csv --summary json");
+    CHECK(call.status == 0);
+    CHECK(contains(call.error, "e.csv:3: warning: the event at 9000 s did not happen: the run ended at "));
+    CHECK(contains(call.error, "e.csv:5: warning: "));
+    CHECK(contains(call.error, "e.csv: warning: nor did the 1 events after them"));
+    const auto summary = nlohmann::json::parse(call.output);
+    CHECK(summary["events"] == 1);
+    CHECK(summary["events_not_reached"] == 4);
+    CHECK(tool("run p.csv --events e.csv --quiet").error.empty());
+}
+
+TEST_CASE("a program with other separators is told about commas") {
+    const Tool tool;
+    for (const char* const text : {"x;y\n0;0\n1;1\n", "x\ty\n0\t0\n1\t1\n", "x y\n0 0\n1 1\n", "0;0\n1;1\n"}) {
+        tool.write("p.csv", text);
+        const Call call = tool("plan p.csv --quiet");
+        CAPTURE(text, call.error);
+        CHECK(call.status == 2);
+        CHECK(contains(call.error, "p.csv:1: "));
+        CHECK(contains(call.error, "commas"));
+    }
+}
+
+TEST_CASE("help is -h, too, and a surface is sent to where it belongs") {
+    const Tool tool;
+    CHECK(tool("-h").output == tool("--help").output);
+    CHECK(tool("plan -h").output == tool("plan --help").output);
+    CHECK(contains(tool("plan -h").output, "Usage: splinefeed plan"));
+    tool.write("dome.json", R"({"method": "bspline_surface", "input": {"grid": [[[0,0,0]]]}})");
+    const Call call = tool("run dome.json --quiet");
+    CHECK(call.status == 2);
+    CHECK(contains(call.error, "dome.json: this is a surface; splinefeed surface makes a tool path of it"));
+}
+
+TEST_CASE("every reader has a bound") {
+    const Tool tool;
+    write_inputs(tool);
+    const auto deep = [&](const std::string& name, const std::string& command) {
+        require_refused(tool.shell("{ " + command + "; } >" + name + "; '" + splinefeed::test::tool_path() + "' " +
+                                   (name == "m.toml" ? "plan p.csv --quiet -m m.toml" : "plan " + name)),
+                        name + ":");
+    };
+    deep("a.json", "head -c 200000 /dev/zero | tr '\\0' '['");
+    deep("b.json", "printf '{\"segments\": [{\"degree\": '; head -c 200000 /dev/zero | tr '\\0' '['; printf 1; head -c "
+                   "200000 /dev/zero | tr '\\0' ']'; printf ', \"control_points\": [[0],[1]]}]}'");
+    deep("m.toml", "printf 'a = '; head -c 200000 /dev/zero | tr '\\0' '['");
+    deep("m.toml", "head -c 200000 /dev/zero | sed 's/\\x0/a./g'; echo 'a = 1'");
+    deep("m.toml", "printf '['; head -c 200000 /dev/zero | sed 's/\\x0/a./g'; echo 'a]'");
+    deep("w.csv", "head -c 5000 /dev/zero | tr '\\0' ','");
+    const Call closed = tool.shell("yes 1,1 | '" + splinefeed::test::tool_path() + "' plan - --closed --quiet");
+    CHECK(closed.status == 2);
+    CHECK(contains(closed.error, "-:4000001: a closed curve is kept in memory as a whole"));
+    const Call whole =
+        tool.shell("yes 1,1 | '" + splinefeed::test::tool_path() + "' plan - --curve bspline-interpolation --quiet");
+    CHECK(whole.status == 2);
+    CHECK(contains(whole.error, "-:1000001: --curve bspline-interpolation is made of all points at once"));
+    CHECK(tool.shell("yes 0 | '" + splinefeed::test::tool_path() + "' plan p.csv --quiet -m /dev/stdin").status == 2);
+    CHECK(tool.shell("yes '1,hold' | '" + splinefeed::test::tool_path() + "' plan p.csv --quiet --events /dev/stdin")
+              .status == 2);
+}
+
+TEST_CASE("a coordinate that grows for ever is refused with its line, and the machine stops before it") {
+    const Tool tool;
+    tool.write("p.csv", "0,0\n60000,0\n120000,0\n1048577,0\n");
+    const Call call = tool("plan p.csv --quiet");
+    CHECK(call.status == 2);
+    CHECK(contains(call.error, "p.csv:4: "));
+    CHECK(contains(call.error, "1048576"));
+}
