@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-// For the target whose precompiled header the tests use.
+// For the target whose precompiled headers the tests use.
 #include "support/catch.hpp"

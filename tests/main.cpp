@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The main program of every test executable, for Catch2 2 and 3.
+// The main program of every test executable, for Catch2 2 and 3. A filter that no test matches is an error with both.
 #define CATCH_CONFIG_RUNNER
 #include "support/catch.hpp"
 
 int main(int argc, char** argv) {
-    return Catch::Session().run(argc, argv);
+    Catch::Session session;
+    const int status = session.applyCommandLine(argc, argv);
+    if (status != 0) {
+        return status;
+    }
+#if CATCH_VERSION_MAJOR == 2
+    auto& warnings = session.configData().warnings;
+    warnings = static_cast<Catch::WarnAbout::What>(warnings | Catch::WarnAbout::NoTests);
+#endif
+    return session.run();
 }

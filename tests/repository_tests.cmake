@@ -1,29 +1,52 @@
 # SPDX-License-Identifier: MIT
-# Tests of the whole repository, run by ./check: other compilers, sanitizers, fuzzers, firmware, package, style.
+# Tests of the whole repository, run by ./check: sanitizers and fuzzers, firmware, package, style, and behind --long the rest.
 include(ProcessorCount)
 ProcessorCount(cores)
 
-# repository_test(name script arguments...): `cores` of the machine are its own; status 77 means skipped.
-function(repository_test name script)
-    add_test(NAME ${name} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600 PROCESSORS ${cores})
+# All test programs and fuzzers are built by clang with sanitizers, in a build of its own; ctest runs them with the tests here.
+set(sanitized ${PROJECT_SOURCE_DIR}/build/asan)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/sanitized.cmake
+     "if(EXISTS [==[${sanitized}/CTestTestfile.cmake]==])\n    subdirs([==[${sanitized}]==])\n"
+     "else()\n    add_test(asan_NOT_BUILT asan_NOT_BUILT)\nendif()\n")
+set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/sanitized.cmake)
+
+# repository_test(name [LONG what it takes] [ALONE] script arguments...): status 77 means skipped. LONG: with ./check --long
+# only. ALONE: the script uses all processors.
+function(repository_test name)
+    cmake_parse_arguments(PARSE_ARGV 1 test ALONE LONG "")
+    set(words ${test_UNPARSED_ARGUMENTS})
+    list(POP_FRONT words script)
+    set(command ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${words})
+    if(test_LONG)
+        list(PREPEND command ${CMAKE_CURRENT_SOURCE_DIR}/tools/if_long.sh ${test_LONG})
+    endif()
+    add_test(NAME ${name} COMMAND ${command} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    # What takes long begins first.
+    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 7200 COST 1000)
+    if(test_ALONE)
+        set_tests_properties(${name} PROPERTIES PROCESSORS ${cores})
+    endif()
 endfunction()
 
-# Also clang's warnings, and the fuzzers; the optimised build adds the bits of clang's arithmetic.
-repository_test(asan_tests tools/preset.sh asan clang++)
-repository_test(clang_build tools/preset.sh clang clang++ --if-long)
 foreach(cpu m0 m3 m4f)
-    repository_test(arm_link_${cpu} arm/link_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
+    repository_test(arm_link_${cpu} ALONE arm/link_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
     repository_test(arm_pulse_${cpu} arm/pulse_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
+    set_tests_properties(arm_pulse_${cpu} PROPERTIES DEPENDS arm_link_${cpu}) # one build
 endforeach()
-repository_test(valgrind_runs modbus/valgrind_runs.sh ${PROJECT_BINARY_DIR} --if-long)
-repository_test(tsan_runs modbus/tsan_runs.sh --if-long)
+repository_test(tidy ALONE tools/tidy.sh)
 repository_test(gpio_vm_runs gpio/vm/runs.sh ${PROJECT_BINARY_DIR})
-repository_test(gpio_vm_selftest gpio/vm/selftest.sh ${PROJECT_BINARY_DIR} --if-long)
 repository_test(install_consumer install/consumer.sh ${PROJECT_BINARY_DIR})
 repository_test(readme_example tools/readme_example.sh ${PROJECT_BINARY_DIR})
+repository_test(two_compilers tools/two_compilers.sh ${PROJECT_BINARY_DIR}/bin/splinefeed ${sanitized}/bin/splinefeed)
 repository_test(format tools/format.sh)
-repository_test(tidy tools/tidy.sh ${PROJECT_BINARY_DIR})
 repository_test(scripts tools/scripts.sh)
-repository_test(mutation tools/mutation.sh --if-long)
-repository_test(fresh_debian tools/fresh_debian.sh --if-long)
+repository_test(harness tools/harness.sh ${sanitized}/bin/base_tests)
+
+# Also the bits of both compilers' optimised arithmetic, and that each source includes what it uses.
+repository_test(gcc_tests LONG "10 minutes" ALONE tools/preset.sh dev g++)
+repository_test(clang_tests LONG "12 minutes" ALONE tools/preset.sh clang clang++)
+repository_test(tsan_runs LONG "10 minutes" ALONE modbus/tsan_runs.sh)
+repository_test(valgrind_runs LONG "2 minutes" ALONE modbus/valgrind_runs.sh ${PROJECT_BINARY_DIR})
+repository_test(gpio_vm_selftest LONG "a minute" ALONE gpio/vm/selftest.sh ${PROJECT_BINARY_DIR})
+repository_test(mutation LONG "8 minutes" ALONE tools/mutation.sh)
+repository_test(fresh_debian LONG "25 minutes" ALONE tools/fresh_debian.sh)

@@ -3,6 +3,8 @@
 # The pipeline on one microcontroller: links without a library, holds nothing forbidden, fits, and plans what the host
 # plans, on a stack that cannot overflow: link_proof.sh CPU BUILD_DIRECTORY_OF_THE_HOST.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
+source tests/tools/said.sh
+source tests/arm/build.sh
 
 cpu=$1
 host=$2
@@ -14,8 +16,7 @@ case $cpu in
 esac
 
 build=build/arm-$cpu
-cmake --preset arm -B "$build" -DSPLINEFEED_CPU="$cpu"
-cmake --build "$build"
+build_images "$cpu" "$build"
 
 # Heap, exceptions, C++ run-time, arithmetic in double. Absolute symbols (type A) are no code.
 forbidden='malloc|calloc|realloc|^free$|^_Zn[wa]|^_Zd[la]|^__cxa_|^__gxx_|[uU]nwind|^abort$|^__aeabi_atexit$'
@@ -28,17 +29,22 @@ run() {
         -semihosting-config enable=on,target=native,chardev=host -kernel "$1"
 }
 
-for image in "$build"/bin/pipeline_*.elf; do
-    program=$(basename "$image" .elf)
+programs=(pipeline_fixed pipeline_fixed_jerk)
+if [[ $cpu == cortex-m4f ]]; then programs+=(pipeline_float); fi
+for program in "${programs[@]}"; do
+    image=$build/bin/$program.elf
     echo "== $program on $cpu"
-    if arm-none-eabi-nm "$image" | awk '$2 != "A" { print $3 }' | grep -E "$forbidden"; then
+    symbols=$(arm-none-eabi-nm "$image" | awk '$2 != "A" { print $3 }')
+    if grep -E "$forbidden" <<<"$symbols"; then
         echo "the image holds what firmware must not have"
         exit 1
     fi
     arm-none-eabi-size "$image"
     output=$(run "$image")
     echo "$output"
-    if ! diff <(grep -E '^(segments|hash)' <<<"$output") <("$host/bin/$program" | grep -E '^(segments|hash)'); then
+    here=$(said 2 '^(segments|hash) +0x' "$output")
+    there=$(said 2 '^(segments|hash) +0x' "$("$host/bin/$program")")
+    if ! diff <(echo "$here") <(echo "$there"); then
         echo "the host plans another motion"
         exit 1
     fi
@@ -49,8 +55,8 @@ for image in "$build"/bin/pipeline_*.elf; do
     bound=$(find "$build/firmware_core" "$build"/tests/arm/CMakeFiles/{"$program",pipeline_platform}.dir -name '*.ci' \
         -exec awk -v scalar=$scalar -v smooth=$smooth -f tests/arm/stack.awk {} +)
     echo "$bound"
-    bytes=$(sed -n 's/^stack bound \([0-9]*\) .*/\1/p' <<<"$bound")
-    room=$(sed -n 's/^stack used .* of \([0-9]*\) .*/\1/p' <<<"$output")
+    bytes=$(number_said '^stack bound ([0-9]+) ' "$bound")
+    room=$(number_said '^stack used .* of ([0-9]+) ' "$output")
     if ((bytes > room)); then
         echo "the stack could overflow"
         exit 1

@@ -3,6 +3,8 @@
 # The pulse train on one microcontroller: the host's steps and edges, bit for bit, nothing forbidden, and what it costs in
 # instructions: pulse_proof.sh CPU BUILD_DIRECTORY_OF_THE_HOST. QEMU counts instructions, no cycles: the same every time.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
+source tests/tools/said.sh
+source tests/arm/build.sh
 
 cpu=$1
 host=$2
@@ -11,19 +13,19 @@ need arm-none-eabi-g++ qemu-system-arm
 board=mps2-an385
 if [[ $cpu == cortex-m4f ]]; then board=mps2-an386; fi
 
-build=build/arm-$cpu # of link_proof.sh
-cmake --preset arm -B "$build" -DSPLINEFEED_CPU="$cpu"
-cmake --build "$build" --target pulse_train
+build=build/arm-$cpu
+build_images "$cpu" "$build"
 image=$build/bin/pulse_train.elf
 
-if arm-none-eabi-nm "$image" | awk '$2 != "A" { print $3 }' | grep -E 'malloc|^_Zn[wa]|^__cxa_|[uU]nwind|df[23x]$|^__aeabi_(c?d[^i]|[fiul]+2d$)'; then
+symbols=$(arm-none-eabi-nm "$image" | awk '$2 != "A" { print $3 }')
+if grep -E 'malloc|^_Zn[wa]|^__cxa_|[uU]nwind|df[23x]$|^__aeabi_(c?d[^i]|[fiul]+2d$)' <<<"$symbols"; then
     echo "the image holds what firmware must not have"
     exit 1
 fi
 # 64 bit divisions say where an axis stands before the first segment; none is on the way of a step or an edge.
 for source in crossing monotone_parts line_discipline; do
-    if arm-none-eabi-nm -u "$build"/firmware_core/CMakeFiles/splinefeed_core.dir/splinefeed/s5_pulse_train/$source.cpp.obj |
-        grep ldivmod; then
+    undefined=$(arm-none-eabi-nm -u "$build"/firmware_core/CMakeFiles/splinefeed_core.dir/splinefeed/s5_pulse_train/$source.cpp.obj)
+    if grep ldivmod <<<"$undefined"; then
         echo "$source divides numbers of 64 bits"
         exit 1
     fi
@@ -31,7 +33,9 @@ done
 output=$(timeout 60 qemu-system-arm -M $board -icount shift=10,sleep=off -nographic -monitor none -serial none \
     -chardev stdio,id=host -semihosting-config enable=on,target=native,chardev=host -kernel "$image")
 echo "$output"
-if ! diff <(grep '^hash' <<<"$output") <("$host/bin/pulse_train" | grep '^hash'); then
+here=$(said 3 '^hash of [a-z]+ +0x' "$output")
+there=$(said 3 '^hash of [a-z]+ +0x' "$("$host/bin/pulse_train")")
+if ! diff <(echo "$here") <(echo "$there"); then
     echo "the host steps otherwise"
     exit 1
 fi
@@ -39,7 +43,7 @@ fi
 # at_most NAME INSTRUCTIONS
 at_most() {
     local took
-    took=$(sed -n "s/^cost $1 \([0-9]*\) .*/\1/p" <<<"$output")
+    took=$(number_said "^cost $1 ([0-9]+) " "$output")
     if ((took > $2)); then
         echo "$1 takes $took instructions, at most $2 were to be"
         exit 1

@@ -101,7 +101,7 @@ bool installed(const Tool& tool, const std::string& program) {
     if (tool.shell("command -v " + program).status == 0) {
         return true;
     }
-    WARN(program << " is not installed: this test is skipped");
+    WARN("SKIPPED: " << program << " is not installed");
     return false;
 }
 
@@ -312,7 +312,7 @@ TEST_CASE("drive: mbpoll reads its identity", "[drive][process]") {
 TEST_CASE("drive: pymodbus drives it, from the document alone", "[drive][process]") {
     const Tool tool;
     if (tool.shell("/usr/bin/python3 -c 'import pymodbus'").status != 0) {
-        WARN("python3-pymodbus is not installed: this test is skipped");
+        WARN("SKIPPED: python3-pymodbus is not installed");
         return;
     }
     DriveProcess drive(tool, "--listen tcp://127.0.0.1:0 --axes 3 --position 10,-20,30");

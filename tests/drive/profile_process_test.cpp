@@ -105,7 +105,7 @@ TEST_CASE("drive: a block on a Leadshine, a block with function 23 on a Lexium",
 TEST_CASE("drive: mbpoll reads and writes the registers of Kinco", "[drive][process]") {
     const Tool tool;
     if (tool.shell("command -v mbpoll").status != 0) {
-        WARN("mbpoll is not installed: this test is skipped");
+        WARN("SKIPPED: mbpoll is not installed");
         return;
     }
     const DriveProcess drive(tool, "--listen tcp://127.0.0.1:0 --position -2 --profile cia402-kinco");

@@ -48,7 +48,7 @@ TEST_CASE("GPIO lines: what is there, and is no chip") {
 
 TEST_CASE("GPIO lines: a chip that one may not open is told with the group that may") {
     if (geteuid() != 0) {
-        WARN("only root can make a file of another group; skipped");
+        WARN("SKIPPED: only root can make a file of another group");
         return;
     }
     const splinefeed_test::TemporaryFolder folder;

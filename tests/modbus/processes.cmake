@@ -1,21 +1,25 @@
 # SPDX-License-Identifier: MIT
 # Runs of the tool on simulated drives, each a process of its own, in real time: they mostly wait.
 find_package(Python3 COMPONENTS Interpreter QUIET)
-if(NOT Python3_FOUND)
-    message(WARNING "Without Python 3 the runs on simulated drives are not tested (Debian: apt-get install python3)")
-    return()
-endif()
-
 # Debian's packages (pymodbus) are for Debian's Python, which may not be the first one.
 set(python ${Python3_EXECUTABLE})
 if(EXISTS /usr/bin/python3)
     set(python /usr/bin/python3)
 endif()
 
+# process_test(name script arguments...). Under sanitizers, which take their time: with ./check --long only.
 function(process_test name script)
-    add_test(NAME ${name} COMMAND ${python} ${PROJECT_SOURCE_DIR}/tests/modbus/${script}
-                                  $<TARGET_FILE:splinefeed_tool> ${ARGN})
-    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600)
+    if(NOT python)
+        skipped_test(${name} "there is no Python 3 (Debian: apt-get install python3)")
+        return()
+    endif()
+    set(command ${python} ${PROJECT_SOURCE_DIR}/tests/modbus/${script} $<TARGET_FILE:splinefeed_tool> ${ARGN})
+    if(SPLINEFEED_FUZZERS)
+        string(PREPEND name sanitized_)
+        list(PREPEND command ${PROJECT_SOURCE_DIR}/tests/tools/if_long.sh "a minute under sanitizers")
+    endif()
+    add_test(NAME ${name} COMMAND ${command})
+    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600 COST 100)
 endfunction()
 
 set(path61 ${PROJECT_SOURCE_DIR}/examples/path61.csv ${PROJECT_SOURCE_DIR}/examples/three_axis.toml)
@@ -40,7 +44,9 @@ process_test(modbus_profile_cia402_index profile_run.py ${path61} cia402-index -
 process_test(modbus_profile_oriental_az profile_run.py ${path61} oriental-az --wire rtu --tolerance-mm 0.15)
 process_test(modbus_profile_cia402_kinco profile_run.py ${path61} cia402-kinco --wire rtu --baud 57600 --tolerance-mm 0.36)
 process_test(modbus_home home_run.py)
-add_test(NAME modbus_real_time_judge COMMAND ${python} -B ${PROJECT_SOURCE_DIR}/tests/modbus/real_time_test.py)
+if(python)
+    add_test(NAME modbus_real_time_judge COMMAND ${python} -B ${PROJECT_SOURCE_DIR}/tests/modbus/real_time_test.py)
+endif()
 # The same over 50 s, alone: on a busy machine a line's answers come too late now and then, and all stop and go on.
 process_test(modbus_raster3d_tcp three_drives.py ${raster3d} --wire tcp --tolerance-mm 0.0004 --if-long)
 process_test(modbus_raster3d_rtu three_drives.py ${raster3d} --wire rtu --tolerance-mm 0.021 --if-long)

@@ -1,10 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The threads of the buses under the thread sanitizer: tests of the link, of the drives and of GPIO lines, and runs with faults.
-#   tests/modbus/tsan_runs.sh [--if-long]
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
-if [[ ${1-} == --if-long && ${SPLINEFEED_LONG:-0} != 1 ]]; then skip "takes 10 minutes: ./check --long"; fi
 need clang++ /usr/bin/python3
 
 cmake --preset tsan

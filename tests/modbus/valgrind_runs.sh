@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs on simulated drives, the tool and the drives each under valgrind: no invalid access, no leak. valgrind_runs.sh BUILD [--if-long]
+# Runs on simulated drives, the tool and the drives each under valgrind: no invalid access, no leak. valgrind_runs.sh BUILD
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
-if [[ ${2-} == --if-long && ${SPLINEFEED_LONG:-0} != 1 ]]; then skip "takes 2 minutes: ./check --long"; fi
 need valgrind /usr/bin/python3
 
 tool=$1/bin/splinefeed

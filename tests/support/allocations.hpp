@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How often all threads of this executable together have called operator new.
+// How often all threads of this executable together have called operator new; under a sanitizer malloc, too.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,5 @@
 namespace splinefeed_test {
 
 [[nodiscard]] std::size_t allocations() noexcept;
-/// False under a sanitizer, which has an operator new of its own.
-[[nodiscard]] bool allocations_are_counted() noexcept;
 
 } // namespace splinefeed_test

@@ -2,13 +2,8 @@
 # SPDX-License-Identifier: MIT
 # ./run and ./check on a system that has nothing but git: a Debian root made by debootstrap from this machine's mirror.
 #   tests/tools/fresh_debian.sh [SUITE]      as root; about 20 minutes and 4 GB
-#   tests/tools/fresh_debian.sh --if-long    as a part of ./check --long
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-if [[ ${1-} == --if-long ]]; then
-    if [[ ${SPLINEFEED_LONG:-0} != 1 ]]; then skip "takes 20 minutes: ./check --long"; fi
-    shift
-fi
 if [[ -e /fresh_debian ]]; then skip "this is the fresh system itself"; fi
 if ((EUID != 0)); then skip "needs root"; fi
 need debootstrap git

@@ -1,13 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Puts every misprint of the papers back, one at a time (tests/mutation/misprints.txt): each must fail a test.
-#   tests/tools/mutation.sh            about 10 s a misprint
-#   tests/tools/mutation.sh --if-long  as a part of ./check --long
+# About 10 s a misprint.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-if [[ ${1-} == --if-long ]]; then
-    if [[ ${SPLINEFEED_LONG:-0} != 1 ]]; then skip "rebuilds the tests for every misprint: ./check --long"; fi
-fi
 need cmake ninja g++
 
 scratch=$(mktemp -d)

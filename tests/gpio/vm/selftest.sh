@@ -1,11 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The bed proves itself: selftest.sh BUILD_DIRECTORY [--if-long]. Every edge that a program makes is in the trace, with libgpiod 1.6 and with
+# The bed proves itself: selftest.sh BUILD_DIRECTORY. Every edge that a program makes is in the trace, with libgpiod 1.6 and with
 # 2; an input that is pulled gives its edges; the edges of a plan, played in the guest, are found to be the plan's; and a guest
 # that fails, hangs or panics is no success.
 source "$(dirname "${BASH_SOURCE[0]}")/../../tools/common.sh"
-
-if [[ ${2-} == --if-long && ${SPLINEFEED_LONG:-0} != 1 ]]; then skip "takes a minute: ./check --long"; fi
 
 tool=$1/bin/splinefeed
 vm=tests/gpio/vm
