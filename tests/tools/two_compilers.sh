@@ -26,11 +26,12 @@ same() {
 }
 
 for scalar in fixed double float; do
-    for machine in three_axis jerk_limited; do
-        same examples/path61.csv -m examples/$machine.toml --scalar $scalar
-    done
+    same examples/path61.csv -m examples/three_axis.toml --scalar $scalar
 done
-for curve in g2-bezier catmull-rom catmull-rom-modified bspline polyline bspline-interpolation ferguson beta-chain; do
+for scalar in fixed double; do # float has too few digits for a jerk limit
+    same examples/path61.csv -m examples/jerk_limited.toml --scalar $scalar
+done
+for curve in g2-bezier catmull-rom catmull-rom-modified bspline polyline bspline-interpolation ferguson; do
     same examples/star.csv -m examples/three_axis.toml --curve $curve
 done
 sed 's/^jerk_plan.*//; s/^\[path\]/&\njerk_plan = "bounded"/' examples/jerk_limited.toml >"$scratch/bounded.toml"
