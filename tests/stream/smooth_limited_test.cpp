@@ -143,6 +143,23 @@ TEMPLATE_TEST_CASE("an averaged straight move takes the time of the S-curve", "[
     }
 }
 
+TEMPLATE_TEST_CASE("axes without a jerk limit beside one that takes ten seconds to its acceleration",
+                   "[stream][jerk][smooth]", double, Fixed) {
+    // The averaged time is up to 10 s: times the largest jerk it is beyond Fixed, which an assertion notices.
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0, 10000);
+    machine.jerk_tier = JerkTier::bounded;
+    for (const double jerk : {0.0, 1e9}) {
+        machine.axis[0].max_jerk_mm_s3 = jerk;
+        machine.axis[1].max_jerk_mm_s3 = 100.0;
+        const BezierPath path{line_shape(2, 1, {900.0, 0.0}), line_shape(2, 1, {0.0, 5.0}),
+                              line_shape(2, 1, {0.5, 0.5}), cubic_shape(20.0, 0.0, 40.0, 30.0, 60.0, 60.0)};
+        const Stream stream = stream_of<TestType>(path, machine, 256);
+        CAPTURE(jerk);
+        require_limits(stream, machine);
+        require_ends(stream, machine, {}, {960.5, 65.5});
+    }
+}
+
 TEMPLATE_TEST_CASE("an averaged motion does not depend on when the input comes", "[stream][jerk][smooth]", double,
                    Fixed) {
     using S = TestType;

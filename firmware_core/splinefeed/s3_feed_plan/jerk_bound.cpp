@@ -105,7 +105,7 @@ S JerkBound<S>::excess(S speed_sq, S acceleration) const noexcept {
             bounded_product(bounded_product(at.second, w), thrice) + cubed(Braking ? at.third_against : at.third_with);
         const S alone = cubed(larger(at.third_with, at.third_against));
         most = larger(most, along + bounded_product(at.second, speed_sq) - limit);
-        most = larger(most, along + larger(bend, alone) - limits_->jerk_mm_s3[k] * t);
+        most = larger(most, along + larger(bend, alone) - bounded_product(limits_->jerk_mm_s3[k], t));
     }
     return most;
 }
@@ -121,7 +121,7 @@ S JerkBound<S>::steepest() const noexcept {
     S most = scale2(from_integer<S>(1), 22); // more than six axes' limits together
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]),
-                                limits_->jerk_mm_s3[k] * smoothing_->seconds);
+                                bounded_product(limits_->jerk_mm_s3[k], smoothing_->seconds));
         most = smaller(most, quotient_or_max(limit, demand_->axis[k].first));
     }
     return most;

@@ -149,8 +149,9 @@ std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first) const noexcep
     const auto allowed = [&](std::uint32_t q8) {
         const S duration = from_integer<S>(static_cast<std::int32_t>(q8));
         const S t = segment * duration;
-        const S a = jerk * t;
-        const S v = smaller(a, literal<S>(1e7)) * t;
+        // No acceleration or speed of a path is above 1e7; T is up to 100 s.
+        const S a = smaller(jerk, quotient_or_max(literal<S>(1e7), t)) * t;
+        const S v = smaller(a * t, literal<S>(1e7));
         const bool known = ends ? v * t <= scale2(length, -1)
                                 : literal<S>(3.0) * scale2(duration, -Smoothing<S>::fraction_bits) <= ticks;
         return known && a <= acceleration &&
