@@ -80,14 +80,15 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
                 }
                 stops += stood ? 0 : 1;
                 stood = true;
-                trajectory.stand(segment);
+                if (!trajectory.stand(segment)) {
+                    continue; // nothing is known of the start
+                }
             } else {
                 break;
             }
             run.segments.push_back(segment);
         }
         REQUIRE(trajectory.state() == Pull::finished);
-        // Nothing is known of the start while the first segment is awaited: the machine stands at 0, as the path does
         require_limits(run, machine, std::same_as<S, float> ? 5e-2L : 0.0L);
         for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
             REQUIRE(run.segments.back().end[k] == plain.segments.back().end[k]);
@@ -99,4 +100,114 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
         }
     }
     CHECK(4 * stops >= rounds(8));
+}
+
+TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known, and rests only at its end",
+                   "[stream][starvation][jerk]", double, Fixed) {
+    using S = TestType;
+    int compared = 0;
+    for (const JerkTier tier : {JerkTier::optimal, JerkTier::bounded}) {
+        for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(4)); ++round) {
+            Random random(seed + round);
+            MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+            machine.jerk_tier = tier;
+            machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = random.decades(2e4, 1e6);
+            const BezierPath path = random_path(random, 2, 14, random.decades(3.0, 20.0), 0.0, 0.0);
+            // One segment is kept back until the next is known
+            const std::size_t released = 8;
+            const BezierPath known(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(released) - 1);
+            const SteeredRun least = run_steered<S>(known, machine, 512, {});
+            const auto limits = MotionLimits<S>::make(machine).value();
+            ListSource<S> list(segments_of<S>(path, {}), 0, 0);
+            GatedSource<S> source(list, path.size());
+            source.release(released);
+            AnyTrajectory<S> any(source, limits, 512);
+            SteeredRun run;
+            FeedSegment segment;
+            std::size_t rests = 0;
+            const auto travel = [&] {
+                while (any.trajectory().next(segment, Starvation::goes_on)) {
+                    const bool moved = segment.start != segment.end;
+                    run.segments.push_back(segment);
+                    rests += moved && ends_at_rest(segment, 2) ? 1U : 0U;
+                }
+            };
+            travel();
+            CAPTURE(seed, round, static_cast<int>(tier), run.segments.size(), least.segments.size(), rests);
+            REQUIRE(any.trajectory().state() == Pull::starved);
+            const SteeredRun cusps = least; // jumps of the curvature are stops of the plan
+            std::size_t stops = 0;
+            for (const FeedSegment& s : cusps.segments) {
+                stops += s.start != s.end && ends_at_rest(s, 2) ? 1U : 0U;
+            }
+            CHECK(rests <= stops);
+            CHECK(run.segments.size() <= least.segments.size() + least.segments.size() / 20 + 10);
+            ++compared;
+            // And what comes while it still moves is no stop
+            source.release(path.size());
+            travel();
+            REQUIRE(any.trajectory().state() == Pull::finished);
+            require_limits(run, machine);
+            ListSource<S> again(segments_of<S>(path, {}), 0, 0);
+            GatedSource<S> in_time(again, path.size());
+            in_time.release(released);
+            AnyTrajectory<S> other(in_time, limits, 512);
+            SteeredRun smooth;
+            std::size_t made = 0;
+            while (other.trajectory().next(segment, Starvation::goes_on)) {
+                smooth.segments.push_back(segment);
+                if (++made == least.segments.size() / 2) {
+                    in_time.release(path.size());
+                }
+            }
+            REQUIRE(other.trajectory().state() == Pull::finished);
+            require_limits(smooth, machine);
+            const SteeredRun whole = run_steered<S>(path, machine, 512, {});
+            CAPTURE(whole.segments.size(), smooth.segments.size());
+            CHECK(smooth.segments.size() <= whole.segments.size() + whole.segments.size() / 20 + 10);
+        }
+    }
+    CHECK(compared == 2 * rounds(4));
+}
+
+TEMPLATE_TEST_CASE("a hold while the input is late stops the motion", "[stream][starvation][steering]", double, Fixed) {
+    using S = TestType;
+    MachineSettings plain = machine_of(2, 100.0, 1000.0, 100.0);
+    std::vector<MachineSettings> machines(3, plain);
+    machines[1].jerk_tier = JerkTier::optimal;
+    machines[2].jerk_tier = JerkTier::bounded;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (AxisSettings& axis : machines[i].axis) {
+            axis.max_jerk_mm_s3 = i > 0 ? 5e4 : 0.0;
+        }
+        const auto limits = MotionLimits<S>::make(machines[i]).value();
+        const BezierPath path(60, line_shape(2, 3, {3.0, 4.0})); // no stop of its own
+        ListSource<S> list(segments_of<S>(path, {}), 0, 0);
+        GatedSource<S> source(list, path.size());
+        AnyTrajectory<S> any(source, limits, 32);
+        SteeredRun run;
+        FeedSegment segment;
+        source.release(1);
+        while (run.segments.size() < 150) { // waits in the middle of the path, at speed
+            if (any.trajectory().next(segment)) {
+                run.segments.push_back(segment);
+            } else {
+                source.release(1);
+            }
+        }
+        while (any.trajectory().next(segment)) {
+            run.segments.push_back(segment);
+        }
+        REQUIRE(any.trajectory().state() == Pull::starved);
+        const bool moves = !ends_at_rest(run.segments.back(), 2);
+        any.trajectory().hold();
+        while (any.trajectory().next(segment)) {
+            run.segments.push_back(segment);
+        }
+        CAPTURE(i, moves, run.segments.size());
+        CHECK(any.trajectory().state() == Pull::held);
+        CHECK(any.trajectory().activity() == Activity::held);
+        CHECK(moves);
+        require_limits(run, machines[i]);
+    }
 }

@@ -38,9 +38,7 @@ constexpr double slowest_sq = 1e-6;
 
 template <Scalar S>
 FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept
-    : source_(&source), limits_(limits), window_(window) {
-    SPLINEFEED_ASSERT(window.size() >= smallest_window);
-}
+    : source_(&source), limits_(limits), window_(window) {}
 
 // Cap of a cell. This is the one place where a limit of the speed is stated.
 template <Scalar S>
@@ -110,11 +108,16 @@ S FeedPlan<S>::programmed_sq(const Cell<S>& cell) const noexcept {
 // Backward over the window: entry_sq becomes the largest entry from which the machine's K behind the cell can be
 // reached, exit_sq the wish's K there. Returns the last final node of the wish, or 0.
 template <Scalar S>
-std::size_t FeedPlan<S>::look_back() noexcept {
+std::size_t FeedPlan<S>::look_back(bool open_end) noexcept {
     std::size_t last_final = 0;
     S hard{}; // at rest
     S soft{};
     S wanted = size_ > 0 ? wanted_sq(at(size_ - 1)) : S{};
+    open_ = open_end;
+    if (open_end && size_ > 0 && !at(size_ - 1).cell.stop_at_end) {
+        hard = at(size_ - 1).cap_sq;
+        soft = wanted;
+    }
     for (std::size_t i = size_; i-- > 0;) {
         PlannedCell<S>& here = at(i);
         S hard_cap = here.cap_sq;
@@ -174,7 +177,10 @@ void FeedPlan<S>::replan() noexcept {
 template <Scalar S>
 S FeedPlan<S>::reachable_exit() const noexcept {
     const PlannedCell<S>& here = at(0);
-    return here.cell.stop_at_end || size_ == 1 ? S{} : smaller(at(1).entry_sq, here.cap_sq);
+    if (here.cell.stop_at_end || (size_ == 1 && !open_)) {
+        return S{};
+    }
+    return size_ == 1 ? here.cap_sq : smaller(at(1).entry_sq, here.cap_sq);
 }
 
 template <Scalar S>
@@ -256,6 +262,13 @@ Pull FeedPlan<S>::fill() noexcept {
 }
 
 template <Scalar S>
+void FeedPlan<S>::lead() noexcept {
+    steering_.override_feed(from_integer<S>(2));
+    steering_.taken();
+    leads_ = true;
+}
+
+template <Scalar S>
 Pull FeedPlan<S>::prepare(Starvation starvation) noexcept {
     if (chosen_) {
         return Pull::item;
@@ -268,6 +281,7 @@ Pull FeedPlan<S>::prepare(Starvation starvation) noexcept {
         return size_ == 0 ? pull : Pull::held;
     }
     if (committed_ == 0) {
+        const bool was_open = open_;
         const Pull pull = fill();
         if (size_ == 0) {
             return pull;
@@ -276,12 +290,15 @@ Pull FeedPlan<S>::prepare(Starvation starvation) noexcept {
             return pull;
         }
         if (pull == Pull::starved) {
-            if (!planned_ || steering_.news()) {
-                look_back();
+            if (!planned_ || open_ != leads_ || steering_.news()) {
+                look_back(leads_);
             }
             committed_ = 1;
         } else {
             commit(pull == Pull::finished);
+        }
+        if (was_open || open_) { // with an open end it may have become faster than what came behind it allows
+            speed_sq_ = smaller(speed_sq_, at(0).entry_sq);
         }
         steered_ = steered_ || steering_.news();
         steering_.taken();
@@ -350,7 +367,7 @@ template <Scalar S>
 void FeedPlan<S>::forget() noexcept {
     size_ = committed_ = 0;
     at_ = speed_sq_ = S{};
-    steered_ = planned_ = chosen_ = hopping_ = false;
+    steered_ = planned_ = open_ = chosen_ = hopping_ = false;
 }
 
 template class FeedPlan<double>;

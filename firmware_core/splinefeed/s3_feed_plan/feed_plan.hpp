@@ -41,7 +41,7 @@ public:
     static constexpr std::size_t smallest_window = 10;
 
     /// `limits` must outlive the plan: on a microcontroller they stay in ROM.
-    /// @pre window.size() >= smallest_window
+    /// A window below smallest_window is a broken precondition of all that follows.
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept;
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
 
@@ -62,6 +62,9 @@ public:
     bool steer(const Place<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override;
+    /// Another plan takes the cells, and these speeds as bounds of its own, whatever the override: the end of what is
+    /// known is where that plan rests, and no bound. @pre nothing was asked of it yet
+    void lead() noexcept;
     /// Forgets every cell, wherever the plan is: another plan travelled them.
     void forget() noexcept;
 
@@ -80,7 +83,7 @@ private:
         return wanted_sq(planned.cell, planned.cap_sq, steering_.ratio());
     }
     Pull fill() noexcept;
-    std::size_t look_back() noexcept;
+    std::size_t look_back(bool open_end = false) noexcept;
     void commit(bool ended) noexcept;
     void replan() noexcept;
     [[nodiscard]] S reachable_exit() const noexcept;
@@ -102,6 +105,8 @@ private:
     S wanted_exit_{}; // at the end of the front cell, once a passage is chosen
     std::uint64_t window_limited_ = 0;
     bool planned_ = false; // the window, as it is
+    bool open_ = false;    // with a free speed at its end: a motion that follows need not rest there
+    bool leads_ = false;   // another plan follows
     bool chosen_ = false;  // passage_ is the front's
     bool hopping_ = false; // passage_ is the first half of one from rest to rest
     bool steered_ = false; // not yet back on the plan that the steering asks for

@@ -25,10 +25,7 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 template <Scalar S>
 JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
     : source_(&source), limits_(&limits), window_(limits, storage) {
-    SPLINEFEED_ASSERT(storage.cells.size() >= smallest_window);
-    // Its speeds bound those of this plan, whatever the override will be.
-    source.steering().override_feed(from_integer<S>(2));
-    source.steering().taken();
+    source.lead();
 }
 
 template <Scalar S>
@@ -59,7 +56,7 @@ template <Scalar S>
 Pull JerkPlan<S>::fill(Starvation starvation) noexcept {
     Pull pull = Pull::item;
     while (!window_.full() && pull == Pull::item) {
-        pull = take(window_.size() == 0 ? starvation : Starvation::waits);
+        pull = take(starvation);
     }
     return pull;
 }
@@ -327,7 +324,10 @@ Pull JerkPlan<S>::prepare(Starvation starvation) noexcept {
             return pull;
         }
         if (planned_all_ && planned_ > 0) {
-            committed_ = planned_;
+            // What comes in later changes the rest of it, but for a move that is one.
+            const bool in_part =
+                pull == Pull::starved && !steering_.stops() && line_.done() && window_.node(0).travel == Travel::curve;
+            committed_ = in_part ? 1 : planned_;
         } else {
             plan(pull == Pull::finished);
         }
@@ -369,6 +369,10 @@ void JerkPlan<S>::clear() noexcept {
     source_->forget();
     window_.clear();
     committed_ = planned_ = halt_ = 0;
+    hops_ = 1;
+    on_line_mm_ = 0.0;
+    passage_ = {};
+    planned_all_ = unanswered_ = false;
     steering_.start();
 }
 

@@ -23,7 +23,7 @@ class JerkPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 16;
 
-    /// @pre storage.cells.size() >= smallest_window
+    /// Less storage than smallest_window and nodes_for() it is a broken precondition of all that follows.
     JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
     Pull prepare(Starvation starvation = Starvation::waits) noexcept override;

@@ -51,10 +51,7 @@ constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
 template <Scalar S>
 SmoothPlan<S>::SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept
     : source_(&source), limits_(&limits), window_(limits, cells) {
-    SPLINEFEED_ASSERT(cells.size() >= smallest_window);
-    // Its speeds bound those of this plan, whatever the override will be.
-    source.steering().override_feed(from_integer<S>(2));
-    source.steering().taken();
+    source.lead();
 }
 
 template <Scalar S>
@@ -75,26 +72,41 @@ Pull SmoothPlan<S>::take(Starvation starvation) noexcept {
     return Pull::item;
 }
 
-// As much as there is room for.
+// As much as there is room for. A motion that is to stop does not wait for more.
 template <Scalar S>
 Pull SmoothPlan<S>::refill(Starvation starvation) noexcept {
     Pull pull = Pull::item;
     while (window_.has_room() && pull == Pull::item) {
-        pull = take(Starvation::waits);
+        pull = take(starvation);
     }
-    if (pull == Pull::starved && starvation == Starvation::waits) {
+    starved_ = pull == Pull::starved;
+    if (starved_ && starvation == Starvation::waits && !steering_.stops()) {
         return pull;
     }
-    window_.prepare(!window_.has_room());
-    while (known() == 0 && window_.has_room() && pull == Pull::starved) { // nothing to go on with
-        if (take(starvation) != Pull::item) {
-            break;
-        }
-        window_.prepare(!window_.has_room());
+    if (pull == Pull::finished) {
+        window_.end_here();
     }
-    taken_ = pull == Pull::starved ? window_.capacity() : 0; // then it is asked again with every passage
+    window_.prepare(!window_.has_room());
+    if (known() == 0 && starved_ && starvation == Starvation::goes_on) { // nothing to go on with
+        window_.end_here();
+        window_.prepare(false);
+    }
+    taken_ = starved_ ? window_.capacity() : 0; // then it is asked again with every passage
     look_back(false);
     return pull;
+}
+
+// The motion brakes, and the input is late: it may be for the cells at the end that are not prepared, as the average
+// may go beyond them. If that end is to be a rest, they are known as well.
+template <Scalar S>
+bool SmoothPlan<S>::ends_here() noexcept {
+    if (!(passage_.exit_sq < passage_.entry_sq) || window_.prepared() == window_.size()) {
+        return false;
+    }
+    window_.end_here();
+    window_.prepare(false);
+    look_back(true);
+    return true;
 }
 
 template <Scalar S>
@@ -169,15 +181,20 @@ void SmoothPlan<S>::passage_to(S to, S exit_sq) noexcept {
     passage_.linear = quotient_or_max(speed_ + speed_, sum);
 }
 
-// At constant speed, to the end of the cell or until the sign may change.
+// At constant speed, to the end of the cell or until the sign may change. false: so slow that the way does not resolve.
+// Then it has hardly started from rest: both accelerations together take less than T, and no change reaches over them.
 template <Scalar S>
-void SmoothPlan<S>::coast() noexcept {
+bool SmoothPlan<S>::coast() noexcept {
     const S one = from_integer<S>(1);
     const S left = from_integer<S>(smoothing_.ticks()) - since_;
     const S way = speed_ * (left / limits_->segments_per_s);
+    if (!(way > S{})) {
+        return false;
+    }
     const S part = larger(quotient_or_max(way, length()), literal<S>(least_part<S>));
     const bool whole = !(left > S{}) || !(at_ + part < one - literal<S>(crumb));
     passage_to(whole ? one : at_ + part, speed_sq_);
+    return true;
 }
 
 // As hard as the cell allows, to a speed or the end of the cell.
@@ -289,9 +306,8 @@ void SmoothPlan<S>::choose() noexcept {
     const S top = here.soft_reach;
     const S allowed = top > exit ? top - (top - exit) * at_ : larger(top, exit);
     if (steering_.stops() || speed_sq_ > allowed + allowed * literal<S>(0x1p-14)) {
-        if (last_ == Sign::accelerating && !rested()) {
-            coast();
-        } else {
+        const bool waits = last_ == Sign::accelerating && !rested() && coast();
+        if (!waits) {
             brake(steering_.stops() ? S{} : smaller(exit, speed_sq_));
         }
     } else if ((last_ == Sign::braking && !rested()) || !accelerate()) {
@@ -322,7 +338,7 @@ Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
     }
     if (known() == 0 || 4 * taken_ >= window_.capacity()) {
         const Pull pull = refill(starvation);
-        if (known() == 0 || (pull == Pull::starved && starvation == Starvation::waits)) {
+        if (known() == 0 || (starved_ && starvation == Starvation::waits && !steering_.stops())) {
             return pull;
         }
     }
@@ -338,6 +354,9 @@ Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
         since_ = S{};
     }
     choose();
+    if (starved_ && starvation == Starvation::goes_on && !steering_.stops() && ends_here()) {
+        choose();
+    }
     return Pull::item;
 }
 
@@ -389,7 +408,7 @@ void SmoothPlan<S>::clear() noexcept {
     taken_ = looked_ = 0;
     at_ = speed_sq_ = speed_ = since_ = S{};
     last_ = Sign::none;
-    chosen_ = false;
+    chosen_ = starved_ = false;
 }
 
 template class SmoothPlan<double>;

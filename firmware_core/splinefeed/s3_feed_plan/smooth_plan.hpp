@@ -23,7 +23,7 @@ class SmoothPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 12;
 
-    /// @pre cells.size() >= smallest_window
+    /// Fewer cells than smallest_window are a broken precondition of all that follows.
     SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept;
 
     Pull prepare(Starvation starvation = Starvation::waits) noexcept override;
@@ -71,6 +71,7 @@ private:
     Pull take(Starvation starvation) noexcept;
     Pull refill(Starvation starvation) noexcept;
     [[nodiscard]] S wanted_sq(const SmoothCell<S>& cell) const noexcept;
+    bool ends_here() noexcept;
     void look_back(bool all) noexcept;
     [[nodiscard]] S length() const noexcept { return ahead(0).cell.length_mm; }
     [[nodiscard]] JerkBound<S> bound_of(const SmoothCell<S>& cell) noexcept {
@@ -83,7 +84,7 @@ private:
     void choose() noexcept;
     bool accelerate() noexcept;
     void brake(S goal_sq) noexcept;
-    void coast() noexcept;
+    bool coast() noexcept;
     void follow() noexcept;
     void crawl() noexcept;
     [[nodiscard]] bool rested() const noexcept;
@@ -104,6 +105,7 @@ private:
     S since_{};                // ticks at constant speed
     Sign last_ = Sign::none;   // of the acceleration before
     bool chosen_ = false;
+    bool starved_ = false; // when it was filled last
 };
 
 } // namespace splinefeed

@@ -94,6 +94,19 @@ void SmoothWindow<S>::append(const Cell<S>& cell, S cap_sq, S programmed_sq, S e
     }
 }
 
+// The last cell is not prepared, since it is not known what is behind it; so there is room for its halves.
+template <Scalar S>
+void SmoothWindow<S>::end_here() noexcept {
+    if (size_ == front_ || !(end_bound_sq_ > S{})) {
+        return;
+    }
+    SPLINEFEED_ASSERT(prepared_ < size_ && size_ < storage_.size());
+    end_bound_sq_ = S{};
+    if (!(at(size_ - 1).bound_sq > S{})) {
+        split_last();
+    }
+}
+
 template <Scalar S>
 void SmoothWindow<S>::release() noexcept {
     SPLINEFEED_ASSERT(front_ > 0);

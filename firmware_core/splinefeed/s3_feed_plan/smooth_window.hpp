@@ -53,6 +53,8 @@ public:
 
     /// Appends a cell, and a stop before it where q'' jumps. @param exit_bound_sq  bound of v^2 at its end
     void append(const Cell<S>& cell, S cap_sq, S programmed_sq, S exit_bound_sq) noexcept;
+    /// The motion is at rest at the end of what is known, whatever comes behind it.
+    void end_here() noexcept;
     /// Prepares the cells of which enough is known behind them. @param force  at least half of them: what there is no
     /// room to know is not needed by a motion that is slow enough
     void prepare(bool force) noexcept;
