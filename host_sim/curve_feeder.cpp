@@ -121,8 +121,13 @@ void CurveFeeder<S>::read_all() {
         all_.push_back(row);
         ++rows_read_;
     }
-    if (all_.size() > 1 && same_point(all_.front(), all_.back())) {
-        all_.pop_back(); // the seam, written twice
+    if (all_.size() > 1 && same_point(all_.front(), all_.back())) { // the seam, written twice
+        // The move that closes the path ends at the last row; nothing leads to the first one.
+        WaypointRow& seam = all_.front();
+        seam.feed_mm_s = all_.back().feed_mm_s;
+        seam.max_feed_mm_s = all_.back().max_feed_mm_s;
+        seam.corner = all_.back().corner != Corner::automatic ? all_.back().corner : seam.corner;
+        all_.pop_back();
     }
     std::size_t different = 0;
     for (std::size_t i = 0; i < all_.size(); ++i) {

@@ -84,6 +84,24 @@ TEST_CASE("Waypoints within 0.1 um are one for curves of all points, too") {
     CHECK(cusp.status == 0);
 }
 
+TEST_CASE("A closed file that repeats its first point says with that row how the path closes") {
+    const Tool tool;
+    const std::string rows = "20,0,50,0\n20,20,50,0\n0,20,50,0\n";
+    const auto segments = [&](const std::string& text) {
+        tool.write("path.csv", "x,y,feed,corner\n" + text);
+        const Call call = tool("plan path.csv --closed --corner-angle 180 --segments segments.csv");
+        CAPTURE(call.error);
+        CHECK(call.status == 0);
+        return tool.read("segments.csv");
+    };
+    // Nothing leads to the first row, and so its feed says nothing
+    const std::string slow_corner = segments("0,0,50,0\n" + rows + "0,0,5,1\n");
+    CHECK(slow_corner == segments("0,0,5,1\n" + rows));
+    CHECK(slow_corner == segments("0,0,5,1\n" + rows + "0,0,5,\n"));
+    CHECK(slow_corner != segments("0,0,50,1\n" + rows));
+    CHECK(slow_corner != segments("0,0,5,0\n" + rows));
+}
+
 TEST_CASE("A B-spline of control points runs, open and closed, and has no waypoint error") {
     const Tool tool;
     tool.write("square.csv", square);
