@@ -54,7 +54,9 @@ void run_steered(Trajectory<S>& trajectory, const std::vector<Event>& events, St
             supply();
             continue;
         } else if (trajectory.state() == Pull::held && next < events.size()) {
-            trajectory.stand(segment);
+            if (!trajectory.stand(segment)) {
+                break;
+            }
             run.segments.push_back(segment);
         } else {
             break;
@@ -104,9 +106,10 @@ public:
         Real x = 0.0L; ///< fraction of its length
     };
 
-    Track(const BezierPath& path, const MachineSettings& machine) : machine_(&machine) {
-        ListSource<S> source(path);
-        cells_ = cells_of<S>(source, MotionLimits<S>::make(machine)->refinement);
+    Track(const BezierPath& path, const MachineSettings& machine)
+        : Track(ListSource<S>(path), MotionLimits<S>::make(machine).value(), machine) {}
+    Track(ListSource<S> source, const MotionLimits<S>& limits, const MachineSettings& machine) : machine_(&machine) {
+        cells_ = cells_of<S>(source, limits.refinement);
         Real s = 0.0L;
         for (const Cell<S>& cell : cells_) {
             start_.push_back(s);
@@ -144,10 +147,9 @@ public:
     }
 
     /// Least time to rest from a speed: braking as hard as the axes allow, in steps of time.
-    [[nodiscard]] Real braking_s(const Place& place, Real speed) const {
+    [[nodiscard]] Real braking_s(const Place& place, Real speed, Real step = 2e-6L) const {
         Real s = s_of(place);
         Real t = 0.0L;
-        const Real step = 2e-6L;
         std::size_t cell = place.cell;
         while (speed > 0.0L && s < length_) {
             const Real a = least_acceleration(cell, s, speed * speed);

@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+//
+// Every way of steering with every planner, scalar and pace of the input, on open and closed curves with and without
+// corners, at random times; judged on what was emitted: no limit is broken, nothing of the path is lost or repeated, a
+// hold always ends at standstill and soon enough, and a new program begins where the machine stands.
+#include "support/catch.hpp"
+#include "support/curve_harness.hpp"
+#include "support/emitted.hpp"
+#include "support/random_steering.hpp"
+#include "support/rounds.hpp"
+
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr std::uint64_t seed = 31415;
+constexpr std::size_t most_emitted = 30'000;
+constexpr std::size_t located = 120; // samples of a run that are looked for on the path
+
+template <Scalar S>
+constexpr Real slack = std::same_as<S, float> ? 5e-2L : 0.0L; // of an acceleration
+template <Scalar S>
+constexpr Real close = std::same_as<S, float> ? 1e-3L : 1e-6L; // to the path [mm]
+
+enum class Planner { acceleration, optimal, bounded };
+
+/// What is asked of a run, and when, in segments.
+struct Round {
+    MachineSettings machine;
+    Program program;
+    bool closed = false;
+    std::size_t window = 64;
+    Starvation policy = Starvation::waits;
+    double pace = 1.0; // waypoints a segment
+    std::vector<Event> events;
+};
+
+/// A hold, an override of 0 or an abort: the segment before which it was given, and the first that ends at rest for it.
+struct Stop {
+    std::size_t given = 0;
+    std::size_t rest = 0;
+};
+
+struct Emitted : SteeredRun {
+    std::vector<Stop> stops;
+    std::size_t starved = 0; // rests for want of input
+};
+
+Program bounded_program(Random& random, int axes) {
+    for (;;) {
+        Program program = random_program(random, axes);
+        double reach = 0.0;
+        for (const Point& point : program.points) {
+            for (const double mm : point.mm) {
+                reach = std::max(reach, std::fabs(mm));
+            }
+        }
+        if (reach < 250.0) { // float takes moves up to 512 mm
+            return program;
+        }
+    }
+}
+
+std::vector<Event> random_orders(Random& random) {
+    std::vector<Event> events;
+    std::size_t at = 0;
+    const int count = random.integer(1, 6);
+    for (int i = 0; i < count; ++i) {
+        at += static_cast<std::size_t>(random.decades(1.0, 600.0));
+        const auto pause = static_cast<std::size_t>(random.decades(1.0, 400.0));
+        switch (random.integer(0, 4)) {
+        case 0: events.push_back({at, Order::override_feed, random.between(0.2, 2.0)}); break;
+        case 1: events.push_back({at, Order::override_feed, 2.0}); break;
+        case 2:
+            events.push_back({at, Order::override_feed, 0.0});
+            events.push_back({at += pause, Order::override_feed, random.between(0.3, 2.0)});
+            break;
+        default: events.push_back({at, Order::hold}); events.push_back({at += pause, Order::resume});
+        }
+    }
+    if (random.chance(0.25)) {
+        events.push_back({at + static_cast<std::size_t>(random.decades(1.0, 300.0)), Order::abort});
+    } else if (random.chance(0.25)) {
+        events.push_back({at + static_cast<std::size_t>(random.decades(1.0, 300.0)), Order::hold}); // for good
+    }
+    return events;
+}
+
+template <Scalar S>
+Round random_round(Random& random, Planner planner) {
+    Round round;
+    const int axes = random.integer(1, max_axes);
+    do {
+        round.machine = random_quick_machine(random, axes);
+        if (planner != Planner::acceleration) {
+            limit_jerk(random, round.machine);
+            round.machine.axis[0].max_jerk_mm_s3 = std::min(20.0 * round.machine.axis[0].max_acceleration_mm_s2, 1e9);
+            round.machine.jerk_tier = planner == Planner::bounded ? JerkTier::bounded : JerkTier::optimal;
+        }
+    } while (!MotionLimits<S>::make(round.machine).has_value());
+    round.program = bounded_program(random, axes);
+    round.closed = random.chance(0.4);
+    constexpr std::size_t windows[] = {16, 32, 64, 256};
+    round.window = windows[random.integer(0, 3)];
+    round.policy = random.chance(0.5) ? Starvation::goes_on : Starvation::waits;
+    round.pace = random.decades(0.001, 0.3);
+    round.events = random_orders(random);
+    return round;
+}
+
+template <Scalar S>
+std::vector<Feed<S>> feeds_of(const Program& program, bool closed) {
+    std::vector<Waypoint<S>> points;
+    for (const Point& point : program.points) {
+        Waypoint<S> waypoint;
+        for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
+            waypoint.position[k] = position_from_mm(point.mm[k]);
+        }
+        waypoint.feed_mm_s = from_double<S>(point.feed_mm_s);
+        waypoint.corner = point.corner;
+        points.push_back(waypoint);
+    }
+    return closed ? closed_feeds(points) : open_feeds(points);
+}
+
+bool ends_standing(const std::vector<FeedSegment>& segments, unsigned axes) {
+    return !segments.empty() && ends_at_rest(segments.back(), axes);
+}
+
+/// The waypoints come at the pace of the round, whatever the motion does. Where it waits for them, no time passes.
+template <Scalar S, class Curve>
+void emit(Trajectory<S>& trajectory, Curve& curve, const std::vector<Feed<S>>& feeds, const Round& round,
+          Random& random, Emitted& out) {
+    std::size_t pushed = 0;
+    bool finished = false;
+    const auto push = [&] {
+        if (pushed < feeds.size()) {
+            const Status status = curve.push(feeds[pushed].point, feeds[pushed].role);
+            REQUIRE((status.ok() || status.error() == Error::no_room));
+            pushed += status.ok() ? 1U : 0U;
+        } else if (!finished) {
+            finished = true;
+            REQUIRE(curve.finish().ok());
+        }
+    };
+    std::size_t next = 0;
+    std::size_t given = 0;
+    bool stopping = false;
+    FeedSegment segment;
+    while (!out.endless) {
+        for (; next < round.events.size() && round.events[next].segment <= out.segments.size(); ++next) {
+            const bool before = stopping;
+            give(trajectory, round.events[next]);
+            stopping = trajectory.activity() == Activity::holding || trajectory.activity() == Activity::aborting;
+            given = stopping && !before ? out.segments.size() : given;
+        }
+        if (random.chance(round.pace)) {
+            push();
+        }
+        const bool item = trajectory.next(segment, round.policy);
+        const Activity activity = trajectory.activity();
+        if (item) {
+            out.segments.push_back(segment);
+        }
+        if (stopping && (activity == Activity::held || activity == Activity::aborted)) {
+            out.stops.push_back({given, out.segments.size()});
+            stopping = false;
+        }
+        if (!item && trajectory.state() == Pull::finished) {
+            break;
+        }
+        if (!item && trajectory.state() == Pull::held && next == round.events.size()) {
+            break;
+        }
+        if (!item && trajectory.state() == Pull::starved) {
+            REQUIRE_FALSE(finished);
+        }
+        if (!item && trajectory.state() == Pull::starved &&
+            (round.policy == Starvation::waits || out.segments.empty())) {
+            push();
+        } else if (!item) {
+            REQUIRE(trajectory.stand(segment));
+            out.starved += trajectory.state() == Pull::starved ? 1U : 0U;
+            out.segments.push_back(segment);
+        }
+        out.endless = out.segments.size() >= most_emitted;
+    }
+    out.finished = trajectory.state() == Pull::finished;
+    out.activity = trajectory.activity();
+    out.position = trajectory.position();
+}
+
+/// The samples to be looked for: some evenly, those where a stop was asked for, and the last.
+std::vector<std::size_t> samples_of(const Emitted& run, std::size_t first) {
+    std::vector<std::size_t> samples;
+    for (std::size_t i = first + 1; i < run.segments.size(); i += 1 + (run.segments.size() - first) / located) {
+        samples.push_back(i);
+    }
+    for (const Stop& stop : run.stops) {
+        if (stop.given > first && stop.given < run.segments.size()) {
+            samples.push_back(stop.given);
+        }
+    }
+    samples.push_back(run.segments.size() - 1);
+    std::sort(samples.begin(), samples.end());
+    return samples;
+}
+
+Real speed_at(const FeedSegment& segment, const MachineSettings& machine) {
+    Real sum = 0.0L;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+        const Real v = static_cast<Real>(segment.start_velocity[k]) * 8e6L /
+                       (units_per_mm(machine.axis[k]) * static_cast<Real>(segment.duration_ticks));
+        sum += v * v;
+    }
+    return std::sqrt(sum);
+}
+
+/// Longest time from an order to rest, with a start at the sample before: that of braking as hard as the axes'
+/// accelerations allow; with a jerk limit that of a straight move of the softest axis with half of its jerk, the other
+/// half being for bends; averaged over T, with the acceleration J T at most, T later, and T for the mean.
+template <Scalar S>
+Real stop_bound_s(const Track<S>& track, const typename Track<S>::Place& place, const FeedSegment& segment,
+                  const MachineSettings& machine) {
+    const auto limits = MotionLimits<S>::make(machine).value();
+    const Real segment_s = static_cast<Real>(segment.duration_ticks) / 8e6L;
+    const Real late = 0.002L + 3.0L * segment_s;
+    const Real speed = speed_at(segment, machine);
+    const Real braking = track.braking_s(place, speed, segment_s / 4.0L);
+    if (!limits.jerk_limited) {
+        return braking + late;
+    }
+    Real rise = 0.0L;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+        const AxisSettings& axis = machine.axis[k];
+        rise =
+            axis.max_jerk_mm_s3 > 0.0 ? std::max(rise, real(axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3)) : rise;
+    }
+    if (machine.jerk_tier == JerkTier::optimal) {
+        return 1.5L * braking + 3.0L * rise + late;
+    }
+    const Real ticks = 256.0L;
+    const Real bends = static_cast<Real>(limits.smoothing_q8) / ticks * segment_s;
+    const Real straight = static_cast<Real>(limits.most_smoothing_q8) / ticks * segment_s;
+    return 1.5L * braking * std::max(1.0L, rise / bends) + 3.0L * straight + late;
+}
+
+/// Every sample is on the path, and none is farther along it than the machine can come in the time, or behind the one
+/// before; from every stop that was asked for it takes no longer to stand than it may. Returns how far it came.
+template <Scalar S>
+Real require_path(const Emitted& run, std::size_t first, const Track<S>& track, const MachineSettings& machine) {
+    Real fastest = 0.0L;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+        fastest += real(machine.axis[k].max_velocity_mm_s) * real(machine.axis[k].max_velocity_mm_s);
+    }
+    const Real segment_s = static_cast<Real>(run.segments[0].duration_ticks) / 8e6L;
+    typename Track<S>::Place place;
+    Real before = 0.0L;
+    std::size_t last = first;
+    for (const std::size_t i : samples_of(run, first)) {
+        const Real off = track.find(run.segments[i], place);
+        const Real now = track.s_of(place);
+        CAPTURE(i, first, static_cast<double>(off), static_cast<double>(now), static_cast<double>(before));
+        REQUIRE(off <= close<S>);
+        REQUIRE(now >= before - close<S>);
+        REQUIRE(now - before <= static_cast<Real>(i - last) * segment_s * std::sqrt(fastest) + close<S>);
+        before = now;
+        last = i;
+        for (const Stop& stop : run.stops) {
+            if (stop.given == i) {
+                const auto took = static_cast<Real>(stop.rest - stop.given) * segment_s;
+                const Real bound = stop_bound_s(track, place, run.segments[i], machine);
+                CAPTURE(stop.given, stop.rest, static_cast<double>(took), static_cast<double>(bound));
+                CHECK(took <= bound);
+            }
+        }
+    }
+    return before;
+}
+
+template <Scalar S>
+std::string text_of(const Round& round) {
+    std::string text = std::to_string(round.machine.axes) + " axes, " + (round.closed ? "closed, " : "open, ") +
+                       (round.policy == Starvation::waits ? "waits, " : "goes on, ") + "window " +
+                       std::to_string(round.window) + ", pace " + std::to_string(round.pace) + ":";
+    for (const Event& e : round.events) {
+        constexpr const char* names[] = {"hold", "resume", "abort", "override"};
+        text += " " + std::to_string(e.segment) + " " + names[static_cast<int>(e.order)] +
+                (e.order == Order::override_feed ? " " + std::to_string(e.value) : "") + ";";
+    }
+    return text;
+}
+
+/// What the rounds have come across.
+struct Tally {
+    int judged = 0;
+    int endless = 0;
+    int stopped = 0;
+    int starved = 0;
+    int restarted = 0;
+};
+
+template <Scalar S, class Curve>
+void run_round(const Round& round, Random& random, Tally& tally) {
+    const MachineSettings& machine = round.machine;
+    const auto limits = MotionLimits<S>::make(machine).value();
+    CurveOptions<S> options;
+    options.axes = machine.axes;
+    const auto feeds = feeds_of<S>(round.program, round.closed);
+    Curve whole(options);
+    const Track<S> track(ListSource<S>(run_curve<S>(whole, feeds)), limits, machine);
+    Curve curve(options);
+    AnyTrajectory<S> any(curve, limits, round.window);
+    Trajectory<S>& trajectory = any.trajectory();
+    Emitted run;
+    emit(trajectory, curve, feeds, round, random, run);
+    if (run.endless || run.segments.empty()) {
+        tally.endless += run.endless ? 1 : 0; // minutes of the machine's time, or held before it began
+        return;
+    }
+    ++tally.judged;
+    tally.stopped += static_cast<int>(run.stops.size());
+    tally.starved += run.starved > 0 ? 1 : 0;
+    REQUIRE((run.finished || run.activity == Activity::held));
+    REQUIRE(ends_standing(run.segments, static_cast<unsigned>(machine.axes)));
+    require_limits(run, machine, slack<S>);
+    const bool found = machine.axes > 1; // on a single axis a place is passed to and fro
+    const Real came = found ? require_path(run, 0, track, machine) : track.length();
+    if (run.finished && run.activity != Activity::aborted) {
+        REQUIRE(std::fabs(came - track.length()) <= close<S>);
+        if (!round.closed) { // a closed curve meets its waypoints to rounding only
+            require_ends(run, machine, round.program);
+        }
+    }
+    if (run.finished && random.chance(0.5)) { // another program from where it stands
+        trajectory.resume();
+        trajectory.override_feed(from_integer<S>(1));
+        const std::size_t first = run.segments.size();
+        Waypoint<S> waypoint;
+        waypoint.position = run.position;
+        std::vector<Feed<S>> next{{waypoint, Role::path}};
+        for (int i = 0; i < 4; ++i) {
+            for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+                waypoint.position[k].raw += position_from_mm(random.between(-5.0, 5.0)).raw;
+            }
+            next.push_back({waypoint, Role::path});
+        }
+        Curve next_whole(options);
+        const Track<S> next_track(ListSource<S>(run_curve<S>(next_whole, next)), limits, machine);
+        Curve next_curve(options);
+        REQUIRE(trajectory.start(next_curve).ok());
+        Round plain = round;
+        plain.events.clear();
+        plain.pace = 1.0;
+        emit(trajectory, next_curve, next, plain, random, run);
+        for (FeedSegment& segment : run.segments) {
+            segment.waypoint = 0; // each program counts its own
+        }
+        if (!run.endless) {
+            REQUIRE(run.finished);
+            REQUIRE(
+                (!found || std::fabs(require_path(run, first, next_track, machine) - next_track.length()) <= close<S>));
+            require_limits(run, machine, slack<S>);
+            ++tally.restarted;
+        }
+    }
+}
+
+template <Scalar S>
+void run_rounds(Planner planner, int rounds, std::uint64_t first) {
+    Tally tally;
+    for (int number = 0; number < rounds; ++number) {
+        Random random(first + static_cast<std::uint64_t>(number));
+        const Round round = random_round<S>(random, planner);
+        CAPTURE(first, number, text_of<S>(round));
+        if (round.program.polyline) {
+            run_round<S, Polyline<S>>(round, random, tally);
+        } else {
+            run_round<S, G2Spline<S>>(round, random, tally);
+        }
+    }
+    CAPTURE(tally.judged, tally.endless, tally.stopped, tally.starved, tally.restarted);
+    CHECK(10 * tally.judged >= 8 * rounds);
+    CHECK(2 * tally.stopped >= rounds);
+    CHECK(16 * tally.starved >= rounds);
+    CHECK(6 * tally.restarted >= rounds);
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("whatever is asked of an acceleration-limited motion", "[stream][steering][matrix]", double, float,
+                   Fixed) {
+    run_rounds<TestType>(Planner::acceleration, rounds(32, 2900), seed);
+}
+
+TEMPLATE_TEST_CASE("whatever is asked of an optimal jerk-limited motion", "[stream][steering][matrix][jerk]", double,
+                   Fixed) {
+    run_rounds<TestType>(Planner::optimal, rounds(32, 2900), seed + 1'000'000);
+}
+
+TEMPLATE_TEST_CASE("whatever is asked of an averaged motion", "[stream][steering][matrix][jerk][smooth]", double,
+                   Fixed) {
+    run_rounds<TestType>(Planner::bounded, rounds(32, 2900), seed + 2'000'000);
+}
