@@ -103,6 +103,8 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     }
     if (tee_.failure()) {
         keep_failure(tee_.failure());
+    } else if (const Status status = trajectory_.status(); !status.ok()) {
+        keep_failure(std::make_exception_ptr(InputError(input_->name(), 0, describe(status.error()))));
     }
     if (trajectory_.activity() == Activity::aborted) {
         stopped_ = "aborted by an event";
@@ -182,8 +184,7 @@ bool Motion<S>::stand() {
         return false;
     }
     FeedSegment segment;
-    trajectory_.stand(segment);
-    return execute(segment);
+    return trajectory_.stand(segment) && execute(segment);
 }
 
 // Gives the curve one more waypoint, or tells it that there are none.

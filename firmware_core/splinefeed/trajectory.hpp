@@ -8,32 +8,39 @@
 
 namespace splinefeed {
 
-/// Pulls feed segments out of a curve. The stages refer to one another: not copied, not moved.
+/// Pulls feed segments out of a curve, for limits without jerk. The stages refer to one another: not copied, not moved.
 ///
 ///     G2Spline<Fixed> curve({.axes = 3});
 ///     Trajectory<Fixed> trajectory(curve, limits, window);
 ///     while (trajectory.next(segment)) port.submit(segment);
+///     if (!trajectory.status().ok()) ...
+///
+/// What does not fit together is refused: the trajectory writes no segment, and status() says why.
 template <Scalar S>
 class Trajectory {
 public:
     /// `curve`, `limits` and `window` must outlive the trajectory.
     Trajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept
-        : arc_length_(curve, limits.refinement), feed_plan_(arc_length_, limits, window), plan_(&feed_plan_),
-          samples_(feed_plan_, limits), sampler_(&samples_), stream_(samples_, limits) {}
+        : Trajectory(curve, limits, window, limits.jerk_limited ? Error::planner_unsuited : Error::none) {}
     Trajectory(CurveSource<S>& curve, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
     Trajectory(const Trajectory&) = delete;
     Trajectory& operator=(const Trajectory&) = delete;
+
+    /// Why there is no motion, or none to the end of the program. From the start: axes_out_of_range (the limits are
+    /// none), planner_unsuited, window_too_small, storage_too_small. Once the curve's segments come, before the first
+    /// one that does not fit, at rest: axes_differ, counts_out_of_range, start_elsewhere.
+    [[nodiscard]] Status status() const noexcept { return built_.ok() ? arc_length_.status() : built_; }
 
     /// Writes the next segment; false when there is none: see state().
     /// @param starvation  goes_on: for a machine that moves and has no segment left, while the input is late. The
     /// motion
     ///                    goes on with what is known, brakes to rest at its end, and starts again when more comes.
     bool next(FeedSegment& out, Starvation starvation = Starvation::waits) noexcept {
-        state_ = stream_.next(out, starvation);
+        state_ = built_.ok() ? stream_.next(out, starvation) : Pull::finished;
         return state_ == Pull::item;
     }
     /// Why the last next() answered as it did: `starved` (push waypoints or finish), `held` (stands until resume() or a
-    /// larger override) or `finished` (also: aborted).
+    /// larger override) or `finished` (also: aborted, or refused: see status()).
     [[nodiscard]] Pull state() const noexcept { return state_; }
 
     /// Steering, at any time between two next(): it acts with the next segment. The path in space stays the same.
@@ -48,31 +55,48 @@ public:
     /// What the motion does about all that.
     [[nodiscard]] Activity activity() const noexcept {
         const Steering<S>& steering = plan_->steering();
-        if (!steering.stops()) {
+        if (!steering.stops() || !built_.ok()) {
             return Activity::running;
         }
         const bool stands = plan_->standing() && stream_.at_rest();
         return steering.aborts() ? (stands ? Activity::aborted : Activity::aborting)
                                  : (stands ? Activity::held : Activity::holding);
     }
-    /// Writes a segment of standing still, for a machine that is to have one. @pre the motion is at rest: held,
-    /// aborted, finished or not begun
-    void stand(FeedSegment& out) noexcept { stream_.stand(out); }
+    /// Writes a segment of standing still, for a machine that is to have one: held, aborted, finished or at a stop.
+    /// false: it moves, or where it stands is not known, since no motion has begun.
+    [[nodiscard]] bool stand(FeedSegment& out) noexcept { return stream_.stand(out); }
     /// Where the machine stands once it is at rest.
     [[nodiscard]] const PerAxis<Position>& position() const noexcept { return stream_.position(); }
-    /// A new program, whose first waypoint is position(). The override stays as it is.
-    /// @pre the one before is finished or aborted, and the machine at rest
-    void start(CurveSource<S>& curve) noexcept {
+    /// A new program; what is left of the one before is forgotten. Once it moved, the first waypoint must be
+    /// position(), else it is refused when it comes: see status(). The override and a hold stay as they are. Errors:
+    /// still_moving (nothing was changed), and those of status() that are there from the start.
+    Status start(CurveSource<S>& curve) noexcept {
+        if (!built_.ok()) {
+            return built_;
+        }
+        if (!plan_->standing() || !stream_.at_rest()) {
+            return Error::still_moving;
+        }
         plan_->clear();
         sampler_->clear();
-        arc_length_.start(curve);
+        arc_length_.start(curve, stream_.begun() ? &stream_.position() : nullptr);
         state_ = Pull::starved;
+        return {};
     }
 
     [[nodiscard]] const ArcLength<S>& arc_length() const noexcept { return arc_length_; }
     [[nodiscard]] const FeedPlan<S>& feed_plan() const noexcept { return feed_plan_; }
 
 protected:
+    /// @param planner  whether there is one that the limits ask for, with its storage
+    Trajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window,
+               Status planner) noexcept
+        : arc_length_(curve, limits.refinement), feed_plan_(arc_length_, limits, window), plan_(&feed_plan_),
+          samples_(feed_plan_, limits), sampler_(&samples_), stream_(samples_, limits),
+          built_(limits.axes < 1 || limits.axes > max_axes      ? Error::axes_out_of_range
+                 : !planner.ok()                                ? planner.error()
+                 : window.size() < FeedPlan<S>::smallest_window ? Error::window_too_small
+                                                                : Error::none) {}
     [[nodiscard]] FeedPlan<S>& speeds() noexcept { return feed_plan_; }
     /// The stream follows another plan, made of the feed plan's. @pre nothing was asked of it yet
     void refine(MotionPlan<S>& plan) noexcept {
@@ -96,6 +120,7 @@ private:
     Sampler<S>* sampler_;
     SegmentStream<S> stream_;
     Pull state_ = Pull::starved;
+    Status built_{};
 };
 
 } // namespace splinefeed

@@ -304,6 +304,39 @@ TEMPLATE_TEST_CASE("curve: look-ahead and room", "[curve][streaming]", double, f
     });
 }
 
+TEMPLATE_TEST_CASE("curve: a waypoint that finds no room is refused and nothing is lost", "[curve][streaming]", double,
+                   float, Fixed) {
+    using S = TestType;
+    RandomPath random(path_seed + 23);
+    const auto feeds = open_feeds(waypoints_of<S>(random.make(Shape::uneven, 2, 100)));
+    for_each_method<S>(2, [&](auto make) {
+        auto eager = make();
+        const auto expected = run_curve<S>(eager, feeds);
+        auto curve = make();
+        std::vector<CurveSegment<S>> out;
+        CurveSegment<S> segment;
+        int refused = 0;
+        for (const auto& feed : feeds) {
+            for (;;) {
+                const Status pushed = curve.push(feed.point);
+                if (pushed.ok()) {
+                    break;
+                }
+                ++refused;
+                REQUIRE(pushed.error() == Error::no_room);
+                REQUIRE(curve.push(feed.point).error() == Error::no_room); // and again, as while a motion is held
+                REQUIRE(curve.next(segment) == Pull::item);
+                out.push_back(segment);
+            }
+        }
+        CHECK(refused > 50);
+        REQUIRE(curve.finish().ok());
+        REQUIRE(curve.push(feeds[0].point).error() == Error::input_finished);
+        drain<S>(curve, out);
+        REQUIRE(same_curve(expected, out));
+    });
+}
+
 TEMPLATE_TEST_CASE("curve: a hundred thousand waypoints", "[curve][streaming]", double, float, Fixed) {
     using S = TestType;
     RandomPath random(path_seed + 22);

@@ -42,6 +42,36 @@ void check_range(Field field, double low, double high, Error error) {
 
 } // namespace
 
+TEMPLATE_TEST_CASE("segments of a sample are a whole number of ticks, and travel is counted", "[feed_plan][limits]",
+                   double, float, Fixed) {
+    using S = TestType;
+    MachineSettings machine = slow_machine();
+    const auto with = [&](int segments, int period_us) {
+        machine.segments_per_sample = segments;
+        machine.sample_period_us = period_us;
+        return error_of<S>(machine);
+    };
+    for (const int whole : {0, 1, 2, 4, 5, 8}) {
+        CAPTURE(whole);
+        CHECK(with(whole, 100000) == Error::none);
+    }
+    for (const int broken : {3, 6, 7}) {
+        CHECK(with(broken, 100000) == Error::segments_per_sample_invalid);
+    }
+    CHECK(with(7, 70000) == Error::none);
+    for (const int outside : {-1, 9, 16, 1000}) {
+        CHECK(with(outside, 90000) == Error::segments_per_sample_invalid);
+    }
+    machine = slow_machine();
+    machine.axis[1].travel_end_zone_mm = machine.axis[1].travel_end_velocity_mm_s = 10.0;
+    machine.axis[1].steps_per_mm = 1e6;
+    machine.axis[1].travel_low_mm = -2147.0;
+    machine.axis[1].travel_high_mm = 2147.0;
+    CHECK(error_of<S>(machine) == Error::none);
+    machine.axis[1].travel_high_mm = 2148.0;
+    CHECK(error_of<S>(machine) == Error::counts_out_of_range);
+}
+
 TEMPLATE_TEST_CASE("every number of a machine has a range", "[feed_plan][limits]", double, float, Fixed) {
     using S = TestType;
     CHECK(error_of<S>({}) == Error::none);

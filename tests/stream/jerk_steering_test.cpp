@@ -149,7 +149,7 @@ TEMPLATE_TEST_CASE("an abort with limited jerk, and a new program after it", "[s
             start[k] = static_cast<double>(exact_mm(run.position[k]));
         }
         ListSource<S> next(segments_of<S>(BezierPath{line_shape(2, 1, {-10.0, 5.0})}, start), 0, 0);
-        any.trajectory().start(next);
+        REQUIRE(any.trajectory().start(next).ok());
         run_steered<S>(any.trajectory(), {}, run);
         for (FeedSegment& segment : run.segments) {
             segment.waypoint = 0; // both programs count from 0

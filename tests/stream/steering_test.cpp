@@ -249,7 +249,7 @@ TEMPLATE_TEST_CASE("after an abort a new program starts where the machine stands
         }
         const BezierPath path = random_path(random, made.machine.axes, 4, 2.0, 0.2, 0.0);
         ListSource<S> next(segments_of<S>(path, start), 0, 0);
-        trajectory.start(next);
+        REQUIRE(trajectory.start(next).ok());
         CHECK(trajectory.activity() == Activity::running);
         const std::size_t before = run.segments.size();
         SteeredRun second = run;
@@ -307,7 +307,7 @@ TEMPLATE_TEST_CASE("what the motion does about its steering", "[stream][steering
     CHECK(trajectory.state() == Pull::held);
     const std::uint64_t index = segment.index;
     const auto end = segment.end;
-    trajectory.stand(segment);
+    REQUIRE(trajectory.stand(segment));
     CHECK(segment.index == index + 1);
     CHECK((segment.start == end && segment.end == end && segment.start_velocity[0] == 0));
     trajectory.override_feed(from_double<S>(7.0)); // 2

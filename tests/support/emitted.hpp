@@ -14,7 +14,7 @@ template <class Run>
 Used require_limits(const Run& run, const MachineSettings& machine, Real slack = 0.0L) {
     REQUIRE_FALSE(run.endless);
     Used used;
-    REQUIRE(std::string(check_stream(run.segments, machine, used)).empty());
+    REQUIRE(std::string(check_stream(run.segments, machine, used)) == "");
     CAPTURE(static_cast<double>(used.jerk), static_cast<double>(used.acceleration - 1.0L),
             static_cast<double>(used.velocity - 1.0L), static_cast<double>(used.feed - 1.0L));
     CHECK(used.jerk <= 1.0L);

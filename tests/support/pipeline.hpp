@@ -7,9 +7,10 @@
 #include "splinefeed/jerk_trajectory.hpp"
 #include "splinefeed/smooth_trajectory.hpp"
 
-#include <memory>
-
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <span>
 
 namespace splinefeed_test {
 
@@ -82,13 +83,30 @@ Planned<S> plan_of(const BezierPath& path, const MachineSettings& machine, std::
     return plan_of<S>(source, MotionLimits<S>::make(machine).value(), window_size);
 }
 
-/// The pipeline that the limits ask for, with its memory.
+/// Every byte of a storage.
+template <class T>
+void fill_bytes(std::vector<T>& storage, unsigned char value) {
+    for (std::byte& byte : std::as_writable_bytes(std::span<T>(storage))) {
+        byte = std::byte{value};
+    }
+}
+
+/// The pipeline that the limits ask for, with its memory. @param left_over  what every byte of that holds before; 0:
+/// what its constructors make of it
 template <Scalar S>
 class AnyTrajectory {
 public:
-    AnyTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::size_t window_size)
+    AnyTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::size_t window_size,
+                  unsigned char left_over = 0)
         : window_(window_size), cells_(window_size), nodes_(JerkStorage<S>::nodes_for(window_size)),
           smooth_cells_(window_size), places_(SmoothSampler<S>::places_for(limits)) {
+        if (left_over != 0) {
+            fill_bytes(window_, left_over);
+            fill_bytes(cells_, left_over);
+            fill_bytes(nodes_, left_over);
+            fill_bytes(smooth_cells_, left_over);
+            fill_bytes(places_, left_over);
+        }
         if (limits.jerk_limited && limits.jerk_tier == JerkTier::bounded) {
             smooth_ =
                 std::make_unique<SmoothTrajectory<S>>(curve, limits, window_, SmoothStorage<S>{smooth_cells_, places_});

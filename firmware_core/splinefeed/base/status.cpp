@@ -24,6 +24,8 @@ const char* describe(Error error) noexcept {
     case Error::centripetal_out_of_range: return "centripetal_mm_s2 must lie between 0.1 and 1000000";
     case Error::chord_error_out_of_range: return "chord_error_mm must lie between 0.000001 and 1";
     case Error::sample_period_out_of_range: return "sample_period_us must be a whole number from 50 to 100000";
+    case Error::segments_per_sample_invalid:
+        return "segments_per_sample must be 0 to 8 and divide the sample period into whole eighths of a us";
     case Error::period_too_short:
         return "the sample period is too short for the acceleration: rounding would use a quarter of the limit; "
                "use a longer sample_period_us, a higher acceleration or a finer scalar";
@@ -37,7 +39,17 @@ const char* describe(Error error) noexcept {
     case Error::too_few_waypoints: return "a path needs two different waypoints, a closed one three";
     case Error::degree_out_of_range: return "a Bezier segment has degree 1 to 9";
     case Error::gap_in_curve: return "each segment must start where the one before it ends";
-    case Error::window_too_small: return "the feed plan needs a window of at least 16 cells";
+    case Error::no_room: return "the curve is full of waypoints: make segments, and push the waypoint again";
+    case Error::input_finished: return "a curve takes no waypoints after finish()";
+    case Error::window_too_small:
+        return "the window is too small: a feed plan needs at least 10 cells, a smooth plan 12 and a jerk plan 16 of "
+               "their own";
+    case Error::planner_unsuited:
+        return "these limits need another planner: Trajectory without max_jerk_mm_s3, with it SmoothTrajectory "
+               "(bounded) or JerkTrajectory (optimal)";
+    case Error::axes_differ: return "the curve and the machine must have the same number of axes";
+    case Error::start_elsewhere: return "a new program must begin where the machine stands";
+    case Error::still_moving: return "a new program can start only when the machine is at rest";
     case Error::too_few_points: return "there are too few points for the method and its degree";
     case Error::coincident_points:
         return "two successive points are the same, or too near beside the largest coordinate or derivative; merge "

@@ -27,6 +27,7 @@ enum class Error : std::uint8_t {
     centripetal_out_of_range,
     chord_error_out_of_range,
     sample_period_out_of_range,
+    segments_per_sample_invalid,
     period_too_short,
     steps_out_of_range,
     corner_angle_out_of_range,
@@ -36,7 +37,13 @@ enum class Error : std::uint8_t {
     too_few_waypoints,
     degree_out_of_range,
     gap_in_curve,
+    no_room,
+    input_finished,
     window_too_small,
+    planner_unsuited,
+    axes_differ,
+    start_elsewhere,
+    still_moving,
     too_few_points,
     coincident_points,
     storage_too_small,
@@ -84,12 +91,17 @@ public:
     constexpr Result(Error error) noexcept : error_(error) {}        // NOLINT(google-explicit-constructor)
     [[nodiscard]] constexpr bool has_value() const noexcept { return error_ == Error::none; }
     [[nodiscard]] constexpr Error error() const noexcept { return error_; }
-    /// @pre has_value()
-    [[nodiscard]] constexpr const T& value() const noexcept {
+    /// Of a temporary the value itself: a reference into it would dangle. @pre has_value(); else a T{}
+    [[nodiscard]] constexpr const T& value() const& noexcept {
         SPLINEFEED_ASSERT(has_value());
         return value_;
     }
-    constexpr const T& operator*() const noexcept { return value(); }
+    [[nodiscard]] constexpr T value() && noexcept {
+        SPLINEFEED_ASSERT(has_value());
+        return std::move(value_);
+    }
+    constexpr const T& operator*() const& noexcept { return value(); }
+    constexpr T operator*() && noexcept { return std::move(*this).value(); }
     constexpr const T* operator->() const noexcept { return &value(); }
 
 private:

@@ -24,7 +24,12 @@ S WaypointCurve<S>::span_of(S length) const noexcept {
 
 template <Scalar S>
 Status WaypointCurve<S>::push(const Waypoint<S>& waypoint, Role role) noexcept {
-    SPLINEFEED_ASSERT(has_room() && !finished_);
+    if (finished_) {
+        return Error::input_finished;
+    }
+    if (!has_room()) {
+        return Error::no_room;
+    }
     const auto axes_u = static_cast<unsigned>(axes());
     const std::int64_t longest_raw = std::int64_t{options_.longest_move_mm} << Position::fraction_bits;
     for (unsigned k = 0; k < axes_u; ++k) {

@@ -52,7 +52,7 @@ struct Knot {
     std::uint32_t waypoint = 0;
 };
 
-/// Base of the streaming methods. Push while there is room, drain with next().
+/// Base of the streaming methods. Push until it is full, make room with next().
 /// Memory: the ring. Cost of push: constant.
 template <Scalar S>
 class WaypointCurve : public CurveSource<S> {
@@ -60,8 +60,9 @@ public:
     /// Whether push would be taken. next() makes room.
     [[nodiscard]] bool has_room() const noexcept { return known_ - oldest_ < capacity; }
 
-    /// Takes the next waypoint. One within 0.1 um of its predecessor on every axis is merged into it.
-    /// @pre has_room() and not finished
+    /// Takes the next waypoint. One within 0.1 um of its predecessor on every axis is merged into it. What is refused
+    /// changes nothing. Errors: no_room (push it again once next() has made room; while a motion is held it makes
+    /// none), input_finished, position_out_of_range, move_too_long.
     Status push(const Waypoint<S>& waypoint, Role role = Role::path) noexcept;
 
     /// No more waypoints will come. Refused when there was no move at all.

@@ -24,6 +24,21 @@ constexpr S finest = S{};
 template <>
 constexpr float finest<float> = 16.0F;
 
+// By how much a program may begin beside where the machine stands.
+constexpr std::int64_t beside_raw = std::int64_t{1} << (Position::fraction_bits - 26);
+
+/// Hull of an axis's control points.
+template <Scalar S>
+PositionRange hull(const PerDegree<S>& control, int degree, Position origin, int unit_log2) noexcept {
+    S least = control[0];
+    S most = least;
+    for (unsigned i = 1; i <= static_cast<unsigned>(degree); ++i) {
+        least = smaller(least, control[i]);
+        most = larger(most, control[i]);
+    }
+    return {displaced(origin, least, unit_log2), displaced(origin, most, unit_log2)};
+}
+
 } // namespace
 
 template <Scalar S>
@@ -60,16 +75,9 @@ bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
 template <Scalar S>
 bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        S least = piece.control[k][0];
-        S most = least;
-        for (unsigned i = 1; i <= static_cast<unsigned>(current().degree); ++i) {
-            least = smaller(least, piece.control[k][i]);
-            most = larger(most, piece.control[k][i]);
-        }
-        const std::int64_t low = displaced(current().origin[k], least, current().unit_log2).raw;
-        const std::int64_t high = displaced(current().origin[k], most, current().unit_log2).raw;
-        const OpenTravel& open = refinement_.open[k];
-        if ((low < open.low.raw && high > open.low.raw) || (low < open.high.raw && high > open.high.raw)) {
+        const auto [low, high] = hull(piece.control[k], current().degree, current().origin[k], current().unit_log2);
+        const PositionRange& open = refinement_.open[k];
+        if ((low < open.low && high > open.low) || (low < open.high && high > open.high)) {
             return true;
         }
     }
@@ -278,11 +286,46 @@ bool ArcLength<S>::jumps(const CurveSegment<S>& before, const CurveSegment<S>& a
     return jump > refinement_.direction_jump;
 }
 
+// Whether the machine can be where a segment leads: its counters reach all of it, and the first one begins where it
+// stands.
+template <Scalar S>
+Status ArcLength<S>::check(const CurveSegment<S>& segment) const noexcept {
+    if (refinement_.axes != 0 && segment.axes != refinement_.axes) {
+        return Error::axes_differ;
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+        const auto [low, high] = hull(segment.control[k], segment.degree, segment.origin[k], segment.unit_log2);
+        if (low < refinement_.countable[k].low || high > refinement_.countable[k].high) {
+            return Error::counts_out_of_range;
+        }
+        if (from_ != nullptr) {
+            const Position begins = displaced(segment.origin[k], segment.control[k][0], segment.unit_log2);
+            const std::int64_t beside = begins.raw - (*from_)[k].raw;
+            if (beside > beside_raw || beside < -beside_raw) {
+                return Error::start_elsewhere;
+            }
+        }
+    }
+    return {};
+}
+
+// The source's next segment. The path ends before one that does not fit.
+template <Scalar S>
+Pull ArcLength<S>::fetch(CurveSegment<S>& out) noexcept {
+    const Pull pull = status_.ok() ? source_->next(out) : Pull::finished;
+    if (pull != Pull::item) {
+        return pull;
+    }
+    status_ = check(out);
+    from_ = nullptr;
+    return status_.ok() ? Pull::item : Pull::finished;
+}
+
 // Makes the next segment current. It waits for the segment after it, because a stop at its end shapes its cells.
 template <Scalar S>
 Pull ArcLength<S>::load() noexcept {
     if (!has_current_) {
-        const Pull pull = has_ahead_ ? Pull::item : source_->next(slots_[current_]);
+        const Pull pull = has_ahead_ ? Pull::item : fetch(slots_[current_]);
         if (pull != Pull::item) {
             return pull;
         }
@@ -290,7 +333,7 @@ Pull ArcLength<S>::load() noexcept {
         has_ahead_ = false;
     }
     CurveSegment<S>& ahead = slots_[1 - current_];
-    const Pull pull = source_->next(ahead);
+    const Pull pull = fetch(ahead);
     if (pull == Pull::starved) {
         return Pull::starved;
     }

@@ -10,8 +10,8 @@
 
 namespace splinefeed {
 
-/// Where an axis may go at its full speed; closer to the ends of its travel it has another limit.
-struct OpenTravel {
+/// Where an axis may be.
+struct PositionRange {
     Position low{std::numeric_limits<std::int64_t>::min()};
     Position high{std::numeric_limits<std::int64_t>::max()};
 };
@@ -23,12 +23,14 @@ struct Refinement {
     S longest_mm{};        ///< longest cell (the resolution of the parameter w in Fixed and float)
     S max_feed_mm_s{};     ///< feed of segments that program none
     S grade_per_feed_sq{}; ///< cells next to a joint are at most feed^2 times this: a fraction of the braking distance
-    int finest_grade_log2 = 0; ///< next to a stop cells are 2^-this of that: jerk-limited motion starts slowly
-    int shape_log2 = 0;        ///< unit of AxisShape: 2^-shape_log2
-    PerAxis<OpenTravel> open{};
-    S end_piece_mm{};                        ///< longest cell across an end of open travel; 0: no axis has one
-    S direction_jump{};                      ///< a larger change of dq/ds at a joint is a corner, and a stop
-    S turn = literal<S>(0.0613);             ///< largest change of direction within a cell [rad]
+    int finest_grade_log2 = 0;          ///< next to a stop cells are 2^-this of that: jerk-limited motion starts slowly
+    int shape_log2 = 0;                 ///< unit of AxisShape: 2^-shape_log2
+    int axes = 0;                       ///< that a segment must have; 0: any number
+    PerAxis<PositionRange> countable{}; ///< where the control points of a segment must be
+    PerAxis<PositionRange> open{};      ///< where an axis may go at full speed; near the ends of its travel it may not
+    S end_piece_mm{};                   ///< longest cell across an end of open travel; 0: no axis has one
+    S direction_jump{};                 ///< a larger change of dq/ds at a joint is a corner, and a stop
+    S turn = literal<S>(0.0613);        ///< largest change of direction within a cell [rad]
     S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
     S curvature_bend = literal<S>(0.0037);   ///< the same for the second difference of curvature
     S metric_ratio = literal<S>(1.2173);     ///< largest ratio of two |dr/dw| within a cell
@@ -50,17 +52,23 @@ public:
         : source_(&source), refinement_(refinement) {}
     ArcLength(CurveSource<S>& source, const Refinement<S>&& refinement) = delete;
 
-    /// Forgets the source before, and begins with this one.
-    void start(CurveSource<S>& source) noexcept {
+    /// Forgets the source before, and begins with this one. @param from  where it must begin, to 2^-26 mm (a closed
+    /// curve meets its waypoints to rounding only); must outlive the call that writes the first cell. null: anywhere
+    void start(CurveSource<S>& source, const PerAxis<Position>* from = nullptr) noexcept {
         source_ = &source;
+        from_ = from;
+        status_ = {};
         travelled_ = {};
         segments_ = 0;
         depth_ = 0;
         has_current_ = has_ahead_ = in_cusp_ = after_cusp_ = false;
         stop_before_ = stop_after_ = true;
     }
-    /// Writes the next cell in travel order.
+    /// Writes the next cell in travel order. Before a segment that does not fit the machine the path ends: see
+    /// status().
     Pull next(Cell<S>& out) noexcept;
+    /// Why the path ended before the end of its source: axes_differ, counts_out_of_range or start_elsewhere.
+    [[nodiscard]] Status status() const noexcept { return status_; }
 
     /// Length of all cells so far, in units of 2^-40 mm.
     [[nodiscard]] Wide travelled() const noexcept { return travelled_; }
@@ -73,6 +81,8 @@ private:
 
     enum class Verdict : std::uint8_t { fine, coarse, cusp };
 
+    Pull fetch(CurveSegment<S>& out) noexcept;
+    [[nodiscard]] Status check(const CurveSegment<S>& segment) const noexcept;
     Pull load() noexcept;
     [[nodiscard]] bool jumps(const CurveSegment<S>& before, const CurveSegment<S>& after) const noexcept;
     [[nodiscard]] bool vanishes(const Piece<S>& piece) const noexcept;
@@ -95,6 +105,7 @@ private:
 
     CurveSource<S>* source_;
     const Refinement<S>& refinement_;
+    const PerAxis<Position>* from_ = nullptr; // where the first segment must begin; null: anywhere, or it has begun
     std::array<CurveSegment<S>, 2> slots_{};
     std::array<Piece<S>, deepest + 2> stack_{};
     PieceMeasure<S> m_{}; // of the piece that is being judged
@@ -112,6 +123,7 @@ private:
     bool after_cusp_ = false; // the cell before was such a chord
     bool stop_before_ = true;
     bool stop_after_ = true;
+    Status status_{};
 };
 
 } // namespace splinefeed

@@ -47,8 +47,8 @@ JerkCell jerk_cell_of(const Cell<S>& cell, const MotionLimits<S>& limits, double
 template <Scalar S>
 JerkWindow<S>::JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
     : limits_(&limits), storage_(storage), spare_(storage.cells.size() / 4) {
-    SPLINEFEED_ASSERT(storage.nodes.size() >= JerkStorage<S>::nodes_for(storage.cells.size()));
     spare_ = spare_ < most_spare ? spare_ : most_spare;
+    clear();
 }
 
 // Where q'' jumps by d so does the acceleration by d v^2, and a third difference over T^3 sees up to 3/4 of that over
@@ -138,7 +138,9 @@ void JerkWindow<S>::split(std::size_t i, double fraction) noexcept {
 template <Scalar S>
 void JerkWindow<S>::clear() noexcept {
     size_ = travelled_ = 0;
-    storage_.nodes[0].state = {0.0, 0.0};
+    if (!storage_.nodes.empty()) {
+        storage_.nodes[0] = {}; // at rest; all others are written before they are read
+    }
 }
 
 template JerkCell jerk_cell_of(const Cell<double>&, const MotionLimits<double>&, double) noexcept;

@@ -34,7 +34,8 @@ public:
     static constexpr double shortest_mm = 2e-6;   ///< cells are cut no shorter, lest Fixed have no digits for them
     static constexpr double slowest_sq = 1e-6;    ///< v^2 below which a motion is not changed
 
-    /// @pre storage.nodes.size() >= nodes_for(storage.cells.size())
+    /// Whatever the storage holds is overwritten. Fewer nodes than nodes_for() the cells are a broken precondition of
+    /// all that follows.
     JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -69,6 +70,7 @@ public:
     void open(std::size_t first, std::size_t more) noexcept;
     /// Makes two cells of one; the node between them stands still. @pre forget_travelled(), room() > 0
     void split(std::size_t i, double fraction) noexcept;
+    /// Empty, and at rest.
     void clear() noexcept;
 
 private:

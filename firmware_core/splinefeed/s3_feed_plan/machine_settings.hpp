@@ -46,7 +46,8 @@ struct MachineSettings {
     double centripetal_mm_s2 = 0.0;
     double chord_error_mm = 0.0;
     int sample_period_us = 1000;
-    int segments_per_sample = 0; ///< 0: as many as keep the smoothing of the path below 0.35 um
+    /// 1 to 8, each a whole number of ticks of 1/8 us; 0: as many as keep the smoothing of the path below 0.35 um
+    int segments_per_sample = 0;
     JerkTier jerk_tier = JerkTier::optimal;
 };
 

@@ -186,13 +186,23 @@ constexpr bool travel_end_valid(const AxisSettings& axis) noexcept {
 
 /// Travel at full speed. What is emitted averages the plan over two segments to either side, which the axis passes at
 /// its end velocity, and the position is off by T^2 A / 6: the zone begins that much earlier.
-constexpr OpenTravel open_travel(const AxisSettings& axis, double segment_s) noexcept {
+constexpr PositionRange open_travel(const AxisSettings& axis, double segment_s) noexcept {
     const double zone = axis.travel_end_zone_mm + 2.0 * segment_s * axis.travel_end_velocity_mm_s +
                         segment_s * segment_s * axis.larger_acceleration_mm_s2() / 6.0;
     const auto position = [](double mm) {
         return position_from_mm(mm < -1048576.0 ? -1048576.0 : mm > 1048576.0 ? 1048576.0 : mm);
     };
     return {position(axis.travel_low_mm + zone), position(axis.travel_high_mm - zone)};
+}
+
+/// Largest count of an axis, either way.
+inline constexpr double most_counts = 2147483647.0;
+
+/// Where the counter of an axis reaches; 2^21 mm is beyond all waypoints and what a curve overshoots them by.
+constexpr PositionRange countable(const AxisSettings& axis) noexcept {
+    const double mm = most_counts / axis.steps_per_mm;
+    const Position reach = displaced(Position{}, mm < 2097152.0 ? mm : 2097152.0, 0);
+    return {Position{-reach.raw}, reach};
 }
 
 /// What is wrong with the numbers that are no axis's; none if nothing.
@@ -211,6 +221,10 @@ constexpr Error machine_error(const MachineSettings& settings) noexcept {
     }
     if (settings.sample_period_us < 50 || settings.sample_period_us > 100000) {
         return Error::sample_period_out_of_range;
+    }
+    const int n = settings.segments_per_sample;
+    if (n < 0 || n > 8 || (n > 0 && settings.sample_period_us * ticks_per_us % n != 0)) {
+        return Error::segments_per_sample_invalid;
     }
     return Error::none;
 }
@@ -238,6 +252,10 @@ constexpr Error axis_error(const AxisSettings& axis) noexcept {
     }
     if (!within(axis.steps_per_mm, 0.001, 1e6)) {
         return Error::steps_out_of_range;
+    }
+    if (axis.travel_end_zone_mm != 0.0 && (axis.travel_low_mm * axis.steps_per_mm < -most_counts ||
+                                           axis.travel_high_mm * axis.steps_per_mm > most_counts)) {
+        return Error::counts_out_of_range;
     }
     return Error::none;
 }
@@ -305,6 +323,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         limits.acceleration_mm_s2[k] = planned(axis.max_acceleration_mm_s2);
         limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
         limits.rotary[k] = axis.rotary;
+        limits.refinement.countable[k] = detail::countable(axis);
         if (axis.max_jerk_mm_s3 > 0.0) {
             const double jerk_noise = detail::jerk_noise(error_mm, segment_s);
             if (jerk_noise > 0.25 * axis.max_jerk_mm_s3) {
@@ -336,6 +355,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     limits.segment_ticks = static_cast<std::uint32_t>(settings.sample_period_us * ticks_per_us / n);
     limits.segments_per_sample = n;
     Refinement<S>& refinement = limits.refinement;
+    refinement.axes = settings.axes;
     refinement.longest_mm = from_double<S>(longest);
     refinement.max_feed_mm_s = limits.feed_mm_s;
     refinement.shape_log2 = detail::shape_log2(path);

@@ -39,8 +39,8 @@ public:
         news_ = news_ || !abort_;
         abort_ = true;
     }
-    /// For a new program: neither held nor aborted. The override stays.
-    void start() noexcept { hold_ = abort_ = news_ = false; }
+    /// For a new program: no longer aborted. The override stays, and so does a hold: only resume() ends it.
+    void start() noexcept { abort_ = news_ = false; }
 
     [[nodiscard]] S ratio() const noexcept { return ratio_; }
     /// The motion is to come to rest, or to stay there.

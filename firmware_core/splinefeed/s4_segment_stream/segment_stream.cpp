@@ -63,10 +63,13 @@ Pull SegmentStream<S>::next(FeedSegment& out, Starvation starvation) noexcept {
 }
 
 template <Scalar S>
-void SegmentStream<S>::stand(FeedSegment& out) noexcept {
-    SPLINEFEED_ASSERT(at_rest());
+bool SegmentStream<S>::stand(FeedSegment& out) noexcept {
+    if (!started_ || !at_rest()) {
+        return false;
+    }
     repeat_control();
     write(out);
+    return true;
 }
 
 template <Scalar S>

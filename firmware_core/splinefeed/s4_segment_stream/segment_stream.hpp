@@ -25,9 +25,12 @@ public:
 
     /// Writes the next feed segment. `starved`: the plan has none yet; nothing was lost. `held`: the machine stands.
     Pull next(FeedSegment& out, Starvation starvation = Starvation::waits) noexcept;
-    /// Writes a segment in which the machine stands where it is. @pre at_rest()
-    void stand(FeedSegment& out) noexcept;
+    /// Writes a segment in which the machine stands where it is. false: it moves, or nothing is known of where it is,
+    /// since no motion has begun.
+    [[nodiscard]] bool stand(FeedSegment& out) noexcept;
 
+    /// It is known where the machine is.
+    [[nodiscard]] bool begun() const noexcept { return started_; }
     /// The last segment ended at rest, or there was none.
     [[nodiscard]] bool at_rest() const noexcept { return sampler_->at_rest(); }
     /// Of the last control point: where the machine stands once it is at rest.

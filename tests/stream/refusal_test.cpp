@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+//
+// What does not fit together is refused where it is built, or at rest before the first segment that does not fit; and
+// what a storage held before changes nothing.
+#include "support/catch.hpp"
+#include "support/emitted.hpp"
+#include "support/steered_run.hpp"
+
+#include <type_traits>
+
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr std::uint64_t seed = 1312;
+
+template <Scalar S>
+using Window = std::span<PlannedCell<S>>;
+
+// Limits that end with the line would dangle.
+template <class Trajectory, class... Storage>
+constexpr bool takes_temporary_limits =
+    std::is_constructible_v<Trajectory, CurveSource<double>&, decltype(*MotionLimits<double>::make({})), Window<double>,
+                            Storage...>;
+static_assert(!takes_temporary_limits<Trajectory<double>>);
+static_assert(!takes_temporary_limits<JerkTrajectory<double>, JerkStorage<double>>);
+static_assert(!takes_temporary_limits<SmoothTrajectory<double>, SmoothStorage<double>>);
+static_assert(
+    std::is_constructible_v<Trajectory<double>, CurveSource<double>&, const MotionLimits<double>&, Window<double>>);
+
+MachineSettings jerk_machine(JerkTier tier) {
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+    machine.jerk_tier = tier;
+    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 5e4;
+    return machine;
+}
+
+/// Machines for each of the planners that the scalar has.
+template <Scalar S>
+std::vector<MachineSettings> machines() {
+    std::vector<MachineSettings> all{machine_of(2, 100.0, 1000.0, 100.0)};
+    if (!std::same_as<S, float>) {
+        all.push_back(jerk_machine(JerkTier::optimal));
+        all.push_back(jerk_machine(JerkTier::bounded));
+    }
+    return all;
+}
+
+template <Scalar S>
+MotionLimits<S> limits_of(const MachineSettings& machine) {
+    return MotionLimits<S>::make(machine).value();
+}
+
+/// It says why, and whatever is asked of it, nothing moves.
+template <Scalar S>
+void require_refused(Trajectory<S>& trajectory, CurveSource<S>& curve, Error error) {
+    CHECK(trajectory.status().error() == error);
+    FeedSegment segment;
+    trajectory.hold();
+    trajectory.resume();
+    trajectory.override_feed(S{});
+    for (const Starvation starvation : {Starvation::waits, Starvation::goes_on}) {
+        CHECK_FALSE(trajectory.next(segment, starvation));
+        CHECK(trajectory.state() == Pull::finished);
+    }
+    CHECK(trajectory.activity() == Activity::running);
+    CHECK_FALSE(trajectory.stand(segment));
+    CHECK(trajectory.start(curve).error() == error);
+    CHECK_FALSE(trajectory.next(segment));
+    trajectory.abort();
+}
+
+template <Scalar S>
+ListSource<S> line_source(int axes, const PerAxis<double>& to, const PerAxis<double>& from = {}) {
+    return ListSource<S>(segments_of<S>(BezierPath{line_shape(axes, 3, to)}, from), 0, 0);
+}
+
+} // namespace
+
+TEST_CASE("a planner that the limits do not ask for is refused", "[stream][refusal]") {
+    using S = Fixed;
+    ListSource<S> source = line_source<S>(2, {10.0, 5.0});
+    const auto plain = limits_of<S>(machine_of(2, 100.0, 1000.0, 100.0));
+    const auto optimal = limits_of<S>(jerk_machine(JerkTier::optimal));
+    const auto bounded = limits_of<S>(jerk_machine(JerkTier::bounded));
+    std::vector<PlannedCell<S>> window(64);
+    std::vector<Cell<S>> cells(64);
+    std::vector<JerkNode> nodes(JerkStorage<S>::nodes_for(64));
+    std::vector<SmoothCell<S>> smooth_cells(64);
+    std::vector<Position> places(SmoothSampler<S>::places_for(bounded));
+    for (const MotionLimits<S>& limits : {plain, optimal, bounded}) {
+        Trajectory<S> a(source, limits, window);
+        JerkTrajectory<S> b(source, limits, window, {cells, nodes});
+        SmoothTrajectory<S> c(source, limits, window, {smooth_cells, places});
+        CHECK(a.status().ok() == !limits.jerk_limited);
+        CHECK(b.status().ok() == (limits.jerk_limited && limits.jerk_tier == JerkTier::optimal));
+        CHECK(c.status().ok() == (limits.jerk_limited && limits.jerk_tier == JerkTier::bounded));
+        if (limits.jerk_limited) {
+            require_refused<S>(a, source, Error::planner_unsuited);
+        } else {
+            require_refused<S>(b, source, Error::planner_unsuited);
+            require_refused<S>(c, source, Error::planner_unsuited);
+        }
+    }
+    const MotionLimits<S> none{};
+    Trajectory<S> nothing(source, none, window);
+    require_refused<S>(nothing, source, Error::axes_out_of_range);
+}
+
+TEST_CASE("storage that is too small is refused and not written to", "[stream][refusal]") {
+    using S = Fixed;
+    ListSource<S> source = line_source<S>(2, {10.0, 5.0});
+    const auto plain = limits_of<S>(machine_of(2, 100.0, 1000.0, 100.0));
+    const auto optimal = limits_of<S>(jerk_machine(JerkTier::optimal));
+    const auto bounded = limits_of<S>(jerk_machine(JerkTier::bounded));
+    std::vector<PlannedCell<S>> window(64);
+    std::vector<Cell<S>> cells(16);
+    std::vector<JerkNode> nodes(JerkStorage<S>::nodes_for(16));
+    std::vector<SmoothCell<S>> smooth_cells(12);
+    std::vector<Position> places(SmoothSampler<S>::places_for(bounded));
+    const auto first = [](auto& storage, std::size_t n) {
+        return std::span(storage).first(n);
+    };
+    for (const std::size_t size : {0U, 1U, 9U}) {
+        Trajectory<S> trajectory(source, plain, first(window, size));
+        require_refused<S>(trajectory, source, Error::window_too_small);
+    }
+    for (const std::size_t size : {0U, 15U}) {
+        JerkTrajectory<S> trajectory(source, optimal, window, {first(cells, size), nodes});
+        require_refused<S>(trajectory, source, Error::window_too_small);
+    }
+    for (const std::size_t size : {std::size_t{0}, nodes.size() - 1}) {
+        JerkTrajectory<S> trajectory(source, optimal, window, {cells, first(nodes, size)});
+        require_refused<S>(trajectory, source, Error::storage_too_small);
+    }
+    for (const std::size_t size : {0U, 11U}) {
+        SmoothTrajectory<S> trajectory(source, bounded, window, {first(smooth_cells, size), places});
+        require_refused<S>(trajectory, source, Error::window_too_small);
+    }
+    for (const std::size_t size : {std::size_t{0}, places.size() - 1}) {
+        SmoothTrajectory<S> trajectory(source, bounded, window, {smooth_cells, first(places, size)});
+        require_refused<S>(trajectory, source, Error::storage_too_small);
+    }
+    SmoothTrajectory<S> least(source, bounded, first(window, 10), {smooth_cells, places});
+    CHECK(least.status().ok());
+}
+
+TEMPLATE_TEST_CASE("a curve of other axes than the machine's is refused", "[stream][refusal]", double, float, Fixed) {
+    using S = TestType;
+    for (const MachineSettings& machine : machines<S>()) {
+        const auto limits = limits_of<S>(machine);
+        for (const int axes : {1, 3}) {
+            ListSource<S> source = line_source<S>(axes, {10.0, 5.0, 5.0});
+            AnyTrajectory<S> any(source, limits, 64);
+            FeedSegment segment;
+            CHECK_FALSE(any.trajectory().next(segment));
+            CHECK(any.trajectory().state() == Pull::finished);
+            CHECK(any.trajectory().status().error() == Error::axes_differ);
+            CHECK_FALSE(any.trajectory().stand(segment));
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("counts out of range end the path at rest before them", "[stream][refusal]", double, float, Fixed) {
+    using S = TestType;
+    for (MachineSettings machine : machines<S>()) {
+        // 2147.48 mm either way, of which the second move goes beyond
+        machine.axis[0].steps_per_mm = 1e6;
+        const auto limits = limits_of<S>(machine);
+        for (const double sign : {1.0, -1.0}) {
+            const BezierPath path{line_shape(2, 3, {sign * 400.0, 5.0}), line_shape(2, 3, {sign * 300.0, 5.0})};
+            ListSource<S> source(segments_of<S>(path, {sign * 1700.0, 0.0}), 0, 0);
+            AnyTrajectory<S> any(source, limits, 256);
+            SteeredRun run;
+            run_steered<S>(any.trajectory(), {}, run);
+            CHECK(any.trajectory().status().error() == Error::counts_out_of_range);
+            REQUIRE(run.finished);
+            require_limits(run, machine, std::same_as<S, float> ? 5e-2L : 0.0L);
+            require_ends(run, machine, {sign * 1700.0, 0.0}, {sign * 2100.0, 5.0});
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("a new program begins where the machine stands, or is refused", "[stream][refusal][steering]",
+                   double, float, Fixed) {
+    using S = TestType;
+    for (const MachineSettings& machine : machines<S>()) {
+        const auto limits = limits_of<S>(machine);
+        ListSource<S> source = line_source<S>(2, {10.0, 5.0});
+        AnyTrajectory<S> any(source, limits, 64);
+        Trajectory<S>& trajectory = any.trajectory();
+        FeedSegment segment;
+        CHECK_FALSE(trajectory.stand(segment)); // nowhere yet
+        for (int i = 0; i < 50; ++i) {
+            REQUIRE(trajectory.next(segment));
+        }
+        CHECK_FALSE(trajectory.stand(segment));
+        ListSource<S> elsewhere = line_source<S>(2, {1.0, 0.0}, {10.0, 5.0001});
+        CHECK(trajectory.start(elsewhere).error() == Error::still_moving);
+        while (trajectory.next(segment)) {
+        }
+        REQUIRE(trajectory.start(elsewhere).ok());
+        CHECK_FALSE(trajectory.next(segment));
+        CHECK(trajectory.state() == Pull::finished);
+        CHECK(trajectory.status().error() == Error::start_elsewhere);
+        const auto stood = segment.end;
+        REQUIRE(trajectory.stand(segment));
+        CHECK(segment.end == stood);
+        // The right one, with a hold and an override from before
+        trajectory.hold();
+        trajectory.override_feed(literal<S>(0.5));
+        ListSource<S> here = line_source<S>(2, {1.0, 0.0}, {10.0, 5.0});
+        REQUIRE(trajectory.start(here).ok());
+        CHECK(trajectory.status().ok());
+        CHECK(trajectory.activity() == Activity::held);
+        CHECK_FALSE(trajectory.next(segment));
+        CHECK(trajectory.state() == Pull::held);
+        trajectory.resume();
+        int count = 0;
+        while (trajectory.next(segment)) {
+            ++count;
+        }
+        CHECK(trajectory.state() == Pull::finished);
+        CHECK(trajectory.status().ok());
+        CHECK(segment.end[0] == target_units(11.0, machine.axis[0]));
+        CHECK(count > 30);
+    }
+}
+
+TEMPLATE_TEST_CASE("what a storage held before, and a program before, changes nothing", "[stream][refusal]", double,
+                   float, Fixed) {
+    using S = TestType;
+    const auto same = [](const FeedSegment& a, const FeedSegment& b) {
+        return a.start == b.start && a.end == b.end && a.start_velocity == b.start_velocity &&
+               a.end_velocity == b.end_velocity;
+    };
+    for (const MachineSettings& machine : machines<S>()) {
+        const auto limits = limits_of<S>(machine);
+        Random random(seed);
+        const BezierPath path = random_path(random, 2, 8, 10.0, 0.3, 0.3);
+        const std::vector<Event> events{{40, Order::hold}, {400, Order::resume}, {500, Order::override_feed, 0.7}};
+        SteeredRun clean;
+        {
+            ListSource<S> source(segments_of<S>(path, {}), 0, 0);
+            AnyTrajectory<S> any(source, limits, 64);
+            run_steered<S>(any.trajectory(), events, clean);
+        }
+        REQUIRE(clean.finished);
+        for (const unsigned left_over : {0xFFU, 0x7FU, 0x40U, 0x01U}) {
+            ListSource<S> source(segments_of<S>(path, {}), 0, 0);
+            AnyTrajectory<S> any(source, limits, 64, static_cast<unsigned char>(left_over));
+            SteeredRun run;
+            run_steered<S>(any.trajectory(), events, run);
+            CAPTURE(left_over);
+            REQUIRE(run.segments.size() == clean.segments.size());
+            REQUIRE(std::equal(run.segments.begin(), run.segments.end(), clean.segments.begin(), same));
+        }
+        // And a program that is aborted at some time, with another behind it
+        for (const std::size_t at : {1U, 77U, 333U, 900U}) {
+            CAPTURE(at);
+            ListSource<S> source(segments_of<S>(path, {}), 0, 0);
+            AnyTrajectory<S> any(source, limits, 64);
+            SteeredRun run;
+            run_steered<S>(any.trajectory(), {{at, Order::abort}}, run);
+            REQUIRE(run.finished);
+            const std::size_t before = run.segments.size();
+            PerAxis<double> start{};
+            for (unsigned k = 0; k < 2; ++k) {
+                start[k] = to_mm(run.position[k]);
+            }
+            ListSource<S> next(segments_of<S>(path, start), 0, 0);
+            REQUIRE(any.trajectory().start(next).ok());
+            run_steered<S>(any.trajectory(), {}, run);
+            ListSource<S> again(segments_of<S>(path, start), 0, 0);
+            AnyTrajectory<S> fresh(again, limits, 64);
+            SteeredRun alone;
+            run_steered<S>(fresh.trajectory(), {}, alone);
+            REQUIRE(run.segments.size() - before == alone.segments.size());
+            REQUIRE(std::equal(alone.segments.begin(), alone.segments.end(),
+                               run.segments.begin() + static_cast<std::ptrdiff_t>(before), same));
+        }
+    }
+}
