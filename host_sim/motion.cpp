@@ -83,8 +83,7 @@ bool Motion<S>::wait() {
             return true;
         }
         FeedSegment segment;
-        trajectory_.stand(segment); // drives that wait for more before they begin get it
-        return execute(segment);
+        return !trajectory_.stand(segment) || execute(segment); // drives that wait for more before they begin get it
     }
     return false;
 }

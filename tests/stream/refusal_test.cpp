@@ -87,7 +87,7 @@ TEST_CASE("a planner that the limits do not ask for is refused", "[stream][refus
     std::vector<Cell<S>> cells(64);
     std::vector<JerkNode> nodes(JerkStorage<S>::nodes_for(64));
     std::vector<SmoothCell<S>> smooth_cells(64);
-    std::vector<Position> places(SmoothSampler<S>::places_for(bounded));
+    std::vector<PathPosition> places(SmoothSampler<S>::places_for(bounded));
     for (const MotionLimits<S>& limits : {plain, optimal, bounded}) {
         Trajectory<S> a(source, limits, window);
         JerkTrajectory<S> b(source, limits, window, {cells, nodes});
@@ -117,7 +117,7 @@ TEST_CASE("storage that is too small is refused and not written to", "[stream][r
     std::vector<Cell<S>> cells(16);
     std::vector<JerkNode> nodes(JerkStorage<S>::nodes_for(16));
     std::vector<SmoothCell<S>> smooth_cells(12);
-    std::vector<Position> places(SmoothSampler<S>::places_for(bounded));
+    std::vector<PathPosition> places(SmoothSampler<S>::places_for(bounded));
     const auto first = [](auto& storage, std::size_t n) {
         return std::span(storage).first(n);
     };

@@ -406,7 +406,7 @@ void ArcLength<S>::leave() noexcept {
     --depth_;
     if (depth_ == 0) {
         stop_before_ = stop_after_;
-        current_ = 1 - current_;
+        current_ ^= 1U;
         has_current_ = false;
     }
 }

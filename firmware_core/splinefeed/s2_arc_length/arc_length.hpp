@@ -105,7 +105,6 @@ private:
 
     CurveSource<S>* source_;
     const Refinement<S>& refinement_;
-    const PerAxis<Position>* from_ = nullptr; // where the first segment must begin; null: anywhere, or it has begun
     std::array<CurveSegment<S>, 2> slots_{};
     std::array<Piece<S>, deepest + 2> stack_{};
     PieceMeasure<S> m_{}; // of the piece that is being judged
@@ -115,8 +114,9 @@ private:
     PerAxis<S> cusp_to_{};
     S nothing_{}; // in units of the current segment
     std::uint64_t segments_ = 0;
-    unsigned current_ = 0;
-    int depth_ = 0; // pieces on the stack
+    const PerAxis<Position>* from_ = nullptr; // where the first segment must begin; null: anywhere, or it has begun
+    int depth_ = 0;                           // pieces on the stack
+    std::uint8_t current_ = 0;                // of slots_
     bool has_current_ = false;
     bool has_ahead_ = false;
     bool in_cusp_ = false;    // pieces from cusp_from_ to cusp_to_ are to be passed as one chord
