@@ -12,6 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import needed  # noqa: F401
 from judge import INTERVALS, judged_files, largest
 from machine_text import machine_text
 from uneven_path import write_uneven_path

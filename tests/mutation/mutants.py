@@ -95,6 +95,7 @@ class Tests:
         status, output = self.run(None, {"SPLINEFEED_MUTANTS_REACHED": record})
         if status != 0:
             raise SystemExit(f"{' '.join(self.command)} fails without a mutant:\n{output[-3000:]}")
+        print(f"{program.name} {pattern}: {time.monotonic() - started:.1f} s without a mutant", flush=True)
         self.limit_s = max(LIMIT_LEAST_S, LIMIT_FACTOR * (time.monotonic() - started))
         with open(record, encoding="ascii") as file:
             self.reached = {int(line) for line in file}
