@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What tests/mutation/schemata.py puts into sources, so that one build holds all mutants: SPLINEFEED_MUTANT is the number of the
-// one that acts, and a file named by SPLINEFEED_MUTANTS_REACHED gets the numbers of all that were passed. Constant expressions
-// are left as they are.
+// What tests/mutation/schemata.py puts into sources, so that one build holds all mutants: SPLINEFEED_MUTANT is the
+// number of the one that acts, and a file named by SPLINEFEED_MUTANTS_REACHED gets the numbers of all that were passed.
+// Constant expressions are left as they are.
 //
-// An operator `a < b` becomes `a < Less{7} < b`: of equal precedence and from left to right, so no operand has to be found.
+// An operator `a < b` becomes `a < Less{7} < b`: of equal precedence and from left to right, so no operand has to be
+// found.
 #pragma once
 
 #pragma GCC diagnostic ignored "-Wall"
@@ -72,8 +73,8 @@ constexpr const T& most(int id, const T& a, const T& b) {
     return acts(id) == (a < b) ? a : b;
 }
 
-// A comparison is turned round. A bound that moves by one is mostly no mutant: of real numbers equal ones are too rare, and what a search
-// does with equal ones does not matter.
+// A comparison is turned round. A bound that moves by one is mostly no mutant: of real numbers equal ones are too rare,
+// and what a search does with equal ones does not matter.
 #define MUTATION_COMPARISON(Name, op, turned)                                                                          \
     struct Name {                                                                                                      \
         int id;                                                                                                        \
