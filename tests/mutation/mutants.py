@@ -24,7 +24,6 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 SEED = 13
 LIMIT_FACTOR, LIMIT_LEAST_S = 6.0, 20.0  # a mutant that takes so much longer than the tests without one hangs
-ROUNDS = "inline int rounds(int few, int many) {"
 ATTEMPTS = 6  # to compile: what does not is left out
 
 
@@ -38,12 +37,6 @@ class Build:
             if (ROOT / name).is_file():
                 (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(ROOT / name, self.folder / name)
-        # A mutant that random rounds notice at all is mostly noticed by the first ones: a tenth of them, where they are many.
-        rounds = self.folder / "tests" / "support" / "rounds.hpp"
-        text = rounds.read_text(encoding="utf-8")
-        rounds.write_text(text.replace(ROUNDS, ROUNDS + " few = few < 20 ? few : few / 10;"), encoding="utf-8")
-        if ROUNDS not in text:
-            raise SystemExit(f"{rounds} is not what it was")
         self.candidates = {}
         for module in modules:
             every = [site for file in module.files(ROOT) for site in sites(file, (ROOT / file).read_text(encoding="utf-8"))]
@@ -112,7 +105,7 @@ class Tests:
     def run(self, mutant, more=None):
         """The exit status, not 0 where it takes too long, and what was printed."""
         environment = {**os.environ, **(more or {})}
-        environment.pop("SPLINEFEED_LONG", None)  # of random rounds the first ones
+        environment.pop("SPLINEFEED_LONG", None)  # random tests as in ./check
         if mutant is not None:
             environment["SPLINEFEED_MUTANT"] = str(mutant)
         try:
