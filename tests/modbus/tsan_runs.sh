@@ -12,5 +12,5 @@ build=build/tsan
 "$build"/bin/modbus_tests
 "$build"/bin/drive_tests
 "$build"/bin/gpio_tests
-/usr/bin/python3 tests/modbus/three_drives.py "$build"/bin/splinefeed examples/path61.csv examples/three_axis.toml --tolerance-mm 1
+/usr/bin/python3 tests/modbus/three_drives.py "$build"/bin/splinefeed examples/path61.csv examples/three_axis.toml --tolerance-mm 1 --slow
 /usr/bin/python3 tests/modbus/faulted_runs.py "$build"/bin/splinefeed --runs 12 --jobs 2
