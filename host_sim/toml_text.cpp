@@ -75,7 +75,7 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
             constexpr std::string_view ends_key = "=,[]{}";
             dots = ends_key.find(c) != std::string_view::npos ? 0 : dots + (c == '.' ? 1 : 0);
             if (dots > most_dots) {
-                throw InputError(file, line, fmt::format("a name has more than {} parts, a.b.c...", most_dots));
+                throw InputError(file, line, fmt::format("a name has more than {} parts, like a.b.c", most_dots + 1));
             }
             if (c == '[' && line_starts && !names_table(toml.substr(i + 1))) {
                 throw InputError(file, line, "after [ there must be the name of a table: [path] or [[axis]]");
