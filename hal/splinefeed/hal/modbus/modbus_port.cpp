@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::uint64_t lead_us = 60'000;       // from a command to the instant that it names
 constexpr std::uint64_t settle_us = 40'000;     // until a drive's state tells of its start
-constexpr double lag_us = 300.0;                // a drive that is behind by more is out of step
 constexpr double guard_us = 60'000.0;           // to tell the others that one runs dry
 constexpr std::uint64_t command_us = 3'000'000; // for a command to be carried out
 constexpr std::uint64_t homing_us = 300'000'000;
@@ -177,7 +176,7 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
     }
     stop_times_.hold_us = lead_us + static_cast<std::uint64_t>(2.0 * times_.reserve_us) +
                           stop_exchanges * settings_.timing.answer_us + stop_times_.settle_us;
-    stop_.set_times(stop_times_);
+    stop_.set_times(stop_times_, times_);
     for (const auto& bus : buses_) {
         bus->start();
     }
@@ -275,12 +274,18 @@ bool ModbusPort::filled() const noexcept {
     });
 }
 
+// So that a start that is lost is told again in time.
+std::uint64_t ModbusPort::start_lead_us() const noexcept {
+    constexpr std::uint64_t lost = 2;
+    return lead_us + lost * settings_.timing.answer_us;
+}
+
 // At one instant of our clock; a drive that stands ahead of the others that much later.
 void ModbusPort::start() noexcept {
     const std::uint32_t first = executed();
     for (PortDrive& drive : drives_) {
         const double ahead_us = (drive.status().executed - first) * times_.segment_us;
-        const std::uint64_t at_us = now_us_ + lead_us + static_cast<std::uint64_t>(ahead_us);
+        const std::uint64_t at_us = now_us_ + start_lead_us() + static_cast<std::uint64_t>(ahead_us);
         started_us_ = std::max(started_us_, at_us + settle_us);
         drive.start(at_us, times_);
     }
@@ -299,7 +304,7 @@ void ModbusPort::watch() noexcept {
         const bool done = has_all && drive.executed_all();
         all_done = all_done && done && drive.says_it_stands();
         dry = dry || drive.seen().problem != DriveProblem::none || drive.status().state == PvtState::stopping ||
-              (!done && drive.lag_us() > lag_us) ||
+              (!done && drive.lag_us() > PortDrive::lag_limit_us) ||
               (!has_all && drive.left_us(times_) < times_.reserve_us + guard_us) ||
               (has_all && drive.age_us() > settings_.away_us) || (drive.says_it_stands() && !done);
     }
@@ -358,7 +363,7 @@ void ModbusPort::wait() noexcept {
 
 void ModbusPort::begin_stop(StopRequest request) noexcept {
     look();
-    stop_.request(request, now_us_, now_us_ + lead_us);
+    stop_.request(request, now_us_, now_us_ + lead_us, drives_);
     if (phase_ != ModbusPhase::halting) {
         enter(ModbusPhase::halting);
     }

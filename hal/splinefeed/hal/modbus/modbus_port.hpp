@@ -95,6 +95,7 @@ private:
     void fail(std::size_t drive, DriveProblem problem) noexcept;
     [[nodiscard]] bool filled() const noexcept;
     void start() noexcept;
+    [[nodiscard]] std::uint64_t start_lead_us() const noexcept;
     void watch() noexcept;
     void stop() noexcept;
     [[nodiscard]] bool all_stand() const noexcept;

@@ -43,6 +43,10 @@ void PortDrive::look(std::uint64_t now_us, const PortTimes& times) noexcept {
     seen_ = client_->report();
     age_us_ = now_us > seen_.answered_us ? now_us - seen_.answered_us : 0;
     const auto said_us = static_cast<double>(seen_.said_us);
+    if (starting_ && !seen_.command_pending) { // one that was told too late began then
+        starting_ = false;
+        lag_us_ = std::max(lag_us_, said_us - start_us_);
+    }
     if (trim_.anchored() && said_us > full_rate_us_ && !executed_all()) {
         const double most_us = static_cast<std::int32_t>(status().executed + 1 - began_at_) * times.segment_us;
         lag_us_ = std::max(lag_us_, said_us - began_us_ - most_us - unsure_us_ - seen_.clock.uncertainty_us());
@@ -82,6 +86,9 @@ void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
     const bool held = status().state == PvtState::held;
     forget();
     tell(held ? PvtCommand::resume : PvtCommand::start, seen_.clock.drive_clock(at_us));
+    starting_ = true;
+    start_us_ = static_cast<double>(at_us);
+    from_joint_ = client_->at_joint(status());
     // A drive that speeds up from rest loses as much as its reserve.
     began_us_ = static_cast<double>(at_us) + (held ? times.reserve_us : 0.0);
     full_rate_us_ = began_us_ + (held ? times.reserve_us : 0.0);

@@ -4,7 +4,8 @@
 #pragma once
 
 #include "splinefeed/hal/modbus/duration_trim.hpp"
-#include "splinefeed/hal/modbus/pvt_stop.hpp"
+#include "splinefeed/hal/modbus/port_times.hpp"
+#include "splinefeed/hal/modbus/pvt_client.hpp"
 
 #include <utility>
 
@@ -14,14 +15,6 @@ namespace splinefeed::hal::modbus {
 struct DriveWiring {
     LinkAddress link;
     std::vector<int> machine_axis;
-};
-
-/// Times that all drives of a port have in common. [us]
-struct PortTimes {
-    double segment_us = 0.0;
-    double reserve_us = 0.0;       ///< motion over which a drive slows down to rest
-    std::uint64_t silent_us = 0;   ///< a drive that was not heard for this long is away
-    std::uint64_t settling_us = 0; ///< until what a drive says tells of what it was told
 };
 
 class PortDrive {
@@ -53,6 +46,9 @@ public:
     /// It is behind the motion by at least so much: it slowed down, all by itself. [us] Of all that it said since
     /// start().
     [[nodiscard]] double lag_us() const noexcept { return lag_us_; }
+    /// As far as is known it was started together with the others, from the same place.
+    [[nodiscard]] bool in_step() const noexcept { return from_joint_ && !starting_ && lag_us_ <= lag_limit_us; }
+    static constexpr double lag_limit_us = 300.0; ///< a drive that is behind by more is out of step
 
     /// Within what its clock was known when it was started, at the worst. [us]
     [[nodiscard]] double unsure_us() const noexcept { return most_unsure_us_; }
@@ -84,6 +80,7 @@ private:
     DurationTrim trim_;
     DriveReport seen_;
     std::uint64_t age_us_ = 0;
+    double start_us_ = 0.0;       // of our clock: it was to begin then
     double full_rate_us_ = 0.0;   // of our clock: it runs at full rate from then on,
     double began_us_ = 0.0;       // as if it had started then
     std::uint32_t began_at_ = 0;  // segments that it had executed
@@ -92,6 +89,8 @@ private:
     double lag_us_ = 0.0;
     double gained_us_ = 0.0; // its clock less ours, at the anchor
     bool told_ = false;
+    bool starting_ = false;  // its start was not answered yet
+    bool from_joint_ = true; // it was started from a joint
 };
 
 } // namespace splinefeed::hal::modbus

@@ -8,6 +8,8 @@
 
 #include "splinefeed/base/assertion.hpp"
 
+#include <cstdlib>
+
 namespace splinefeed::hal::modbus {
 
 namespace {
@@ -170,6 +172,21 @@ void PvtClient::see_clock(const LinkAnswer& answer) noexcept {
     report_.clock.sample(answer.arrived_us, answer.replied_us, report_.status.clock_us);
     report_.answered_us = answer.answered_us;
     report_.said_us = answer.arrived_us;
+}
+
+bool PvtClient::at_joint(const PvtStatus& status) const noexcept {
+    constexpr std::int64_t near_counts = 2; // a shaft that stands there
+    if (status.executed == 0) {
+        return status.state == PvtState::standing;
+    }
+    const PvtSegment& before = segment(status.executed - 1);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(axes_); ++k) {
+        const std::int64_t off = (std::int64_t{status.position[k]} << PvtSegment::position_bits) - before.end[k];
+        if (std::abs(off) > near_counts << PvtSegment::position_bits) {
+            return false;
+        }
+    }
+    return true;
 }
 
 std::size_t PvtClient::room() const noexcept {

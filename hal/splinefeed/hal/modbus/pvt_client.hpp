@@ -72,6 +72,12 @@ public:
     /// @pre room() > 0
     void push(const PvtSegment& segment) noexcept;
     [[nodiscard]] std::uint32_t pushed() const noexcept { return tail_.load(std::memory_order_relaxed); }
+    /// A segment that was pushed. @pre it was executed just now, or not yet
+    [[nodiscard]] const PvtSegment& segment(std::uint32_t sequence) const noexcept {
+        return queue_[sequence % queue_capacity];
+    }
+    /// By this status the drive stands where the segment that comes next starts.
+    [[nodiscard]] bool at_joint(const PvtStatus& status) const noexcept;
     /// Has the drive carry out a command, before any more segments. @pre none is pending
     void command(PvtCommand command, std::uint32_t argument = 0, const PvtSegment& place = {}) noexcept;
     /// The same, in place of one that is pending: should that one still arrive, the drive does not execute it any more

@@ -5,16 +5,21 @@
 
 namespace splinefeed::hal::modbus {
 
-void PvtGroupStop::request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us) noexcept {
-    hold_at_us_ = sequence_.requested() ? hold_at_us_ : hold_at_us;
+void PvtGroupStop::request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
+                           std::span<const PortDrive> drives) noexcept {
+    if (!sequence_.requested()) {
+        hold_at_us_ = hold_at_us;
+        in_step_ = std::all_of(drives.begin(), drives.end(), [](const PortDrive& drive) { return drive.in_step(); });
+    }
     sequence_.request(request, now_us);
 }
 
-// Whether all drives stand at one place of the path: all slowed down from one instant on, or none moved; at the end of
-// the motion it does not matter how.
+// Whether all drives stand at one place of the path: all slowed down from one instant on, or none moved and all are at
+// one joint; at the end of the motion it does not matter how.
 bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
     std::uint32_t least = drives.front().status().executed;
     std::uint32_t most = least;
+    bool stands = true;
     bool at_end = true;
     bool in_time = true;
     bool at_rest = true;
@@ -24,14 +29,16 @@ bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
         most = std::max(most, executed);
         at_end = at_end && drives[i].executed_all();
         in_time = in_time && stops_[i].hold() == PvtStop::Hold::in_time;
-        at_rest = at_rest && stops_[i].hold() == PvtStop::Hold::at_rest;
+        at_rest =
+            at_rest && stops_[i].hold() == PvtStop::Hold::at_rest && drives[i].client().at_joint(drives[i].status());
+        stands = stands && drives[i].seen().problem == DriveProblem::none && drives[i].says_it_stands();
     }
-    return at_end || (most - least <= 1 && (in_time || at_rest));
+    return stands && (at_end || (at_rest && most == least) || (in_time && in_step_ && most - least <= 1));
 }
 
 void PvtGroupStop::follow(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept {
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        stops_[i].see(drives[i].seen());
+        stops_[i].see(drives[i].seen(), times_);
         facts_[i] = stops_[i].facts();
     }
     const bool together = on_path(drives);

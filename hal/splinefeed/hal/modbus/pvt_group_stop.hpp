@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/hal/modbus/port_drive.hpp"
+#include "splinefeed/hal/modbus/pvt_stop.hpp"
 
 namespace splinefeed::hal::modbus {
 
@@ -13,9 +14,13 @@ public:
 
     /// Each of its drives, once, in order.
     void add(PvtClient& client) { stops_.emplace_back(client); }
-    void set_times(const StopTimes& times) noexcept { sequence_.set_times(times); }
+    void set_times(const StopTimes& times, const PortTimes& port) noexcept {
+        sequence_.set_times(times);
+        times_ = port;
+    }
     /// @param hold_at_us  when a hold begins for all; counts with the first request
-    void request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us) noexcept;
+    void request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
+                 std::span<const PortDrive> drives) noexcept;
     /// Takes what the drives said last, and tells them what is to be told.
     void follow(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
     [[nodiscard]] const StopSequence& sequence() const noexcept { return sequence_; }
@@ -26,7 +31,9 @@ private:
     std::vector<PvtStop> stops_;
     std::vector<StopFacts> facts_;
     StopSequence sequence_;
+    PortTimes times_;
     std::uint64_t hold_at_us_ = 0;
+    bool in_step_ = false; // all drives were, when the stop was asked for
 };
 
 } // namespace splinefeed::hal::modbus

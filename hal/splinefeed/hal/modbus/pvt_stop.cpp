@@ -24,14 +24,23 @@ bool PvtStop::still() const noexcept {
                        [](const Standstill& shaft) { return shaft.still_us() >= still_us; });
 }
 
-PvtStop::Hold PvtStop::hold_by(const DriveReport& answer) const noexcept {
-    const bool held_then = state_then_ == PvtState::held && answer.status.state == PvtState::held;
-    return command_ == PvtCommand::begin || held_then ? Hold::at_rest
-           : answer.said_us <= hold_at_us_            ? Hold::in_time
-                                                      : Hold::late;
+// Up to the instant of the hold it gets nothing more: a ring that is shorter than the reserve by then slows it down
+// before, unless a place to stand is in it.
+PvtStop::Hold PvtStop::hold_by(const DriveReport& answer, const PortTimes& times) const noexcept {
+    const PvtStatus& status = answer.status;
+    const bool held_then = state_then_ == PvtState::held && status.state == PvtState::held;
+    if (command_ == PvtCommand::begin || held_then) {
+        return Hold::at_rest;
+    }
+    bool full_rate = static_cast<double>(status.next - status.executed) * times.segment_us >=
+                     times.reserve_us + static_cast<double>(hold_at_us_) - static_cast<double>(answer.said_us);
+    for (std::uint32_t i = status.executed; i != status.next && !full_rate; ++i) {
+        full_rate = client_->segment(i).rest;
+    }
+    return full_rate && answer.said_us <= hold_at_us_ ? Hold::in_time : Hold::apart;
 }
 
-void PvtStop::see(const DriveReport& report) noexcept {
+void PvtStop::see(const DriveReport& report, const PortTimes& times) noexcept {
     const bool news = report.said_us != seen_.said_us;
     seen_ = report;
     for (std::size_t k = 0; news && k < static_cast<std::size_t>(client_->axes()); ++k) {
@@ -41,7 +50,7 @@ void PvtStop::see(const DriveReport& report) noexcept {
         return;
     }
     if (!seen_.command_refused) {
-        hold_ = told_ == StopRequest::hold ? hold_by(seen_) : hold_;
+        hold_ = told_ == StopRequest::hold ? hold_by(seen_, times) : hold_;
         const bool quick = command_ == PvtCommand::quick_stop; // in place of a power off that does not fit yet
         executed_ = std::max(executed_, quick ? std::min(told_, StopRequest::quick_stop) : told_);
         executed_us_ = seen_.said_us;

@@ -2,6 +2,7 @@
 // PvtStop: how a drive with the map splinefeed-pvt is stopped: which command in which state, and what is known of it.
 #pragma once
 
+#include "splinefeed/hal/modbus/port_times.hpp"
 #include "splinefeed/hal/modbus/pvt_client.hpp"
 #include "splinefeed/hal/standstill.hpp"
 #include "splinefeed/hal/stop_sequence.hpp"
@@ -14,14 +15,14 @@ public:
     enum class Hold : std::uint8_t {
         none,    ///< it did not
         at_rest, ///< it stood, and its start was called off
-        in_time, ///< it slowed down from the instant that all were told
-        late,    ///< it slowed down, perhaps later than the others
+        in_time, ///< it slowed down at full rate, from the instant that all were told
+        apart,   ///< it slowed down, perhaps later than the others, or earlier, since its ring ended
     };
 
     explicit PvtStop(PvtClient& client) noexcept : client_(&client) {}
 
     /// What the drive said last. @pre not older than what was seen before
-    void see(const DriveReport& report) noexcept;
+    void see(const DriveReport& report, const PortTimes& times) noexcept;
     /// Tells the drive, once, in place of whatever it is to be told; again where it refused.
     /// @param hold_at_us  when all drives begin to slow down, of our clock
     void tell(StopRequest request, std::uint64_t hold_at_us) noexcept;
@@ -30,7 +31,7 @@ public:
 
 private:
     [[nodiscard]] PvtCommand command_for(StopRequest request) const noexcept;
-    [[nodiscard]] Hold hold_by(const DriveReport& answer) const noexcept;
+    [[nodiscard]] Hold hold_by(const DriveReport& answer, const PortTimes& times) const noexcept;
     [[nodiscard]] bool powerless() const noexcept;
     [[nodiscard]] bool still() const noexcept;
 
