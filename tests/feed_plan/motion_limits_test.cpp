@@ -189,7 +189,7 @@ TEMPLATE_TEST_CASE("derived numbers", "[feed_plan][limits]", double, float, Fixe
     for (unsigned k = 0; k < 3; ++k) {
         // What is left of a limit: rounding of samples becomes 2 e / T and 4 e / T^2 in their differences.
         CHECK(usable(machine.axis[k].max_velocity_mm_s, 2.0 * e / segment_s)(limits.velocity_mm_s[k]));
-        const double share = 0.02 * machine.axis[1].max_acceleration_mm_s2;
+        const double share = 0.025 * machine.axis[k].smaller_acceleration_mm_s2();
         CHECK(usable(machine.axis[k].max_acceleration_mm_s2, share)(limits.acceleration_mm_s2[k]));
         CHECK(usable(k == 2 ? 700.0 : machine.axis[k].max_acceleration_mm_s2, share)(limits.braking_mm_s2[k]));
         CHECK(limits.steps_per_mm_q32[k] == (std::uint64_t{1281} << 31));

@@ -20,6 +20,7 @@ Cell<S> straight_cell(const MotionLimits<S>& limits, double length_mm) {
     cell.axes = 1;
     cell.length_mm = from_double<S>(length_mm);
     cell.shape[0].tangent[0] = cell.shape[0].tangent[1] = scale2(from_integer<S>(1), limits.refinement.shape_log2);
+    cell.heading[0] = 1;
     return cell;
 }
 

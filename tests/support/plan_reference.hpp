@@ -37,34 +37,6 @@ struct HalfPlane {
     Real limit = 0.0L;
 };
 
-/// Which way the axis goes all along the cell and for four durations T of a segment around it; 0: it may turn round. In
-/// 4 T its speed changes by |q''| v^2 4 T at most, where v^2 is what the feed and, at the turn, the axis allow.
-template <Scalar S>
-int way_of(const Cell<S>& cell, unsigned k, const MotionLimits<S>& limits) {
-    const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
-    const Real bend = exact(cell.curvature_max[k]);
-    if (2.0L * exact(cell.length_mm) * bend > real(Cell<S>::sharp_turn)) {
-        return 0;
-    }
-    const AxisShape<S>& shape = cell.shape[k];
-    const Real t0 = exact(shape.tangent[0]);
-    const Real t3 = exact(shape.tangent[1]);
-    int way = 0;
-    Real slowest = 1e9L;
-    for (const Real t : {t0, t0 + exact(shape.bend[0]) / 6.0L, t3 - exact(shape.bend[2]) / 6.0L, t3}) {
-        const int sign = t > 0.0L ? 1 : t < 0.0L ? -1 : 0;
-        if (sign == 0 || way == -sign) {
-            return 0;
-        }
-        way = sign;
-        slowest = std::min(slowest, (std::fabs(t) - exact(shape.spread)) * unit);
-    }
-    const Real feed = exact(limits.path_mm_s);
-    const Real most = std::max(exact(limits.acceleration_mm_s2[k]), exact(limits.braking_mm_s2[k]));
-    const Real speed = std::min(feed, bend > 0.0L ? std::sqrt(most / bend) : feed);
-    return slowest > bend * speed * 4.0L / exact(limits.segments_per_s) ? way : 0;
-}
-
 /// What an axis is told by in a part of its cell: Bezier points of q', a cubic, and of 2 L q'', a parabola, where L is
 /// the length of the part, by Taylor's polynomials at its ends.
 struct PartShape {
@@ -107,7 +79,8 @@ std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>
         const AxisShape<S>& shape = cell.shape[k];
         const Real speeding = exact(limits.acceleration_mm_s2[k]);
         const Real braking = exact(limits.braking_mm_s2[k]);
-        const int way = way_of(cell, k, limits);
+        const int way =
+            cell.heading[k] == 1 || cell.heading[k] == -1 ? cell.heading[k] : 0; // proved on what is emitted
         auto [t, c] = part_of(shape, from, to);
         for (Real& point : t) {
             point *= unit;
@@ -189,9 +162,7 @@ std::vector<Real> reachable_speeds(const std::vector<PlannedCell<S>>& cells, con
             speed = own > 0.0L ? std::min(speed, usable) : speed;
         }
         speed = std::min(speed / share_of(cell, limits), exact(limits.path_mm_s));
-        if (const Real noise = exact(cell.direction_noise); noise > 0.0L) {
-            speed = std::min(speed, exact(limits.jump_mm_s) / noise);
-        }
+        speed = std::min(speed, exact(cell.steady_mm_s));
         Real bend_sq = 0.0L;
         Real cap_sq = 1e30L;
         for (unsigned k = 0; k < axes; ++k) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 
+#include "splinefeed/s2_arc_length/control_rounding.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -11,12 +13,6 @@ template <Scalar S>
 constexpr S control_noise = literal<S>(1e-8);
 template <>
 constexpr float control_noise<float> = 48.0F * 65536.0F / 16777216.0F;
-
-// Half an ulp of a control point, as it enters a difference of two.
-template <Scalar S>
-constexpr S point_noise = literal<S>(2.4e-10);
-template <>
-constexpr float point_noise<float> = 1.0F / 256.0F;
 
 // Below this a halving adds more rounding to a float than it removes error: the piece is taken as it is.
 template <Scalar S>
@@ -147,7 +143,11 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
         return Verdict::coarse;
     }
     m_.measure_curvature(axes, current().unit_log2);
-    return !last && bends_too_much() ? Verdict::coarse : Verdict::fine;
+    if (!last && bends_too_much()) {
+        return Verdict::coarse;
+    }
+    // Not even the slowest speed of a plan is slow enough for what bends more.
+    return m_.sharpest_bend(axes) < refinement_.sharpest ? Verdict::fine : Verdict::cusp;
 }
 
 template <Scalar S>
@@ -181,12 +181,13 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     out.stop_before = after_cusp_;
     fill_common(from, piece.at_end, out);
     const auto per_mm = [this](S x, int shift) {
-        return smaller(scale2(quotient_or_max(x, m_.length_mm), shift), from_integer<S>(PieceMeasure<S>::sharpest));
+        return !(x > S{}) ? S{}
+                          : smaller(scale2(quotient_or_max(x, m_.length_mm), shift),
+                                    from_integer<S>(PieceMeasure<S>::sharpest));
     };
     // In units of 2^-12, lest Fixed lose the digits of a small error over a small length.
     const S error = m_.shape_error + scale2(absolute(m_.length - m_.low_order_length), 12) / m_.length;
     const S ripple = per_mm(from_integer<S>(40) * error, -12);
-    const S noise = per_mm(control_noise<S> / m_.slowest, 0);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S> difference = piece.control[k];
         S binomial = from_integer<S>(1);
@@ -199,16 +200,38 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
             out.power[k][i] = binomial * difference[i];
         }
         out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<S>(1));
+    }
+    const ControlRounding<S> rounded = ControlRounding<S>::of(current(), m_.slowest, out.tangent_max);
+    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         // What is left of the inverse's error looks like c x^3 (1-x)^3 (x-1/2): with the slope e its second derivative
         // reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, e being an
         // estimate. Rounding of the control points bends the curve.
-        const S rounding = out.tangent_max[k] * ripple + noise;
+        const S rounding = out.tangent_max[k] * ripple + per_mm(rounded.bend[k], 0);
         out.curvature_max[k] =
             smaller(PieceMeasure<S>::bound(m_.second, k) + rounding, from_integer<S>(PieceMeasure<S>::sharpest));
         out.shape[k] = shape_of(k, rounding, out);
     }
+    if (piece.at_end) {
+        arrive(out);
+    }
     out.inverse = m_.inverse;
-    out.direction_noise = from_integer<S>(current().degree) * point_noise<S> / m_.slowest;
+    out.steady_mm_s = rounded.steady_speed(refinement_.jump_mm_s, out.axes);
+}
+
+// Control points round the end of their segment, in float by 2^-24 of its length: lest the path step there, the last
+// cell ends where the next one begins. steady_speed() allows for what that adds to its slope.
+template <Scalar S>
+void ArcLength<S>::arrive(Cell<S>& cell) const noexcept {
+    const CurveSegment<S>& ahead = slots_[1 - current_];
+    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        const Position end =
+            stop_after_ ? current().end[k] : displaced(ahead.origin[k], ahead.control[k][0], ahead.unit_log2);
+        S rest = distance<S>(cell.origin[k], end, cell.unit_log2);
+        for (unsigned i = 0; i <= static_cast<unsigned>(cell.degree); ++i) {
+            rest = rest - cell.power[k][i];
+        }
+        cell.power[k][1] = cell.power[k][1] + rest;
+    }
 }
 
 // The shape of an axis without curvature that moves as much as it does anywhere in the cell.
@@ -255,7 +278,7 @@ void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     // Not zero, so that time passes.
     out.length_mm = larger(scale2(norm(chord.data(), current().axes), current().unit_log2), literal<S>(1e-8));
     out.inverse = {from_integer<S>(1), S{}, S{}, S{}, S{}, S{}};
-    out.direction_noise = S{};
+    out.steady_mm_s = largest<S>();
     out.degree = 1;
     out.stop_before = true;
     fill_common(cusp_from_, at_end, out);

@@ -29,11 +29,14 @@ struct Refinement {
     PerAxis<PositionRange> countable{}; ///< where the control points of a segment must be
     PerAxis<PositionRange> open{};      ///< where an axis may go at full speed; near the ends of its travel it may not
     S end_piece_mm{};                   ///< longest cell across an end of open travel; 0: no axis has one
+    PerAxis<S> jump_mm_s{};             ///< largest jump of an axis's speed that rounding may cause at a joint of cells
     S direction_jump{};                 ///< a larger change of dq/ds at a joint is a corner, and a stop
     S turn = literal<S>(0.0613);        ///< largest change of direction within a cell [rad]
     S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
     S curvature_bend = literal<S>(0.0037);   ///< the same for the second difference of curvature
     S metric_ratio = literal<S>(1.2173);     ///< largest ratio of two |dr/dw| within a cell
+    /// largest |d2q/ds2| of an axis [1/mm]: what bends more is passed as a cusp
+    S sharpest = from_integer<S>(PieceMeasure<S>::sharpest);
     /// largest relative difference of a 4th and a 6th order length; float cannot tell less
     S metric_error = literal<S>(std::same_as<S, float> ? 1.13e-5 : 1.13e-6);
     /// largest relative error of the inverse's slope in the middle of a cell: a bound of the feed fluctuation
@@ -42,8 +45,9 @@ struct Refinement {
 
 /// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its
 /// direction and curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the
-/// pieces shrink until next to nothing is left, and the machine passes that from stop to stop. Memory: two segments and
-/// a stack of pieces. Cost per cell: three evaluations with two derivatives.
+/// pieces shrink until next to nothing is left, or until they bend more than any speed above that of crawling allows,
+/// and the machine passes their chord from stop to stop. Memory: two segments and a stack of pieces. Cost per cell:
+/// three evaluations with two derivatives.
 template <Scalar S>
 class ArcLength {
 public:
@@ -94,6 +98,7 @@ private:
     void split() noexcept;
     void leave() noexcept;
     void fill(const Piece<S>& piece, Cell<S>& out) noexcept;
+    void arrive(Cell<S>& cell) const noexcept;
     [[nodiscard]] AxisShape<S> largest_shape(unsigned axis, const Cell<S>& cell) const noexcept;
     [[nodiscard]] AxisShape<S> shape_of(unsigned axis, S rounding, const Cell<S>& cell) const noexcept;
     void extend_cusp(const Piece<S>& piece) noexcept;

@@ -35,9 +35,11 @@ struct Cell {
     PerAxis<S> tangent_max{};   ///< bound of |dq/ds| over the cell, at most 1
     PerAxis<S> curvature_max{}; ///< bound of |d2q/ds2| over the cell [1/mm]
     PerAxis<AxisShape<S>> shape{};
+    PerAxis<std::int8_t>
+        heading{};            ///< which way an axis moves in it and near it, 1 or -1; else it may turn round (Turning)
     S feed_mm_s{};            ///< programmed feed; 0: the machine's
     S max_feed_mm_s{};        ///< that no feed override goes beyond; 0: none
-    S direction_noise{};      ///< rounding of the direction and speed at its ends, relative
+    S steady_mm_s{};          ///< largest speed at which rounding at its ends keeps Refinement::jump_mm_s
     bool stop_before = false; ///< a cusp lies before it: the cell before has to end at rest
     bool stop_at_end = false;
     std::uint32_t waypoint = 0;

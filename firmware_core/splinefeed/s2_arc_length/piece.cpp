@@ -129,6 +129,17 @@ void PieceMeasure<S>::measure_curvature(int axes, int unit_log2) noexcept {
     }
 }
 
+template <Scalar S>
+S PieceMeasure<S>::sharpest_bend(int axes) const noexcept {
+    S most{};
+    for (const PerAxis<S>& bend : second) {
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            most = larger(most, absolute(bend[k]));
+        }
+    }
+    return most;
+}
+
 // The largest of three samples plus a quarter of their second difference: twice what a parabola can exceed them by.
 template <Scalar S>
 S PieceMeasure<S>::bound(const std::array<PerAxis<S>, points>& f, unsigned axis) noexcept {

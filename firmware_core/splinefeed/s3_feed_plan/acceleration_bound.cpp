@@ -59,37 +59,10 @@ AccelerationBound<S>::AccelerationBound(const Cell<S>& cell, const MotionLimits<
         };
         const S speeding = scaled(limits.acceleration_mm_s2[k]);
         const S braking = scaled(limits.braking_mm_s2[k]);
-        const int way = speeding == braking ? 1 : heading(cell, k, limits);
-        upwards_[k] = way > 0 ? speeding : way < 0 ? braking : smaller(speeding, braking);
-        downwards_[k] = way > 0 ? braking : way < 0 ? speeding : upwards_[k];
+        const int way = speeding == braking ? 1 : cell.heading[k];
+        upwards_[k] = way == 1 ? speeding : way == -1 ? braking : smaller(speeding, braking);
+        downwards_[k] = way == 1 ? braking : way == -1 ? speeding : upwards_[k];
     }
-}
-
-// Which way an axis moves all along the cell: 1, -1, or 0 where it may turn round, there or within 4 T of it. A segment
-// averages the plan over three durations T: in none of them it may brake with what is meant for accelerating. The
-// axis's speed |q'| v changes by |q''| v^2 t, and v^2 is at most that of the feed and A / |q''|, else it could not turn
-// round: it does not if |q'|^2 > (4 T |q''|)^2 v^2.
-template <Scalar S>
-int AccelerationBound<S>::heading(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept {
-    const S bend = cell.curvature_max[axis];
-    if ((cell.length_mm + cell.length_mm) * bend > literal<S>(Cell<S>::sharp_turn)) {
-        return 0; // the shape has no sign
-    }
-    const AxisShape<S>& shape = cell.shape[axis];
-    const S sixth = literal<S>(1.0 / 6.0);
-    const S t1 = shape.tangent[0] + sixth * shape.bend[0];
-    const S t2 = shape.tangent[1] - sixth * shape.bend[2];
-    const S lowest = smaller(smaller(shape.tangent[0], shape.tangent[1]), smaller(t1, t2));
-    const S highest = larger(larger(shape.tangent[0], shape.tangent[1]), larger(t1, t2));
-    const S slowest = scale2(larger(lowest, -highest) - shape.spread, -limits.refinement.shape_log2); // least |q'|
-    if (!(slowest > S{})) {
-        return 0;
-    }
-    const S feed_sq = limits.path_mm_s * limits.path_mm_s;
-    const S most = larger(limits.acceleration_mm_s2[axis], limits.braking_mm_s2[axis]);
-    const S change = bend > quotient_or_max(most, feed_sq) ? most : bend * feed_sq; // |q''| v^2
-    const S time = from_integer<S>(4) / limits.segments_per_s;
-    return quotient_or_max(slowest * slowest, time * change) > time * bend ? (lowest > S{} ? 1 : -1) : 0;
 }
 
 template <Scalar S>

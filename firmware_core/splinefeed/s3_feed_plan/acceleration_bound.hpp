@@ -43,7 +43,6 @@ private:
     };
 
     [[nodiscard]] static S crossing_of(const Row& first, const Row& second, S weight) noexcept;
-    [[nodiscard]] static int heading(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
     template <class Visit>
     void each_row(Visit&& visit) const noexcept; // visit(row, spread)
     template <auto Given, auto Asked>            // members of Row

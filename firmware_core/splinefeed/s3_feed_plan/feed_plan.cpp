@@ -38,7 +38,7 @@ constexpr double slowest_sq = 1e-6;
 
 template <Scalar S>
 FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept
-    : source_(&source), limits_(limits), window_(window) {}
+    : source_(&source), limits_(limits), window_(window), turning_(limits) {}
 
 // Cap of a cell. This is the one place where a limit of the speed is stated.
 template <Scalar S>
@@ -54,9 +54,7 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
             speed = velocity / cell.tangent_max[k];
         }
     }
-    if (cell.direction_noise * speed > limits_.jump_mm_s) {
-        speed = limits_.jump_mm_s / cell.direction_noise;
-    }
+    speed = smaller(speed, cell.steady_mm_s);
     S cap = speed * speed;
     S reach = cap;
     const S twice = cell.length_mm + cell.length_mm;
@@ -242,13 +240,25 @@ S FeedPlan<S>::known_exit() const noexcept {
 
 template <Scalar S>
 Pull FeedPlan<S>::fill() noexcept {
+    const auto cell_at = [this](std::size_t i) -> Cell<S>& {
+        return at(i).cell;
+    };
+    const auto settled = [this](std::size_t i) {
+        PlannedCell<S>& here = at(i);
+        here.peak = AccelerationBound<S>(here.cell, limits_).peak(here.cap_sq);
+        planned_ = false;
+    };
     while (size_ < window_.size()) {
         PlannedCell<S>& slot = at(size_);
         const Pull pull = source_->next(slot.cell);
         if (pull != Pull::item) {
+            if (pull == Pull::finished) {
+                turning_.end(size_, cell_at, settled);
+            }
             return pull;
         }
         bound(slot);
+        slot.cell.heading = {};
         slot.peak = AccelerationBound<S>(slot.cell, limits_).peak(slot.cap_sq);
         if (slot.cell.stop_before && size_ > 0) {
             Cell<S>& before = at(size_ - 1).cell;
@@ -257,6 +267,7 @@ Pull FeedPlan<S>::fill() noexcept {
         }
         ++size_;
         planned_ = false;
+        turning_.take(size_, cell_at, settled);
     }
     return Pull::item;
 }
@@ -366,6 +377,7 @@ void FeedPlan<S>::clear() noexcept {
 template <Scalar S>
 void FeedPlan<S>::forget() noexcept {
     size_ = committed_ = 0;
+    turning_.clear();
     at_ = speed_sq_ = S{};
     steered_ = planned_ = open_ = chosen_ = hopping_ = false;
 }

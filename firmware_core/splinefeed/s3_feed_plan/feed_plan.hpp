@@ -15,6 +15,7 @@
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 #include "splinefeed/s3_feed_plan/passage.hpp"
 #include "splinefeed/s3_feed_plan/steering.hpp"
+#include "splinefeed/s3_feed_plan/turning.hpp"
 
 #include <span>
 
@@ -97,6 +98,7 @@ private:
     using MotionPlan<S>::passage_;
     using MotionPlan<S>::steering_;
 
+    Turning<S> turning_;
     std::size_t head_ = 0;
     std::size_t size_ = 0;
     std::size_t committed_ = 0;

@@ -85,6 +85,13 @@ S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexce
 
 } // namespace
 
+// What |q'''| has beyond the scalar is not seen. There the speed is that of crawling, and what q''' asks for at that
+// speed is less than half of the jerk (detail::sharpest_curvature): the other half is left for what is seen.
+template <Scalar S>
+S JerkBound<S>::jerk(unsigned axis) const noexcept {
+    return demand_->beyond ? scale2(limits_->jerk_mm_s3[axis], -1) : limits_->jerk_mm_s3[axis];
+}
+
 // By how much the worst axis is beyond its acceleration, or beyond T times its jerk.
 template <Scalar S>
 template <bool Braking>
@@ -105,7 +112,7 @@ S JerkBound<S>::excess(S speed_sq, S acceleration) const noexcept {
             bounded_product(bounded_product(at.second, w), thrice) + cubed(Braking ? at.third_against : at.third_with);
         const S alone = cubed(larger(at.third_with, at.third_against));
         most = larger(most, along + bounded_product(at.second, speed_sq) - limit);
-        most = larger(most, along + larger(bend, alone) - bounded_product(limits_->jerk_mm_s3[k], t));
+        most = larger(most, along + larger(bend, alone) - bounded_product(jerk(k), t));
     }
     return most;
 }
@@ -121,7 +128,7 @@ S JerkBound<S>::steepest() const noexcept {
     S most = scale2(from_integer<S>(1), 22); // more than six axes' limits together
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]),
-                                bounded_product(limits_->jerk_mm_s3[k], smoothing_->seconds));
+                                bounded_product(jerk(k), smoothing_->seconds));
         most = smaller(most, quotient_or_max(limit, demand_->axis[k].first));
     }
     return most;

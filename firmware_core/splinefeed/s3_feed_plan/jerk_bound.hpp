@@ -30,6 +30,7 @@ public:
     [[nodiscard]] S braking(S speed_sq, S steepest) const noexcept;
 
 private:
+    [[nodiscard]] S jerk(unsigned axis) const noexcept;
     template <bool Braking>
     [[nodiscard]] S excess(S speed_sq, S acceleration) const noexcept;
     template <bool Braking>

@@ -35,7 +35,6 @@ struct MotionLimits {
     std::uint32_t most_smoothing_q8 = 0; ///< and the longest that a straight move may ask for
     S usable{};                          ///< the part of a limit that planning may use, but for the noise of positions
     S feed_noise_mm_s{};
-    S jump_mm_s{};                   ///< largest jump of the speed that rounding may cause at a joint of cells
     S centripetal_mm_s2{};           ///< 0: none
     S chord_mm_s2{};                 ///< 8 e / T^2, to be divided by the curvature; 0: none
     S segments_per_s{};              ///< feed segments a second
@@ -72,11 +71,12 @@ inline constexpr double rounding_share = 2e-5;
 template <>
 inline constexpr double rounding_share<float> = 2e-3;
 
-/// The same for the jumps of speed that rounding causes where cells meet.
+/// The same of an axis's own limit, for the jumps of its speed that rounding causes where cells meet. Less of it makes
+/// float slow: its cells of long segments have few digits for a direction.
 template <Scalar S>
 inline constexpr double jump_share = 1e-5;
 template <>
-inline constexpr double jump_share<float> = 1e-2;
+inline constexpr double jump_share<float> = 2e-2;
 
 /// And for joints whose change of direction is tolerated as none (Refinement::direction_jump).
 inline constexpr double corner_share = 2e-5;
@@ -145,6 +145,23 @@ template <Scalar S>
 inline constexpr double direction_noise = 2e-9;
 template <>
 inline constexpr double direction_noise<float> = 2e-6;
+
+/// Largest curvature of a cell [1/mm]. No plan is slower than v = 1e-3 mm/s away from stops, and there the curvature
+/// k asks for the acceleration k v^2, which may be an eighth of the softest limit, and for the jerk q''' v^3, which may
+/// be a quarter of one. A hairpin that cells resolve has |q'''| up to some 5 k^2. @param jerk  0: not limited
+constexpr double sharpest_curvature(double acceleration, double jerk) noexcept {
+    constexpr double most = 16e6; // that a cell tells from infinite
+    const double by_acceleration = 1e6 / 8.0 * acceleration;
+    double sharpest = by_acceleration < most ? by_acceleration : most;
+    if (jerk > 0.0 && 5e-9 * sharpest * sharpest > 0.25 * jerk) {
+        double root = sharpest; // Newton's steps end above the root
+        for (int step = 0; step < 64; ++step) {
+            root = 0.5 * (root + 0.05e9 * jerk / root);
+        }
+        sharpest = root;
+    }
+    return sharpest;
+}
 
 /// Chord error e at the sample period T: v^2 <= 8 e / (kappa T^2), capped to what Fixed holds (no limit in practice).
 constexpr double chord_limit(double error_mm, double period_s) noexcept {
@@ -318,8 +335,11 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         // Jumps of the speed and of the direction that are tolerated at joints are accelerations, too.
         const auto planned = [&](double acceleration) {
             return from_double<S>(acceleration * usable - noise -
-                                  (detail::jump_share<S> + detail::corner_share) * softest);
+                                  detail::jump_share<S> * axis.smaller_acceleration_mm_s2() -
+                                  detail::corner_share * softest);
         };
+        limits.refinement.jump_mm_s[k] =
+            from_double<S>(detail::jump_share<S> * axis.smaller_acceleration_mm_s2() * segment_s);
         limits.acceleration_mm_s2[k] = planned(axis.max_acceleration_mm_s2);
         limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
         limits.rotary[k] = axis.rotary;
@@ -348,7 +368,6 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     limits.feed_noise_mm_s = from_double<S>(feed_noise);
     limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
     limits.path_mm_s = limits.mixed ? from_double<S>(path * usable) : limits.feed_mm_s;
-    limits.jump_mm_s = from_double<S>(detail::jump_share<S> * softest * segment_s);
     limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
     limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, period_s));
     limits.segments_per_s = from_double<S>(n / period_s);
@@ -361,6 +380,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     refinement.shape_log2 = detail::shape_log2(path);
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
+    refinement.sharpest = from_double<S>(detail::sharpest_curvature(softest, smoothest));
     if (smoothest > 0.0) {
         refinement.finest_grade_log2 = settings.jerk_tier == JerkTier::optimal ? 5 : 1;
         refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors

@@ -9,7 +9,8 @@
 // - forward: never above K. The average keeps its jerk where the acceleration changes its sign only after a time T
 //   without (jerk_bound.cpp). Braking may begin only T after the end of acceleration: so it is accelerated only to a
 //   speed that can be kept up for T below K. And it is accelerated only T after the end of braking, which asks for
-//   nothing: a machine that coasts below K may brake at once if it braked last.
+//   nothing: a machine that coasts below K may brake at once if it braked last. Steering can bring K of what is wanted
+//   down in that time: then the motion goes on above it, never above K of the machine, until it may brake.
 //
 // Two K, as in FeedPlan: the machine's (hard), and that of what the steering wants (soft), which is what a motion that
 // is not above it keeps below. One that is above it brakes as hard as its cells allow, as soon as it may.
@@ -18,6 +19,7 @@
 #include "splinefeed/s3_feed_plan/smooth_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
+#include "splinefeed/s3_feed_plan/crawl.hpp"
 
 namespace splinefeed {
 
@@ -27,8 +29,7 @@ constexpr double slowest_sq = 1e-6;    // as FeedPlan's
 constexpr double crumb = 1.0 / 1024.0; // of a cell: a part this short is left to the passage before it
 constexpr double gain = 1.0 / 2048.0;  // of v^2, which is not worth a passage
 constexpr int bisections = 12;
-constexpr int from_rest = 12;         // more of them where it starts
-constexpr double same_time = 0x1p-14; // of a tick
+constexpr int from_rest = 12; // more of them where it starts
 constexpr double spare_time = 1.0 / 16.0;
 constexpr double above = 0x1p-20;   // K, by rounding: of v^2
 constexpr double nothing_mm = 1e-6; // a way from rest to rest that may be too short for a motion
@@ -231,9 +232,11 @@ void SmoothPlan<S>::follow() noexcept {
     const S least = may_brake ? literal<S>(crumb) : literal<S>(0x1p-20);
     if (meets > at_ + least && (!may_brake || meets < one - least)) {
         passage_to(smaller(meets, one), speed_sq_);
-        return;
+    } else if (may_brake) {
+        passage_to(one, exit);
+    } else { // K of what is wanted came down since it accelerated; that of the machine did not
+        coast();
     }
-    passage_to(one, exit);
 }
 
 template <Scalar S>
@@ -283,18 +286,15 @@ bool SmoothPlan<S>::accelerate() noexcept {
     return true;
 }
 
-// Long enough at constant speed for a change of sign.
-template <Scalar S>
-bool SmoothPlan<S>::rested() const noexcept {
-    return !(since_ < from_integer<S>(smoothing_.ticks()) - literal<S>(same_time));
-}
-
 // From rest to the end of the cell where that is next to nothing.
 template <Scalar S>
 void SmoothPlan<S>::crawl() noexcept {
-    SPLINEFEED_ASSERT(length() * (from_integer<S>(1) - at_) < literal<S>(nothing_mm));
-    passage_to(from_integer<S>(1), S{});
-    ticks_ = passage_.linear = from_integer<S>(1);
+    const S one = from_integer<S>(1);
+    const S way = length() * (one - at_);
+    SPLINEFEED_ASSERT(way < literal<S>(nothing_mm));
+    passage_to(one, S{});
+    passage_.linear = one;
+    ticks_ = crawling_ticks(way, *limits_);
 }
 
 template <Scalar S>

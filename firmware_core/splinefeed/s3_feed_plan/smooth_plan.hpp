@@ -87,7 +87,11 @@ private:
     bool coast() noexcept;
     void follow() noexcept;
     void crawl() noexcept;
-    [[nodiscard]] bool rested() const noexcept;
+    /// Long enough at constant speed for a change of sign.
+    [[nodiscard]] bool rested() const noexcept {
+        constexpr double same = 0x1p-14; // of a tick
+        return !(since_ < from_integer<S>(smoothing_.ticks()) - literal<S>(same));
+    }
     void passage_to(S to, S exit_sq) noexcept;
     void pass(S ticks) noexcept;
 

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+//
+// Machines whose axes differ by decades on paths whose steps do, in every plan and scalar: what comes out keeps every
+// limit, ends where the path does, and takes no longer than it has to.
+#include "wild_round.hpp"
+#include "wild_run.hpp"
+
+#include "host/temporary_folder.hpp"
+#include "support/catch.hpp"
+#include "support/rounds.hpp"
+
+using namespace splinefeed_test;
+using splinefeed::Fixed;
+using splinefeed::host::Job;
+
+namespace {
+
+constexpr std::uint64_t seed = 60818;
+constexpr std::uint64_t most_segments = 15'000; // of a run in double: then it is left
+
+/// @return  what the run was; false: it was refused
+template <class S>
+WildRun checked(const Job& job, std::uint64_t most = most_segments) {
+    INFO(printed(job, splinefeed::scalar_name<S>()));
+    const WildRun run = wild_run<S>(job, most);
+    CHECK(run.fault == "");
+    return run;
+}
+
+/// The same run as one in double. @return  how much longer it takes; 1 where either was refused or left
+template <class S>
+double ratio(const Job& job, const WildRun& wanted) {
+    const WildRun run = checked<S>(job, wanted.ended ? 20 * wanted.segments + 100 : most_segments);
+    if (!wanted.ended || !run.refused.empty()) {
+        return 1.0;
+    }
+    INFO(printed(job, splinefeed::scalar_name<S>()));
+    CHECK(run.ended);
+    return (run.seconds - 4.0 * run.sample_s) / wanted.seconds;
+}
+
+} // namespace
+
+TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") {
+    const TemporaryFolder folder;
+    int compared = 0;
+    int slow_in_float = 0; // where cells of long moves have few digits (docs/numbers.md)
+    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(20, 2000)); ++round) {
+        CAPTURE(seed, round);
+        const WildRound wild = wild_round(seed + round);
+        for (const WildPlan plan : {WildPlan::acceleration, WildPlan::optimal, WildPlan::bounded}) {
+            const bool plain = plan == WildPlan::acceleration;
+            const Job job = write_wild(wild, plan, 0.0, folder.file(""));
+            const WildRun run = checked<double>(job);
+            if (!run.refused.empty()) {
+                continue;
+            }
+            {
+                INFO(printed(job, "double"));
+                CAPTURE(run.seconds, run.least_s, run.most_s);
+                CHECK((!run.ended || run.seconds <= 4.0 * run.most_s));
+                CHECK((!run.ended || !plain || run.short_window ||
+                       run.seconds <= 3.0 * run.least_s + 20.0 * run.sample_s));
+                CHECK(ratio<Fixed>(job, run) <= (plain ? 1.02 : 1.6));
+            }
+            if (plain && run.ended) {
+                ++compared;
+                slow_in_float += ratio<float>(job, run) > 1.2 ? 1 : 0;
+            }
+            if (wild.orders && run.ended) {
+                const Job steered = write_wild(wild, plan, run.seconds, folder.file(""));
+                static_cast<void>(checked<double>(steered, 4 * most_segments));
+                static_cast<void>(checked<Fixed>(steered, 4 * most_segments));
+                if (plain) {
+                    static_cast<void>(checked<float>(steered, 4 * most_segments));
+                }
+            }
+        }
+    }
+    CAPTURE(compared, slow_in_float);
+    CHECK(compared > 5);
+    CHECK(slow_in_float <= 1 + compared / 10);
+}
+
+TEMPLATE_TEST_CASE("an axis that turns round next to a sharp bend brakes within its limit", "[wild][braking]", double,
+                   float, Fixed) {
+    // What it had for accelerating was used for braking within the same segment: up to 1.16 of the limit
+    const TemporaryFolder folder;
+    for (const int round : {7, 22, 54, 79, 225, 294, 330, 5075, 5078, 5089}) {
+        CAPTURE(round);
+        static_cast<void>(checked<TestType>(
+            write_wild(wild_round(static_cast<std::uint64_t>(round)), WildPlan::acceleration, 0.0, folder.file(""))));
+    }
+}
+
+TEMPLATE_TEST_CASE("a hairpin of a nanometre is passed within every limit of an averaged motion", "[wild]", double,
+                   Fixed) {
+    // No plan is slower than 1 um/s away from a stop, and at that the jerk was 1.4 times what the axis allows
+    const TemporaryFolder folder;
+    Job job;
+    job.curve.method = "catmull-rom-modified";
+    job.curve.corner_angle = "180";
+    const WildRun run = checked<TestType>(write_texts(job, R"(
+sample_period_us = 1000
+[path]
+max_feed_mm_s = 800
+jerk_plan = "bounded"
+[[axis]]
+name = "x"
+max_velocity_mm_s = 750
+max_acceleration_mm_s2 = 6400
+max_jerk_mm_s3 = 420000
+steps_per_mm = 7700
+[[axis]]
+name = "y"
+max_velocity_mm_s = 45
+max_acceleration_mm_s2 = 82
+max_jerk_mm_s3 = 948
+steps_per_mm = 1976
+[[axis]]
+name = "z"
+max_velocity_mm_s = 49
+max_acceleration_mm_s2 = 956
+max_jerk_mm_s3 = 16030
+)",
+                                                      "35.194105,40.189781,-37.127340\n35.194022,40.189519,-37.127068\n"
+                                                      "35.197188,40.199264,-37.136493\n35.196496,40.196994,-37.134226\n"
+                                                      "35.203530,40.218528,-37.155149\n",
+                                                      "", folder.file("")));
+    CHECK(run.ended);
+}
+
+TEMPLATE_TEST_CASE("an override that comes between the end of acceleration and what it asks for waits for its sign",
+                   "[wild][steering]", double, Fixed) {
+    // It braked before the mean had left the acceleration behind: 1.14 of the jerk limit
+    const TemporaryFolder folder;
+    Job job;
+    job.curve.method = "catmull-rom";
+    job.curve.corner_angle = "180";
+    const std::string machine = R"(
+sample_period_us = 2000
+[path]
+max_feed_mm_s = 52.7
+jerk_plan = "bounded"
+[[axis]]
+name = "x"
+max_velocity_mm_s = 21.8
+max_acceleration_mm_s2 = 290
+max_jerk_mm_s3 = 2954
+)";
+    for (int at_ms = 60; at_ms < 130; at_ms += 2) {
+        CAPTURE(at_ms);
+        const WildRun run = checked<TestType>(
+            write_texts(job, machine, "x,feed\n-17.169,\n-16.948,\n-16.467,\n-16.342,\n-15.2,\n",
+                        "0.0" + std::to_string(100 + at_ms).substr(1) + ",override,0.1\n", folder.file("")));
+        CHECK(run.ended);
+    }
+}
+
+TEMPLATE_TEST_CASE("a way too short for a speed is crawled along within every limit", "[wild]", double, Fixed) {
+    // One tick was taken for it: 1.08 of the jerk limit
+    const TemporaryFolder folder;
+    static_cast<void>(checked<TestType>(write_wild(wild_round(237), WildPlan::bounded, 0.0, folder.file(""))));
+}
+
+TEST_CASE("float arrives at the ends of long moves without a step", "[wild][float]") {
+    // Rounding of 2^-24 of the move, 1 um, became up to 1.12 of the acceleration limit
+    const TemporaryFolder folder;
+    Job job;
+    job.curve.method = "polyline";
+    job.window_cells = 64;
+    const std::string machine = R"(
+sample_period_us = 1000
+[path]
+max_feed_mm_s = 70
+[[axis]]
+name = "x"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 20000
+[[axis]]
+name = "y"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 2000
+[[axis]]
+name = "z"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 44.8076
+)";
+    const std::string program = "36.884463,-49.106353,-30.856842\n63.769175,-41.608288,-60.826221\n";
+    const Job written = write_texts(job, machine, program, "", folder.file(""));
+    CHECK(checked<float>(written, 400'000).ended);
+}
+
+TEST_CASE("float is as fast as double where a soft axis hardly moves", "[wild][float]") {
+    const TemporaryFolder folder;
+    Job job;
+    job.curve.method = "g2";
+    const std::string machine = R"(
+sample_period_us = 4000
+[path]
+max_feed_mm_s = 465
+[[axis]]
+name = "x"
+max_velocity_mm_s = 403
+max_acceleration_mm_s2 = 4481
+[[axis]]
+name = "y"
+max_velocity_mm_s = 366
+max_acceleration_mm_s2 = 48.85
+[[axis]]
+name = "z"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 7964
+[[axis]]
+name = "a"
+max_velocity_mm_s = 44.6
+max_acceleration_mm_s2 = 3592
+)";
+    const Job written =
+        write_texts(job, machine, "13.730051,47.100598,40.223821,20.434744\n-4.799827,46.619125,41.241539,-0.004341\n",
+                    "", folder.file(""));
+    const WildRun wanted = checked<double>(written);
+    REQUIRE(wanted.ended);
+    CHECK(ratio<float>(written, wanted) < 1.05);
+}

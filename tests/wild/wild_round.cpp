@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "wild_round.hpp"
+
+#include "host/temporary_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fstream>
+#include <vector>
+
+namespace splinefeed_test {
+
+using splinefeed::host::Job;
+
+namespace {
+
+using Point = std::array<double, 6>;
+
+constexpr std::string_view axis_names = "xyzabc";
+
+void make_machine(Random& random, int axes, WildRound& round) {
+    constexpr std::array periods{250, 500, 1000, 2000, 4000};
+    const bool alike = random.chance(0.2);
+    std::string text = fmt::format("sample_period_us = {}\n[path]\nmax_feed_mm_s = {:.6g}\n",
+                                   random.chance(0.5) ? periods[static_cast<unsigned>(random.integer(0, 4))]
+                                                      : random.integer(250, 4000),
+                                   random.decades(1.0, 1000.0));
+    if (random.chance(0.3)) {
+        text += fmt::format("centripetal_mm_s2 = {:.6g}\n", random.decades(30.0, 1e4));
+    }
+    if (random.chance(0.2)) {
+        text += fmt::format("chord_error_mm = {:.6g}\n", random.decades(1e-5, 0.1));
+    }
+    round.machine = round.jerk = text;
+    round.jerk += "jerk_plan = \"PLAN\"\n";
+    const double velocity = random.decades(3.0, 1000.0);
+    const double acceleration = random.decades(30.0, 3e4);
+    const double rise = random.decades(1e-3, 0.3);
+    const double decades = random.chance(0.5) ? 3.0 : 30.0; // to either side
+    const int linear = random.chance(0.2) ? random.integer(0, axes) : axes;
+    for (int k = 0; k < axes; ++k) {
+        const auto own = [&](double value, double low, double high) {
+            return std::clamp(alike ? value : value * random.decades(1.0 / decades, decades), low, high);
+        };
+        const double limit = own(acceleration, 30.0, 1e5);
+        std::string axis = fmt::format(
+            "[[axis]]\nname = \"{}\"\nmax_velocity_mm_s = {:.6g}\nmax_acceleration_mm_s2 = {:.6g}\n"
+            "steps_per_mm = {:.6g}\n",
+            axis_names[static_cast<unsigned>(k)], own(velocity, 1.0, 1000.0), limit, random.decades(10.0, 1e4));
+        if (k >= linear) {
+            axis += "kind = \"rotary\"\n";
+        }
+        if (random.chance(0.2)) {
+            axis +=
+                fmt::format("max_braking_mm_s2 = {:.6g}\n", std::clamp(limit * random.decades(0.3, 3.0), 30.0, 1e5));
+        }
+        round.machine += axis;
+        round.jerk += axis;
+        if (k == 0 || random.chance(0.9)) {
+            round.jerk += fmt::format("max_jerk_mm_s3 = {:.6g}\n", std::min(limit / own(rise, 3e-4, 1.0), 1e9));
+        }
+    }
+}
+
+Point direction(Random& random, int axes) {
+    Point d{};
+    double sum = 0.0;
+    while (sum < 0.01) {
+        sum = 0.0;
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            d[k] = random.between(-1.0, 1.0);
+            sum += d[k] * d[k];
+        }
+    }
+    for (double& x : d) {
+        x /= std::sqrt(sum);
+    }
+    return d;
+}
+
+// From point to point: steps over up to four decades, to and fro about one direction, or wherever.
+std::vector<Point> make_points(Random& random, int axes) {
+    std::vector<Point> points;
+    const int count = random.chance(0.1) ? 2 : random.integer(3, 60);
+    const double size = random.decades(0.02, 20.0);
+    const double spread = random.chance(0.3) ? 1.0 : random.decades(3.0, 100.0); // to either side
+    const int shape = random.integer(0, 3);
+    Point at{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        at[k] = random.between(-50.0, 50.0);
+    }
+    Point along = direction(random, axes);
+    if (random.chance(0.3)) { // one axis hardly moves
+        along[static_cast<unsigned>(random.integer(0, axes - 1))] *= random.decades(1e-5, 0.1);
+    }
+    for (int i = 0; i < count; ++i) {
+        points.push_back(at);
+        if (random.chance(0.05)) {
+            continue; // once more
+        }
+        const double step = size * random.decades(1.0 / spread, spread);
+        const double much = shape == 0 ? 3.0 : shape == 1 ? 0.5 : 0.05;
+        const double way = shape == 3 ? (random.chance(0.5) ? step : -step) : step;
+        const Point turn = direction(random, axes);
+        if (shape < 3) {
+            for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+                along[k] += much * turn[k];
+            }
+            double sum = 0.0;
+            for (const double x : along) {
+                sum += x * x;
+            }
+            for (double& x : along) {
+                x /= std::sqrt(sum);
+            }
+        }
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            at[k] += way * along[k] + (shape == 3 ? 0.02 * step * turn[k] : 0.0);
+        }
+    }
+    return points;
+}
+
+void make_program(Random& random, int axes, bool columns, WildRound& round) {
+    const bool feeds = columns && random.chance(0.3);
+    const bool corners = columns && random.chance(0.3);
+    std::vector<std::string> header;
+    for (int k = 0; k < axes; ++k) {
+        header.emplace_back(1, axis_names[static_cast<unsigned>(k)]);
+    }
+    if (feeds) {
+        header.emplace_back("feed");
+    }
+    if (corners) {
+        header.emplace_back("corner");
+    }
+    round.program = fmt::format("{}\n", fmt::join(header, ","));
+    for (const Point& point : make_points(random, axes)) {
+        std::vector<std::string> row;
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            row.push_back(fmt::format("{:.6f}", point[k]));
+        }
+        if (feeds) {
+            row.push_back(random.chance(0.5) ? fmt::format("{:.6g}", random.decades(1.0, 1000.0)) : "");
+        }
+        if (corners) {
+            row.emplace_back(random.chance(0.7) ? "" : random.chance(0.5) ? "1" : "0");
+        }
+        round.program += fmt::format("{}\n", fmt::join(row, ","));
+    }
+}
+
+void write(const std::string& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+} // namespace
+
+WildRound wild_round(std::uint64_t seed) {
+    constexpr std::array curves{"g2",        "g2-bezier", "catmull-rom",           "catmull-rom-modified",
+                                "bspline",   "polyline",  "bspline-interpolation", "ferguson",
+                                "beta-chain"};
+    constexpr std::array windows{16, 24, 64, 256, 1024};
+    Random random(seed);
+    WildRound round;
+    round.seed = seed;
+    const int axes = random.integer(1, 6);
+    const auto curve = static_cast<unsigned>(random.integer(0, 8));
+    make_machine(random, axes, round);
+    make_program(random, axes, curve < 6, round);
+    round.job.quiet = true;
+    round.job.curve.method = curves[curve];
+    round.job.curve.closed = curve != 7 && random.chance(0.2);
+    round.job.curve.smooth = curve >= 2 && curve <= 3 && random.chance(0.2);
+    if (curve < 6 && random.chance(0.4)) {
+        round.job.curve.corner_angle = random.chance(0.5) ? "180" : "20";
+    }
+    round.job.window_cells = static_cast<std::size_t>(windows[static_cast<unsigned>(random.integer(0, 4))]);
+    round.orders = random.chance(0.4);
+    return round;
+}
+
+std::string WildRound::events(double seconds) const {
+    Random random(seed + 1);
+    std::string text = "t,event,value\n";
+    double t = 0.0;
+    for (int i = random.integer(1, 6); i > 0; --i) {
+        t += random.between(0.0, 0.4 * seconds);
+        if (random.chance(0.4)) {
+            text += fmt::format("{:.4f},hold,\n", t);
+            t += random.decades(1e-3, 0.3);
+            text += fmt::format("{:.4f},resume,\n", t);
+        } else if (random.chance(0.2)) {
+            text += fmt::format("{:.4f},override,0\n", t);
+            t += random.decades(1e-3, 0.3);
+            text += fmt::format("{:.4f},override,{:.2f}\n", t, random.between(0.3, 2.0));
+        } else {
+            text += fmt::format("{:.4f},override,{:.2f}\n", t, random.between(0.3, 2.0));
+        }
+    }
+    return text;
+}
+
+Job write_texts(const Job& job, const std::string& machine, const std::string& program, const std::string& events,
+                const std::string& folder) {
+    Job written = job;
+    written.input = folder + "/wild.csv";
+    written.machine = folder + "/wild.toml";
+    write(written.input, program);
+    write(written.machine, machine);
+    if (!events.empty()) {
+        written.events = folder + "/wild.events.csv";
+        write(written.events, events);
+    }
+    return written;
+}
+
+Job write_wild(const WildRound& round, WildPlan plan, double seconds, const std::string& folder) {
+    std::string machine = plan == WildPlan::acceleration ? round.machine : round.jerk;
+    if (const auto at = machine.find("PLAN"); at != std::string::npos) {
+        machine.replace(at, 4, plan == WildPlan::optimal ? "optimal" : "bounded");
+    }
+    return write_texts(round.job, machine, round.program, seconds > 0.0 ? round.events(seconds) : "", folder);
+}
+
+std::string printed(const Job& job, std::string_view scalar) {
+    std::string text =
+        fmt::format("splinefeed run wild.csv -m wild.toml --scalar {} --curve {} --window {}{}{}{}\n", scalar,
+                    *job.curve.method, job.window_cells, job.curve.closed ? " --closed" : "",
+                    job.curve.smooth ? " --smooth" : "", job.events.empty() ? "" : " --events wild.events.csv");
+    if (job.curve.corner_angle) {
+        text.insert(text.size() - 1, " --corner-angle " + *job.curve.corner_angle);
+    }
+    for (const std::string& file : {job.machine, job.input, job.events}) {
+        text += file.empty() ? "" : fmt::format("# {}\n{}", file, contents(file));
+    }
+    return text;
+}
+
+} // namespace splinefeed_test

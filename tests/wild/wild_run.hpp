@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// WildRun: a job through the planner and the simulated machine, which checks every limit, for so many segments.
+#pragma once
+
+#include "host_sim/job.hpp"
+
+#include "splinefeed/number/scalar.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace splinefeed_test {
+
+struct WildRun {
+    std::string refused; ///< why the machine or the path was not taken; empty: it was
+    std::string fault;   ///< what the machine has against it, or that it does not end where the path does
+    bool ended = false;  ///< else there were too many segments
+    double seconds = 0.0;
+    double least_s = 0.0; ///< OptimumTime, of a run that ended
+    double most_s = 0.0;  ///< from rest to rest on every segment of the curve, all by the softest limits of the axes
+    bool short_window = false; ///< FeedPlan::window_limited
+    std::uint64_t segments = 0;
+    double sample_s = 0.0;
+};
+
+template <splinefeed::Scalar S>
+[[nodiscard]] WildRun wild_run(const splinefeed::host::Job& job, std::uint64_t most_segments);
+
+} // namespace splinefeed_test
