@@ -78,11 +78,10 @@ WildRun wild_run(const Job& job, std::uint64_t most_segments) {
             }
             const bool moves = trajectory.next(segment);
             if (!moves && trajectory.state() == Pull::held) {
-                if (obeyed == events.size()) {
-                    run.fault = "held without an order";
+                if (obeyed == events.size() || !trajectory.stand(segment)) {
+                    run.fault = "held without an order, or where it has not begun";
                     break;
                 }
-                trajectory.stand(segment);
             } else if (!moves && trajectory.state() == Pull::finished) {
                 run.ended = true;
                 break;
