@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How many random runs a test makes: a few in ./check, half of them under sanitizers, which look for something else;
+// How many random runs a test makes: a few in ./check, half of them under sanitizers, as in ./check;
 // twenty times as many in ./check --long.
 #pragma once
 
