@@ -53,8 +53,9 @@ TEST_CASE("homing", "[stopping]") {
             GpioMover mover(
                 machine, map, inputs, port, [] { return 0; }, [] {}, clock);
             const auto carriage = clock.start([&] {
-                for (; homes; clock.sleep_us(500)) {
+                while (homes) {
                     switches();
+                    clock.sleep_us(500);
                 }
             });
             what = mover.home();

@@ -91,6 +91,7 @@ Outcome run(Bench& bench, const Story& story) {
         const double t = bench.now_ms() - begin_ms;
         if (!caused && story.cause != Story::Cause::none && t >= story.at_ms) {
             caused = true;
+            bench.clock.sleep_us(static_cast<std::uint64_t>(1000.0 * (story.at_ms - std::floor(story.at_ms))));
             caused_ms = bench.now_ms();
             switch (story.cause) {
             case Story::Cause::none: break;
@@ -173,14 +174,14 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
     };
     // 50 ms are held, 100 ms is the braking time, and a plan acts with its next segment.
     const std::array kinds{
-        Kind{"signal", Cause::hold, false, 160.0, hal::PortPhase::idle, "interrupted: held on the path"},
-        Kind{"signal, planner blocked", Cause::hold, true, 100.0, hal::PortPhase::halted,
+        Kind{"signal", Cause::hold, false, 152.0, hal::PortPhase::idle, "interrupted: held on the path"},
+        Kind{"signal, planner blocked", Cause::hold, true, 92.0, hal::PortPhase::halted,
              "interrupted: held on the path"},
         Kind{"second signal", Cause::hold_then_quick_stop, false, 62.0, hal::PortPhase::halted, "interrupted twice"},
         Kind{"two signals at once, planner blocked", Cause::quick_stop, true, 42.0, hal::PortPhase::halted,
              "interrupted twice"},
-        Kind{"limit switch", Cause::limit, false, 162.0, hal::PortPhase::idle, "the limit of axis x (line 1) acts"},
-        Kind{"limit switch, planner blocked", Cause::limit, true, 102.0, hal::PortPhase::halted,
+        Kind{"limit switch", Cause::limit, false, 154.0, hal::PortPhase::idle, "the limit of axis x (line 1) acts"},
+        Kind{"limit switch, planner blocked", Cause::limit, true, 94.0, hal::PortPhase::halted,
              "the limit of axis x (line 1) acts"},
         Kind{"e-stop", Cause::e_stop, false, 0.6, hal::PortPhase::fault, "the e-stop was pressed: cut off"},
         Kind{"e-stop, planner blocked", Cause::e_stop, true, 0.6, hal::PortPhase::fault,

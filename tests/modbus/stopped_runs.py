@@ -10,7 +10,7 @@ Each run has a target, signals and a situation by its seed. It is judged by what
   stands, names a drive that does not answer, and claims that all were held on the path only where they are there;
 - the program ends within EXIT_S, whatever is blocked.
 
-It prints a table: target, signals, situation, worst time to standstill, most counts that a shaft moved after the exit.
+It prints a table: target, situation, worst time to standstill by the signals, most counts that a shaft moved after the exit.
 GPIO lines have such a test on a virtual clock: gpio_tests "[stopping]"."""
 import argparse
 import concurrent.futures
@@ -24,7 +24,7 @@ import sys
 import time
 
 from drive_processes import Drive, folder_with_cables, machine_text, missing_for
-from real_time import DELAYS, HostWatch, OffTime
+from real_time import HostWatch, OffTime
 
 STEPS = 320.0
 FEED = 80.0
@@ -34,11 +34,11 @@ NEVER_MOVED = "interrupted before anything was moved; the drives were not enable
 
 # name: profile, wire, stated time to standstill by what was asked [s], off the path where all were held [mm].
 TARGETS = {
-    "splinefeed-pvt, tcp": ("", "tcp", {"once": 0.6, "twice": 0.5}, 0.02),
-    "lexium32m, tcp": ("lexium32m&ramp=1e6", "tcp", {"once": 0.6, "twice": 0.6}, 0.3),
-    "leadshine-pr, rtu": ("leadshine-pr", "rtu", {"once": 0.6, "twice": 0.6}, 0.3),
+    "splinefeed-pvt, tcp": ("", "tcp", {"once": 0.28, "twice": 0.05}, 0.02),
+    "lexium32m, tcp": ("lexium32m&ramp=1e6", "tcp", {"once": 0.25, "twice": 0.05}, 0.3),
+    "leadshine-pr, rtu": ("leadshine-pr", "rtu", {"once": 0.4, "twice": 0.1}, 0.3),
 }
-SIGNALS = ["SIGINT", "SIGTERM", "SIGHUP", "SIGINT twice"]
+SIGNALS = ["SIGINT", "SIGTERM", "SIGHUP", "SIGINT, twice"]
 SITUATIONS = ["plain", "stalled input", "full pipe", "frozen drive", "dead drive"]
 EXIT_S = 12.0
 MEASURED_S = 0.004  # the record has a row a millisecond, and an exit is looked for as often
@@ -129,11 +129,12 @@ class Run:
             self.loss = time.monotonic()
             time.sleep(self.before_s)
         self.early = run.poll() is not None
-        run.send_signal(getattr(signal, self.signals.split()[0]))
+        run.send_signal(getattr(signal, self.signals.split(",")[0]))
         asked = time.monotonic()
         if self.signals.endswith("twice"):
             time.sleep(self.gap_s)
-            run.send_signal(signal.SIGINT)
+            # Two of a kind may be one to the kernel before a thread was woken for the first; two kinds never are.
+            run.send_signal(signal.SIGINT if self.gap_s > 0.01 else signal.SIGTERM)
             asked = time.monotonic()
         while run.poll() is None and time.monotonic() < asked + EXIT_S:
             time.sleep(0.001)
@@ -158,7 +159,8 @@ class Run:
             self.after = max(self.after, abs(rows[-1][1] - rows[at_exit][1]))
             ends[k] = rows[-1][1] / STEPS
         self.check(self.after == 0, f"a shaft moved by {self.after} counts after the exit")
-        if self.early and status == 1 and lost is None:
+        still = all(place == 0.0 for place in ends.values())
+        if self.early and status == 1:
             self.standstill_s = None  # a host that is busy may keep a run from starting; nobody stopped it
             return
         finished = status == 0 and self.situation not in ("stalled input", "full pipe")
@@ -166,17 +168,16 @@ class Run:
             self.check(sentence == "", f"done, and yet: {sentence}")
             return
         if status < 0:  # the signal came before the program had begun to take signals
-            self.check(all(place == 0.0 for place in ends.values()), "killed, and something was moved")
+            self.check(still, "killed, and something was moved")
             return
         limit_s = stated["twice" if self.signals.endswith("twice") else "once"]
         if self.standstill_s > limit_s:
-            self.problems.append(OffTime(f"{self.standstill_s:.3f} s to standstill, stated {limit_s}",
-                                         (self.standstill_s - limit_s) / DELAYS))
+            self.problems.append(OffTime(f"{self.standstill_s:.3f} s to standstill, stated {limit_s}"))
         self.check(status == 1, f"exit status {status}")
         self.check(sentence.count("\n") == 0 and sentence.startswith("splinefeed: "), f"no sentence: {sentence}")
         self.check(not [name for name in os.listdir(folder) if name.endswith(".tmp")], "a temporary file is left behind")
-        if NEVER_MOVED in sentence:
-            self.check(all(place == 0.0 for place in ends.values()), "something was moved")
+        if NEVER_MOVED in sentence or "stands at" not in sentence:
+            self.check(still, "something was moved, and it does not say where the machine stands")
             return
         before = self.loss is not None and asked - self.loss > 0.05
         if lost is not None and "all drives were held" in sentence:
@@ -225,16 +226,18 @@ def one(options, seed):
 
 
 def print_table(runs):
-    worst = {}
-    for run in runs:
-        if run.standstill_s is not None:
-            key = (run.target, run.signals, run.situation)
-            count, most_s, after = worst.get(key, (0, 0.0, 0))
-            worst[key] = (count + 1, max(most_s, run.standstill_s), max(after, run.after))
-    print("| target | signals | situation | runs | standstill within | counts after the exit |\n|---|---|---|---|---|---|")
-    for key in sorted(worst):
-        count, most_s, after = worst[key]
-        print(f"| {' | '.join(key)} | {count} | {most_s:.3f} s | {after:.0f} |")
+    """Worst time to standstill by target and situation (rows) and signals (columns), and most counts after the exit."""
+    judged = [run for run in runs if run.standstill_s is not None]
+    print(f"| target | situation | runs | {' | '.join(SIGNALS)} | counts after the exit |\n" + "|---" * (4 + len(SIGNALS)) + "|")
+    for target in TARGETS:
+        for situation in SITUATIONS:
+            row = [run for run in judged if (run.target, run.situation) == (target, situation)]
+            cells = []
+            for signals in SIGNALS:
+                times = [run.standstill_s for run in row if run.signals == signals]
+                cells.append(f"{max(times):.3f} s" if times else "")
+            after = max((run.after for run in row), default=0)
+            print(f"| {target} | {situation} | {len(row)} | {' | '.join(cells)} | {after:.0f} |")
 
 
 def main():
