@@ -186,7 +186,7 @@ class Run:
             self.check(lost_address in sentence or "when it was last heard" in sentence,
                        "it says nothing of the drive that does not answer")
         if lost is None:
-            self.check("interrupted" in sentence, "it does not say that it was interrupted")
+            self.check("interrupted" in sentence or still, "it does not say that it was interrupted")
         self.where(sentence, ends)
         if "held on the path" in sentence and lost is None:
             place = [ends[k] for k in range(3)]
