@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How many random runs a test makes: a few in ./check, half of them under sanitizers, as in ./check;
-// twenty times as many in ./check --long.
+// How many random runs a test makes: a few; half of them under sanitizers, as in ./check; twenty times as many in
+// ./check --long.
 #pragma once
 
 #include <cstdlib>
