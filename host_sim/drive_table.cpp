@@ -25,26 +25,57 @@ void take_defaults(TargetAddress& address, const LinkSettings& link) {
     address.link.unit = address.states_unit ? address.link.unit : link.unit;
     address.link.baud = address.states_baud ? address.link.baud : link.baud;
     address.link.parity = address.states_parity ? address.link.parity : link.parity;
+    // The profile's stop bits belong to its parity; another parity has the standard's.
+    if (address.link.stop_bits == 0) {
+        LinkAddress standard{.parity = address.link.parity};
+        address.link.stop_bits = address.link.parity == link.parity ? link.stop_bits : standard.stops();
+    }
+}
+
+/// A drive on a serial line may stand behind a gateway; one with a socket of its own has no serial line.
+void check_wire(const TargetAddress& address, const DriveProfile& profile) {
+    if (address.link.wire == Wire::rtu && !profile.link.rtu) {
+        throw UsageError(fmt::format("--target {}: the profile {} is of drives on tcp alone (`wires`); write "
+                                     "modbus-tcp://HOST:PORT",
+                                     in_quotes(address.text), profile.name));
+    }
+    if (!is_unit(address.link.wire, address.link.unit)) {
+        throw UsageError(fmt::format("--target {}: the profile {} has the unit {}, which a serial line does not; give "
+                                     "&unit= from 1 to {}",
+                                     in_quotes(address.text), profile.name, address.link.unit, most_unit));
+    }
+}
+
+/// The window becomes the profile's, which has one for the drive already or not.
+void take_window(const TargetAddress& address, DriveProfile& profile) {
+    if (!address.following_window_counts) {
+        return;
+    }
+    const RegisterField* const field = profile.field_of(FieldRole::following_error_window);
+    if (profile.stream != StreamWay::pvt && (field == nullptr || !field->writable())) {
+        throw UsageError(fmt::format("--target {}: the profile {} has no register for following_window; set the window "
+                                     "in the drive, and leave the key out",
+                                     in_quotes(address.text), profile.name));
+    }
+    if (profile.stream != StreamWay::pvt && *address.following_window_counts == 0) {
+        throw UsageError(fmt::format("--target {}: following_window=0, no window, is known of splinefeed-pvt alone; "
+                                     "give a number of counts",
+                                     in_quotes(address.text)));
+    }
+    profile.following_error_window_counts = address.following_window_counts;
 }
 
 /// What only some profiles ask for, or refuse.
-void check_ramp(const TargetAddress& address, const DriveProfile& profile, double acceleration_counts_s2) {
-    const bool own =
-        profile.stream == StreamWay::blocks && profile.field_of(FieldRole::profile_acceleration) == nullptr;
-    if (own && !address.ramp_counts_s2) {
+void check_ramp(const TargetAddress& address, const DriveProfile& profile) {
+    const bool blocks = profile.stream == StreamWay::blocks;
+    if (blocks && profile.field_of(FieldRole::profile_acceleration) == nullptr && !address.ramp_counts_s2) {
         throw UsageError(fmt::format("--target {}: the profile {} has no register for ramps; say with &ramp= what the "
                                      "drive's is set to, in counts/s^2",
                                      in_quotes(address.text), profile.name));
     }
-    if (!own && address.ramp_counts_s2) {
+    if (!blocks && address.ramp_counts_s2) {
         throw UsageError(fmt::format("--target {}: the profile {} needs no ramp; leave it out", in_quotes(address.text),
                                      profile.name));
-    }
-    if (own && *address.ramp_counts_s2 < acceleration_counts_s2) {
-        throw UsageError(
-            fmt::format("--target {}: a ramp of {:g} counts/s^2 cannot follow the axis, which has {:g}; set "
-                        "the drive to four times that, or lower max_acceleration_mm_s2",
-                        in_quotes(address.text), *address.ramp_counts_s2, acceleration_counts_s2));
     }
 }
 
@@ -54,10 +85,11 @@ public:
 
     void add(TargetAddress address, int machine_axis) {
         const auto k = static_cast<unsigned>(machine_axis);
-        const DriveProfile profile = find_profile(address.profile);
+        DriveProfile profile = find_profile(address.profile);
         take_defaults(address, profile.link);
-        const auto& axis = machine_.settings.axis[k];
-        check_ramp(address, profile, axis.larger_acceleration_mm_s2() * axis.steps_per_mm);
+        check_wire(address, profile);
+        take_window(address, profile);
+        check_ramp(address, profile);
         check_line(address, machine_.axis_name[k]);
         DriveTable::Drive& drive = drive_at(address, profile);
         const auto place = static_cast<std::size_t>(address.axis);
@@ -82,10 +114,11 @@ private:
     void check_line(const TargetAddress& address, const std::string& axis) const {
         for (const DriveTable::Drive& drive : table_.drives) {
             const LinkAddress& link = drive.address.link;
-            if (link.same_wire(address.link) &&
-                (link.baud != address.link.baud || link.parity != address.link.parity)) {
-                throw UsageError(fmt::format("--target modbus: the drive of axis {} is on {} with another baud rate or "
-                                             "parity than a drive before it; all on one line have the same",
+            if (link.same_wire(address.link) && (link.baud != address.link.baud || link.parity != address.link.parity ||
+                                                 link.stops() != address.link.stops())) {
+                throw UsageError(fmt::format("--target modbus: the drive of axis {} is on {} with another baud rate, "
+                                             "parity or number of stop bits than a drive before it; all on one line "
+                                             "have the same",
                                              axis, address.link.host));
             }
         }
@@ -104,10 +137,24 @@ private:
             std::find_if(table_.drives.begin(), table_.drives.end(),
                          [&](const DriveTable::Drive& drive) { return drive.address.link == address.link; });
         if (known != table_.drives.end()) {
+            check_same(*known, address, profile);
             return *known;
         }
         table_.drives.push_back({address, profile, {}});
         return table_.drives.back();
+    }
+
+    // Keys of the drive as a whole, which may stand at any of its axes.
+    static void check_same(DriveTable::Drive& known, const TargetAddress& address, const DriveProfile& profile) {
+        auto& window = known.profile.following_error_window_counts;
+        if (known.address.profile != address.profile || known.address.resample != address.resample ||
+            (known.address.following_window_counts && address.following_window_counts &&
+             window != profile.following_error_window_counts)) {
+            throw UsageError(fmt::format("--target modbus: {} and {} are one drive; give both the same profile, "
+                                         "resample and following_window",
+                                         in_quotes(known.address.text), in_quotes(address.text)));
+        }
+        window = address.following_window_counts ? profile.following_error_window_counts : window;
     }
 
     const MachineDescription& machine_;

@@ -162,6 +162,19 @@ private:
             lines_.input(check_.required(table, "line", "[[input]]", "a line"),
                          fmt::format("line of the input {}", role_names[kind]),
                          bias != nullptr ? static_cast<Bias>(check_.choice(*bias, "bias", bias_names)) : Bias::as_is);
+        for (const MappedInput& other : map_.inputs) {
+            if (other.line != input.line) {
+                continue;
+            }
+            if (other.active_level != input.active_level) {
+                check_.fail(table,
+                            "this input shares its line with another one that acts at the other level; give both "
+                            "the same `active`");
+            }
+            if (other.role == input.role && other.axis == input.axis) {
+                check_.fail(table, "this input is in the map already; leave it out");
+            }
+        }
         map_.inputs.push_back(input);
     }
 

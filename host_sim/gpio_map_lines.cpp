@@ -64,23 +64,23 @@ GpioMapLines::Wanted GpioMapLines::wanted(const toml::node& node, std::string_vi
 }
 
 // A line that is named here and given by its offset there is found when it is requested.
-GpioMapLines::Wanted GpioMapLines::wanted_unused(const toml::node& node, std::string_view key) {
-    Wanted out = wanted(node, key);
+void GpioMapLines::require_unused(const toml::node& node, std::string_view key, const Wanted& line) {
     std::vector<std::string> ways;
-    if (out.line.offset) {
-        ways.push_back(fmt::format("line {}", *out.line.offset));
+    if (line.line.offset) {
+        ways.push_back(fmt::format("line {}", *line.line.offset));
     }
-    if (!out.line.name.empty()) {
-        ways.push_back(fmt::format("line {}", in_quotes(out.line.name)));
+    if (!line.line.name.empty()) {
+        ways.push_back(fmt::format("line {}", in_quotes(line.line.name)));
     }
     for (const std::string& way : ways) {
-        const auto [before, unused] = used_.emplace(std::pair(out.chip, way), std::string(key));
+        const auto [before, unused] = used_.emplace(std::pair(line.chip, way), std::string(key));
         if (!unused) {
-            check_.fail(node, fmt::format("{} is {} of {}, which is {} already; each needs a line of its own", key, way,
-                                          out.chip, before->second));
+            check_.fail(node,
+                        fmt::format("{} is {} of {}, which is {} already; each needs a line of its own (inputs may "
+                                    "share one, which each of them then names alike)",
+                                    key, way, line.chip, before->second));
         }
     }
-    return out;
 }
 
 std::size_t GpioMapLines::chip_index(const std::string& chip) {
@@ -105,15 +105,29 @@ LineBit GpioMapLines::add(const toml::node& node, std::size_t chip, std::vector<
 }
 
 LineBit GpioMapLines::output(const toml::node& node, std::string_view key, bool safe_level) {
-    const Wanted line = wanted_unused(node, key);
+    const Wanted line = wanted(node, key);
+    require_unused(node, key, line);
     const std::size_t chip = chip_index(line.chip);
     return add(node, chip, chips_[chip].outputs, OutputRequest{line.line, safe_level});
 }
 
 LineBit GpioMapLines::input(const toml::node& node, std::string_view key, Bias bias) {
-    const Wanted line = wanted_unused(node, key);
+    const Wanted line = wanted(node, key);
+    for (const Input& other : inputs_) {
+        if (other.wanted.chip == line.chip && other.wanted.line == line.line) {
+            if (other.bias != bias) {
+                check_.fail(node, fmt::format("{} shares its line with another input, and has another bias; a line has "
+                                              "one bias",
+                                              key));
+            }
+            return other.bit;
+        }
+    }
+    require_unused(node, key, line);
     const std::size_t chip = chip_index(line.chip);
-    return add(node, chip, chips_[chip].inputs, InputRequest{line.line, bias});
+    const LineBit bit = add(node, chip, chips_[chip].inputs, InputRequest{line.line, bias});
+    inputs_.push_back({line, bias, bit});
+    return bit;
 }
 
 } // namespace splinefeed::host

@@ -23,6 +23,7 @@ public:
     /// @param node  a name, an offset, or a table with chip, offset and name
     /// @param key  that it stands behind, for messages
     hal::gpio::LineBit output(const toml::node& node, std::string_view key, bool safe_level);
+    /// Inputs may share a line, named alike each time and with the same bias.
     hal::gpio::LineBit input(const toml::node& node, std::string_view key, hal::gpio::Bias bias);
 
 private:
@@ -30,11 +31,16 @@ private:
         std::string chip;
         hal::gpio::LineName line;
     };
+    struct Input {
+        Wanted wanted;
+        hal::gpio::Bias bias;
+        hal::gpio::LineBit bit;
+    };
 
     [[nodiscard]] std::string name(const toml::node& node, std::string_view key) const;
     [[nodiscard]] unsigned offset(const toml::node& node, std::string_view key) const;
     [[nodiscard]] Wanted wanted(const toml::node& node, std::string_view key) const;
-    [[nodiscard]] Wanted wanted_unused(const toml::node& node, std::string_view key);
+    void require_unused(const toml::node& node, std::string_view key, const Wanted& line);
     std::size_t chip_index(const std::string& chip);
     template <class Request>
     hal::gpio::LineBit add(const toml::node& node, std::size_t chip, std::vector<Request>& requests,
@@ -44,6 +50,7 @@ private:
     std::string default_chip_;
     std::vector<hal::gpio::ChipLines>& chips_;
     std::map<std::pair<std::string, std::string>, std::string> used_; ///< chip and line, by which key
+    std::vector<Input> inputs_;
 };
 
 } // namespace splinefeed::host

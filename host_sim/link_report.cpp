@@ -121,7 +121,7 @@ std::string advice(const ModbusPort& port, const std::vector<Measured>& drives, 
 }
 
 std::string pvt_report(const DriveTable& table, const MachineDescription& machine, double seconds) {
-    ModbusPort port(pvt_wiring(table), {});
+    ModbusPort port(pvt_wiring(table, machine), {});
     if (const auto failure = port.open()) {
         throw TargetError(drive_sentence(table, port, *failure));
     }

@@ -16,7 +16,7 @@ using hal::modbus::LinkCounts;
 struct Loss {
     const char* key;
     const char* text;
-    std::uint32_t LinkCounts::*count;
+    std::uint64_t LinkCounts::*count;
 };
 constexpr std::array<Loss, 7> losses{{{"timeouts", "without an answer in time", &LinkCounts::timeouts},
                                       {"disconnects", "broken connections", &LinkCounts::disconnects},

@@ -31,8 +31,9 @@ struct MachineDescription {
     PerAxis<std::string> axis_name{};        ///< "x", "y", ...
     PerAxis<std::optional<Travel>> travel{}; ///< soft limits where the file states them
     StepSettings step{};                     ///< of the step and direction lines of all axes
-    PerAxis<StepMotors> motors{};
-    PerAxis<std::string> drive{}; ///< address of the axis's drive, for --target modbus; empty: none
+    PerAxis<StepMotors> motors{};            ///< `invert` is in their directions already
+    PerAxis<bool> inverted{};                ///< its drive counts down where the axis goes up
+    PerAxis<std::string> drive{};            ///< address of the axis's drive, for --target modbus; empty: none
 };
 
 } // namespace splinefeed::host

@@ -249,7 +249,7 @@ private:
         require_known(table,
                       {"name", "kind", "travel_mm", "travel_end_zone_mm", "travel_end_velocity_mm_s",
                        "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2", "max_jerk_mm_s3",
-                       "steps_per_mm", "motors", "invert_step", "invert_direction", "drive"},
+                       "steps_per_mm", "invert", "motors", "invert_step", "invert_direction", "drive"},
                       " in [[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
@@ -286,6 +286,12 @@ private:
         }
         travel_end(table, where, machine.travel[k], axis);
         motors(table, machine.motors[k]);
+        if (const toml::node* invert = table.get("invert")) {
+            machine.inverted[k] = flag(*invert, "invert");
+        }
+        for (bool& direction : machine.motors[k].invert_direction) {
+            direction = direction != machine.inverted[k];
+        }
         if (const toml::node* drive = table.get("drive")) {
             machine.drive[k] = text(*drive, "drive");
             try {

@@ -11,7 +11,12 @@
 namespace splinefeed::host {
 
 /// The drives of a table in the port's form. @pre they interpolate
-[[nodiscard]] std::vector<hal::modbus::DriveWiring> pvt_wiring(const DriveTable& table);
+[[nodiscard]] std::vector<hal::modbus::DriveWiring> pvt_wiring(const DriveTable& table,
+                                                               const MachineDescription& machine);
+
+/// Whether segments that long can carry the machine's velocities. Throws UsageError with the axis, its value and the
+/// range.
+void check_pvt_range(const MachineDescription& machine, double segment_us);
 
 /// What is wrong with which drive, in a line.
 [[nodiscard]] std::string drive_sentence(const DriveTable& table, const hal::modbus::ModbusPort& port,
@@ -24,6 +29,9 @@ public:
 
     [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
     [[nodiscard]] bool resamples() const noexcept override;
+    void check(const MachineDescription& machine, double segment_us) const override {
+        check_pvt_range(machine, segment_us);
+    }
     [[nodiscard]] std::string where() const override;
     void describe(Summary& summary) const override;
 

@@ -36,6 +36,12 @@ public:
     [[nodiscard]] virtual double least_segment_us() const noexcept = 0;
     /// Whether a run may have longer segments than the machine file asks for.
     [[nodiscard]] virtual bool resamples() const noexcept = 0;
+    /// Lowers limits of the machine that its drives cannot follow, before anything is planned. What it lowered, in a
+    /// line; empty: nothing.
+    [[nodiscard]] virtual std::string fit(MachineDescription& /*machine*/) const { return {}; }
+    /// Whether it carries the machine's velocities and positions in segments that long. Throws UsageError with the
+    /// axis, its value and the range; nothing has moved.
+    virtual void check(const MachineDescription& /*machine*/, double /*segment_us*/) const {}
     /// What the user should know before anything moves, in a line; empty: nothing.
     [[nodiscard]] virtual std::string note() const { return {}; }
 

@@ -104,9 +104,12 @@ Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& tar
     constexpr int longest_us = 100'000;
     constexpr int step_us = 50;
     const int asked_us = machine.settings.sample_period_us;
+    const std::string lowered = target.fit(machine);
     auto limits = MotionLimits<S>::make(machine.settings);
-    if (const std::string note = target.note(); !note.empty() && !quiet) {
-        fmt::print(stderr, "splinefeed: note: {}\n", printable(note));
+    for (const std::string& note : {lowered, target.note()}) {
+        if (!note.empty() && !quiet) {
+            fmt::print(stderr, "splinefeed: note: {}\n", printable(note));
+        }
     }
     if (!limits.has_value() || limits->segment_ticks >= target.least_segment_us() * ticks_per_us) {
         return limits;
@@ -154,6 +157,7 @@ int move_machine(const Job& job) {
     if (signals) {
         target = make_run_target(job.target, machine, job.wishes);
         limits = fitted<S>(machine, *target, job.quiet);
+        target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
         supervision.emplace(*target, *signals);
     }
     Outputs outputs(job, input.curve_name(), input.choice().closed, machine);

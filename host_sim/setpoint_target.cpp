@@ -16,6 +16,19 @@ namespace {
 
 constexpr double us_per_s = 1e6;
 constexpr double um_per_mm = 1e3;
+constexpr double ramp_of_path = 4.0; // BlockSettings::acceleration
+constexpr double most_q16 = 9.2e18;  // of 64 bits
+
+// What the drive's ramps are, or are set to: never harder than the machine file says, unless the address says so.
+double ramp_mm_s2(const DriveTable::Drive& drive, const AxisSettings& axis) {
+    const double smaller = axis.max_braking_mm_s2 > 0.0 ? std::min(axis.max_acceleration_mm_s2, axis.max_braking_mm_s2)
+                                                        : axis.max_acceleration_mm_s2;
+    return drive.address.ramp_counts_s2 ? *drive.address.ramp_counts_s2 / axis.steps_per_mm : smaller;
+}
+
+double most_planned_mm_s2(const DriveTable::Drive& drive, const AxisSettings& axis) {
+    return ramp_mm_s2(drive, axis) / ramp_of_path;
+}
 
 } // namespace
 
@@ -24,13 +37,69 @@ std::vector<TargetWiring> target_wiring(const DriveTable& table, const MachineDe
     for (const DriveTable::Drive& drive : table.drives) {
         const int axis = drive.machine_axis.front(); // they have one
         const AxisSettings& settings = machine.settings.axis[static_cast<unsigned>(axis)];
+        const double planned = drive.profile.stream == StreamWay::blocks
+                                   ? std::min(settings.larger_acceleration_mm_s2(), most_planned_mm_s2(drive, settings))
+                                   : settings.larger_acceleration_mm_s2();
         wiring.push_back({.link = drive.address.link,
                           .profile = &drive.profile,
                           .axis = axis,
-                          .acceleration_counts_s2 = settings.larger_acceleration_mm_s2() * settings.steps_per_mm,
-                          .ramp_counts_s2 = drive.address.ramp_counts_s2.value_or(0.0)});
+                          .acceleration_counts_s2 = planned * settings.steps_per_mm,
+                          .ramp_counts_s2 = ramp_mm_s2(drive, settings) * settings.steps_per_mm,
+                          .inverted = machine.inverted[static_cast<unsigned>(axis)]});
     }
     return wiring;
+}
+
+std::string fit_to_ramps(const DriveTable& table, MachineDescription& machine) {
+    std::string lowered;
+    for (const DriveTable::Drive& drive : table.drives) {
+        if (drive.profile.stream != StreamWay::blocks) {
+            continue;
+        }
+        const auto k = static_cast<unsigned>(drive.machine_axis.front());
+        AxisSettings& axis = machine.settings.axis[k];
+        const double most = most_planned_mm_s2(drive, axis);
+        if (axis.larger_acceleration_mm_s2() <= most) {
+            continue;
+        }
+        lowered += fmt::format("{}{} {:g} mm/s^2", lowered.empty() ? "" : ", ", machine.axis_name[k], most);
+        axis.max_acceleration_mm_s2 = std::min(axis.max_acceleration_mm_s2, most);
+        axis.max_braking_mm_s2 = std::min(axis.max_braking_mm_s2, most); // 0 stays: as max_acceleration
+    }
+    return lowered.empty() ? lowered
+                           : "drives that are told blocks ramp four times as hard as the path, so it is planned with " +
+                                 lowered + "; say with &ramp= what a drive may ramp with, where that is more";
+}
+
+void check_register_ranges(const DriveTable& table, const MachineDescription& machine, std::uint32_t period_us) {
+    for (const DriveTable::Drive& drive : table.drives) {
+        const auto k = static_cast<unsigned>(drive.machine_axis.front());
+        const AxisSettings& axis = machine.settings.axis[k];
+        const auto check = [&](FieldRole role, double counts, const char* what) {
+            const RegisterField* const field = drive.profile.field_of(role);
+            const double q16 = counts * (1 << physical_bits);
+            if (field == nullptr || (q16 < most_q16 && !raw_of(*field, std::llround(q16)).clamped)) {
+                return;
+            }
+            throw UsageError(fmt::format(
+                "axis {}: {} is {:.0f} counts, and the register {} of the profile {} holds {} to {} (scale {} / {}{}); "
+                "lower it or steps_per_mm, or look at width, scale and clamp in the profile",
+                machine.axis_name[k], what, counts, field->name, drive.profile.name, field->lowest, field->highest,
+                field->scale_numerator, field->scale_denominator, field->inverse ? ", inverse" : ""));
+        };
+        if (drive.profile.stream == StreamWay::blocks) {
+            const double ramp = ramp_mm_s2(drive, axis) * axis.steps_per_mm;
+            // A block catches up what the one before left: by the ramp, within a period.
+            check(FieldRole::profile_velocity, axis.max_velocity_mm_s * axis.steps_per_mm + ramp * period_us / us_per_s,
+                  "max_velocity_mm_s with what a block catches up, in a second,");
+            check(FieldRole::profile_acceleration, ramp, "the ramp, in a second^2,");
+            check(FieldRole::profile_deceleration, ramp, "the ramp, in a second^2,");
+        }
+        if (machine.travel[k]) { // wherever in it the drive's own zero is
+            check(FieldRole::target_position,
+                  (machine.travel[k]->high - machine.travel[k]->low) * axis.steps_per_mm / 2.0, "half of travel_mm");
+        }
+    }
 }
 
 SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machine, bool home)

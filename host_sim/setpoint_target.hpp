@@ -14,6 +14,15 @@ namespace splinefeed::host {
 [[nodiscard]] std::vector<hal::modbus::TargetWiring> target_wiring(const DriveTable& table,
                                                                    const MachineDescription& machine);
 
+/// Lowers the accelerations of axes whose drives are told blocks to a quarter of the drive's ramp, which is that of
+/// `ramp=` or else the machine file's own acceleration (BlockSettings::acceleration). Returns what it lowered, in a
+/// line; empty: nothing.
+[[nodiscard]] std::string fit_to_ramps(const DriveTable& table, MachineDescription& machine);
+
+/// Whether the registers of the drives hold the machine's velocities, ramps and travel. Throws UsageError with the
+/// axis, its value and the range.
+void check_register_ranges(const DriveTable& table, const MachineDescription& machine, std::uint32_t period_us);
+
 class SetpointTarget final : public RunTarget {
 public:
     /// Connects to the drives. Throws TargetError, and UsageError where the wires are too slow. @pre they do not
@@ -23,6 +32,10 @@ public:
     // Targets are taken from the path at any instant: segments may be as short as they like.
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
     [[nodiscard]] bool resamples() const noexcept override { return true; }
+    [[nodiscard]] std::string fit(MachineDescription& machine) const override { return fit_to_ramps(table_, machine); }
+    void check(const MachineDescription& machine, double /*segment_us*/) const override {
+        check_register_ranges(table_, machine, port_.period_us());
+    }
     [[nodiscard]] std::string note() const override;
     [[nodiscard]] std::string where() const override;
     void describe(Summary& summary) const override;

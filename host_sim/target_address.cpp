@@ -50,18 +50,31 @@ double ramp(std::string_view value) {
     return number;
 }
 
+int unit_number(std::string_view value, hal::modbus::Wire wire) {
+    using namespace hal::modbus;
+    const bool single = wire == Wire::tcp && value == std::to_string(single_unit);
+    try {
+        return single ? single_unit : whole_number("unit", value, 1, most_unit);
+    } catch (const AddressError& error) {
+        throw AddressError(std::string(error.what()) + (wire == Wire::tcp ? ", or 255: whoever has the address" : ""));
+    }
+}
+
 void take_key(TargetAddress& address, std::string_view key, std::string_view value) {
-    constexpr std::array<std::string_view, 7> serial{"profile", "unit", "axis", "resample", "ramp", "baud", "parity"};
+    constexpr std::array<std::string_view, 9> serial{"profile",          "unit", "axis",   "resample", "ramp",
+                                                     "following_window", "baud", "parity", "stop"};
+    constexpr std::size_t serial_only = 3;
+    constexpr int most_window = 0x7FFFFFFF;
     const bool line = address.link.wire == hal::modbus::Wire::rtu;
-    constexpr int most_unit = 247;
-    constexpr int tcp_unit = 255;
     if (key == "profile") {
         address.profile = value;
     } else if (key == "unit") {
-        address.link.unit = whole_number(key, value, 1, line ? most_unit : tcp_unit);
+        address.link.unit = unit_number(value, address.link.wire);
         address.states_unit = true;
     } else if (key == "ramp") {
         address.ramp_counts_s2 = ramp(value);
+    } else if (key == "following_window") {
+        address.following_window_counts = whole_number(key, value, 0, most_window);
     } else if (key == "axis") {
         address.axis = whole_number(key, value, 0, max_axes - 1);
     } else if (key == "resample" && (value == "yes" || value == "no")) {
@@ -76,8 +89,10 @@ void take_key(TargetAddress& address, std::string_view key, std::string_view val
         }
         address.link.parity = value.front();
         address.states_parity = true;
+    } else if (key == "stop" && line) {
+        address.link.stop_bits = whole_number(key, value, 1, 2);
     } else {
-        const std::size_t known = line ? serial.size() : serial.size() - 2;
+        const std::size_t known = line ? serial.size() : serial.size() - serial_only;
         throw AddressError(fmt::format("unknown key {}{}", in_quotes(key), suggestion(key, {serial.data(), known})));
     }
 }

@@ -4,6 +4,7 @@
 
 #include "splinefeed/hal/modbus/link_address.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,13 +24,15 @@ struct TargetAddress {
     bool resample = true; ///< longer segments where the line is too slow for those of the machine file
     /// What a drive whose profile has no register for ramps is set to. [counts/s^2]
     std::optional<double> ramp_counts_s2;
+    /// The following error beyond which the drive faults [counts]; 0: none. Without it the drive keeps its own.
+    std::optional<std::int64_t> following_window_counts;
     bool states_unit = false; ///< link.unit was given; else the profile's counts, as for the two below
     bool states_baud = false;
     bool states_parity = false;
 };
 
 /// modbus-tcp://HOST[:PORT] or modbus-rtu://DEVICE, then ?key=value&...: profile, unit, axis, resample (yes, no), ramp,
-/// of a serial line baud and parity (N, E, O). Throws AddressError.
+/// following_window, of a serial line baud, parity (N, E, O) and stop (1, 2). Throws AddressError.
 [[nodiscard]] TargetAddress parse_target_address(const std::string& text);
 
 /// What --help says of the targets that are drives.

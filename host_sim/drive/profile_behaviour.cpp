@@ -181,7 +181,7 @@ void read_watchdog(const TomlChecker& check, const toml::table& root, DriveProfi
     }
     constexpr std::int64_t longest = 60000;
     const toml::table& table = check.table(*node, "watchdog");
-    check.require_known(table, {"timeout_ms", "keep_alive_ms", "reaction", "stale_ms"}, "[watchdog]");
+    check.require_known(table, {"timeout_ms", "reaction"}, "[watchdog]");
     if (const toml::node* timeout = table.get("timeout_ms")) {
         profile.watchdog_timeout_ms = static_cast<std::uint32_t>(check.whole(*timeout, "timeout_ms", {1, longest}));
         const RegisterField* const field = profile.field_of(FieldRole::watchdog);
@@ -189,17 +189,9 @@ void read_watchdog(const TomlChecker& check, const toml::table& root, DriveProfi
             check.fail(*timeout, "timeout_ms needs a field that is written, with role = \"watchdog\"");
         }
     }
-    if (const toml::node* keep = table.get("keep_alive_ms")) {
-        profile.keep_alive_ms = static_cast<std::uint32_t>(check.whole(*keep, "keep_alive_ms", {1, longest}));
-        if (profile.watchdog_timeout_ms != 0 && profile.keep_alive_ms >= profile.watchdog_timeout_ms) {
-            check.fail(*keep, fmt::format("keep_alive_ms is {}; it must be below timeout_ms, {}", profile.keep_alive_ms,
-                                          profile.watchdog_timeout_ms));
-        }
-    }
     if (const toml::node* reaction = table.get("reaction")) {
         profile.watchdog_reaction = static_cast<WatchdogReaction>(check.choice(*reaction, "reaction", reaction_names));
     }
-    check.take_ms(table, "stale_ms", static_cast<double>(longest), profile.stale_us);
 }
 
 void read_init(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {

@@ -2,6 +2,7 @@
 // The sections of a profile that say where numbers are: [link], [[field]], [[group]].
 #include "host_sim/drive/profile_sections.hpp"
 #include "host_sim/nearest_name.hpp"
+#include "splinefeed/hal/modbus/link_address.hpp"
 
 #include <algorithm>
 #include <array>
@@ -67,11 +68,22 @@ void read_functions(const TomlChecker& check, const toml::table& table, LinkSett
         default: check.fail(entry, "functions must be 3, 6, 16 and 23, those of them that the drive has");
         }
     }
-    const bool reads = link.function_read || link.function_exchange;
-    const bool writes = link.function_write_one || link.function_write || link.function_exchange;
-    if (!reads || !writes) {
-        check.fail(node, "functions must hold one that reads (3, 23) and one that writes (6, 16, 23)");
+    if (!link.function_read || !(link.function_write_one || link.function_write)) {
+        check.fail(node, "functions must hold 3, which reads, and 6 or 16, which write");
     }
+}
+
+// Unit 0 is a broadcast, which nobody answers, and 248 to 254 are reserved.
+void read_unit(const TomlChecker& check, const toml::table& table, LinkSettings& link) {
+    const toml::node* const node = table.get("unit");
+    if (node == nullptr) {
+        return;
+    }
+    if (link.tcp && node->value_exact<std::int64_t>() == single_unit) {
+        link.unit = single_unit;
+        return;
+    }
+    check.take(table, "unit", {1, most_unit}, link.unit);
 }
 
 void read_exchanges(const TomlChecker& check, const toml::node& node, LinkSettings& link) {
@@ -228,7 +240,7 @@ void read_link(const TomlChecker& check, const toml::table& root, DriveProfile& 
     LinkSettings& link = profile.link;
     read_wires(check, table, link);
     read_functions(check, table, link);
-    check.take(table, "unit", {0, 255}, link.unit);
+    read_unit(check, table, link);
     check.take(table, "baud", {1200, 4000000}, link.baud);
     if (const toml::node* node = table.get("parity")) {
         link.parity = parity_names[check.choice(*node, "parity", parity_names)].front();
@@ -251,9 +263,27 @@ void read_link(const TomlChecker& check, const toml::table& root, DriveProfile& 
     }
 }
 
+// What cannot travel in a frame of the drive's.
+void require_frame(const TomlChecker& check, const toml::table& table, const RegisterField& field,
+                   const LinkSettings& link) {
+    const auto registers = static_cast<int>(field.registers());
+    if (field.writable() && registers > 1 && !link.function_write) {
+        check.fail(table, fmt::format("field {} has {} registers, which function 16 alone writes at once, and "
+                                      "`functions` of [link] does not have it; say access = \"read\", or leave it out",
+                                      in_quotes(field.name), registers));
+    }
+    const bool reads = field.readable() && registers > link.most_read_registers;
+    if (reads || (field.writable() && registers > link.most_write_registers)) {
+        check.fail(table, fmt::format("field {} has {} registers; by [link] the drive {} at most {} in a frame",
+                                      in_quotes(field.name), registers, reads ? "sends" : "takes",
+                                      reads ? link.most_read_registers : link.most_write_registers));
+    }
+}
+
 void read_fields(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
     for (const toml::table* table : check.tables(root, "field")) {
         profile.fields.push_back(read_field(check, *table, profile));
+        require_frame(check, *table, profile.fields.back(), profile.link);
     }
     if (profile.fields.empty()) {
         check.fail_file("there is no [[field]]; a profile has one for each number that it reads or writes");
@@ -294,6 +324,9 @@ void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile
             group.fields.push_back(index);
         }
         const int most = written ? profile.link.most_write_registers : profile.link.most_read_registers;
+        if (written && group.registers > 1 && !profile.link.function_write) {
+            check.fail(list, "a target group is written by function 16, and `functions` of [link] does not have it");
+        }
         if (group.fields.empty() || group.registers > static_cast<std::size_t>(most)) {
             check.fail(list, fmt::format("the group has {} registers; it must have 1 to {}", group.registers, most));
         }

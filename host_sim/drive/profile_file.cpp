@@ -38,6 +38,9 @@ void require_role(const TomlChecker& check, const DriveProfile& profile, FieldRo
 // What the way of streaming cannot do without.
 void require_complete(const TomlChecker& check, const DriveProfile& profile) {
     if (profile.stream == StreamWay::pvt) {
+        if (!profile.link.function_write) {
+            check.fail_file("stream = \"pvt\" needs function 16 in `functions` of [link]: segments are written by it");
+        }
         return;
     }
     require_role(check, profile, FieldRole::status, "status", false);

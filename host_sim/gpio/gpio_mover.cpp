@@ -30,11 +30,11 @@ void GpioMover::stands_at(int axis, std::int64_t count) noexcept {
     origin_[static_cast<unsigned>(axis)] = count - port_->counts(axis);
 }
 
-// What a move must not go on with, but the switch that it waits for.
+// What a move must not go on with, but the switch that it waits for, and limits that are this switch or share its line.
 bool GpioMover::ends_move(std::size_t input, const std::optional<Until>& until) const noexcept {
     const hal::gpio::InputRole role = map_->inputs[input].role;
     return (role == hal::gpio::InputRole::drive_fault || role == hal::gpio::InputRole::limit) &&
-           !(until && until->input == input);
+           !(until && map_->inputs[until->input].line == map_->inputs[input].line);
 }
 
 // What acts already: a limit of an axis that does not move is no news, and one that is left may act for a while.

@@ -113,9 +113,9 @@ public:
         if (profile_.stream_mode) {
             write(FieldRole::mode, *profile_.stream_mode);
         }
-        if (profile_.following_error_window_counts > 0) {
+        if (profile_.following_error_window_counts) {
             write_physical(FieldRole::following_error_window,
-                           static_cast<double>(profile_.following_error_window_counts));
+                           static_cast<double>(*profile_.following_error_window_counts));
         }
         if (profile_.watchdog_timeout_ms > 0) {
             write(FieldRole::watchdog, profile_.watchdog_timeout_ms);

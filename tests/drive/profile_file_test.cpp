@@ -101,17 +101,15 @@ const std::string good = "name = 'maker-1'\n"                                   
                          "following_error_window_counts = 500\n"                                               // 90
                          "[watchdog]\n"                                                                        // 91
                          "timeout_ms = 100\n"                                                                  // 92
-                         "keep_alive_ms = 30\n"                                                                // 93
-                         "reaction = 'quick_stop'\n"                                                           // 94
-                         "stale_ms = 60\n"                                                                     // 95
-                         "[[init]]\n"                                                                          // 96
-                         "field = 'gain'\n"                                                                    // 97
-                         "value = 200\n"                                                                       // 98
-                         "[[identity]]\n"                                                                      // 99
-                         "field = 'status'\n"                                                                  // 100
-                         "mask = 0x8000\n"                                                                     // 101
-                         "value = 0\n"                                                                         // 102
-                         "sentence = 'this is another drive'\n";                                               // 103
+                         "reaction = 'quick_stop'\n"                                                           // 93
+                         "[[init]]\n"                                                                          // 94
+                         "field = 'gain'\n"                                                                    // 95
+                         "value = 200\n"                                                                       // 96
+                         "[[identity]]\n"                                                                      // 97
+                         "field = 'status'\n"                                                                  // 98
+                         "mask = 0x8000\n"                                                                     // 99
+                         "value = 0\n"                                                                         // 100
+                         "sentence = 'this is another drive'\n";                                               // 101
 
 std::string with(const std::string& old_text, const std::string& new_text) {
     std::string text = good;
@@ -207,9 +205,7 @@ TEST_CASE("A drive profile is read") {
     CHECK(profile.homed->value == 0);
     CHECK(profile.following_error_window_counts == 500);
     CHECK(profile.watchdog_timeout_ms == 100);
-    CHECK(profile.keep_alive_ms == 30);
     CHECK(profile.watchdog_reaction == WatchdogReaction::quick_stop);
-    CHECK(profile.stale_us == 60000);
     CHECK(profile.init.front().value == 200);
     CHECK(profile.identity.front().sentence == "this is another drive");
 }
@@ -221,9 +217,12 @@ TEST_CASE("What a profile may leave out") {
     CHECK(status.width_bits == 16);
     CHECK(status.lowest == 0);
     CHECK(status.highest == 65535);
-    const std::string pvt = "name='p'\ndrive='d'\nsources=['s']\nnot_verified=[]\nstream='pvt'\naxes=6\n[link]\n"
-                            "wires=['tcp']\nfunctions=[23]\n[[field]]\nrole='status'\naddress=0\nwidth=64\n";
+    const std::string pvt =
+        "name='p'\ndrive='d'\nsources=['s']\nnot_verified=[]\nstream='pvt'\naxes=6\n[link]\n"
+        "wires=['tcp']\nunit=255\nfunctions=[3,16]\n[[field]]\nrole='status'\naddress=0\nwidth=64\n";
     CHECK(parse_profile(pvt, "p.toml").axes == 6);
+    CHECK(parse_profile(pvt, "p.toml").link.unit == 255);
+    CHECK_FALSE(parse_profile(pvt, "p.toml").following_error_window_counts.has_value());
     CHECK(parse_profile(pvt, "p.toml").fields[0].highest == std::numeric_limits<std::int64_t>::max());
 }
 
@@ -248,7 +247,10 @@ TEST_CASE("Profile: malformed heads and links are refused with their line") {
         {with("[link]", "[lnik]"), "p.toml:8: ", "did you mean 'link'"},
         {with("'rtu', 'tcp'", "'rtu', 'udp'"), "p.toml:9: ", "'udp'"},
         {with("['rtu', 'tcp']", "[]"), "p.toml:9: ", "both"},
-        {with("unit = 7", "unit = 256"), "p.toml:10: ", "0 to 255"},
+        {with("unit = 7", "unit = 256"), "p.toml:10: ", "1 to 247"},
+        {with("unit = 7", "unit = 0"), "p.toml:10: ", "1 to 247"},
+        {with("unit = 7", "unit = 250"), "p.toml:10: ", "1 to 247"},
+        {with("['rtu', 'tcp']\nunit = 7", "['rtu']\nunit = 255"), "p.toml:10: ", "1 to 247"},
         {with("unit = 7", "units = 7"), "p.toml:10: ", "did you mean 'unit'"},
         {with("57600", "0"), "p.toml:11: ", "1200 to 4000000"},
         {with("'O'", "'odd'"), "p.toml:12: ", "known are N, E, O"},
@@ -259,8 +261,12 @@ TEST_CASE("Profile: malformed heads and links are refused with their line") {
         {with("timeout_ms = 80", "timeout_ms = 0"), "p.toml:17: ", "more than 0"},
         {with("retries = 5", "retries = 1.5"), "p.toml:18: ", "whole number"},
         {with("[3, 16]", "[3, 4]"), "p.toml:19: ", "3, 6, 16 and 23"},
-        {with("[3, 16]", "[3]"), "p.toml:19: ", "one that writes"},
-        {with("[3, 16]", "[16]"), "p.toml:19: ", "one that reads"},
+        {with("[3, 16]", "[3]"), "p.toml:19: ", "6 or 16, which write"},
+        {with("[3, 16]", "[16]"), "p.toml:19: ", "3, which reads"},
+        {with("[3, 16]", "[3, 23]"), "p.toml:19: ", "6 or 16, which write"},
+        {with("[3, 16]", "[3, 6]"), "p.toml:29: ", "field 'target_position' has 2 registers, which function 16 alone"},
+        {with("registers = 20", "registers = 1"), "p.toml:29: ", "by [link] the drive sends at most 1 in a frame"},
+        {with("registers = 10", "registers = 1"), "p.toml:29: ", "by [link] the drive takes at most 1 in a frame"},
         {with("registers = 20", "registers = 126"), "p.toml:20: ", "1 to 125"},
         {with("registers = 10", "registers = 124"), "p.toml:21: ", "1 to 123"},
         {with("base = 1", "base = 2"), "p.toml:22: ", "0 to 1"},
@@ -349,14 +355,15 @@ TEST_CASE("Profile: malformed states, commands, motion, watchdog, init and ident
         {with("role = 'following_error_window'", "name = 'window'"), "p.toml:90: ", "role"},
         {with("role = 'watchdog'", "name = 'dog'"), "p.toml:92: ", "role"},
         {with("timeout_ms = 100", "timeout_ms = 0"), "p.toml:92: ", "1 to 60000"},
-        {with("keep_alive_ms = 30", "keep_alive_ms = 100"), "p.toml:93: ", "below timeout_ms"},
-        {with("'quick_stop'\nstale", "'slow'\nstale"), "p.toml:94: ", "did you mean 'stop'"},
-        {with("stale_ms = 60", "stale_ms = -1"), "p.toml:95: ", "0 to 60000 ms"},
-        {with("field = 'gain'", "field = 'status'"), "p.toml:97: ", "cannot be written"},
-        {with("value = 200", "value = 70000"), "p.toml:98: ", "0 to 65535"},
-        {with("flash = true", "flash = true\naccess = 'write'"), "p.toml:97: ", "cannot be read"},
-        {with("sentence = 'this is another drive'\n", ""), "p.toml:99: ", "has no sentence"},
-        {with("mask = 0x8000\nvalue = 0", "mask = 0x8000\nvalue = 1"), "p.toml:102: ", "outside the mask"},
+        {with("timeout_ms = 100", "timeout_ms = 100\nkeep_alive_ms = 30"),
+         "p.toml:93: ", "unknown key 'keep_alive_ms'"},
+        {with("timeout_ms = 100", "timeout_ms = 100\nstale_ms = 30"), "p.toml:93: ", "unknown key 'stale_ms'"},
+        {with("reaction = 'quick_stop'", "reaction = 'slow'"), "p.toml:93: ", "did you mean 'stop'"},
+        {with("field = 'gain'", "field = 'status'"), "p.toml:95: ", "cannot be written"},
+        {with("value = 200", "value = 70000"), "p.toml:96: ", "0 to 65535"},
+        {with("flash = true", "flash = true\naccess = 'write'"), "p.toml:95: ", "cannot be read"},
+        {with("sentence = 'this is another drive'\n", ""), "p.toml:97: ", "has no sentence"},
+        {with("mask = 0x8000\nvalue = 0", "mask = 0x8000\nvalue = 1"), "p.toml:100: ", "outside the mask"},
     });
 }
 
@@ -367,5 +374,8 @@ TEST_CASE("Profile: what its way of streaming cannot do without") {
         {with("role = 'actual_position'", "name = 'position'"), "p.toml: ", "role = \"actual_position\""},
         {with("name = 'disable'", "name = 'halt'"), "p.toml: ", "no command disable"},
         {with("name = 'start_move'", "name = 'resume'"), "p.toml: ", "start_move"},
+        {"name='p'\ndrive='d'\nsources=['s']\nnot_verified=[]\nstream='pvt'\n[link]\nwires=['tcp']\nfunctions=[3, 6]\n"
+         "[[field]]\nrole='status'\naddress=0\n",
+         "p.toml: ", "needs function 16"},
     });
 }

@@ -81,6 +81,18 @@ TEST_CASE("GPIO map: wrong axes and lines") {
         {axes + "[enable]\nline = 4\n", 8, "which is direction of [axis.y] already"},
         {axes + "[enable]\nline = 5\nactive = \"lo\"\n", 9, "active is 'lo'"},
         {axes + "[enable\n", 7, ""},
+        {axes + "[[input]]\nrole = \"limit\"\naxis = \"x\"\nline = 9\n[[input]]\nrole = \"limit\"\naxis = \"x\"\nline "
+                "= 9\n",
+         11, "this input is in the map already"},
+        {axes +
+             "[[input]]\nrole = \"limit\"\naxis = \"x\"\nline = 9\n[[input]]\nrole = \"home\"\naxis = \"x\"\nline = 9\n"
+             "active = \"low\"\n",
+         11, "acts at the other level"},
+        {axes +
+             "[[input]]\nrole = \"limit\"\naxis = \"x\"\nline = 9\n[[input]]\nrole = \"home\"\naxis = \"x\"\nline = 9\n"
+             "bias = \"pull-up\"\n",
+         14, "a line has one bias"},
+        {axes + "[[input]]\nrole = \"limit\"\naxis = \"x\"\nline = 4\n", 10, "which is direction of [axis.y] already"},
     };
     for (const Wrong& wrong : all) {
         check(wrong);

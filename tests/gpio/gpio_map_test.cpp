@@ -156,3 +156,34 @@ TEST_CASE("GPIO map: the example is one for the example's machine") {
     REQUIRE(map.enable.has_value());
     CHECK_FALSE(map.enable->active_level);
 }
+
+TEST_CASE("GPIO map: a switch that is home and limit, and limits that share a line, are one line of the chip") {
+    const LineMap map = parse_gpio_map(good + R"([[input]]
+role = "home"
+axis = "x"
+line = { offset = 12, name = "ENDS" }
+bias = "pull-up"
+[[input]]
+role = "limit"
+axis = "x"
+line = { offset = 12, name = "ENDS" }
+bias = "pull-up"
+[[input]]
+role = "limit"
+axis = "y"
+line = { offset = 12, name = "ENDS" }
+bias = "pull-up"
+[[input]]
+role = "limit"
+axis = "y"
+line = 13
+)",
+                                       "m.toml", two_axes(), chip);
+    REQUIRE(map.inputs.size() == 4);
+    CHECK(map.chips[0].inputs.size() == 2);
+    CHECK(map.inputs[0].line == map.inputs[1].line);
+    CHECK(map.inputs[0].line == map.inputs[2].line);
+    CHECK_FALSE(map.inputs[0].line == map.inputs[3].line);
+    CHECK(map.inputs[0].role == InputRole::home);
+    CHECK(map.inputs[2].axis == 1);
+}

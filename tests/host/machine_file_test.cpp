@@ -100,6 +100,13 @@ TEST_CASE("Step and direction lines are read") {
     CHECK(motors.invert_step);
     CHECK(motors.invert_direction == std::array<bool, 2>{true, false});
     CHECK(parse_machine(with("= 12.5\n", "= 12.5\ninvert_direction = true\n"), "m.toml").motors[1].invert_direction[0]);
+    // An inverted axis is turned wherever it goes; its motors keep what distinguishes them.
+    const MachineDescription turned = parse_machine(
+        with("= 12.5\n", "= 12.5\ninvert = true\nmotors = 2\ninvert_direction = [true, false]\n"), "m.toml");
+    CHECK(turned.inverted[1]);
+    CHECK_FALSE(turned.inverted[0]);
+    CHECK(turned.motors[1].invert_direction == std::array<bool, 2>{false, true});
+    CHECK_FALSE(turned.motors[0].invert_direction[0]);
 }
 
 TEST_CASE("The default machine is one that the planner takes") {
@@ -151,6 +158,7 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("= 12.5\n", "= 12.5\nmotors = 3\n"), "m.toml:19: ", "1 or 2"},
         {with("= 12.5\n", "= 12.5\nmotors = true\n"), "m.toml:19: ", "1 or 2"},
         {with("= 12.5\n", "= 12.5\ninvert_step = 'yes'\n"), "m.toml:19: ", "true or false"},
+        {with("= 12.5\n", "= 12.5\ninvert = -1\n"), "m.toml:19: ", "invert must be true or false"},
         {with("= 12.5\n", "= 12.5\ninvert_direction = [true, false]\n"), "m.toml:19: ", "one for each of 1 motors"},
         {with("= 12.5\n", "= 12.5\ninvert_direction = [1]\n"), "m.toml:19: ", "true or false"},
         {with("[path]", "[paht]"), "m.toml:3: ", "did you mean 'path'"},

@@ -126,3 +126,27 @@ TEST_CASE("Clock estimate: the truth is within its uncertainty, which is that of
     }
     CHECK(better);
 }
+
+TEST_CASE("Clock estimate: for days, over many wraps of 32 bits, and across an hour in which nobody was heard") {
+    constexpr std::uint64_t second = 1'000'000;
+    constexpr std::int64_t range = std::int64_t{1} << 32;
+    Drive drive(-80.0, 0xFFF00000U, 11);
+    ClockEstimate estimate;
+    std::int64_t base = 0;
+    std::int64_t worst = 0;
+    for (std::uint64_t i = 0; i < 4 * 86400; ++i) {
+        const bool silent = i > 100'000 && i < 104'000; // more than half of the range of 71 minutes
+        if (silent) {
+            continue;
+        }
+        const std::uint64_t now = Drive::origin_us + i * second;
+        drive.exchange(estimate, now);
+        const std::int64_t error = estimate.drive_us(now) - drive.exact_us(now);
+        base = i == 0 ? error : base;
+        worst = std::max<std::int64_t>(worst, i == 0 || (i >= 104'000 && i < 104'020) ? 0 : std::llabs(error - base));
+    }
+    const std::int64_t rest = std::llabs(base) % range; // whole ranges are an origin
+    CHECK(std::min(rest, range - rest) < 10'000);
+    CHECK(worst < 10'000); // within the longest of its round trips
+    CHECK(std::fabs(estimate.skew_ppm() + 80.0) < 30.0);
+}

@@ -55,9 +55,10 @@ class DriveProcess:
 class Drive(DriveProcess):
     """`splinefeed drive`, on a port of its own or on a serial line."""
 
-    def __init__(self, tool, folder, index, axes, listen="tcp://127.0.0.1:0", faults="", profile="", position=0, under=()):
-        """under: what runs the tool, a command."""
-        command = [*under, tool, "drive", "--listen", listen]
+    def __init__(self, tool, folder, index, axes, listen="tcp://127.0.0.1:0", faults="", profile="", position=0, under=(),
+                 extra=()):
+        """under: what runs the tool, a command; extra: options of the drive."""
+        command = [*under, tool, "drive", "--listen", listen, *extra]
         command += ["--profile", profile] if profile else \
                    ["--record-segments", os.path.join(folder, f"drive{index}_segments.csv")]
         if position:

@@ -73,7 +73,9 @@ TEST_CASE("Drive table: what is missing or twofold is told with the name of the 
                    "the drive of axis z is that of another axis, too; name another address, unit or &axis="));
     CHECK(contains(refusal("modbus", {"modbus-tcp://a?axis=1", "modbus-tcp://a?axis=1"}), "the drive of axis y"));
     CHECK(contains(refusal("modbus", {"modbus-rtu:///dev/x?unit=1", "modbus-rtu:///dev/x?unit=2&baud=9600"}),
-                   "the drive of axis y is on /dev/x with another baud rate or parity"));
+                   "the drive of axis y is on /dev/x with another baud rate, parity or number of stop bits"));
+    CHECK(contains(refusal("modbus", {"modbus-rtu:///dev/x?unit=1", "modbus-rtu:///dev/x?unit=2&stop=2"}),
+                   "another baud rate, parity or number of stop bits"));
     CHECK(drive_table("modbus", machine({"modbus-rtu:///dev/x?unit=1", "modbus-rtu:///dev/x?unit=2"})).drives.size() ==
           2);
     CHECK(contains(refusal("modbus", {"modbus-tpc://a"}), "write modbus-tcp://HOST:PORT"));
@@ -83,8 +85,44 @@ TEST_CASE("Drive table: what is missing or twofold is told with the name of the 
                    "splinefeed-pvt and leadshine-pr do not go together"));
     CHECK(contains(refusal("modbus-tcp://a?profile=leadshine-pr", {"", ""}), "each axis needs a drive of its own"));
     CHECK(contains(refusal("modbus-tcp://a?profile=lexium32m", {""}), "say with &ramp= what the drive's is set to"));
-    CHECK(contains(refusal("modbus-tcp://a?profile=leadshine-pr&ramp=1e6", {""}), "needs no ramp; leave it out"));
-    CHECK(contains(refusal("modbus-tcp://a?profile=lexium32m&ramp=10", {""}), "cannot follow the axis"));
+    CHECK(contains(refusal("modbus-tcp://a?profile=cia402-index&ramp=1e6", {""}), "needs no ramp; leave it out"));
+    CHECK(drive_table("modbus-tcp://a?profile=leadshine-pr&ramp=1e6", machine({""})).drives.size() == 1);
+}
+
+TEST_CASE("Drive table: a wire that a profile's drives do not have is refused; one on rtu may be behind a gateway") {
+    CHECK(contains(refusal("modbus-rtu:///dev/x?profile=lexium32m&ramp=1e6", {""}),
+                   "the profile lexium32m is of drives on tcp alone"));
+    CHECK(drive_table("modbus-tcp://gateway?profile=leadshine-pr", machine({""})).drives.size() == 1);
+}
+
+TEST_CASE("Drive table: stop bits are the profile's with its parity, the standard's with another, or as stated") {
+    const auto stops = [](const std::string& keys) {
+        return drive_table("modbus-rtu:///dev/x?profile=cia402-kinco" + keys, machine({""}))
+            .drives[0]
+            .address.link.stops();
+    };
+    CHECK(stops("") == 1); // its makers have 8N1
+    CHECK(stops("&parity=N") == 1);
+    CHECK(stops("&parity=E") == 1);
+    CHECK(stops("&stop=2") == 2);
+    CHECK(drive_table("modbus-rtu:///dev/x?parity=N", machine({""})).drives[0].address.link.stops() == 2);
+}
+
+TEST_CASE("Drive table: the window of the following error is the drive's own unless a key says otherwise") {
+    const auto window = [](const std::string& address) {
+        return drive_table(address, machine({""})).drives[0].profile.following_error_window_counts;
+    };
+    CHECK_FALSE(window("modbus-tcp://a").has_value());
+    CHECK(window("modbus-tcp://a?following_window=0") == 0);
+    CHECK(window("modbus-tcp://a?following_window=500") == 500);
+    CHECK(contains(refusal("modbus-tcp://a?profile=leadshine-pr&following_window=5", {""}),
+                   "has no register for following_window"));
+    const DriveTable shared =
+        drive_table("modbus", machine({"modbus-tcp://a?axis=0", "modbus-tcp://a?axis=1&following_window=7"}));
+    CHECK(shared.drives[0].profile.following_error_window_counts == 7);
+    CHECK(contains(
+        refusal("modbus", {"modbus-tcp://a?axis=0&following_window=8", "modbus-tcp://a?axis=1&following_window=7"}),
+        "are one drive; give both the same profile"));
 }
 
 TEST_CASE("Drive table: what an address leaves open is as the profile has it") {

@@ -14,6 +14,7 @@ from drive_processes import Drive, machine_text
 STEPS = 320
 START = (4000, -2500)
 WAY_MM = (3.0, -2.0)
+TURNED = (1, -1)  # y is inverted: its drive counts down where the axis goes up
 AXIS = f"max_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = {STEPS}\n"
 
 
@@ -22,7 +23,7 @@ def run(tool, folder, profile):
     keys = f"?profile={profile}" if profile else "?unit=1"
     addresses = [drive.tcp_address().split("?")[0] + keys for drive in drives]
     with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
-        file.write(machine_text([("x", AXIS), ("y", AXIS)], addresses, "[path]\nmax_feed_mm_s = 100\n"))
+        file.write(machine_text([("x", AXIS), ("y", AXIS + "invert = true\n")], addresses, "[path]\nmax_feed_mm_s = 100\n"))
     with open(os.path.join(folder, "way.csv"), "w", encoding="utf-8") as file:
         file.write(f"0,0\n{WAY_MM[0]},{WAY_MM[1]}\n")
     called = subprocess.run([tool, "run", "way.csv", "-m", "machine.toml", "--target", "modbus", "--home", "--summary", "json"],
@@ -42,8 +43,8 @@ def run(tool, folder, profile):
             problems.append(f"axis {k} does not find its reference")
         elif max(abs(b - a) for a, b in zip(rows[:home], rows[1:home + 1])) > 500:
             problems.append(f"axis {k} jumps on its way to the reference")
-        if abs(rows[-1] - WAY_MM[k] * STEPS) > 1e-2:
-            problems.append(f"axis {k} ends at {rows[-1]} counts, not {WAY_MM[k] * STEPS}")
+        if abs(rows[-1] - TURNED[k] * WAY_MM[k] * STEPS) > 1e-2:
+            problems.append(f"axis {k} ends at {rows[-1]} counts, not {TURNED[k] * WAY_MM[k] * STEPS}")
     return problems
 
 

@@ -9,6 +9,12 @@ TEST_CASE("Link address: times on a serial line are those of its characters") {
     LinkAddress line{.wire = Wire::rtu, .host = "/dev/ttyUSB0", .baud = 9600};
     CHECK(frame_us(line, 8) == 9166); // 88 bits
     CHECK(silence_us(line) == 4010);  // 3.5 characters of 1145.8 us
+    line.parity = 'N';
+    CHECK(frame_us(line, 8) == 9166); // two stop bits by default
+    line.stop_bits = 1;
+    CHECK(frame_us(line, 8) == 8333); // 80 bits
+    line.parity = 'E';
+    CHECK(frame_us(line, 8) == 9166);
     line.baud = 115200;
     CHECK(silence_us(line) == 1750); // fixed above 19200
     // An exchange of a full block of a drive with one axis: 11 + 13 * 8 registers out, 22 in.

@@ -298,3 +298,73 @@ TEST_CASE("Link: every fault says what to look at") {
     CHECK(std::string(exception_name(6)) == "busy");
     CHECK(std::string(exception_name(200)) == exception_name(9));
 }
+
+TEST_CASE("Link: a unit number that no frame can carry is refused before anything is sent") {
+    std::atomic<int> requests{0};
+    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes&) {
+        ++requests;
+        return ScriptedPeer::Reply{};
+    });
+    ModbusLink link(peer.address(), patient);
+    REQUIRE(link.connect());
+    std::array<std::uint16_t, 2> in{7, 8};
+    for (const int unit : {-1, 0, 248, 250, 254, 256}) {
+        CHECK(link.read(unit, 0, in).fault == LinkFault::bad_unit);
+        CHECK(link.write(unit, 0, in).fault == LinkFault::bad_unit);
+    }
+    CHECK(in == std::array<std::uint16_t, 2>{7, 8});
+    CHECK(link.connected());
+    CHECK(requests == 0);
+    CHECK(is_unit(Wire::tcp, 255));
+    CHECK_FALSE(is_unit(Wire::rtu, 255));
+    CHECK(is_unit(Wire::rtu, 247));
+}
+
+TEST_CASE("Link: function 06 writes one register") {
+    const Server server;
+    ModbusLink link(server.address(), patient);
+    REQUIRE(link.connect());
+    CHECK(link.write_one(1, 5, 0xABCD).ok());
+    std::array<std::uint16_t, 1> in{};
+    REQUIRE(link.read(1, 5, in).ok());
+    CHECK(in[0] == 0xABCD);
+    CHECK(link.write_one(1, 64, 1).fault == LinkFault::exception);
+}
+
+TEST_CASE("Link: after one time-out more than its retries a tcp connection is given up, and a new one answers") {
+    std::atomic<bool> silent{true};
+    const auto script = [&](const Bytes& request) {
+        return silent ? ScriptedPeer::Reply{} : ScriptedPeer::Reply{tcp_reply(request, two_registers), false};
+    };
+    ScriptedPeer peer(ScriptedPeer::Wire::tcp, script);
+    ModbusLink link(peer.address(), {.answer_us = 20'000, .before_us = 0, .retries = 2});
+    REQUIRE(link.connect());
+    std::array<std::uint16_t, 2> in{};
+    for (int i = 0; i < 3; ++i) {
+        CHECK(link.connected());
+        CHECK(link.read(1, 0, in).fault == LinkFault::timeout);
+    }
+    CHECK_FALSE(link.connected());
+    CHECK(link.read(1, 0, in).fault == LinkFault::disconnected);
+    silent = false;
+    REQUIRE(link.connect());
+    CHECK(link.read(1, 0, in).ok());
+    CHECK(in == std::array<std::uint16_t, 2>{0x1234, 0x5678});
+    // An answer in between starts the count anew.
+    for (int i = 0; i < 6; ++i) {
+        silent = i % 3 != 2;
+        CHECK(link.read(1, 0, in).ok() == !silent);
+    }
+    CHECK(link.connected());
+}
+
+TEST_CASE("Link: a serial line is not opened anew for time-outs: it has no connection that could be lost") {
+    ScriptedPeer peer(ScriptedPeer::Wire::pty, [](const Bytes&) { return ScriptedPeer::Reply{}; });
+    ModbusLink link(peer.address(), {.answer_us = 10'000, .before_us = 0, .retries = 0});
+    REQUIRE(link.connect());
+    std::array<std::uint16_t, 2> in{};
+    for (int i = 0; i < 3; ++i) {
+        CHECK(link.read(1, 0, in).fault == LinkFault::timeout);
+    }
+    CHECK(link.connected());
+}

@@ -24,7 +24,9 @@ endfunction()
 
 set(path61 ${PROJECT_SOURCE_DIR}/examples/path61.csv ${PROJECT_SOURCE_DIR}/examples/three_axis.toml)
 set(raster3d ${PROJECT_SOURCE_DIR}/examples/raster3d.csv ${PROJECT_SOURCE_DIR}/examples/three_axis.toml)
-set(away "--address-keys" "&ramp=1e6" --faults disconnect@2.5:900)
+# Ramps of four times the machine file's acceleration: the path may use all of it.
+set(ramp "--address-keys" "&ramp=1.28e6")
+set(away ${ramp} --faults disconnect@2.5:900)
 # docs/modbus.md states 0.1 um over TCP; the chords of a record each millisecond are 0.13 um off at 1000 mm/s^2 besides, and clocks that are
 # known to 1 us are 0.1 um. On a paced line: 1 um, and clocks that differ by 200 us at 100 mm/s.
 set(slow)
@@ -37,7 +39,7 @@ process_test(modbus_three_drives_rtu three_drives.py ${path61} --wire rtu --tole
 # How near a drive that does not interpolate stays to the path, as docs/modbus.md states it. Where one is away for 0.9 s it leaves the
 # path by what the others move meanwhile. The bound grows with the square of the period: 0.36 mm at 57600 baud.
 process_test(modbus_profile_away profile_run.py ${path61} lexium32m --tolerance-mm 12.4 ${slow} ${away})
-process_test(modbus_profile_leadshine_pr profile_run.py ${path61} leadshine-pr --wire rtu --tolerance-mm ${leadshine_mm} ${slow})
+process_test(modbus_profile_leadshine_pr profile_run.py ${path61} leadshine-pr --wire rtu --tolerance-mm ${leadshine_mm} ${slow} ${ramp})
 if(SPLINEFEED_FUZZERS) # under sanitizers one of each kind
     process_test(modbus_faulted_runs faulted_runs.py --runs 8 --long-runs 500)
     return()
@@ -46,12 +48,15 @@ process_test(modbus_three_drives_tcp three_drives.py ${path61} --wire tcp --tole
 process_test(modbus_three_drives_away three_drives.py ${path61} --wire tcp --tolerance-mm 0.0004 --faults disconnect@1.5:800)
 process_test(modbus_three_drives_stall three_drives.py ${path61} --wire tcp --tolerance-mm 0.0004 --stall-ms 260)
 process_test(modbus_profile_cia402_index profile_run.py ${path61} cia402-index --tolerance-mm 0.05)
-process_test(modbus_profile_oriental_az profile_run.py ${path61} oriental-az --wire rtu --tolerance-mm 0.15)
-process_test(modbus_profile_cia402_kinco profile_run.py ${path61} cia402-kinco --wire rtu --baud 57600 --tolerance-mm 0.36)
+process_test(modbus_profile_oriental_az profile_run.py ${path61} oriental-az --wire rtu --tolerance-mm 0.15 ${ramp})
+process_test(modbus_profile_cia402_kinco profile_run.py ${path61} cia402-kinco --wire rtu --baud 57600 --tolerance-mm 0.36 ${ramp})
 process_test(modbus_home home_run.py)
 if(python)
     add_test(NAME modbus_real_time_judge COMMAND ${python} -B ${PROJECT_SOURCE_DIR}/tests/modbus/real_time_test.py)
 endif()
+# In a network name space, so as root.
+process_test(modbus_pulled_cable pulled_cable.py ${path61} --away-s 3.3)
+process_test(modbus_netem pulled_cable.py ${path61} --netem "delay 2ms 1ms 25% loss 2%" --far 3)
 # The same over 50 s, alone: on a busy machine a line's answers come too late now and then, and all stop and go on.
 process_test(modbus_raster3d_tcp three_drives.py ${raster3d} --wire tcp --tolerance-mm 0.0004 --if-long)
 process_test(modbus_raster3d_rtu three_drives.py ${raster3d} --wire rtu --tolerance-mm 0.021 --if-long)

@@ -124,7 +124,7 @@ TEST_CASE("PVT map: a feed segment's ends are rounded to the nearest, whatever t
     segment.end_velocity = {0, units_per_count, -units_per_count / 2, 0};
     PvtSegment pvt;
     pvt.end[3] = 77;
-    to_pvt(segment, std::array{1, 2, 3, -1}, pvt);
+    REQUIRE(to_pvt(segment, std::array<PvtAxis, 4>{1, 2, 3, -1}, pvt));
     CHECK(pvt.end[3] == 77);
     CHECK(pvt.end[0] == 3);
     CHECK(pvt.end[1] == -4);
@@ -134,13 +134,76 @@ TEST_CASE("PVT map: a feed segment's ends are rounded to the nearest, whatever t
     CHECK(pvt.duration_ticks == 8000);
     CHECK_FALSE(pvt.rest);
     segment.end_velocity = {0, 0, 0, 1}; // another drive's axis moves, by less than this one could tell
-    to_pvt(segment, std::array{1, 2}, pvt);
+    REQUIRE(to_pvt(segment, std::array<PvtAxis, 2>{1, 2}, pvt));
     CHECK_FALSE(pvt.rest);
     segment.end_velocity = {};
-    to_pvt(segment, std::array{1, 2}, pvt);
+    REQUIRE(to_pvt(segment, std::array<PvtAxis, 2>{1, 2}, pvt));
     CHECK(pvt.rest);
     PvtBlockRegisters registers{};
     encode({.count = 1}, std::span(&pvt, 1), 2, registers);
     CHECK(registers[11] == 0x8000);
     CHECK(registers[12] == 8000);
+}
+
+TEST_CASE("PVT map: what does not fit its registers is refused, whole; nothing wraps") {
+    constexpr std::int64_t velocity_unit = units_per_count >> 24;
+    constexpr std::int64_t position_unit = units_per_count >> 16;
+    constexpr std::int64_t largest = (std::int64_t{1} << 47) - 1;
+    const std::array<PvtAxis, 1> axis{0};
+    FeedSegment segment;
+    segment.duration_ticks = 8000;
+    PvtSegment out;
+    out.end[0] = 77;
+    const auto refused = [&](const FeedSegment& bad) {
+        const bool taken = to_pvt(bad, axis, out);
+        CHECK(out.end[0] == 77);
+        CHECK(out.duration_ticks == 0);
+        return !taken;
+    };
+    for (const std::int64_t sign : {1, -1}) {
+        FeedSegment fast = segment;
+        fast.end_velocity[0] = sign * (largest * velocity_unit + 1);
+        CHECK(refused(fast));
+        fast.end_velocity[0] = sign * std::numeric_limits<std::int64_t>::max();
+        CHECK(refused(fast));
+        FeedSegment far = segment;
+        far.end[0] = sign * (largest * position_unit + 1);
+        CHECK(refused(far));
+        far.end[0] = sign * std::numeric_limits<std::int64_t>::max();
+        CHECK(refused(far));
+    }
+    FeedSegment lowest = segment;
+    lowest.end[0] = std::numeric_limits<std::int64_t>::min();
+    CHECK(refused(lowest));
+    for (const std::uint32_t ticks : {0U, pvt::shortest_ticks - 1, pvt::longest_ticks + 1, 0x80000000U}) {
+        FeedSegment timed = segment;
+        timed.duration_ticks = ticks;
+        CHECK(refused(timed));
+    }
+    // The last that fit come through the registers as they are.
+    for (const std::int64_t sign : {1, -1}) {
+        segment.end[0] = sign * largest * position_unit;
+        segment.end_velocity[0] = sign * largest * velocity_unit;
+        PvtSegment taken;
+        REQUIRE(to_pvt(segment, axis, taken));
+        PvtBlockRegisters registers{};
+        const std::size_t size = encode({.count = 1}, std::span(&taken, 1), 1, registers);
+        PvtSegments read{};
+        REQUIRE(decode_block(std::span(registers).first(size), 1, read).has_value());
+        CHECK(read[0].end[0] == sign * largest);
+        CHECK(read[0].end_velocity[0] == sign * largest);
+    }
+}
+
+TEST_CASE("PVT map: an inverted axis counts down where the machine's goes up") {
+    FeedSegment segment;
+    segment.duration_ticks = 8000;
+    segment.end = {5 * units_per_count, 5 * units_per_count};
+    segment.end_velocity = {-units_per_count, -units_per_count};
+    PvtSegment out;
+    REQUIRE(to_pvt(segment, std::array<PvtAxis, 2>{PvtAxis{0, true}, PvtAxis{1, false}}, out));
+    CHECK(out.end[0] == -out.end[1]);
+    CHECK(out.end[1] == 5 << 16);
+    CHECK(out.end_velocity[0] == 1 << 24);
+    CHECK(out.end_velocity[1] == -(1 << 24));
 }

@@ -50,7 +50,8 @@ inline Bytes tcp_reply(const Bytes& request, const Bytes& body) {
     return out;
 }
 
-/// Takes requests of function 03 in a thread, one after the other, and sends what the script makes of each.
+/// Takes requests in a thread, one after the other (on a serial line of function 03 alone), and sends what the script
+/// makes of each.
 class ScriptedPeer {
 public:
     /// An empty reply: none. What sleeps in it answers late. `hang_up` closes after what was sent.
@@ -131,7 +132,11 @@ private:
 
     void serve() {
         Bytes request;
-        const std::size_t whole = serial_ ? 8 : 12;
+        // On TCP a frame says how long it is; on the line there are reads alone.
+        const auto whole = [&] {
+            constexpr std::size_t header = 6;
+            return serial_ ? 8 : request.size() < header ? header : header + (request[4] * 256U + request[5]);
+        };
         while (!stopping_) {
             pollfd ready{line_ >= 0 ? line_ : listener_, POLLIN, 0};
             if (ready.fd < 0 || poll(&ready, 1, 5) != 1) {
@@ -150,7 +155,7 @@ private:
                 continue;
             }
             request.push_back(byte);
-            if (request.size() == whole) {
+            if (request.size() >= whole() && request.size() > 6) {
                 answer(request);
                 request.clear();
             }

@@ -24,6 +24,13 @@ TEST_CASE("Target address: what the contract names") {
     CHECK(rtu.link.parity == 'N');
     CHECK(rtu.link.unit == 7);
     CHECK_FALSE(rtu.resample);
+    CHECK(rtu.link.stops() == 2); // as the standard says
+    CHECK(parse_target_address("modbus-rtu:///dev/x?parity=N&stop=1").link.stops() == 1);
+    CHECK(parse_target_address("modbus-tcp://h?unit=255").link.unit == 255);
+    CHECK(parse_target_address("modbus-tcp://h?unit=247").link.unit == 247);
+    CHECK_FALSE(tcp.following_window_counts.has_value());
+    CHECK(parse_target_address("modbus-tcp://h?following_window=0").following_window_counts == 0);
+    CHECK(parse_target_address("modbus-tcp://h?following_window=500").following_window_counts == 500);
 }
 
 TEST_CASE("Target address: what is wrong is told, and what would be right") {
@@ -33,7 +40,14 @@ TEST_CASE("Target address: what is wrong is told, and what would be right") {
         {"modbus-rtu://", "there is no device"},
         {"modbus-tcp://h:0", "port is '0'; it must be a whole number from 1 to 65535"},
         {"modbus-tcp://h:1:2", "more than one ':'"},
-        {"modbus-tcp://h?unit=0", "unit is '0'; it must be a whole number from 1 to 255"},
+        {"modbus-tcp://h?unit=0",
+         "unit is '0'; it must be a whole number from 1 to 247, or 255: whoever has the address"},
+        {"modbus-tcp://h?unit=250", "unit is '250'; it must be a whole number from 1 to 247, or 255"},
+        {"modbus-tcp://h?unit=256", "from 1 to 247, or 255"},
+        {"modbus-rtu:///dev/x?unit=255", "unit is '255'; it must be a whole number from 1 to 247"},
+        {"modbus-tcp://h?stop=1", "unknown key 'stop'"},
+        {"modbus-rtu:///dev/x?stop=3", "from 1 to 2"},
+        {"modbus-tcp://h?following_window=-1", "from 0 to 2147483647"},
         {"modbus-rtu:///dev/x?unit=248", "from 1 to 247"},
         {"modbus-tcp://h?baud=9600", "unknown key 'baud'"},
         {"modbus-tcp://h?untt=1", "did you mean 'unit'?"},

@@ -43,7 +43,7 @@ public:
                 {.wire = parameters.wire, .port = 1502 + static_cast<int>(wires.size()) - 1, .unit = unit}, {}};
             wiring.link.host = "line " + std::to_string(wires.size());
             for (int k = 0; k < parameters.axes[i]; ++k) {
-                wiring.machine_axis.push_back(axis++);
+                wiring.axes.emplace_back(axis++);
             }
             wirings.push_back(wiring);
         }

@@ -30,9 +30,11 @@ ClockEstimate::Sample ClockEstimate::common(const Sample& a, const Sample& b) no
 }
 
 void ClockEstimate::sample(std::uint64_t earliest_us, std::uint64_t latest_us, std::uint32_t clock_us) noexcept {
-    // The clock goes on by less than half its range between two samples.
-    clock_us_ +=
-        static_cast<std::int32_t>(clock_us - static_cast<std::uint32_t>(static_cast<std::uint64_t>(clock_us_)));
+    // Its range is 71 minutes: how often it wrapped since the last sample is told by our clock.
+    const std::int64_t expected_us = count_ == 0 ? 0 : clock_us_ + static_cast<std::int64_t>(earliest_us - sampled_us_);
+    clock_us_ = expected_us + static_cast<std::int32_t>(
+                                  clock_us - static_cast<std::uint32_t>(static_cast<std::uint64_t>(expected_us)));
+    sampled_us_ = earliest_us;
     if (latest_us < earliest_us) {
         return; // quicker than the line: not an answer to this request
     }

@@ -52,7 +52,8 @@ private:
     std::size_t first_ = 0;
     std::size_t count_ = 0;
     std::uint64_t slot_ = 0;
-    std::int64_t clock_us_ = 0; // of the last sample, without the modulo
+    std::int64_t clock_us_ = 0;    // of the last sample, without the modulo
+    std::uint64_t sampled_us_ = 0; // its earliest instant
 };
 
 } // namespace splinefeed::hal::modbus

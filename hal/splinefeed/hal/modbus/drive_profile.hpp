@@ -148,12 +148,12 @@ struct LinkSettings {
     int unit = 1;
     int baud = 19200;
     char parity = 'E';
-    int stop_bits = 1;
+    int stop_bits = 1;                   ///< at delivery
     std::uint32_t silence_before_us = 0; ///< beyond the 3.5 characters of RTU
     std::uint32_t silence_after_us = 0;
     std::uint32_t turnaround_us = 0; ///< the drive takes this long before it answers
     std::uint32_t response_timeout_us = 100'000;
-    int retries = 2;
+    int retries = 2; ///< of an exchange that was not answered; after as many in a row a tcp connection is made anew
     bool function_read = true;      ///< 03
     bool function_write_one = true; ///< 06
     bool function_write = true;     ///< 16
@@ -194,12 +194,11 @@ struct DriveProfile {
     std::uint32_t period_us = 0;    ///< of cyclic targets or blocks: the shortest that the drive takes; 0: the link's
     std::optional<FieldTest> done;  ///< the last move has arrived
     std::optional<FieldTest> homed;
-    std::int64_t following_error_window_counts = 0; ///< 0: as the drive has it
+    /// Written before the drive is enabled; without it the drive keeps its own. With pvt 0 switches it off.
+    std::optional<std::int64_t> following_error_window_counts;
 
-    std::uint32_t watchdog_timeout_ms = 0; ///< written to the watchdog field; 0: it has none
-    std::uint32_t keep_alive_ms = 0;       ///< an exchange at least so often; 0: no need
+    std::uint32_t watchdog_timeout_ms = 0; ///< written to the watchdog field; 0: the drive keeps its own
     WatchdogReaction watchdog_reaction = WatchdogReaction::none;
-    std::uint32_t stale_us = 0; ///< what was read is too old after this; 0: no limit of its own
 
     struct InitialValue {
         FieldIndex field = no_field;

@@ -2,6 +2,7 @@
 // LinkAddress: which wire a drive hangs on, and how long a frame takes on it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -16,9 +17,11 @@ struct LinkAddress {
     int port = 502;
     int baud = 115200;
     char parity = 'E'; ///< 'N', 'E' or 'O'
-    int unit = 1;      ///< 1 to 247; 255 on tcp where the drive is the only one
+    int stop_bits = 0; ///< 1 or 2; 0: as the standard says, two without parity, else one
+    int unit = 1;      ///< 1 to 247; on tcp also 255: whoever has the address
 
     [[nodiscard]] bool operator==(const LinkAddress&) const = default;
+    [[nodiscard]] constexpr int stops() const noexcept { return stop_bits != 0 ? stop_bits : parity == 'N' ? 2 : 1; }
     /// The same wire, whatever unit on it.
     [[nodiscard]] bool same_wire(const LinkAddress& other) const noexcept {
         return wire == other.wire && host == other.host && (wire == Wire::rtu || port == other.port);
@@ -29,11 +32,26 @@ struct LinkAddress {
 struct LinkTiming {
     std::uint32_t answer_us = 50'000; ///< a drive answers within this, once the request has passed the line
     std::uint32_t before_us = 0;      ///< silence before a frame, beyond the 3.5 characters of RTU
+    int retries = 3; ///< after so many time-outs beyond the first, in a row, a tcp connection is made anew
+
+    /// What suits both, of two drives on one wire.
+    [[nodiscard]] constexpr LinkTiming slower(const LinkTiming& other) const noexcept {
+        return {std::max(answer_us, other.answer_us), std::max(before_us, other.before_us),
+                std::max(retries, other.retries)};
+    }
 };
 
-/// Time of a frame on a serial line: 11 bits a byte (without parity there are two stop bits). tcp: 0.
+inline constexpr int most_unit = 247;   ///< of a drive on a serial line
+inline constexpr int single_unit = 255; ///< on tcp: whoever has the address (MODBUS_TCP_SLAVE)
+
+/// Whether a frame can carry the number on that wire: 0 would be a broadcast, which nobody answers.
+[[nodiscard]] constexpr bool is_unit(Wire wire, int unit) noexcept {
+    return (unit >= 1 && unit <= most_unit) || (wire == Wire::tcp && unit == single_unit);
+}
+
+/// Time of a frame on a serial line: a start bit, 8 data bits, parity and stop bits a byte. tcp: 0.
 [[nodiscard]] constexpr std::uint32_t frame_us(const LinkAddress& address, std::size_t bytes) noexcept {
-    constexpr std::uint64_t bits = 11;
+    const auto bits = static_cast<std::uint64_t>(1 + 8 + (address.parity == 'N' ? 0 : 1) + address.stops());
     return address.wire == Wire::tcp
                ? 0
                : static_cast<std::uint32_t>(bits * bytes * 1'000'000U / static_cast<std::uint64_t>(address.baud));

@@ -9,8 +9,8 @@ constexpr std::uint64_t rest_us = 500; // where no drive needs anything
 
 } // namespace
 
-PvtClient& ModbusBus::add(int unit) {
-    drives_.push_back(std::make_unique<PvtClient>(*link_, unit));
+PvtClient& ModbusBus::add(int unit, bool both_in_one) {
+    drives_.push_back(std::make_unique<PvtClient>(*link_, unit, both_in_one));
     return *drives_.back();
 }
 

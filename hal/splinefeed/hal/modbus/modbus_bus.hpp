@@ -16,7 +16,7 @@ public:
     ~ModbusBus() { stop(); }
 
     /// Before start(). The reference stays valid.
-    PvtClient& add(int unit);
+    PvtClient& add(int unit, bool both_in_one = true);
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
     [[nodiscard]] const std::vector<std::unique_ptr<PvtClient>>& drives() const noexcept { return drives_; }
 

@@ -18,6 +18,7 @@ const char* describe(LinkFault fault) noexcept {
     case LinkFault::wrong_unit: return "another unit answered; two drives may have the same number";
     case LinkFault::wrong_length: return "an answer that does not fit the request; another master may be on the line";
     case LinkFault::exception: return "the drive refused the request";
+    case LinkFault::bad_unit: return "nothing was sent: a unit number must be 1 to 247, or on tcp 255";
     }
     return "";
 }

@@ -17,6 +17,7 @@ enum class LinkFault : std::uint8_t {
     wrong_unit,   ///< another drive answered
     wrong_length, ///< a valid frame that does not fit the request; on tcp also an answer to an earlier request
     exception,    ///< the drive refused; LinkAnswer::exception says why
+    bad_unit,     ///< no frame can carry the unit number (is_unit); nothing was sent
 };
 
 struct LinkAnswer {
@@ -64,6 +65,10 @@ public:
     /// @pre at most 125, 123, and 121 and 125 registers
     virtual LinkAnswer read(int unit, int address, std::span<std::uint16_t> out) noexcept = 0;
     virtual LinkAnswer write(int unit, int address, std::span<const std::uint16_t> values) noexcept = 0;
+    /// Function 06, of a drive that has no 16; a line that knows no difference writes it by 16.
+    virtual LinkAnswer write_one(int unit, int address, std::uint16_t value) noexcept {
+        return write(unit, address, std::span(&value, 1));
+    }
     virtual LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
                                 std::span<std::uint16_t> out) noexcept = 0;
 

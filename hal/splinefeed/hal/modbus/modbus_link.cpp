@@ -8,6 +8,7 @@
 #include <modbus/modbus.h>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <sys/socket.h>
 
 namespace splinefeed::hal::modbus {
 
@@ -64,6 +65,7 @@ struct ModbusLink::Context {
     bool no_host = false; // the name has no address
     bool connected = false;
     int failures = 0;    // in a row
+    int timeouts = 0;    // in a row
     bool dirty = false;  // something may still come in
     bool behind = false; // whole answers, one after the other
 
@@ -85,9 +87,9 @@ ModbusLink::ModbusLink(const LinkAddress& address, const LinkTiming& timing, Clo
     if (context_->no_host) {
         return;
     }
-    context_->modbus = address.wire == Wire::tcp ? modbus_new_tcp(host.c_str(), address.port)
-                                                 : modbus_new_rtu(host.c_str(), address.baud, address.parity, data_bits,
-                                                                  address.parity == 'N' ? 2 : 1);
+    context_->modbus = address.wire == Wire::tcp
+                           ? modbus_new_tcp(host.c_str(), address.port)
+                           : modbus_new_rtu(host.c_str(), address.baud, address.parity, data_bits, address.stops());
     if (context_->modbus == nullptr) {
         context_->error = errno;
     }
@@ -139,6 +141,7 @@ bool ModbusLink::connect() noexcept {
         return false;
     }
     context.connected = true;
+    context.timeouts = 0;
     context.dirty = context.address.wire == Wire::rtu; // the other end of a new connection has nothing to say
     context.quiet_from_us = context.clock->now_us();
     return true;
@@ -151,6 +154,16 @@ void ModbusLink::close() noexcept {
     }
 }
 
+// TCP sends what was lost again after ever longer pauses, of seconds, while a new connection is there at once. And what
+// it still holds must never come: an old target would send the drive back.
+void ModbusLink::abandon() noexcept {
+    if (context_->address.wire == Wire::tcp) {
+        constexpr linger drop{.l_onoff = 1, .l_linger = 0};
+        setsockopt(modbus_get_socket(context_->modbus), SOL_SOCKET, SO_LINGER, &drop, sizeof(drop));
+    }
+    close();
+}
+
 template <class Call>
 LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expected, const Call& call) noexcept {
     Context& context = *context_;
@@ -158,6 +171,11 @@ LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expect
     answer.sent_us = answer.answered_us = context.clock->now_us();
     if (!context.connected) {
         answer.fault = LinkFault::disconnected;
+        return answer;
+    }
+    // Else libmodbus would send to whatever unit it had before.
+    if (!is_unit(context.address.wire, unit) || modbus_set_slave(context.modbus, unit) != 0) {
+        answer.fault = LinkFault::bad_unit;
         return answer;
     }
     const bool lost = context.lost();
@@ -173,24 +191,27 @@ LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expect
     // libmodbus counts from the moment at which the request is in the system's buffer.
     const std::uint32_t most = context.timing.answer_us + frame_us(context.address, bytes.request + bytes.reply);
     modbus_set_response_timeout(context.modbus, most / us_per_s, most % us_per_s);
-    modbus_set_slave(context.modbus, unit);
     errno = 0;
     const int done = call(context.modbus);
     answer.answered_us = context.quiet_from_us = context.clock->now_us();
     context.failures = done == expected ? 0 : lost ? 1 : context.failures + 1;
     if (done == expected) {
+        context.timeouts = 0;
         answer.arrived_us = answer.sent_us + frame_us(context.address, bytes.request);
         answer.replied_us = answer.answered_us - frame_us(context.address, bytes.reply);
         return answer;
     }
-    answer.fault = done >= 0 ? LinkFault::wrong_length : fault_of(errno);
+    const int error = errno;
+    answer.fault = done >= 0 ? LinkFault::wrong_length : fault_of(error);
     context.dirty = true;
+    context.timeouts = answer.fault == LinkFault::timeout ? context.timeouts + 1 : 0;
     if (answer.fault == LinkFault::exception) {
-        answer.exception = static_cast<std::uint8_t>(errno - MODBUS_ENOBASE);
+        answer.exception = static_cast<std::uint8_t>(error - MODBUS_ENOBASE);
         context.dirty = false;
-    } else if (answer.fault == LinkFault::disconnected) {
-        context.error = errno;
-        close();
+    } else if (answer.fault == LinkFault::disconnected ||
+               (context.address.wire == Wire::tcp && context.timeouts > context.timing.retries)) {
+        context.error = error;
+        abandon();
     }
     return answer;
 }
@@ -211,6 +232,13 @@ LinkAnswer ModbusLink::write(int unit, int address, std::span<const std::uint16_
     const int count = static_cast<int>(values.size());
     return transact(unit, exchange_bytes(context_->address, values.size(), 0), count,
                     [&](modbus_t* modbus) { return modbus_write_registers(modbus, address, count, values.data()); });
+}
+
+// Its frames are as long as those of a read of one register, and the answer is the request once more.
+LinkAnswer ModbusLink::write_one(int unit, int address, std::uint16_t value) noexcept {
+    const std::size_t bytes = exchange_bytes(context_->address, 0, 1).request;
+    return transact(unit, {bytes, bytes}, 1,
+                    [&](modbus_t* modbus) { return modbus_write_register(modbus, address, value); });
 }
 
 LinkAnswer ModbusLink::exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,

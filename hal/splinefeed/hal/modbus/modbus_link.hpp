@@ -23,6 +23,7 @@ public:
 
     LinkAnswer read(int unit, int address, std::span<std::uint16_t> out) noexcept override;
     LinkAnswer write(int unit, int address, std::span<const std::uint16_t> values) noexcept override;
+    LinkAnswer write_one(int unit, int address, std::uint16_t value) noexcept override;
     LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
                         std::span<std::uint16_t> out) noexcept override;
 
@@ -33,6 +34,8 @@ public:
 
 private:
     struct Context;
+
+    void abandon() noexcept;
 
     template <class Call>
     LinkAnswer transact(int unit, const ExchangeBytes& bytes, int expected, const Call& call) noexcept;

@@ -34,14 +34,15 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
         };
         auto bus = std::find_if(buses_.begin(), buses_.end(), same);
         if (bus == buses_.end()) {
-            buses_.push_back(
-                std::make_unique<ModbusBus>(settings.make_line(drive.link, settings.timing, *settings.clock)));
+            const LinkTiming timing = wire_timing(wiring, drive.link, settings.timing);
+            settings_.timing = settings_.timing.slower(timing); // for what is waited for on any wire
+            buses_.push_back(std::make_unique<ModbusBus>(settings.make_line(drive.link, timing, *settings.clock)));
             bus = buses_.end() - 1;
         }
-        for (const int axis : drive.machine_axis) {
-            axes_ = std::max(axes_, axis + 1);
+        for (const PvtAxis& axis : drive.axes) {
+            axes_ = std::max(axes_, axis.machine_axis + 1);
         }
-        drives_.emplace_back(drive, (*bus)->add(drive.link.unit));
+        drives_.emplace_back(drive, (*bus)->add(drive.link.unit, drive.both_in_one));
         stop_.add(drives_.back().client());
     }
 }
@@ -64,7 +65,7 @@ void ModbusPort::close() noexcept {
 
 std::optional<DriveFailure> ModbusPort::open() {
     for (std::size_t i = 0; i < drives_.size(); ++i) {
-        const auto axes = static_cast<int>(drives_[i].wiring().machine_axis.size());
+        const auto axes = static_cast<int>(drives_[i].wiring().axes.size());
         if (const DriveProblem problem = drives_[i].client().open(axes); problem != DriveProblem::none) {
             return DriveFailure{i, problem};
         }
@@ -83,7 +84,7 @@ double ModbusPort::least_segment_us() {
 // Before anything moves: waits until all drives did it.
 std::optional<DriveFailure> ModbusPort::command_all(PvtCommand command) {
     for (PortDrive& drive : drives_) {
-        drive.command(command);
+        drive.command(command, command == PvtCommand::begin ? settings_.first_sequence : 0);
     }
     const std::uint64_t until = settings_.clock->now_us() + command_us;
     do {
@@ -164,13 +165,12 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
     }
     buffer_segments_ = static_cast<std::uint32_t>(ring_us / times_.segment_us);
     const double reserve_ms = std::max(1.0, std::min<double>(settings_.stop_reserve_ms, ring_us / 4000.0));
-    const PvtConfiguration configuration{static_cast<std::uint16_t>(settings_.watchdog_ms),
-                                         static_cast<std::uint16_t>(reserve_ms), settings_.following_window};
-    times_.reserve_us = 1000.0 * configuration.stop_reserve_ms;
+    const auto stop_reserve_ms = static_cast<std::uint16_t>(reserve_ms);
+    times_.reserve_us = 1000.0 * stop_reserve_ms;
     times_.silent_us = settings_.silent_us;
     times_.settling_us = settle_us;
     for (std::size_t i = 0; i < drives_.size(); ++i) {
-        if (const DriveProblem problem = drives_[i].prepare(first, configuration); problem != DriveProblem::none) {
+        if (const DriveProblem problem = drives_[i].prepare(first, stop_reserve_ms); problem != DriveProblem::none) {
             return DriveFailure{i, problem};
         }
     }
@@ -181,22 +181,15 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
         bus->start();
     }
     prepared_ = true;
-    if (const auto failure = enable_all()) {
-        return failure;
+    auto failure = enable_all();
+    failure = failure ? failure : command_all(PvtCommand::begin);
+    failure = failure || !settings_.home ? failure : home_all();
+    failure = failure ? failure : command_all(PvtCommand::place);
+    if (!failure) {
+        executed_to_ = settings_.first_sequence;
+        enter(ModbusPhase::filling);
     }
-    if (const auto failure = command_all(PvtCommand::begin)) {
-        return failure;
-    }
-    if (settings_.home) {
-        if (const auto failure = home_all()) {
-            return failure;
-        }
-    }
-    if (const auto failure = command_all(PvtCommand::place)) {
-        return failure;
-    }
-    enter(ModbusPhase::filling);
-    return std::nullopt;
+    return failure;
 }
 
 std::uint64_t ModbusPort::busy_us() const noexcept {
@@ -210,7 +203,7 @@ std::uint64_t ModbusPort::busy_us() const noexcept {
 std::uint32_t ModbusPort::executed() const noexcept {
     std::uint32_t least = drives_.front().status().executed;
     for (const PortDrive& drive : drives_) {
-        least = std::min(least, drive.status().executed);
+        least = pvt::earlier(least, drive.status().executed);
     }
     return least;
 }
@@ -227,6 +220,12 @@ int ModbusPort::do_room() const noexcept {
 bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
     if (phase_ == ModbusPhase::fault || phase_ == ModbusPhase::halting || phase_ == ModbusPhase::halted) {
         return false;
+    }
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        if (!drives_[i].carries(segment)) { // nobody gets it
+            fail(i, DriveProblem::range);
+            return false;
+        }
     }
     const std::span<const std::int64_t> velocities(segment.end_velocity.data(), static_cast<std::size_t>(axes_));
     const bool rests = std::all_of(velocities.begin(), velocities.end(), [](std::int64_t v) { return v == 0; });
@@ -311,12 +310,13 @@ void ModbusPort::watch() noexcept {
     if (all_done) {
         enter(ModbusPhase::done);
     } else if (dry) {
-        stop_at_ = UINT32_MAX;
+        std::optional<std::uint32_t> first;
         for (const PortDrive& drive : drives_) {
             if (drive.seen().problem == DriveProblem::none) {
-                stop_at_ = std::min(stop_at_, drive.status().next);
+                first = pvt::earlier(first.value_or(drive.status().next), drive.status().next);
             }
         }
+        stop_at_ = first.value_or(executed());
         enter(ModbusPhase::stopping);
     }
 }
@@ -411,7 +411,10 @@ PortState ModbusPort::do_poll() noexcept {
                             : phase_ == ModbusPhase::done   ? PortPhase::idle
                             : phase_ == ModbusPhase::halted ? PortPhase::halted
                                                             : PortPhase::running;
-    return {phase, executed()};
+    const std::uint32_t now = executed();
+    executed_ += now - executed_to_; // numbers wrap
+    executed_to_ = now;
+    return {phase, executed_};
 }
 
 void ModbusPort::quick_stop() noexcept {

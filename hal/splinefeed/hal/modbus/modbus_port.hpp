@@ -18,14 +18,13 @@ namespace splinefeed::hal::modbus {
 
 struct ModbusPortSettings {
     std::uint32_t buffer_us = 400'000;   ///< motion that the drives hold ahead, where their rings do
-    std::uint32_t stop_reserve_ms = 100; ///< PvtConfiguration
-    std::uint32_t watchdog_ms = 1000;
-    std::uint32_t following_window = 0; ///< [counts]
-    std::uint32_t silent_us = 100'000;  ///< a drive that was not heard for this long is away: the others stop
-    std::uint32_t away_us = 5'000'000;  ///< and for this long: the port gives up
-    bool home = false;                  ///< prepare() has the drives find their references first
-    bool (*interrupted)() = nullptr;    ///< asked meanwhile: a quick stop
+    std::uint32_t stop_reserve_ms = 100; ///< PvtConfiguration; all drives of a run have the same
+    std::uint32_t silent_us = 100'000;   ///< a drive that was not heard for this long is away: the others stop
+    std::uint32_t away_us = 5'000'000;   ///< and for this long: the port gives up
+    bool home = false;                   ///< prepare() has the drives find their references first
+    bool (*interrupted)() = nullptr;     ///< asked meanwhile: a quick stop
     LinkTiming timing{};
+    std::uint32_t first_sequence = 0; ///< number of the first segment
     MakeLine make_line = make_link;
     Clock* clock = &system_clock(); ///< outlives the port
 };
@@ -69,7 +68,7 @@ public:
     void complete() noexcept { complete_ = true; }
 
     [[nodiscard]] ModbusPhase phase() const noexcept { return phase_; }
-    /// Why it is in fault.
+    /// Why it is in fault, or why it did not take a segment.
     [[nodiscard]] const std::optional<DriveFailure>& failure() const noexcept { return failure_; }
     [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
     [[nodiscard]] const DriveWiring& wiring(std::size_t drive) const noexcept { return drives_[drive].wiring(); }
@@ -120,6 +119,8 @@ private:
     std::uint64_t entered_us_ = 0; // the phase
     std::uint64_t now_us_ = 0;
     std::uint64_t started_us_ = 0; // all run since then
+    std::uint64_t executed_ = 0;      // by all drives
+    std::uint32_t executed_to_ = 0;   // the number of the next one
     std::uint32_t buffer_segments_ = 0;
     std::uint32_t stop_at_ = 0;
     std::uint32_t resumes_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/port_drive.hpp"
 
+#include "splinefeed/base/assertion.hpp"
+
 #include <algorithm>
 
 namespace splinefeed::hal::modbus {
@@ -11,15 +13,26 @@ constexpr double on_its_way_us = 10'000.0; // a command
 
 } // namespace
 
-DriveProblem PortDrive::prepare(const FeedSegment& first, const PvtConfiguration& configuration) noexcept {
+LinkTiming wire_timing(const std::vector<DriveWiring>& wiring, const LinkAddress& wire, LinkTiming base) noexcept {
+    for (const DriveWiring& drive : wiring) {
+        base = drive.link.same_wire(wire) ? base.slower(drive.timing) : base;
+    }
+    return base;
+}
+
+DriveProblem PortDrive::prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept {
     const PvtStatus status = client_->report().status;
     for (std::size_t k = 0; k < static_cast<std::size_t>(client_->axes()); ++k) {
-        const int axis = k < wiring_.machine_axis.size() ? wiring_.machine_axis[k] : -1;
-        last_.end[k] = axis < 0 ? std::int64_t{status.position[k]} << PvtSegment::position_bits
-                                : pvt_position(first.start[static_cast<unsigned>(axis)]);
+        last_.end[k] = std::int64_t{status.position[k]} * (1 << PvtSegment::position_bits);
     }
-    last_.duration_ticks = first.duration_ticks;
-    return client_->configure(configuration);
+    FeedSegment standing = first;
+    standing.end = first.start;
+    standing.end_velocity = {};
+    if (!to_pvt(standing, wiring_.axes, last_)) {
+        return DriveProblem::range;
+    }
+    last_.rest = false;
+    return client_->configure({stop_reserve_ms, wiring_.watchdog_ms, wiring_.following_window});
 }
 
 double PortDrive::gain_us(double host_us) const noexcept {
@@ -27,11 +40,18 @@ double PortDrive::gain_us(double host_us) const noexcept {
     return static_cast<double>(client_->drive_us(at_us) - static_cast<std::int64_t>(at_us));
 }
 
+bool PortDrive::carries(const FeedSegment& segment) const noexcept {
+    PvtSegment ignored;
+    return to_pvt(segment, wiring_.axes, ignored);
+}
+
 void PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
-    to_pvt(segment, wiring_.machine_axis, last_);
+    const bool carried = to_pvt(segment, wiring_.axes, last_);
+    SPLINEFEED_ASSERT(carried);
     if (trim_.anchored()) {
         const double gain = gain_us(trim_.next_end_us(segment.duration_ticks)) - gained_us_;
-        last_.duration_ticks = trim_.trimmed(segment.duration_ticks, gain);
+        last_.duration_ticks =
+            std::clamp(trim_.trimmed(segment.duration_ticks, gain), pvt::shortest_ticks, pvt::longest_ticks);
     }
     last_.rest = rests;
     client_->push(last_);
@@ -47,8 +67,10 @@ void PortDrive::look(std::uint64_t now_us, const PortTimes& times) noexcept {
         starting_ = false;
         lag_us_ = std::max(lag_us_, said_us - start_us_);
     }
+    ran_ += status().executed - ran_to_; // numbers wrap
+    ran_to_ = status().executed;
     if (trim_.anchored() && said_us > full_rate_us_ && !executed_all()) {
-        const double most_us = static_cast<std::int32_t>(status().executed + 1 - began_at_) * times.segment_us;
+        const double most_us = static_cast<double>(ran_ + 1) * times.segment_us;
         lag_us_ = std::max(lag_us_, said_us - began_us_ - most_us - unsure_us_ - seen_.clock.uncertainty_us());
     }
 }
@@ -92,7 +114,8 @@ void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
     // A drive that speeds up from rest loses as much as its reserve.
     began_us_ = static_cast<double>(at_us) + (held ? times.reserve_us : 0.0);
     full_rate_us_ = began_us_ + (held ? times.reserve_us : 0.0);
-    began_at_ = status().executed;
+    ran_ = 0;
+    ran_to_ = status().executed;
     unsure_us_ = seen_.clock.uncertainty_us();
     most_unsure_us_ = std::max(most_unsure_us_, unsure_us_);
     lag_us_ = 0.0;

@@ -11,19 +11,30 @@
 
 namespace splinefeed::hal::modbus {
 
-/// A drive and the machine's axes that it has: machine_axis[k] is moved by the drive's axis k; -1: none.
+/// A drive and the machine's axes that it has.
 struct DriveWiring {
     LinkAddress link;
-    std::vector<int> machine_axis;
+    std::vector<PvtAxis> axes; ///< of the drive, in its order
+    LinkTiming timing{};
+    std::optional<std::uint16_t> watchdog_ms = 1000; ///< without it, and the window, the drive keeps its own
+    std::optional<std::uint32_t> following_window{}; ///< [counts]; 0: none
+    bool both_in_one = true;                         ///< it has function 23
 };
+
+/// Of a wire with some of these drives: what suits all of them, and `base`.
+[[nodiscard]] LinkTiming wire_timing(const std::vector<DriveWiring>& wiring, const LinkAddress& wire,
+                                     LinkTiming base) noexcept;
 
 class PortDrive {
 public:
     PortDrive(DriveWiring wiring, PvtClient& client) : wiring_(std::move(wiring)), client_(&client) {}
 
     /// Writes the configuration, and takes `first` for where the axes stand. Before the bus runs.
-    [[nodiscard]] DriveProblem prepare(const FeedSegment& first, const PvtConfiguration& configuration) noexcept;
+    [[nodiscard]] DriveProblem prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept;
+    /// Whether push() takes it.
+    [[nodiscard]] bool carries(const FeedSegment& segment) const noexcept;
     /// @param rests  the machine stands at the segment's end
+    /// @pre carries(segment)
     void push(const FeedSegment& segment, bool rests) noexcept;
 
     /// What it said last becomes seen().
@@ -58,7 +69,9 @@ public:
     /// The last of them is no longer of interest.
     void forget() noexcept { told_ = false; }
     /// `place` and what goes before it, on the way to the start.
-    void command(PvtCommand command) noexcept { client_->command(command, 0, last_); }
+    void command(PvtCommand command, std::uint32_t argument) noexcept {
+        client_->command(command, argument, last_);
+    }
     [[nodiscard]] bool pending() const noexcept { return seen_.command_pending; }
     /// What tell() told was refused.
     [[nodiscard]] bool refused() const noexcept { return told_ && seen_.command_refused; }
@@ -83,7 +96,8 @@ private:
     double start_us_ = 0.0;       // of our clock: it was to begin then
     double full_rate_us_ = 0.0;   // of our clock: it runs at full rate from then on,
     double began_us_ = 0.0;       // as if it had started then
-    std::uint32_t began_at_ = 0;  // segments that it had executed
+    std::uint64_t ran_ = 0;       // segments that it executed since
+    std::uint32_t ran_to_ = 0;    // the number of the next one
     double unsure_us_ = 0.0;      // of its clock, then
     double most_unsure_us_ = 0.0; // of all its starts
     double lag_us_ = 0.0;

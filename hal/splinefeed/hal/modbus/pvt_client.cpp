@@ -21,60 +21,10 @@ constexpr int opening_attempts = 5;
 constexpr std::uint16_t most_refusals = 20; // of what no repetition makes better
 constexpr std::uint8_t illegal_function = 1;
 
-constexpr std::uint32_t swapped(std::uint32_t value) noexcept {
-    constexpr unsigned half = 16;
-    return value << half | value >> half;
-}
-
-DriveProblem identity_problem(const PvtIdentity& identity, int least_axes) noexcept {
-    if (identity.magic != pvt::magic) {
-        return DriveProblem::not_pvt;
-    }
-    if (identity.version != pvt::version) {
-        return DriveProblem::version;
-    }
-    if (identity.check_32 == swapped(pvt::word_check_32)) {
-        return DriveProblem::words_swapped;
-    }
-    if (identity.check_32 != pvt::word_check_32 || identity.check_16 != pvt::word_check_16 || identity.axes < 1 ||
-        identity.axes > max_axes) {
-        return DriveProblem::not_pvt;
-    }
-    if (identity.axes < least_axes) {
-        return DriveProblem::axes;
-    }
-    return identity.ticks_per_s != pvt::ticks_per_s ? DriveProblem::ticks : DriveProblem::none;
-}
-
 } // namespace
 
-const char* describe(DriveProblem problem) noexcept {
-    switch (problem) {
-    case DriveProblem::none: return "nothing is wrong";
-    case DriveProblem::unreachable: return "there is no connection; check host or device, port and cable";
-    case DriveProblem::silent: return "it does not answer; check power, unit number, baud rate and parity";
-    case DriveProblem::damaged:
-        return "it answers, and the checksum of its status never holds; check the cable, and the drive's own checksum "
-               "(docs/pvt_map.md)";
-    case DriveProblem::not_pvt: return "it has not the map splinefeed-pvt; give the profile that it has";
-    case DriveProblem::words_swapped:
-        return "its 32-bit numbers have the low word first; splinefeed-pvt has the high word first: set the drive or "
-               "the gateway so";
-    case DriveProblem::version: return "its map is of another version than 1; bring the drive or splinefeed up to date";
-    case DriveProblem::axes:
-        return "it has fewer axes than the machine asks of it; name a drive or a machine file (-m) with as many";
-    case DriveProblem::ticks: return "it does not count in ticks of 1/8 us, as version 1 of the map does";
-    case DriveProblem::power_cycled: return "it was switched off and on; what it had not executed is lost";
-    case DriveProblem::fault: return "it is in fault";
-    case DriveProblem::refused: return "it refuses what it is told, again and again";
-    case DriveProblem::out_of_step:
-        return "it reports segments that were never sent; another master may be on the line";
-    case DriveProblem::not_homed: return "its homing did not come to its end; look at its switches and its settings";
-    }
-    return "";
-}
-
-PvtClient::PvtClient(ModbusLine& link, int unit) : link_(&link), unit_(unit), queue_(queue_capacity) {}
+PvtClient::PvtClient(ModbusLine& link, int unit, bool both_in_one)
+    : link_(&link), unit_(unit), queue_(queue_capacity), both_in_one_(both_in_one) {}
 
 // A few times, with a new connection where the old one broke.
 template <class Attempt>
@@ -134,12 +84,20 @@ DriveProblem PvtClient::open(int least_axes) noexcept {
     return DriveProblem::none;
 }
 
-DriveProblem PvtClient::configure(const PvtConfiguration& configuration) noexcept {
+// Read, changed and written back: what nobody asked for stays.
+DriveProblem PvtClient::configure(const PvtSettings& wanted) noexcept {
     const std::lock_guard lock(mutex_);
     report_.clock.clear(); // a run goes by exchanges with a nonce alone
-    std::array<std::uint16_t, pvt::configuration_registers> settings{};
-    encode(configuration, settings);
-    const bool done = persist([&] { return link_->write(unit_, pvt::configuration_address, settings); });
+    std::array<std::uint16_t, pvt::configuration_registers> registers{};
+    bool done = persist([&] { return link_->read(unit_, pvt::configuration_address, registers); });
+    if (done) {
+        PvtConfiguration configuration = decode_configuration(registers);
+        configuration.stop_reserve_ms = wanted.stop_reserve_ms.value_or(configuration.stop_reserve_ms);
+        configuration.watchdog_ms = wanted.watchdog_ms.value_or(configuration.watchdog_ms);
+        configuration.following_window = wanted.following_window.value_or(configuration.following_window);
+        encode(configuration, registers);
+        done = persist([&] { return link_->write(unit_, pvt::configuration_address, registers); });
+    }
     return report_.problem = done                                         ? DriveProblem::none
                              : report_.last_fault == LinkFault::exception ? DriveProblem::refused
                                                                           : DriveProblem::silent;
@@ -202,6 +160,12 @@ void PvtClient::push(const PvtSegment& segment) noexcept {
 void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSegment& place) noexcept {
     const std::lock_guard lock(mutex_);
     SPLINEFEED_ASSERT(order_.command == PvtCommand::none);
+    if (command == PvtCommand::begin) {
+        head_.store(argument);
+        tail_.store(argument);
+        sent_ = argument;
+        executed_ = 0;
+    }
     order_ = {command, argument, place};
     report_.command_pending = true;
     report_.command_refused = false;
@@ -328,7 +292,7 @@ void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<
     }
     const PvtStatus status = decode_status(raw, axes_);
     if (!status_holds(raw)) {
-        const bool words = status.boot == swapped(report_.identity.boot);
+        const bool words = status.boot == swapped_words(report_.identity.boot);
         report_.problem = words ? DriveProblem::words_swapped : report_.problem;
         ++report_.counts.corrupt;
         return;
@@ -353,7 +317,7 @@ void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<
 // Whether what the drive says can be.
 DriveProblem PvtClient::judge(const PvtStatus& status) const noexcept {
     if (status.boot != report_.identity.boot) {
-        return status.boot == swapped(report_.identity.boot) ? DriveProblem::words_swapped : DriveProblem::power_cycled;
+        return status.boot == swapped_words(report_.identity.boot) ? DriveProblem::words_swapped : DriveProblem::power_cycled;
     }
     const auto sent = static_cast<std::int32_t>(sent_ - head_.load(std::memory_order_relaxed));
     const auto executed = static_cast<std::int32_t>(status.executed - head_.load(std::memory_order_relaxed));
@@ -401,7 +365,8 @@ void PvtClient::keep(const PvtStatus& status, const PvtBlock& block) noexcept {
     answer_order(status, block);
     report_.status = status;
     if (began_) {
-        counts.segments = status.next;
+        executed_ += status.executed - head_.load(std::memory_order_relaxed); // numbers wrap
+        counts.segments = executed_ + (status.next - status.executed);
         head_.store(status.executed, std::memory_order_release);
     }
     if (status.state == PvtState::fault) {

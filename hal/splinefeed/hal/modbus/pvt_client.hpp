@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/hal/modbus/clock_estimate.hpp"
+#include "splinefeed/hal/modbus/drive_problem.hpp"
 #include "splinefeed/hal/modbus/link_counts.hpp"
 #include "splinefeed/hal/modbus/modbus_line.hpp"
 #include "splinefeed/hal/modbus/pvt_map.hpp"
@@ -13,26 +14,12 @@
 
 namespace splinefeed::hal::modbus {
 
-/// What is wrong with a drive, for good: it takes no more segments until it is opened again.
-enum class DriveProblem : std::uint8_t {
-    none,
-    unreachable,   ///< no connection
-    silent,        ///< connected, but no answer
-    damaged,       ///< it answers, and the checksum of its status never holds
-    not_pvt,       ///< no magic number: another map
-    words_swapped, ///< the drive, or a gateway, has the other word order
-    version,       ///< of the map
-    axes,          ///< fewer than the machine file asks for
-    ticks,         ///< it counts time in other ticks
-    power_cycled,  ///< it was switched off and on: what it had is lost
-    fault,         ///< its own: PvtStatus::fault
-    refused,       ///< a command, or segments that no repetition makes better
-    out_of_step,   ///< it reports segments that nobody sent
-    not_homed,     ///< its homing did not come to its end
+/// What a run asks of a drive's configuration; what it does not name stays as the drive has it.
+struct PvtSettings {
+    std::optional<std::uint16_t> stop_reserve_ms{};
+    std::optional<std::uint16_t> watchdog_ms{};
+    std::optional<std::uint32_t> following_window{}; ///< [counts]; 0: none
 };
-
-/// What is wrong and what to look at.
-[[nodiscard]] const char* describe(DriveProblem problem) noexcept;
 
 /// A drive as it was at its last good answer.
 struct DriveReport {
@@ -55,11 +42,12 @@ public:
     static constexpr std::size_t queue_capacity = 2048;
 
     /// @param link  must outlive it; shared with the other drives of the bus
-    PvtClient(ModbusLine& link, int unit);
+    /// @param both_in_one  the drive has function 23; else 16 and 03, and so where it refuses 23
+    PvtClient(ModbusLine& link, int unit, bool both_in_one = true);
 
     /// Connects and checks who is there. As the next two before the bus runs.
     [[nodiscard]] DriveProblem open(int least_axes) noexcept;
-    [[nodiscard]] DriveProblem configure(const PvtConfiguration& configuration) noexcept;
+    [[nodiscard]] DriveProblem configure(const PvtSettings& wanted) noexcept;
     /// Reads the status once.
     LinkAnswer probe() noexcept;
     [[nodiscard]] int axes() const noexcept { return axes_; }
@@ -78,7 +66,8 @@ public:
     }
     /// By this status the drive stands where the segment that comes next starts.
     [[nodiscard]] bool at_joint(const PvtStatus& status) const noexcept;
-    /// Has the drive carry out a command, before any more segments. @pre none is pending
+    /// Has the drive carry out a command, before any more segments. `begin` has the number of the next segment that is
+    /// pushed as its argument. @pre none is pending
     void command(PvtCommand command, std::uint32_t argument = 0, const PvtSegment& place = {}) noexcept;
     /// The same, in place of one that is pending: should that one still arrive, the drive does not execute it any more
     /// once it has executed this one.
@@ -129,6 +118,7 @@ private:
     DriveReport report_;
     Order order_;
 
+    std::uint64_t executed_ = 0; // of the session
     std::uint64_t last_exchange_us_ = 0;
     std::uint64_t last_connect_us_ = 0;
     std::uint32_t sent_ = 0; // beyond the last segment that was ever sent
@@ -136,8 +126,8 @@ private:
     std::uint16_t session_ = 0;
     std::uint16_t counter_ = 0;
     std::uint16_t refusals_in_row_ = 0;
-    bool both_in_one_ = true; // function 23
-    bool began_ = false;      // the session
+    bool both_in_one_;   // function 23
+    bool began_ = false; // the session
 };
 
 } // namespace splinefeed::hal::modbus

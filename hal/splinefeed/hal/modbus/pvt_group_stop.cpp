@@ -17,14 +17,15 @@ void PvtGroupStop::request(StopRequest request, std::uint64_t now_us, std::uint6
 // Whether all drives stand at one place of the path: all slowed down from one instant on, or none moved and all are at
 // one joint; at the end of the motion it does not matter how.
 bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
-    std::uint32_t least = drives.front().status().executed;
-    std::uint32_t most = least;
+    const std::uint32_t first = drives.front().status().executed; // numbers wrap
+    std::int32_t least = 0;
+    std::int32_t most = 0;
     bool stands = true;
     bool at_end = true;
     bool in_time = true;
     bool at_rest = true;
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        const std::uint32_t executed = drives[i].status().executed;
+        const auto executed = static_cast<std::int32_t>(drives[i].status().executed - first);
         least = std::min(least, executed);
         most = std::max(most, executed);
         at_end = at_end && drives[i].executed_all();

@@ -23,8 +23,13 @@ std::uint32_t checksum(std::span<const std::uint16_t> block) noexcept {
     return crc32(block.subspan(pvt::block_head_registers), crc32(block.first(checksum_at)));
 }
 
-// Nearest, ties upwards.
-std::int64_t divided(std::int64_t value, std::int64_t divisor) noexcept {
+constexpr std::int64_t largest_48 = (std::int64_t{1} << 47U) - 1;
+
+// Nearest, ties upwards; nothing where it does not fit 48 bits, of either sign.
+std::optional<std::int64_t> divided(std::int64_t value, std::int64_t divisor) noexcept {
+    if (value > largest_48 * divisor || value < -largest_48 * divisor) {
+        return std::nullopt;
+    }
     const std::int64_t shifted = value + divisor / 2;
     const std::int64_t quotient = shifted / divisor;
     return shifted % divisor < 0 ? quotient - 1 : quotient;
@@ -52,21 +57,28 @@ std::uint32_t crc32(std::span<const std::uint16_t> registers, std::uint32_t befo
     return ~rest;
 }
 
-std::int64_t pvt_position(std::int64_t units) noexcept {
+std::optional<std::int64_t> pvt_position(std::int64_t units) noexcept {
     return divided(units, units_per_count >> PvtSegment::position_bits);
 }
 
-void to_pvt(const FeedSegment& segment, std::span<const int> machine_axis, PvtSegment& out) noexcept {
+bool to_pvt(const FeedSegment& segment, std::span<const PvtAxis> axes, PvtSegment& out) noexcept {
     static_assert(units_per_count % (std::int64_t{1} << PvtSegment::velocity_bits) == 0);
-    out.duration_ticks = segment.duration_ticks;
-    out.rest = segment.end_velocity == PerAxis<std::int64_t>{};
-    for (std::size_t k = 0; k < machine_axis.size(); ++k) {
-        if (machine_axis[k] >= 0) {
-            const auto axis = static_cast<std::size_t>(machine_axis[k]);
-            out.end[k] = pvt_position(segment.end[axis]);
-            out.end_velocity[k] = divided(segment.end_velocity[axis], units_per_count >> PvtSegment::velocity_bits);
+    PvtSegment made = out;
+    made.duration_ticks = segment.duration_ticks;
+    made.rest = segment.end_velocity == PerAxis<std::int64_t>{};
+    bool fits = segment.duration_ticks >= pvt::shortest_ticks && segment.duration_ticks <= pvt::longest_ticks;
+    for (std::size_t k = 0; k < axes.size() && fits; ++k) {
+        if (axes[k].machine_axis >= 0) {
+            const auto axis = static_cast<std::size_t>(axes[k].machine_axis);
+            const auto end = pvt_position(segment.end[axis]);
+            const auto velocity = divided(segment.end_velocity[axis], units_per_count >> PvtSegment::velocity_bits);
+            fits = end && velocity;
+            made.end[k] = axes[k].inverted ? -end.value_or(0) : end.value_or(0);
+            made.end_velocity[k] = axes[k].inverted ? -velocity.value_or(0) : velocity.value_or(0);
         }
     }
+    out = fits ? made : out;
+    return fits;
 }
 
 std::size_t encode(const PvtBlock& block, std::span<const PvtSegment> segments, int axes,

@@ -43,6 +43,11 @@ inline constexpr std::uint32_t rest_mark = 0x8000'0000; ///< in the duration of 
     return (most_block_registers - block_head_registers) / segment_registers(axes);
 }
 
+/// Of two sequence numbers, which wrap: less than 2^31 apart.
+[[nodiscard]] constexpr std::uint32_t earlier(std::uint32_t a, std::uint32_t b) noexcept {
+    return static_cast<std::int32_t>(b - a) < 0 ? b : a;
+}
+
 } // namespace pvt
 
 enum class PvtState : std::uint16_t { disabled, standing, running, stopping, held, fault, homing };
@@ -94,12 +99,26 @@ struct PvtSegment {
     PerAxis<std::int64_t> end_velocity{};
 };
 
-/// What of a feed segment goes to a drive whose axis k is the machine's axis `machine_axis[k]`; none (-1) stays where
-/// it is in `out`. Rounded to the nearest; both neighbours of a joint round it alike.
-/// @pre positions within +-2^31 counts, velocities within +-2^23 per segment
-void to_pvt(const FeedSegment& segment, std::span<const int> machine_axis, PvtSegment& out) noexcept;
-/// A position of a feed segment in 1/2^16 count.
-[[nodiscard]] std::int64_t pvt_position(std::int64_t units) noexcept;
+/// An axis of a drive: which of the machine's it moves; -1: none.
+struct PvtAxis {
+    PvtAxis(int axis = -1, bool turned = false) noexcept // NOLINT(google-explicit-constructor): a number is an axis
+        : machine_axis(axis), inverted(turned) {}
+
+    int machine_axis;
+    bool inverted; ///< it counts down where the machine's axis goes up
+
+    friend bool operator==(const PvtAxis&, const PvtAxis&) = default;
+};
+
+/// What a segment can carry: positions below 2^31 counts, velocities below 2^23 counts per segment.
+inline constexpr double pvt_velocity_range = 8388608.0;
+
+/// What of a feed segment goes to the axes of a drive; those without one of the machine's stay where they are in `out`.
+/// Rounded to the nearest; both neighbours of a joint round it alike. False: a position, a velocity or the duration
+/// does not fit its registers, and `out` is as it was.
+[[nodiscard]] bool to_pvt(const FeedSegment& segment, std::span<const PvtAxis> axes, PvtSegment& out) noexcept;
+/// A position of a feed segment in 1/2^16 count, if it fits.
+[[nodiscard]] std::optional<std::int64_t> pvt_position(std::int64_t units) noexcept;
 
 struct PvtStatus {
     std::uint16_t nonce = 0;

@@ -19,7 +19,7 @@ public:
         put16(value >> 16U);
         put16(value);
     }
-    /// Two's complement, the low 48 bits.
+    /// Two's complement. @pre -2^47 <= value < 2^47
     void put48(std::int64_t value) noexcept {
         const auto bits = static_cast<std::uint64_t>(value);
         put16(static_cast<std::uint32_t>((bits >> 32U) & 0xFFFFU));

@@ -7,7 +7,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr int attempts = 5;
+constexpr int looks = 5; // until a drive says that it is enabled
 constexpr std::uint64_t settle_us = 20'000;
 constexpr std::uint64_t homing_begins_us = 200'000;
 constexpr std::uint64_t homing_us = 300'000'000;
@@ -35,17 +35,18 @@ bool TargetDrive::note(const LinkAnswer& answer) noexcept {
 }
 
 bool TargetDrive::write(const RegisterWrite& write) noexcept {
-    return note(link_->write(unit_, write.address, write.registers()));
+    return note(profile_->link.function_write ? link_->write(unit_, write.address, write.registers())
+                                              : link_->write_one(unit_, write.address, write.values[0]));
 }
 
 bool TargetDrive::read(std::uint16_t address, std::span<std::uint16_t> out) noexcept {
     return note(link_->read(unit_, address, out));
 }
 
-// Before anything moves there is time to try again.
+// A connection that broke is made anew, whatever `retries` says.
 template <class Try>
 bool TargetDrive::persist(const Try& attempt) {
-    for (int i = 0; i < attempts; ++i) {
+    for (int i = 0; i <= profile_->link.retries; ++i) {
         if (attempt()) {
             return true;
         }
@@ -157,7 +158,7 @@ bool TargetDrive::stop(StopRequest request) noexcept {
 }
 
 bool TargetDrive::command(DriveCommand command) noexcept {
-    return this->command(command, attempts);
+    return this->command(command, profile_->link.retries);
 }
 
 bool TargetDrive::command(DriveCommand command, int failures) noexcept {
@@ -196,8 +197,8 @@ std::string TargetDrive::enable(const TargetSettings& settings) {
     if (profile_->watchdog_timeout_ms > 0 && !set_role(FieldRole::watchdog, profile_->watchdog_timeout_ms * one)) {
         return trouble("its watchdog cannot be set");
     }
-    if (profile_->following_error_window_counts > 0 &&
-        !set_role(FieldRole::following_error_window, profile_->following_error_window_counts * one)) {
+    if (profile_->following_error_window_counts &&
+        !set_role(FieldRole::following_error_window, *profile_->following_error_window_counts * one)) {
         return trouble("its window for following errors cannot be set");
     }
     if (reading_.state == DriveState::fault && !command(DriveCommand::fault_reset)) {
@@ -206,7 +207,7 @@ std::string TargetDrive::enable(const TargetSettings& settings) {
     if (!command(DriveCommand::enable)) {
         return trouble("it cannot be enabled");
     }
-    for (int i = 0; i < attempts; ++i) {
+    for (int i = 0; i < looks; ++i) {
         link_->clock().sleep_us(settle_us);
         if (read_status() && reading_.state == DriveState::enabled) {
             std::string what = settings.home ? home(settings) : std::string();
@@ -272,10 +273,18 @@ void TargetDrive::aim(const SegmentTrack& track, const MotionInstant& instant) n
     aimed_ = block_ ? block_->block(track, instant) : cyclic_->frame(track, instant);
 }
 
-// Once more where it was lost: what did not change is not told again.
+// Again where it was lost: what did not change is not told again.
 bool TargetDrive::send() noexcept {
     counts_.segments += aimed_.empty() ? 0U : 1U;
-    return std::all_of(aimed_.begin(), aimed_.end(), [this](const RegisterWrite& w) { return write(w) || write(w); });
+    const auto told = [this](const RegisterWrite& frame) {
+        for (int i = 0; i <= profile_->link.retries; ++i) {
+            if (write(frame)) {
+                return true;
+            }
+        }
+        return false;
+    };
+    return std::all_of(aimed_.begin(), aimed_.end(), told);
 }
 
 void TargetDrive::stood(const SegmentTrack& track, const MotionInstant& instant) noexcept {

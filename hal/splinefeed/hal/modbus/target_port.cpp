@@ -19,11 +19,14 @@ constexpr std::uint64_t recent_us = 50'000;
 constexpr std::uint64_t keep_us = 100'000;     // of the track: threads look at it a little later
 constexpr std::uint64_t arrive_us = 5'000'000; // for the drives to say that they have arrived
 constexpr std::uint64_t settle_us = 50'000;    // of their shafts
-constexpr double ramp_of_path = 4.0;           // BlockSettings::acceleration
 constexpr double us_per_s = 1e6;
 constexpr std::uint64_t look_every_us = 1000;
 constexpr double stand_counts = 2.0; // from where it was told to stand, when it does
 constexpr unsigned stop_turns = 10;  // of the buses, until what a drive was told and says is known
+
+constexpr const char* beyond_register =
+    "the program goes beyond what the register of its target position holds, or beyond 2147483647 counts; find its "
+    "reference nearer to the program, lower steps_per_mm, or look at width and clamp in its profile";
 
 } // namespace
 
@@ -39,10 +42,8 @@ TargetPort::TargetPort(const std::vector<TargetWiring>& wiring, const TargetPort
             // The wire has one timing: that of the slowest drive on it.
             LinkTiming timing = settings.timing;
             for (const TargetWiring& other : wiring) {
-                const LinkSettings& link = other.profile->link;
                 if (other.link.same_wire(drive.link)) {
-                    timing.answer_us = std::max(timing.answer_us, link.response_timeout_us + link.turnaround_us);
-                    timing.before_us = std::max(timing.before_us, link.silence_before_us + link.silence_after_us);
+                    timing = timing.slower(timing_of(other.profile->link));
                 }
             }
             buses_.push_back(std::make_unique<TargetBus>(settings.make_line(drive.link, timing, *settings.clock)));
@@ -82,19 +83,20 @@ std::string TargetPort::prepare(const FeedSegment& first) {
     for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
         Place& place = places_[trouble_with_];
         TargetDrive& drive = place.bus->drive(place.index);
-        const double ramp = place.wiring.ramp_counts_s2 > 0.0 ? place.wiring.ramp_counts_s2
-                                                              : ramp_of_path * place.wiring.acceleration_counts_s2;
         const TargetSettings settings{.axis = place.wiring.axis,
                                       .period_us = period_us_,
                                       .acceleration_counts_s2 = place.wiring.acceleration_counts_s2,
                                       .home = settings_.home,
                                       .interrupted = settings_.interrupted,
-                                      .ramp_counts_s2 = ramp};
+                                      .ramp_counts_s2 = place.wiring.ramp_counts_s2};
         if (std::string what = drive.enable(settings); !what.empty()) {
             return what;
         }
         const auto axis = static_cast<std::size_t>(place.wiring.axis);
-        place.offset_units = drive.reading().position_q16 * (units_per_count >> physical_bits) - first.start[axis];
+        place.frame = AxisFrame(place.wiring.inverted, place.wiring.profile->field_of(FieldRole::target_position));
+        if (!place.frame.align(drive.reading().position_q16, first.start[axis])) {
+            return beyond_register;
+        }
     }
     for (const Place& place : places_) {
         motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(place.wiring, period_us_));
@@ -143,8 +145,7 @@ const LinkCounts& TargetPort::counts(std::size_t drive) const noexcept {
 }
 
 double TargetPort::position_counts(std::size_t drive) const noexcept {
-    const double offset = static_cast<double>(places_[drive].offset_units) / static_cast<double>(units_per_count);
-    return static_cast<double>(report(drive).reading.position_q16) / (1 << physical_bits) - offset;
+    return places_[drive].frame.axis_counts(report(drive).reading.position_q16);
 }
 
 bool TargetPort::heard(std::size_t drive) const noexcept {
@@ -215,10 +216,24 @@ bool TargetPort::do_submit(const FeedSegment& segment) noexcept {
         return false;
     }
     FeedSegment moved = segment;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const Place& place = places_[i];
+        const auto axis = static_cast<std::size_t>(place.wiring.axis);
+        const auto start = place.frame.position(segment.start[axis]);
+        const auto end = place.frame.position(segment.end[axis]);
+        if (!start || !end) { // nobody is told any of it
+            trouble_ = beyond_register;
+            trouble_with_ = i;
+            begin_stop(StopRequest::hold); // on the path; nothing beyond is taken
+            return false;
+        }
+        moved.start[axis] = *start;
+        moved.end[axis] = *end;
+        moved.start_velocity[axis] = place.frame.velocity(segment.start_velocity[axis]);
+        moved.end_velocity[axis] = place.frame.velocity(segment.end_velocity[axis]);
+    }
     for (Place& place : places_) {
         const auto axis = static_cast<std::size_t>(place.wiring.axis);
-        moved.start[axis] += place.offset_units;
-        moved.end[axis] += place.offset_units;
         const auto way =
             static_cast<double>(std::max(std::abs(segment.start_velocity[axis]), std::abs(segment.end_velocity[axis])));
         place.speed_counts_s = std::max(place.speed_counts_s, way / static_cast<double>(units_per_count) *

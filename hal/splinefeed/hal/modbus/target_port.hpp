@@ -3,6 +3,7 @@
 // of them along one motion clock.
 #pragma once
 
+#include "splinefeed/hal/modbus/axis_frame.hpp"
 #include "splinefeed/hal/modbus/target_stop.hpp"
 #include "splinefeed/hal/modbus/target_watch.hpp"
 #include "splinefeed/hal/modbus/target_wiring.hpp"
@@ -49,7 +50,7 @@ public:
     /// The longest that a stop takes, whatever answers. [us] After prepare().
     [[nodiscard]] std::uint64_t longest_stop_us() const noexcept;
 
-    /// Why it is in fault; the drive that it is about.
+    /// Why it is in fault, or did not take a segment; the drive that it is about.
     [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
     [[nodiscard]] std::size_t trouble_with() const noexcept { return trouble_with_; }
     [[nodiscard]] std::size_t drives() const noexcept { return places_.size(); }
@@ -78,8 +79,8 @@ private:
     struct Place {
         TargetWiring wiring;
         TargetBus* bus = nullptr;
-        std::size_t index = 0;         // on the bus
-        std::int64_t offset_units = 0; // the drive's position less the machine's
+        std::size_t index = 0; // on the bus
+        AxisFrame frame;
         double deviation_counts = 0.0; // between targets alone
         double speed_counts_s = 0.0;   // the largest
         TargetWatch watch;

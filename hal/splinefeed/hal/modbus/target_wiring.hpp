@@ -13,7 +13,10 @@ struct TargetWiring {
     const DriveProfile* profile = nullptr; ///< must outlive the port
     int axis = 0;                          ///< of the machine
     double acceleration_counts_s2 = 1e6;   ///< of that axis, as planned
-    double ramp_counts_s2 = 0.0;           ///< what the drive is set to, where its profile has no register for it
+    /// Of a drive that is told blocks: what its ramps are set to, or are where its profile has no register for them.
+    /// BlockSettings::acceleration
+    double ramp_counts_s2 = 4e6;
+    bool inverted = false; ///< the drive counts down where the axis goes up
 };
 
 /// How far ahead a target is: a block's at the next one, a cyclic one at the end of the drive's own period.
