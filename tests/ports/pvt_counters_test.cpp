@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counters of the map splinefeed-pvt that wrap on the way: sequence numbers of 32 bits, command counters and nonces of 16.
+// Counters of the map splinefeed-pvt that wrap on the way: sequence numbers of 32 bits, command counters and nonces
+// of 16.
 #include "ports/pvt_plant.hpp"
 #include "support/catch.hpp"
 

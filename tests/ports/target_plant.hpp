@@ -17,12 +17,16 @@ struct TargetPlantParameters {
     bool one_wire = false;
     double acceleration_counts_s2 = 2e6; ///< of the first axis, as planned
     std::uint64_t seed = 1;
+    std::function<void(splinefeed::hal::modbus::DriveProfile&)> change{}; ///< of the profile, before drives are made
 };
 
 class TargetPlant : public Plant {
 public:
     explicit TargetPlant(const TargetPlantParameters& parameters)
         : profile(splinefeed::host::find_profile(parameters.profile)) {
+        if (parameters.change) {
+            parameters.change(profile);
+        }
         for (int i = 0; i < parameters.drives; ++i) {
             if (i == 0 || !parameters.one_wire) {
                 add_wire().random.seed(parameters.seed + static_cast<unsigned>(i));

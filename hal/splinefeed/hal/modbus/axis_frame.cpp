@@ -48,6 +48,19 @@ std::optional<std::int64_t> AxisFrame::position(std::int64_t of_axis) const noex
     return holds ? there : std::nullopt;
 }
 
+bool AxisFrame::apply(FeedSegment& segment, std::size_t axis) const noexcept {
+    const auto start = position(segment.start[axis]);
+    const auto end = position(segment.end[axis]);
+    if (!start || !end) {
+        return false;
+    }
+    segment.start[axis] = *start;
+    segment.end[axis] = *end;
+    segment.start_velocity[axis] = velocity(segment.start_velocity[axis]);
+    segment.end_velocity[axis] = velocity(segment.end_velocity[axis]);
+    return true;
+}
+
 double AxisFrame::axis_counts(std::int64_t drive_q16) const noexcept {
     const double counts = static_cast<double>(drive_q16) / (1 << physical_bits) -
                           static_cast<double>(offset_) / static_cast<double>(units_per_count);

@@ -13,6 +13,11 @@ namespace splinefeed::hal::modbus {
 /// not hold is told.
 class AxisFrame {
 public:
+    /// What to tell of it.
+    static constexpr const char* out_of_range =
+        "the program goes beyond what the register of its target position holds, or beyond 2147483647 counts; find its "
+        "reference nearer to the program, lower steps_per_mm, or look at width and clamp in its profile";
+
     /// @param inverted  the drive counts down where the axis goes up
     /// @param target  register of the drive's target position, which must outlive it; nullptr: any position
     explicit AxisFrame(bool inverted = false, const RegisterField* target = nullptr) noexcept
@@ -23,6 +28,8 @@ public:
     /// A position of the axis as the drive's; nothing: out of range.
     [[nodiscard]] std::optional<std::int64_t> position(std::int64_t of_axis) const noexcept;
     [[nodiscard]] std::int64_t velocity(std::int64_t of_axis) const noexcept { return inverted_ ? -of_axis : of_axis; }
+    /// That axis of a segment as the drive's. False: out of range, and nothing was changed.
+    [[nodiscard]] bool apply(FeedSegment& segment, std::size_t axis) const noexcept;
     /// Of the axis, where the drive is. [counts]
     [[nodiscard]] double axis_counts(std::int64_t drive_q16) const noexcept;
 

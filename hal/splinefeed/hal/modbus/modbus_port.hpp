@@ -118,9 +118,9 @@ private:
     ModbusPhase phase_ = ModbusPhase::filling;
     std::uint64_t entered_us_ = 0; // the phase
     std::uint64_t now_us_ = 0;
-    std::uint64_t started_us_ = 0; // all run since then
-    std::uint64_t executed_ = 0;      // by all drives
-    std::uint32_t executed_to_ = 0;   // the number of the next one
+    std::uint64_t started_us_ = 0;  // all run since then
+    std::uint64_t executed_ = 0;    // by all drives
+    std::uint32_t executed_to_ = 0; // the number of the next one
     std::uint32_t buffer_segments_ = 0;
     std::uint32_t stop_at_ = 0;
     std::uint32_t resumes_ = 0;

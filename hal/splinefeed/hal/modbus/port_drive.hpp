@@ -69,9 +69,7 @@ public:
     /// The last of them is no longer of interest.
     void forget() noexcept { told_ = false; }
     /// `place` and what goes before it, on the way to the start.
-    void command(PvtCommand command, std::uint32_t argument) noexcept {
-        client_->command(command, argument, last_);
-    }
+    void command(PvtCommand command, std::uint32_t argument) noexcept { client_->command(command, argument, last_); }
     [[nodiscard]] bool pending() const noexcept { return seen_.command_pending; }
     /// What tell() told was refused.
     [[nodiscard]] bool refused() const noexcept { return told_ && seen_.command_refused; }

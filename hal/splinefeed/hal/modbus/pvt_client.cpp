@@ -317,7 +317,8 @@ void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<
 // Whether what the drive says can be.
 DriveProblem PvtClient::judge(const PvtStatus& status) const noexcept {
     if (status.boot != report_.identity.boot) {
-        return status.boot == swapped_words(report_.identity.boot) ? DriveProblem::words_swapped : DriveProblem::power_cycled;
+        return status.boot == swapped_words(report_.identity.boot) ? DriveProblem::words_swapped
+                                                                   : DriveProblem::power_cycled;
     }
     const auto sent = static_cast<std::int32_t>(sent_ - head_.load(std::memory_order_relaxed));
     const auto executed = static_cast<std::int32_t>(status.executed - head_.load(std::memory_order_relaxed));

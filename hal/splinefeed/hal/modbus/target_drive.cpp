@@ -18,6 +18,9 @@ TargetDrive::TargetDrive(const DriveProfile& profile, ModbusLine& link, int unit
     : profile_(&profile), link_(&link), unit_(unit), status_(profile) {}
 
 std::string TargetDrive::trouble(const char* what) const {
+    if (!trouble_elsewhere_.empty()) {
+        return trouble_elsewhere_;
+    }
     std::string text = std::string(what) + ": " + describe(answer_.fault);
     if (answer_.fault == LinkFault::exception) {
         text += std::string(" with exception ") + exception_name(answer_.exception);
@@ -157,6 +160,17 @@ bool TargetDrive::stop(StopRequest request) noexcept {
     return false;
 }
 
+// False: something is wrong with another drive.
+bool TargetDrive::wait_until(std::uint64_t instant_us) noexcept {
+    Clock& clock = link_->clock();
+    while (meanwhile_ && trouble_elsewhere_.empty() && clock.now_us() < instant_us) {
+        clock.sleep_until_us(std::min(instant_us, clock.now_us() + settle_us));
+        trouble_elsewhere_ = meanwhile_();
+    }
+    clock.sleep_until_us(instant_us);
+    return !meanwhile_ || trouble_elsewhere_.empty();
+}
+
 bool TargetDrive::command(DriveCommand command) noexcept {
     return this->command(command, profile_->link.retries);
 }
@@ -168,7 +182,9 @@ bool TargetDrive::command(DriveCommand command, int failures) noexcept {
     }
     int failed = 0;
     while (!sequence.finished()) {
-        link_->clock().sleep_until_us(sequence.due_us());
+        if (!wait_until(sequence.due_us())) {
+            return false;
+        }
         if (write(sequence.next())) {
             sequence.told(link_->clock().now_us());
         } else if (++failed > failures) {
@@ -178,7 +194,20 @@ bool TargetDrive::command(DriveCommand command, int failures) noexcept {
     return true;
 }
 
+template <class Work>
+std::string TargetDrive::attended(const TargetSettings& settings, const Work& work) {
+    meanwhile_ = settings.meanwhile;
+    trouble_elsewhere_.clear();
+    std::string what = work();
+    meanwhile_ = nullptr;
+    return what;
+}
+
 std::string TargetDrive::enable(const TargetSettings& settings) {
+    return attended(settings, [&] { return switch_on(settings); });
+}
+
+std::string TargetDrive::switch_on(const TargetSettings& settings) {
     if (profile_->stream == StreamWay::blocks) {
         block_.emplace(*profile_, BlockSettings{.axis = settings.axis,
                                                 .period_us = settings.period_us,
@@ -208,13 +237,24 @@ std::string TargetDrive::enable(const TargetSettings& settings) {
         return trouble("it cannot be enabled");
     }
     for (int i = 0; i < looks; ++i) {
-        link_->clock().sleep_us(settle_us);
+        if (!wait_until(link_->clock().now_us() + settle_us)) {
+            return trouble("");
+        }
         if (read_status() && reading_.state == DriveState::enabled) {
-            std::string what = settings.home ? home(settings) : std::string();
-            return what.empty() ? follow() : what;
+            return {};
         }
     }
     return not_enabled();
+}
+
+std::string TargetDrive::begin(const TargetSettings& settings) {
+    return attended(settings, [&] {
+        std::string what = settings.home ? home(settings) : std::string();
+        if (!what.empty()) {
+            return what;
+        }
+        return persist([&] { return read_status(); }) ? follow() : trouble("its status cannot be read");
+    });
 }
 
 std::string TargetDrive::not_enabled() const {
@@ -243,7 +283,11 @@ std::string TargetDrive::home(const TargetSettings& settings) {
     }
     const std::uint64_t begun = link_->clock().now_us();
     for (;;) {
-        link_->clock().sleep_us(settle_us);
+        if (!wait_until(link_->clock().now_us() + settle_us)) {
+            meanwhile_ = nullptr; // the others have been told
+            static_cast<void>(command(DriveCommand::quick_stop));
+            return trouble("");
+        }
         if (settings.interrupted != nullptr && settings.interrupted()) {
             static_cast<void>(command(DriveCommand::quick_stop));
             return "interrupted while it was homed; it was stopped";

@@ -10,6 +10,7 @@
 #include "splinefeed/hal/modbus/status_frames.hpp"
 #include "splinefeed/hal/stop_sequence.hpp"
 
+#include <functional>
 #include <string>
 
 namespace splinefeed::hal::modbus {
@@ -22,6 +23,9 @@ struct TargetSettings {
     bool home = false;                   ///< it finds its reference first
     bool (*interrupted)() = nullptr;     ///< asked meanwhile: a quick stop
     double ramp_counts_s2 = 4e6;         ///< BlockSettings::acceleration
+    /// Asked again and again while this drive is waited for: other drives are heard meanwhile, so that their watchdogs
+    /// do not run out. What it returns, if not empty, ends the wait.
+    std::function<std::string()> meanwhile{};
 };
 
 /// Used by one thread at a time. It allocates when it is made and in open(), and never again.
@@ -32,9 +36,10 @@ public:
 
     /// Connects, checks the identity, writes the init list, reads the status. Empty, or what is wrong.
     [[nodiscard]] std::string open();
-    /// Mode, windows, fault reset, enable, and homing if so set: blocks for some seconds, or until it is homed. Empty,
-    /// or what is wrong.
+    /// Mode, windows, fault reset, enable: blocks for some seconds. Empty, or what is wrong.
     [[nodiscard]] std::string enable(const TargetSettings& settings);
+    /// Then: it finds its reference, if so set, and is told to stand where it is. Blocks until it does.
+    [[nodiscard]] std::string begin(const TargetSettings& settings);
 
     /// Computes the frames that arrive at that instant.
     void aim(const SegmentTrack& track, const MotionInstant& instant) noexcept;
@@ -71,6 +76,10 @@ public:
 private:
     [[nodiscard]] TargetFrames& frames() noexcept { return block_ ? block_->frames() : cyclic_->frames(); }
     bool command(DriveCommand command, int failures) noexcept;
+    template <class Work>
+    [[nodiscard]] std::string attended(const TargetSettings& settings, const Work& work);
+    [[nodiscard]] std::string switch_on(const TargetSettings& settings);
+    [[nodiscard]] bool wait_until(std::uint64_t instant_us) noexcept;
     bool write(const RegisterWrite& write) noexcept;
     bool read(std::uint16_t address, std::span<std::uint16_t> out) noexcept;
     bool note(const LinkAnswer& answer) noexcept;
@@ -95,6 +104,8 @@ private:
     DriveReading reading_;
     LinkAnswer answer_;
     LinkCounts counts_;
+    std::function<std::string()> meanwhile_; // TargetSettings
+    std::string trouble_elsewhere_;          // that it told
     std::uint64_t heard_us_ = 0;
     std::size_t asked_ = 0;                                         // frames of the status so far
     std::array<std::uint64_t, StatusFrames::most_reads> said_us_{}; // each of them

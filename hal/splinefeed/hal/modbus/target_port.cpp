@@ -5,6 +5,8 @@
 // path. The one that is away stops by itself, off it.
 #include "splinefeed/hal/modbus/target_port.hpp"
 
+#include "splinefeed/hal/modbus/target_company.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,10 +25,6 @@ constexpr double us_per_s = 1e6;
 constexpr std::uint64_t look_every_us = 1000;
 constexpr double stand_counts = 2.0; // from where it was told to stand, when it does
 constexpr unsigned stop_turns = 10;  // of the buses, until what a drive was told and says is known
-
-constexpr const char* beyond_register =
-    "the program goes beyond what the register of its target position holds, or beyond 2147483647 counts; find its "
-    "reference nearer to the program, lower steps_per_mm, or look at width and clamp in its profile";
 
 } // namespace
 
@@ -54,7 +52,8 @@ TargetPort::TargetPort(const std::vector<TargetWiring>& wiring, const TargetPort
         place.bus = bus->get();
         place.index = place.bus->drives();
         static_cast<void>(place.bus->add(*drive.profile, drive.link.unit));
-        places_.push_back(place);
+        place.frame = AxisFrame(drive.inverted, drive.profile->field_of(FieldRole::target_position));
+        places_.push_back(std::move(place));
     }
 }
 
@@ -80,22 +79,34 @@ LinkAnswer TargetPort::probe(std::size_t drive) noexcept {
 
 std::string TargetPort::prepare(const FeedSegment& first) {
     segment_us_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(first.duration_ticks / ticks_per_us));
-    for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
-        Place& place = places_[trouble_with_];
-        TargetDrive& drive = place.bus->drive(place.index);
-        const TargetSettings settings{.axis = place.wiring.axis,
-                                      .period_us = period_us_,
-                                      .acceleration_counts_s2 = place.wiring.acceleration_counts_s2,
-                                      .home = settings_.home,
-                                      .interrupted = settings_.interrupted,
-                                      .ramp_counts_s2 = place.wiring.ramp_counts_s2};
-        if (std::string what = drive.enable(settings); !what.empty()) {
-            return what;
-        }
-        const auto axis = static_cast<std::size_t>(place.wiring.axis);
-        place.frame = AxisFrame(place.wiring.inverted, place.wiring.profile->field_of(FieldRole::target_position));
-        if (!place.frame.align(drive.reading().position_q16, first.start[axis])) {
-            return beyond_register;
+    TargetCompany company(settings_.away_us);
+    for (const bool enabled : {false, true}) { // all are enabled before the first one is homed
+        for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
+            Place& place = places_[trouble_with_];
+            TargetDrive& drive = place.bus->drive(place.index);
+            bool elsewhere = false;
+            const auto attend = [&] {
+                std::string what = company.attend(drive);
+                elsewhere = elsewhere || !what.empty();
+                return what;
+            };
+            const TargetSettings settings{.axis = place.wiring.axis,
+                                          .period_us = period_us_,
+                                          .acceleration_counts_s2 = place.wiring.acceleration_counts_s2,
+                                          .home = settings_.home,
+                                          .interrupted = settings_.interrupted,
+                                          .ramp_counts_s2 = place.wiring.ramp_counts_s2,
+                                          .meanwhile = attend};
+            if (std::string what = enabled ? drive.begin(settings) : drive.enable(settings); !what.empty()) {
+                trouble_with_ = elsewhere ? company.troubled() : trouble_with_;
+                return what;
+            }
+            const std::int64_t start = first.start[static_cast<std::size_t>(place.wiring.axis)];
+            if (!enabled) {
+                company.add(drive);
+            } else if (!place.frame.align(drive.reading().position_q16, start)) {
+                return AxisFrame::out_of_range;
+            }
         }
     }
     for (const Place& place : places_) {
@@ -155,18 +166,9 @@ bool TargetPort::heard(std::size_t drive) const noexcept {
 
 double TargetPort::deviation_counts(std::size_t drive) const noexcept {
     const Place& place = places_[drive];
-    const double late_s = static_cast<double>(report(drive).late_us) / us_per_s;
-    const double period_s = period_us_ / us_per_s;
-    // Speed and ramp stay as they were for as long.
-    double late = place.wiring.acceleration_counts_s2 * late_s * (period_s + late_s);
-    if (place.wiring.profile->stream == StreamWay::cyclic) { // and beyond its own period it stands
-        late +=
-            place.speed_counts_s * std::max(0.0, late_s - (horizon_us(place.wiring, period_us_) / us_per_s - period_s));
-    }
-    // Then all stop: what the path goes on meanwhile.
-    const double stopped_s = 2.0 * period_s + (TargetBus::allowed_late_us + settings_.reserve_us) / us_per_s;
-    late = std::min(late, place.speed_counts_s * stopped_s);
-    return place.deviation_counts + rounding_counts(place.wiring, period_us_) + late;
+    return place.deviation_counts + rounding_counts(place.wiring, period_us_) +
+           late_counts(place.wiring, period_us_, report(drive).late_us, place.speed_counts_s,
+                       TargetBus::allowed_late_us + settings_.reserve_us);
 }
 
 double TargetPort::deviation_bound_counts(std::size_t drive) const noexcept {
@@ -217,20 +219,13 @@ bool TargetPort::do_submit(const FeedSegment& segment) noexcept {
     }
     FeedSegment moved = segment;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        const Place& place = places_[i];
-        const auto axis = static_cast<std::size_t>(place.wiring.axis);
-        const auto start = place.frame.position(segment.start[axis]);
-        const auto end = place.frame.position(segment.end[axis]);
-        if (!start || !end) { // nobody is told any of it
-            trouble_ = beyond_register;
+        if (!places_[i].frame.apply(moved,
+                                    static_cast<std::size_t>(places_[i].wiring.axis))) { // nobody is told any of it
+            trouble_ = AxisFrame::out_of_range;
             trouble_with_ = i;
-            begin_stop(StopRequest::hold); // on the path; nothing beyond is taken
+            begin_stop(StopRequest::hold); // on the path
             return false;
         }
-        moved.start[axis] = *start;
-        moved.end[axis] = *end;
-        moved.start_velocity[axis] = place.frame.velocity(segment.start_velocity[axis]);
-        moved.end_velocity[axis] = place.frame.velocity(segment.end_velocity[axis]);
     }
     for (Place& place : places_) {
         const auto axis = static_cast<std::size_t>(place.wiring.axis);

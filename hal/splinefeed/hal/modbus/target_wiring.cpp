@@ -30,4 +30,17 @@ double rounding_counts(const TargetWiring& wiring, std::uint32_t period_us) noex
     return 0.5 * (unit(FieldRole::target_position) * overlap + speeds);
 }
 
+double late_counts(const TargetWiring& wiring, std::uint32_t period_us, std::uint64_t late_us, double speed_counts_s,
+                   std::uint32_t stop_us) noexcept {
+    const double late_s = static_cast<double>(late_us) / us_per_s;
+    const double period_s = period_us / us_per_s;
+    // Speed and ramp stay as they were for as long.
+    double late = wiring.acceleration_counts_s2 * late_s * (period_s + late_s);
+    if (wiring.profile->stream == StreamWay::cyclic) { // and beyond its own period it stands
+        late += speed_counts_s * std::max(0.0, late_s - (horizon_us(wiring, period_us) / us_per_s - period_s));
+    }
+    // Then all stop: what the path goes on meanwhile.
+    return std::min(late, speed_counts_s * (2.0 * period_s + stop_us / us_per_s));
+}
+
 } // namespace splinefeed::hal::modbus

@@ -26,4 +26,8 @@ struct TargetWiring {
 /// speed's makes in a period. [counts]
 [[nodiscard]] double rounding_counts(const TargetWiring& wiring, std::uint32_t period_us) noexcept;
 
+/// How far off the path a target that comes late lets it get, at that speed, where all stop within stop_us. [counts]
+[[nodiscard]] double late_counts(const TargetWiring& wiring, std::uint32_t period_us, std::uint64_t late_us,
+                                 double speed_counts_s, std::uint32_t stop_us) noexcept;
+
 } // namespace splinefeed::hal::modbus
