@@ -20,21 +20,6 @@ constexpr S finest = S{};
 template <>
 constexpr float finest<float> = 16.0F;
 
-// By how much a program may begin beside where the machine stands.
-constexpr std::int64_t beside_raw = std::int64_t{1} << (Position::fraction_bits - 26);
-
-/// Hull of an axis's control points.
-template <Scalar S>
-PositionRange hull(const PerDegree<S>& control, int degree, Position origin, int unit_log2) noexcept {
-    S least = control[0];
-    S most = least;
-    for (unsigned i = 1; i <= static_cast<unsigned>(degree); ++i) {
-        least = smaller(least, control[i]);
-        most = larger(most, control[i]);
-    }
-    return {displaced(origin, least, unit_log2), displaced(origin, most, unit_log2)};
-}
-
 } // namespace
 
 template <Scalar S>
@@ -286,69 +271,11 @@ void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     after_cusp_ = true;
 }
 
-// Whether the direction jumps between two segments; also where one of them starts or ends with a vanishing tangent.
-template <Scalar S>
-bool ArcLength<S>::jumps(const CurveSegment<S>& before, const CurveSegment<S>& after) const noexcept {
-    const int axes = before.axes;
-    const auto m = static_cast<unsigned>(before.degree);
-    PerAxis<S> in{};
-    PerAxis<S> out{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
-        in[k] = before.control[k][m] - before.control[k][m - 1];
-        out[k] = after.control[k][1] - after.control[k][0];
-    }
-    const S length_in = norm(in.data(), axes);
-    const S length_out = norm(out.data(), axes);
-    if (length_in < negligible_units<S> || length_out < negligible_units<S>) {
-        return true;
-    }
-    S jump{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
-        jump = larger(jump, absolute(out[k] / length_out - in[k] / length_in));
-    }
-    return jump > refinement_.direction_jump;
-}
-
-// Whether the machine can be where a segment leads: its counters reach all of it, and the first one begins where it
-// stands.
-template <Scalar S>
-Status ArcLength<S>::check(const CurveSegment<S>& segment) const noexcept {
-    if (refinement_.axes != 0 && segment.axes != refinement_.axes) {
-        return Error::axes_differ;
-    }
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
-        const auto [low, high] = hull(segment.control[k], segment.degree, segment.origin[k], segment.unit_log2);
-        if (low < refinement_.countable[k].low || high > refinement_.countable[k].high) {
-            return Error::counts_out_of_range;
-        }
-        if (from_ != nullptr) {
-            const Position begins = displaced(segment.origin[k], segment.control[k][0], segment.unit_log2);
-            const std::int64_t beside = begins.raw - (*from_)[k].raw;
-            if (beside > beside_raw || beside < -beside_raw) {
-                return Error::start_elsewhere;
-            }
-        }
-    }
-    return {};
-}
-
-// The source's next segment. The path ends before one that does not fit.
-template <Scalar S>
-Pull ArcLength<S>::fetch(CurveSegment<S>& out) noexcept {
-    const Pull pull = status_.ok() ? source_->next(out) : Pull::finished;
-    if (pull != Pull::item) {
-        return pull;
-    }
-    status_ = check(out);
-    from_ = nullptr;
-    return status_.ok() ? Pull::item : Pull::finished;
-}
-
 // Makes the next segment current. It waits for the segment after it, because a stop at its end shapes its cells.
 template <Scalar S>
 Pull ArcLength<S>::load() noexcept {
     if (!has_current_) {
-        const Pull pull = has_ahead_ ? Pull::item : fetch(slots_[current_]);
+        const Pull pull = has_ahead_ ? Pull::item : source_.next(slots_[current_]);
         if (pull != Pull::item) {
             return pull;
         }
@@ -356,12 +283,12 @@ Pull ArcLength<S>::load() noexcept {
         has_ahead_ = false;
     }
     CurveSegment<S>& ahead = slots_[1 - current_];
-    const Pull pull = fetch(ahead);
+    const Pull pull = source_.next(ahead);
     if (pull == Pull::starved) {
         return Pull::starved;
     }
     has_ahead_ = pull == Pull::item;
-    stop_after_ = current().stop_at_end || !has_ahead_ || jumps(current(), ahead);
+    stop_after_ = current().stop_at_end || !has_ahead_ || direction_jumps(current(), ahead, refinement_.direction_jump);
     const S block = current().block_feed_mm_s();
     const S feed = block > S{} ? smaller(block, refinement_.max_feed_mm_s) : refinement_.max_feed_mm_s;
     // Below 2e-8 mm Fixed has no digits for a length; a cell of 2 nm still resolves.

@@ -4,44 +4,9 @@
 
 #include "splinefeed/s1_curve/curve_source.hpp"
 #include "splinefeed/s2_arc_length/cell.hpp"
-#include "splinefeed/s2_arc_length/piece.hpp"
-
-#include <limits>
+#include "splinefeed/s2_arc_length/checked_source.hpp"
 
 namespace splinefeed {
-
-/// Where an axis may be.
-struct PositionRange {
-    Position low{std::numeric_limits<std::int64_t>::min()};
-    Position high{std::numeric_limits<std::int64_t>::max()};
-};
-
-/// How fine the cells are. Thresholds are odd numbers on purpose: no exact input sits on one, so that all scalars
-/// decide alike and their traces stay comparable.
-template <Scalar S>
-struct Refinement {
-    S longest_mm{};        ///< longest cell (the resolution of the parameter w in Fixed and float)
-    S max_feed_mm_s{};     ///< feed of segments that program none
-    S grade_per_feed_sq{}; ///< cells next to a joint are at most feed^2 times this: a fraction of the braking distance
-    int finest_grade_log2 = 0;          ///< next to a stop cells are 2^-this of that: jerk-limited motion starts slowly
-    int shape_log2 = 0;                 ///< unit of AxisShape: 2^-shape_log2
-    int axes = 0;                       ///< that a segment must have; 0: any number
-    PerAxis<PositionRange> countable{}; ///< where the control points of a segment must be
-    PerAxis<PositionRange> open{};      ///< where an axis may go at full speed; near the ends of its travel it may not
-    S end_piece_mm{};                   ///< longest cell across an end of open travel; 0: no axis has one
-    PerAxis<S> jump_mm_s{};             ///< largest jump of an axis's speed that rounding may cause at a joint of cells
-    S direction_jump{};                 ///< a larger change of dq/ds at a joint is a corner, and a stop
-    S turn = literal<S>(0.0613);        ///< largest change of direction within a cell [rad]
-    S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
-    S curvature_bend = literal<S>(0.0037);   ///< the same for the second difference of curvature
-    S metric_ratio = literal<S>(1.2173);     ///< largest ratio of two |dr/dw| within a cell
-    /// largest |d2q/ds2| of an axis [1/mm]: what bends more is passed as a cusp
-    S sharpest = from_integer<S>(PieceMeasure<S>::sharpest);
-    /// largest relative difference of a 4th and a 6th order length; float cannot tell less
-    S metric_error = literal<S>(std::same_as<S, float> ? 1.13e-5 : 1.13e-6);
-    /// largest relative error of the inverse's slope in the middle of a cell: a bound of the feed fluctuation
-    S inverse_error = literal<S>(std::same_as<S, float> ? 3.1e-5 : 3.1e-6);
-};
 
 /// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its
 /// direction and curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the
@@ -53,15 +18,13 @@ class ArcLength {
 public:
     /// `source` and `refinement` must outlive it.
     ArcLength(CurveSource<S>& source, const Refinement<S>& refinement) noexcept
-        : source_(&source), refinement_(refinement) {}
+        : source_(source, refinement), refinement_(refinement) {}
     ArcLength(CurveSource<S>& source, const Refinement<S>&& refinement) = delete;
 
     /// Forgets the source before, and begins with this one. @param from  where it must begin, to 2^-26 mm (a closed
     /// curve meets its waypoints to rounding only); must outlive the call that writes the first cell. null: anywhere
     void start(CurveSource<S>& source, const PerAxis<Position>* from = nullptr) noexcept {
-        source_ = &source;
-        from_ = from;
-        status_ = {};
+        source_.start(source, from);
         travelled_ = {};
         segments_ = 0;
         depth_ = 0;
@@ -72,7 +35,7 @@ public:
     /// status().
     Pull next(Cell<S>& out) noexcept;
     /// Why the path ended before the end of its source: axes_differ, counts_out_of_range or start_elsewhere.
-    [[nodiscard]] Status status() const noexcept { return status_; }
+    [[nodiscard]] Status status() const noexcept { return source_.status(); }
 
     /// Length of all cells so far, in units of 2^-40 mm.
     [[nodiscard]] Wide travelled() const noexcept { return travelled_; }
@@ -85,10 +48,7 @@ private:
 
     enum class Verdict : std::uint8_t { fine, coarse, cusp };
 
-    Pull fetch(CurveSegment<S>& out) noexcept;
-    [[nodiscard]] Status check(const CurveSegment<S>& segment) const noexcept;
     Pull load() noexcept;
-    [[nodiscard]] bool jumps(const CurveSegment<S>& before, const CurveSegment<S>& after) const noexcept;
     [[nodiscard]] bool vanishes(const Piece<S>& piece) const noexcept;
     Verdict judge(const Piece<S>& piece) noexcept;
     [[nodiscard]] bool too_long(const Piece<S>& piece) const noexcept;
@@ -108,7 +68,7 @@ private:
     [[nodiscard]] CurveSegment<S>& current() noexcept { return slots_[current_]; }
     [[nodiscard]] const CurveSegment<S>& current() const noexcept { return slots_[current_]; }
 
-    CurveSource<S>* source_;
+    CheckedSource<S> source_;
     const Refinement<S>& refinement_;
     std::array<CurveSegment<S>, 2> slots_{};
     std::array<Piece<S>, deepest + 2> stack_{};
@@ -119,16 +79,14 @@ private:
     PerAxis<S> cusp_to_{};
     S nothing_{}; // in units of the current segment
     std::uint64_t segments_ = 0;
-    const PerAxis<Position>* from_ = nullptr; // where the first segment must begin; null: anywhere, or it has begun
-    int depth_ = 0;                           // pieces on the stack
-    std::uint8_t current_ = 0;                // of slots_
+    int depth_ = 0;            // pieces on the stack
+    std::uint8_t current_ = 0; // of slots_
     bool has_current_ = false;
     bool has_ahead_ = false;
     bool in_cusp_ = false;    // pieces from cusp_from_ to cusp_to_ are to be passed as one chord
     bool after_cusp_ = false; // the cell before was such a chord
     bool stop_before_ = true;
     bool stop_after_ = true;
-    Status status_{};
 };
 
 } // namespace splinefeed

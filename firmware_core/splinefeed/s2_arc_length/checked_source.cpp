@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s2_arc_length/checked_source.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+// By how much a program may begin beside where the machine stands.
+constexpr std::int64_t beside_raw = std::int64_t{1} << (Position::fraction_bits - 26);
+
+} // namespace
+
+template <Scalar S>
+PositionRange hull(const PerDegree<S>& control, int degree, Position origin, int unit_log2) noexcept {
+    S least = control[0];
+    S most = least;
+    for (unsigned i = 1; i <= static_cast<unsigned>(degree); ++i) {
+        least = smaller(least, control[i]);
+        most = larger(most, control[i]);
+    }
+    return {displaced(origin, least, unit_log2), displaced(origin, most, unit_log2)};
+}
+
+template <Scalar S>
+bool direction_jumps(const CurveSegment<S>& before, const CurveSegment<S>& after, S most) noexcept {
+    const int axes = before.axes;
+    const auto m = static_cast<unsigned>(before.degree);
+    PerAxis<S> in{};
+    PerAxis<S> out{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        in[k] = before.control[k][m] - before.control[k][m - 1];
+        out[k] = after.control[k][1] - after.control[k][0];
+    }
+    const S length_in = norm(in.data(), axes);
+    const S length_out = norm(out.data(), axes);
+    if (length_in < negligible_units<S> || length_out < negligible_units<S>) {
+        return true;
+    }
+    S jump{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        jump = larger(jump, absolute(out[k] / length_out - in[k] / length_in));
+    }
+    return jump > most;
+}
+
+// Whether the machine can be where a segment leads: its counters reach all of it, and the first one begins where it
+// stands.
+template <Scalar S>
+Status CheckedSource<S>::check(const CurveSegment<S>& segment) const noexcept {
+    if (refinement_->axes != 0 && segment.axes != refinement_->axes) {
+        return Error::axes_differ;
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+        const auto [low, high] = hull(segment.control[k], segment.degree, segment.origin[k], segment.unit_log2);
+        if (low < refinement_->countable[k].low || high > refinement_->countable[k].high) {
+            return Error::counts_out_of_range;
+        }
+        if (from_ != nullptr) {
+            const Position begins = displaced(segment.origin[k], segment.control[k][0], segment.unit_log2);
+            const std::int64_t beside = begins.raw - (*from_)[k].raw;
+            if (beside > beside_raw || beside < -beside_raw) {
+                return Error::start_elsewhere;
+            }
+        }
+    }
+    return {};
+}
+
+template <Scalar S>
+Pull CheckedSource<S>::next(CurveSegment<S>& out) noexcept {
+    const Pull pull = status_.ok() ? source_->next(out) : Pull::finished;
+    if (pull != Pull::item) {
+        return pull;
+    }
+    status_ = check(out);
+    from_ = nullptr;
+    return status_.ok() ? Pull::item : Pull::finished;
+}
+
+template class CheckedSource<double>;
+template PositionRange hull(const PerDegree<double>&, int, Position, int) noexcept;
+template bool direction_jumps(const CurveSegment<double>&, const CurveSegment<double>&, double) noexcept;
+template class CheckedSource<float>;
+template PositionRange hull(const PerDegree<float>&, int, Position, int) noexcept;
+template bool direction_jumps(const CurveSegment<float>&, const CurveSegment<float>&, float) noexcept;
+template class CheckedSource<Fixed>;
+template PositionRange hull(const PerDegree<Fixed>&, int, Position, int) noexcept;
+template bool direction_jumps(const CurveSegment<Fixed>&, const CurveSegment<Fixed>&, Fixed) noexcept;
+
+} // namespace splinefeed
