@@ -34,13 +34,6 @@ constexpr double spare_time = 1.0 / 16.0;
 constexpr double above = 0x1p-20;   // K, by rounding: of v^2
 constexpr double nothing_mm = 1e-6; // a way from rest to rest that may be too short for a motion
 
-// Whether v^2 changes by more than rounding.
-template <Scalar S>
-bool changes(S from_sq, S to_sq) noexcept {
-    const S least = std::same_as<S, Fixed> ? literal<S>(0x1p-30) : from_sq * literal<S>(0x1p-44);
-    return absolute(to_sq - from_sq) > least;
-}
-
 // A passage is no shorter than this part of a cell.
 template <Scalar S>
 constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
@@ -187,7 +180,7 @@ void SmoothPlan<S>::passage_to(S to, S exit_sq) noexcept {
 template <Scalar S>
 bool SmoothPlan<S>::coast() noexcept {
     const S one = from_integer<S>(1);
-    const S left = from_integer<S>(smoothing_.ticks()) - since_;
+    const S left = sign_.left(smoothing_.ticks());
     const S way = speed_ * (left / limits_->segments_per_s);
     if (!(way > S{})) {
         return false;
@@ -221,7 +214,7 @@ template <Scalar S>
 void SmoothPlan<S>::follow() noexcept {
     const S one = from_integer<S>(1);
     const S exit = soft_exit(0);
-    const bool may_brake = last_ != Sign::accelerating || rested();
+    const bool may_brake = sign_.last() != AccelerationSign::accelerating || rested();
     const S tolerated = may_brake ? S{} : speed_sq_ * literal<S>(above);
     if (!(speed_sq_ > exit + tolerated)) {
         passage_to(one, speed_sq_);
@@ -306,19 +299,19 @@ void SmoothPlan<S>::choose() noexcept {
     const S top = here.soft_reach;
     const S allowed = top > exit ? top - (top - exit) * at_ : larger(top, exit);
     if (steering_.stops() || speed_sq_ > allowed + allowed * literal<S>(0x1p-14)) {
-        const bool waits = last_ == Sign::accelerating && !rested() && coast();
+        const bool waits = sign_.last() == AccelerationSign::accelerating && !rested() && coast();
         if (!waits) {
             brake(steering_.stops() ? S{} : smaller(exit, speed_sq_));
         }
-    } else if ((last_ == Sign::braking && !rested()) || !accelerate()) {
+    } else if ((sign_.last() == AccelerationSign::braking && !rested()) || !accelerate()) {
         if (!(speed_sq_ > S{})) {
             crawl();
             return;
         }
         follow();
-        const S left = from_integer<S>(smoothing_.ticks()) - since_;
+        const S left = sign_.left(smoothing_.ticks());
         // It may accelerate before the end of the cell
-        if (last_ == Sign::braking && left > S{} && passage_.exit_sq == speed_sq_ && ticks_ > left) {
+        if (sign_.last() == AccelerationSign::braking && left > S{} && passage_.exit_sq == speed_sq_ && ticks_ > left) {
             const S part = passage_.stretch.length() * (left / ticks_);
             if (part > literal<S>(crumb) && part < passage_.stretch.length() - literal<S>(crumb)) {
                 passage_to(at_ + part, speed_sq_);
@@ -350,8 +343,7 @@ Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
         look_back(true);
     }
     if (stands) {
-        last_ = Sign::none;
-        since_ = S{};
+        sign_ = {};
     }
     choose();
     if (starved_ && starvation == Starvation::goes_on && !steering_.stops() && ends_here()) {
@@ -360,21 +352,9 @@ Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
     return Pull::item;
 }
 
-// So much of the passage's time has passed.
-template <Scalar S>
-void SmoothPlan<S>::pass(S ticks) noexcept {
-    constexpr std::int32_t long_ago = 1 << 20;
-    if (!changes(passage_.entry_sq, passage_.exit_sq)) {
-        since_ = smaller(since_ + smaller(ticks, from_integer<S>(long_ago)), from_integer<S>(long_ago));
-    } else {
-        last_ = passage_.exit_sq > passage_.entry_sq ? Sign::accelerating : Sign::braking;
-        since_ = S{};
-    }
-}
-
 template <Scalar S>
 void SmoothPlan<S>::advance() noexcept {
-    pass(ticks_);
+    sign_.pass(passage_.entry_sq, passage_.exit_sq, ticks_);
     speed_sq_ = passage_.exit_sq;
     speed_ = exit_speed_;
     at_ = passage_.stretch.to;
@@ -390,7 +370,7 @@ void SmoothPlan<S>::advance() noexcept {
 template <Scalar S>
 bool SmoothPlan<S>::steer(const Place<S>& place) noexcept {
     if (place.time_share > S{}) {
-        pass(ticks_ * place.time_share);
+        sign_.pass(passage_.entry_sq, passage_.exit_sq, ticks_ * place.time_share);
     }
     at_ = place.fraction;
     speed_sq_ = place.speed_sq;
@@ -406,8 +386,8 @@ void SmoothPlan<S>::clear() noexcept {
     window_.clear();
     steering_.start();
     taken_ = looked_ = 0;
-    at_ = speed_sq_ = speed_ = since_ = S{};
-    last_ = Sign::none;
+    at_ = speed_sq_ = speed_ = S{};
+    sign_ = {};
     chosen_ = starved_ = false;
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
+#include "splinefeed/s3_feed_plan/sign_memory.hpp"
 #include "splinefeed/s3_feed_plan/smooth_window.hpp"
 
 namespace splinefeed {
@@ -57,8 +58,6 @@ private:
     using MotionPlan<S>::passage_;
     using MotionPlan<S>::steering_;
 
-    enum class Sign : std::int8_t { braking, none, accelerating };
-
     [[nodiscard]] SmoothCell<S>& ahead(std::size_t i) noexcept { return window_.at(window_.front() + i); }
     [[nodiscard]] const SmoothCell<S>& ahead(std::size_t i) const noexcept { return window_.at(window_.front() + i); }
     [[nodiscard]] std::size_t known() const noexcept { return window_.prepared() - window_.front(); }
@@ -88,12 +87,8 @@ private:
     void follow() noexcept;
     void crawl() noexcept;
     /// Long enough at constant speed for a change of sign.
-    [[nodiscard]] bool rested() const noexcept {
-        constexpr double same = 0x1p-14; // of a tick
-        return !(since_ < from_integer<S>(smoothing_.ticks()) - literal<S>(same));
-    }
+    [[nodiscard]] bool rested() const noexcept { return sign_.rested(smoothing_.ticks()); }
     void passage_to(S to, S exit_sq) noexcept;
-    void pass(S ticks) noexcept;
 
     FeedPlan<S>* source_;
     const MotionLimits<S>* limits_;
@@ -106,8 +101,7 @@ private:
     S speed_{};                // v there
     S exit_speed_{};           // v at the end of the passage
     S ticks_{};                // of the passage
-    S since_{};                // ticks at constant speed
-    Sign last_ = Sign::none;   // of the acceleration before
+    SignMemory<S> sign_{};     // of the acceleration before
     bool chosen_ = false;
     bool starved_ = false; // when it was filled last
 };
