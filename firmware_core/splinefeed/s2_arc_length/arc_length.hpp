@@ -71,8 +71,8 @@ private:
     CheckedSource<S> source_;
     const Refinement<S>& refinement_;
     std::array<CurveSegment<S>, 2> slots_{};
-    std::array<Piece<S>, deepest + 2> stack_{};
-    PieceMeasure<S> m_{}; // of the piece that is being judged
+    std::array<Piece<S>, deepest + 1> stack_{}; // one of each level at the most
+    PieceMeasure<S> m_{};                       // of the piece that is being judged
     Wide travelled_{};
     S grade_mm_{};
     PerAxis<S> cusp_from_{}; // in units of the current segment, from its origin

@@ -27,6 +27,8 @@ struct Cell {
     int axes = 0;
     int degree = 0;
     int unit_log2 = 0;
+    /// Which way an axis moves in it and near it, 1 or -1; else it may turn round (Turning).
+    PerAxis<std::int8_t> heading{};
     PerAxis<Position> origin{};
     PerAxis<Position> end{};       ///< the exact target, meaningful where stop_at_end
     PerAxis<PerDegree<S>> power{}; ///< offset = sum power[axis][i] w^i, w in [0, 1], in units of 2^unit_log2 mm
@@ -35,8 +37,6 @@ struct Cell {
     PerAxis<S> tangent_max{};   ///< bound of |dq/ds| over the cell, at most 1
     PerAxis<S> curvature_max{}; ///< bound of |d2q/ds2| over the cell [1/mm]
     PerAxis<AxisShape<S>> shape{};
-    PerAxis<std::int8_t>
-        heading{};            ///< which way an axis moves in it and near it, 1 or -1; else it may turn round (Turning)
     S feed_mm_s{};            ///< programmed feed; 0: the machine's
     S max_feed_mm_s{};        ///< that no feed override goes beyond; 0: none
     S steady_mm_s{};          ///< largest speed at which rounding at its ends keeps Refinement::jump_mm_s

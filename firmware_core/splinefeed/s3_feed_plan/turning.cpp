@@ -29,21 +29,19 @@ S least_tangent(const Cell<S>& cell, unsigned axis, int shape_log2) noexcept {
 } // namespace
 
 template <Scalar S>
-Turning<S>::Turning(const MotionLimits<S>& limits) noexcept
-    : limits_(&limits), axes_(static_cast<unsigned>(limits.axes)) {
-    for (unsigned k = 0; k < axes_; ++k) {
-        const S speeding = limits.acceleration_mm_s2[k];
-        const S braking = limits.braking_mm_s2[k];
-        if (!(speeding == braking)) {
-            near_mm_[k] = scale2(larger(speeding, braking) / limits.segments_per_s / limits.segments_per_s, 3);
-        }
-    }
-    clear();
+S Turning<S>::near_mm_of(unsigned axis) const noexcept {
+    const S speeding = limits_->acceleration_mm_s2[axis];
+    const S braking = limits_->braking_mm_s2[axis];
+    return speeding == braking
+               ? S{}
+               : scale2(larger(speeding, braking) / limits_->segments_per_s / limits_->segments_per_s, 3);
 }
 
 template <Scalar S>
 void Turning<S>::clear() noexcept {
-    travelled_mm_ = near_mm_; // the axis stood
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        travelled_mm_[k] = near_mm_of(k); // the axis stood
+    }
     way_ = {};
 }
 

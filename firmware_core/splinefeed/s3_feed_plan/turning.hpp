@@ -13,7 +13,7 @@ namespace splinefeed {
 template <Scalar S>
 class Turning {
 public:
-    explicit Turning(const MotionLimits<S>& limits) noexcept;
+    explicit Turning(const MotionLimits<S>& limits) noexcept : limits_(&limits) { clear(); }
 
     /// Which way an axis moves all along a cell: 1, -1, or 0 where it may turn round in it.
     [[nodiscard]] static int way_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
@@ -22,18 +22,18 @@ public:
     /// told the indices of cells whose headings have changed
     template <class CellAt, class Settled>
     void take(std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
-        for (unsigned k = 0; k < axes_; ++k) {
-            if (near_mm_[k] > S{}) {
-                take(k, count, cell_at, settled);
+        for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+            if (const S near_mm = near_mm_of(k); near_mm > S{}) {
+                take(k, near_mm, count, cell_at, settled);
             }
         }
     }
     /// The path ends with the newest of `count` cells, at rest.
     template <class CellAt, class Settled>
     void end(std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
-        for (unsigned k = 0; k < axes_; ++k) {
-            if (near_mm_[k] > S{}) {
-                settle(k, count, near_mm_[k], cell_at, settled);
+        for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+            if (const S near_mm = near_mm_of(k); near_mm > S{}) {
+                settle(k, near_mm, count, near_mm, cell_at, settled);
             }
         }
     }
@@ -43,44 +43,45 @@ public:
 private:
     static constexpr std::int8_t unsettled = 2; // times the way: it may turn round behind what is known
 
+    /// So far an axis travels before it can turn round; 0: it has one limit.
+    [[nodiscard]] S near_mm_of(unsigned axis) const noexcept;
     [[nodiscard]] static S travel_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
 
     template <class CellAt, class Settled>
-    void take(unsigned k, std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
+    void take(unsigned k, S near_mm, std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
         Cell<S>& cell = cell_at(count - 1);
         const int way = way_in(cell, k, *limits_);
         if (way == 0 || way == -way_[k]) {
             travelled_mm_[k] = S{};
         }
-        way_[k] = way;
-        cell.heading[k] = static_cast<std::int8_t>(travelled_mm_[k] < near_mm_[k] ? 0 : way * unsettled);
+        way_[k] = static_cast<std::int8_t>(way);
+        cell.heading[k] = static_cast<std::int8_t>(travelled_mm_[k] < near_mm ? 0 : way * unsettled);
         if (way != 0) {
-            travelled_mm_[k] = smaller(travelled_mm_[k] + travel_in(cell, k, *limits_), near_mm_[k]);
-            settle(k, count, S{}, cell_at, settled);
+            travelled_mm_[k] = smaller(travelled_mm_[k] + travel_in(cell, k, *limits_), near_mm);
+            settle(k, near_mm, count, S{}, cell_at, settled);
         }
     }
 
     // Those that are far enough before the newest, or before where it is going to turn round
     template <class CellAt, class Settled>
-    void settle(unsigned k, std::size_t count, S ahead_mm, const CellAt& cell_at, const Settled& settled) noexcept {
+    void settle(unsigned k, S near_mm, std::size_t count, S ahead_mm, const CellAt& cell_at,
+                const Settled& settled) noexcept {
         for (std::size_t i = count; i-- > 0;) {
             Cell<S>& cell = cell_at(i);
             if (way_in(cell, k, *limits_) != way_[k] || cell.heading[k] == 0 || cell.heading[k] == way_[k]) {
                 break;
             }
-            if (!(ahead_mm < near_mm_[k])) {
-                cell.heading[k] = static_cast<std::int8_t>(way_[k]);
+            if (!(ahead_mm < near_mm)) {
+                cell.heading[k] = way_[k];
                 settled(i);
             }
-            ahead_mm = smaller(ahead_mm + travel_in(cell, k, *limits_), near_mm_[k]);
+            ahead_mm = smaller(ahead_mm + travel_in(cell, k, *limits_), near_mm);
         }
     }
 
     const MotionLimits<S>* limits_;
-    unsigned axes_;
-    PerAxis<S> near_mm_{};      // 0: the axis has one limit
-    PerAxis<S> travelled_mm_{}; // since it may have turned round
-    PerAxis<int> way_{};        // in the newest cell
+    PerAxis<S> travelled_mm_{};  // since it may have turned round
+    PerAxis<std::int8_t> way_{}; // in the newest cell
 };
 
 } // namespace splinefeed
