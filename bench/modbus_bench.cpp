@@ -4,6 +4,7 @@
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/pvt_drive.hpp"
 #include "host_sim/round_trips.hpp"
+#include "splinefeed/hal/modbus/modbus_link.hpp"
 #include "splinefeed/hal/modbus/modbus_port.hpp"
 
 #include <benchmark/benchmark.h>
@@ -164,7 +165,8 @@ void sustained(benchmark::State& state) {
     std::vector<DriveWiring> wiring;
     for (int i = 0; i < drives; ++i) {
         children.push_back(std::make_unique<DriveChild>(machine_axes / drives, state.range(2)));
-        wiring.push_back({children.back()->address(), drives == 1 ? std::vector{0, 1, 2} : std::vector{i}});
+        wiring.push_back({.link = children.back()->address(),
+                          .axes = drives == 1 ? std::vector<PvtAxis>{0, 1, 2} : std::vector<PvtAxis>{i}});
     }
     for (auto _ : state) {
         ModbusPort port(wiring, {});

@@ -6,6 +6,7 @@
 
 #include <benchmark/benchmark.h>
 #include <chrono>
+#include <thread>
 
 using namespace splinefeed;
 using namespace splinefeed::hal;
