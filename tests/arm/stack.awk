@@ -36,7 +36,7 @@ function quoted(line, key) {
 /^edge: / {
     from = quoted($0, "sourcename")
     to = quoted($0, "targetname")
-    if (to == "__indirect_call" && from ~ /ArcLength/) { to = curve }
+    if (to == "__indirect_call" && from ~ /ArcLength|CheckedSource/) { to = curve }
     if (to == "__indirect_call" && from ~ /SegmentStream|Trajectory/) {
         asks_sampler[from] = 1
     }
