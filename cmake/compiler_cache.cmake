@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: MIT
 # ccache, where it is installed and nobody said otherwise (CMAKE_CXX_COMPILER_LAUNCHER): what was compiled once, in whatever
 # folder, is found again.
+if(CMAKE_SYSTEM_NAME STREQUAL Generic)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "") # ccache does not keep the call graph that the bound of the stack is made of
+    return()
+endif()
 find_program(SPLINEFEED_CCACHE ccache)
 if(NOT SPLINEFEED_CCACHE OR DEFINED CMAKE_CXX_COMPILER_LAUNCHER OR DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
     return()
