@@ -30,14 +30,15 @@ set(away ${ramp} --faults disconnect@2.5:900)
 # docs/modbus.md states 0.1 um over TCP; the chords of a record each millisecond are 0.13 um off at 1000 mm/s^2 besides, and clocks that are
 # known to 1 us are 0.1 um. On a paced line: 1 um, and clocks that differ by 200 us at 100 mm/s.
 set(slow)
-set(leadshine_mm 0.14)
+set(leadshine_mm 0.28)
 if(SPLINEFEED_FUZZERS) # a sanitizer keeps the tool from keeping time
     set(slow --slow)
     set(leadshine_mm 12.4)
 endif()
 process_test(modbus_three_drives_rtu three_drives.py ${path61} --wire rtu --tolerance-mm 0.021 ${slow})
 # How near a drive that does not interpolate stays to the path, as docs/modbus.md states it. Where one is away for 0.9 s it leaves the
-# path by what the others move meanwhile. The bound grows with the square of the period: 0.36 mm at 57600 baud.
+# path by what the others move meanwhile. The bound grows with the square of the time between two targets: 0.36 mm at 57600 baud, and
+# twice as much where a target on a serial line is two fifths of a period late, as happens beside other tests.
 process_test(modbus_profile_away profile_run.py ${path61} lexium32m --tolerance-mm 12.4 ${slow} ${away})
 process_test(modbus_profile_leadshine_pr profile_run.py ${path61} leadshine-pr --wire rtu --tolerance-mm ${leadshine_mm} ${slow} ${ramp})
 if(SPLINEFEED_FUZZERS) # under sanitizers one of each kind
@@ -48,7 +49,7 @@ process_test(modbus_three_drives_tcp three_drives.py ${path61} --wire tcp --tole
 process_test(modbus_three_drives_away three_drives.py ${path61} --wire tcp --tolerance-mm 0.0004 --faults disconnect@1.5:800)
 process_test(modbus_three_drives_stall three_drives.py ${path61} --wire tcp --tolerance-mm 0.0004 --stall-ms 260)
 process_test(modbus_profile_cia402_index profile_run.py ${path61} cia402-index --tolerance-mm 0.05)
-process_test(modbus_profile_oriental_az profile_run.py ${path61} oriental-az --wire rtu --tolerance-mm 0.15 ${ramp})
+process_test(modbus_profile_oriental_az profile_run.py ${path61} oriental-az --wire rtu --tolerance-mm 0.3 ${ramp})
 process_test(modbus_profile_cia402_kinco profile_run.py ${path61} cia402-kinco --wire rtu --baud 57600 --tolerance-mm 0.36 ${ramp})
 process_test(modbus_home home_run.py)
 if(python)
