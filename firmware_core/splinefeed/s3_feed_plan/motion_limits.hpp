@@ -74,7 +74,7 @@ inline constexpr double rounding_share<float> = 2e-3;
 /// The same of an axis's own limit, for the jumps of its speed that rounding causes where cells meet. Less of it makes
 /// float slow: its cells of long segments have few digits for a direction.
 template <Scalar S>
-inline constexpr double jump_share = 1e-5;
+inline constexpr double jump_share = 4e-5;
 template <>
 inline constexpr double jump_share<float> = 2e-2;
 
