@@ -390,15 +390,15 @@ void run_rounds(Planner planner, int rounds, std::uint64_t first) {
 
 TEMPLATE_TEST_CASE("whatever is asked of an acceleration-limited motion", "[stream][steering][matrix]", double, float,
                    Fixed) {
-    run_rounds<TestType>(Planner::acceleration, rounds(32, 2900), seed);
+    run_rounds<TestType>(Planner::acceleration, rounds(64, 2900), seed);
 }
 
 TEMPLATE_TEST_CASE("whatever is asked of an optimal jerk-limited motion", "[stream][steering][matrix][jerk]", double,
                    Fixed) {
-    run_rounds<TestType>(Planner::optimal, rounds(32, 2900), seed + 1'000'000);
+    run_rounds<TestType>(Planner::optimal, rounds(64, 2900), seed + 1'000'000);
 }
 
 TEMPLATE_TEST_CASE("whatever is asked of an averaged motion", "[stream][steering][matrix][jerk][smooth]", double,
                    Fixed) {
-    run_rounds<TestType>(Planner::bounded, rounds(32, 2900), seed + 2'000'000);
+    run_rounds<TestType>(Planner::bounded, rounds(64, 2900), seed + 2'000'000);
 }

@@ -51,8 +51,10 @@ constexpr Real slack = std::same_as<S, float> ? 5e-2L : 0.0L;
 
 TEMPLATE_TEST_CASE("steered motions keep limits and path and end exactly", "[stream][steering]", double, float, Fixed) {
     using S = TestType;
+    const int wanted = rounds(10);
     int steered = 0;
-    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(10)); ++round) {
+    for (std::uint64_t round = 0; steered < wanted; ++round) {
+        REQUIRE(round < 20 * static_cast<std::uint64_t>(wanted)); // most are too long to be judged
         Random random(seed + round);
         Case made = random_case(random);
         while (!MotionLimits<S>::make(made.machine).has_value()) {
@@ -80,7 +82,6 @@ TEMPLATE_TEST_CASE("steered motions keep limits and path and end exactly", "[str
             require_on_track<S>(run, Track<S>(made.path, made.machine));
         }
     }
-    CHECK(3 * steered >= rounds(10));
 }
 
 TEMPLATE_TEST_CASE("a hold stops within the time that braking needs and 2 ms", "[stream][steering]", double, Fixed) {
