@@ -56,7 +56,8 @@ int unit_number(std::string_view value, hal::modbus::Wire wire) {
     try {
         return single ? single_unit : whole_number("unit", value, 1, most_unit);
     } catch (const AddressError& error) {
-        throw AddressError(std::string(error.what()) + (wire == Wire::tcp ? ", or 255: whoever has the address" : ""));
+        throw AddressError(std::string(error.what()) +
+                           (wire == Wire::tcp ? ", or 255, the device at that address itself" : ""));
     }
 }
 

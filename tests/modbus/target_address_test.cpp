@@ -41,7 +41,7 @@ TEST_CASE("Target address: what is wrong is told, and what would be right") {
         {"modbus-tcp://h:0", "port is '0'; it must be a whole number from 1 to 65535"},
         {"modbus-tcp://h:1:2", "more than one ':'"},
         {"modbus-tcp://h?unit=0",
-         "unit is '0'; it must be a whole number from 1 to 247, or 255: whoever has the address"},
+         "unit is '0'; it must be a whole number from 1 to 247, or 255, the device at that address itself"},
         {"modbus-tcp://h?unit=250", "unit is '250'; it must be a whole number from 1 to 247, or 255"},
         {"modbus-tcp://h?unit=256", "from 1 to 247, or 255"},
         {"modbus-rtu:///dev/x?unit=255", "unit is '255'; it must be a whole number from 1 to 247"},

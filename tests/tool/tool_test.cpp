@@ -239,7 +239,7 @@ TEST_CASE("Every wrong command line gets one line and status 2, and nothing is w
         {"drvie", "did you mean 'drive'"},
         {"drive --axes 7", "it must lie between 1 and 6"},
         {"link", "there is nothing to test"},
-        {"run p.csv --target modbus-tcp://h?unit=0", "from 1 to 255"},
+        {"run p.csv --target modbus-tcp://h?unit=0", "from 1 to 247, or 255"},
     };
     for (const Case& c : cases) {
         const Call call = tool(c.arguments);
