@@ -13,7 +13,7 @@ namespace {
 
 // 2 e_k
 template <Scalar S>
-S two_roundings(S) noexcept {
+S two_roundings(S /*largest*/) noexcept {
     return literal<S>(2.4e-10);
 }
 template <>

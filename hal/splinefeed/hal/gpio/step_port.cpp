@@ -270,12 +270,12 @@ bool StepPort::obey(std::uint64_t now_ns) noexcept {
         }
         return false;
     }
-    if (quick_stop_.load(std::memory_order_acquire) && state == State::idle) {
-        state_.store(state = State::halted);
-    } else if (quick_stop_.load(std::memory_order_acquire) && state == State::running && !clock_.stopping()) {
-        clock_.stop(now_ns);
-    } else if (quick_stop_.load(std::memory_order_relaxed) && state == State::running && clock_.stands(now_ns)) {
-        state_.store(state = State::halted);
+    if (quick_stop_.load(std::memory_order_acquire)) {
+        if (state == State::running && !clock_.stopping()) {
+            clock_.stop(now_ns);
+        } else if (state == State::idle || (state == State::running && clock_.stands(now_ns))) {
+            state_.store(state = State::halted);
+        }
     }
     return state == State::idle || state == State::running;
 }

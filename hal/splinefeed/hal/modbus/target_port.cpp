@@ -113,7 +113,7 @@ std::string TargetPort::prepare(const FeedSegment& first) {
         motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(place.wiring, period_us_));
     }
     const std::uint64_t turns_us = stop_turns * std::uint64_t{period_us_} * places_.size() + stand_still_us;
-    stop_times_.hold_us = lead_us + 2 * settings_.reserve_us + turns_us + answers_us();
+    stop_times_.hold_us = lead_us + std::uint64_t{2} * settings_.reserve_us + turns_us + answers_us();
     stop_times_.quick_stop_us += turns_us;
     stop_times_.disable_us += turns_us;
     stop_.set_times(stop_times_);
