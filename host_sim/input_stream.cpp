@@ -38,7 +38,7 @@ InputStream::~InputStream() {
     close_all();
 }
 
-void InputStream::close_all() noexcept {
+void InputStream::close_all() const noexcept {
     if (descriptor_ > STDIN_FILENO) {
         close(descriptor_);
     }
@@ -47,7 +47,7 @@ void InputStream::close_all() noexcept {
     }
 }
 
-void InputStream::stop() noexcept {
+void InputStream::stop() const noexcept {
     const std::uint64_t once = 1;
     [[maybe_unused]] const ssize_t written = write(stop_, &once, sizeof once);
 }

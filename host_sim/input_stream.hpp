@@ -19,13 +19,13 @@ public:
     ~InputStream() override;
 
     /// From any thread: reading that waits, or is to come, finds the end of the file.
-    void stop() noexcept;
+    void stop() const noexcept;
 
 protected:
     int_type underflow() override;
 
 private:
-    void close_all() noexcept;
+    void close_all() const noexcept;
 
     int descriptor_ = -1;
     int stop_ = -1; // an eventfd

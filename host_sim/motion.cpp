@@ -54,15 +54,14 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
                 break;
             }
             progress.update(feeder_.rows(), machine_.cycle_time_s());
-        } else if (trajectory_.state() == Pull::finished) {
-            break;
         } else if (trajectory_.state() == Pull::held) {
             if (!stand()) {
                 break;
             }
-        } else if (feeder_.wait_for_row(late_ ? Clock::duration::zero() : wait_slice)) {
+        } else if (trajectory_.state() != Pull::finished &&
+                   feeder_.wait_for_row(late_ ? Clock::duration::zero() : wait_slice)) {
             read();
-        } else if (!wait()) {
+        } else if (trajectory_.state() == Pull::finished || !wait()) {
             break;
         }
     }

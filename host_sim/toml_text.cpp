@@ -45,6 +45,20 @@ bool assigns(std::string_view line) {
     return line.find_first_not_of(blanks, equals + 1) == std::string_view::npos;
 }
 
+// What is wrong with a character outside of comments and texts; empty: nothing. `rest` begins with it.
+std::string wrong_mark(std::string_view rest, int dots, bool line_starts, char before) {
+    if (dots > most_dots) {
+        return fmt::format("a name has more than {} parts, like a.b.c", most_dots + 1);
+    }
+    if (rest[0] == '[' && line_starts && !names_table(rest.substr(1))) {
+        return "after [ there must be the name of a table: [path] or [[axis]]";
+    }
+    if (rest[0] == '}' && (before == '[' || before == ',' || before == '=')) {
+        return "there is a } where a value should be; write one, or close what was opened";
+    }
+    return {};
+}
+
 } // namespace
 
 void require_plain_toml(std::string_view toml, const std::string& file) {
@@ -74,15 +88,8 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
         if (inside == Inside::nothing) {
             constexpr std::string_view ends_key = "=,[]{}";
             dots = ends_key.find(c) != std::string_view::npos ? 0 : dots + (c == '.' ? 1 : 0);
-            if (dots > most_dots) {
-                throw InputError(file, line, fmt::format("a name has more than {} parts, like a.b.c", most_dots + 1));
-            }
-            if (c == '[' && line_starts && !names_table(toml.substr(i + 1))) {
-                throw InputError(file, line, "after [ there must be the name of a table: [path] or [[axis]]");
-            }
-            if (c == '}' && (before == '[' || before == ',' || before == '=')) {
-                throw InputError(file, line,
-                                 "there is a } where a value should be; write one, or close what was opened");
+            if (const std::string what = wrong_mark(toml.substr(i), dots, line_starts, before); !what.empty()) {
+                throw InputError(file, line, what);
             }
             before = c == ' ' || c == '\t' || c == '\r' || c == '#' ? before : c;
             if (c == '#' || c == '"' || c == '\'') {
