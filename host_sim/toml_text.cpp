@@ -45,6 +45,10 @@ bool assigns(std::string_view line) {
     return line.find_first_not_of(blanks, equals + 1) == std::string_view::npos;
 }
 
+bool blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
 // What is wrong with a character outside of comments and texts; empty: nothing. `rest` begins with it.
 std::string wrong_mark(std::string_view rest, int dots, bool line_starts, char before) {
     if (dots > most_dots) {
@@ -91,7 +95,7 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
             if (const std::string what = wrong_mark(toml.substr(i), dots, line_starts, before); !what.empty()) {
                 throw InputError(file, line, what);
             }
-            before = c == ' ' || c == '\t' || c == '\r' || c == '#' ? before : c;
+            before = blank(c) || c == '\r' || c == '#' ? before : c;
             if (c == '#' || c == '"' || c == '\'') {
                 inside = static_cast<Inside>(c);
                 any_letter = assigns(toml.substr(line_begin, i - line_begin));
@@ -101,7 +105,7 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
         } else if (inside == Inside::text && c == '\\') {
             i += i + 1 < toml.size() && toml[i + 1] != '\n' ? 1U : 0U;
         }
-        line_starts = line_starts && (c == ' ' || c == '\t');
+        line_starts = line_starts && blank(c);
     }
 }
 
