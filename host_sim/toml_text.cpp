@@ -45,7 +45,7 @@ bool assigns(std::string_view line) {
     return line.find_first_not_of(blanks, equals + 1) == std::string_view::npos;
 }
 
-bool blank(char c) {
+bool blank_of_toml(char c) {
     return c == ' ' || c == '\t';
 }
 
@@ -95,7 +95,7 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
             if (const std::string what = wrong_mark(toml.substr(i), dots, line_starts, before); !what.empty()) {
                 throw InputError(file, line, what);
             }
-            before = blank(c) || c == '\r' || c == '#' ? before : c;
+            before = blank_of_toml(c) || c == '\r' || c == '#' ? before : c;
             if (c == '#' || c == '"' || c == '\'') {
                 inside = static_cast<Inside>(c);
                 any_letter = assigns(toml.substr(line_begin, i - line_begin));
@@ -105,7 +105,7 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
         } else if (inside == Inside::text && c == '\\') {
             i += i + 1 < toml.size() && toml[i + 1] != '\n' ? 1U : 0U;
         }
-        line_starts = line_starts && blank(c);
+        line_starts = line_starts && blank_of_toml(c);
     }
 }
 
