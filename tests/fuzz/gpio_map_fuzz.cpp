@@ -20,6 +20,14 @@ void require(bool holds) {
     }
 }
 
+// Inputs may share a line; what shares one acts at one level, and is not the same input again.
+void require_agree(const MappedInput& input, const MappedInput& other) {
+    if (input.line == other.line) {
+        require(input.active_level == other.active_level);
+        require(input.role != other.role || input.axis != other.axis);
+    }
+}
+
 void require_sound(const LineMap& map, const MachineDescription& machine) {
     std::set<std::pair<unsigned, unsigned>> outputs;
     const auto output = [&](LineBit line) {
@@ -37,11 +45,13 @@ void require_sound(const LineMap& map, const MachineDescription& machine) {
     if (map.enable) {
         output(map.enable->line);
     }
-    std::set<std::pair<unsigned, unsigned>> inputs;
-    for (const MappedInput& input : map.inputs) {
+    for (std::size_t k = 0; k < map.inputs.size(); ++k) {
+        const MappedInput& input = map.inputs[k];
         require(input.line.chip < map.chips.size() && input.line.bit < map.chips[input.line.chip].inputs.size());
-        require(inputs.insert({input.line.chip, input.line.bit}).second);
         require(input.axis < machine.settings.axes);
+        for (std::size_t other = 0; other < k; ++other) {
+            require_agree(input, map.inputs[other]);
+        }
     }
     for (const ChipLines& chip : map.chips) {
         require(chip.outputs.size() <= most_lines && chip.inputs.size() <= most_lines);
