@@ -6,6 +6,7 @@
 #include "splinefeed/hal/modbus/block_stream.hpp"
 #include "splinefeed/hal/modbus/cyclic_stream.hpp"
 #include "support/catch.hpp"
+#include "support/rounds.hpp"
 
 #include <memory>
 #include <random>
@@ -222,28 +223,36 @@ TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands w
 TEST_CASE("Blocks on the fly: what arrived late is known when the next one is made") {
     const Circle circle(wholes);
     const SegmentTrack track = circle.track();
-    const unsigned seed = std::random_device{}();
-    INFO("seed " << seed);
-    std::mt19937 random(seed);
-    BlockAxis driven(circle);
-    driven.axis.send(driven.stream.prime());
-    std::uint64_t now_us = 0;
-    double worst = 0.0;
-    for (int i = 0; now_us + 20'000 < track.end_us(); ++i) {
-        const auto writes = driven.stream.block(track, now_us);
-        // It knows where the drive is, but for what registers round.
-        CAPTURE(i);
-        REQUIRE(driven.axis.drive.model().position_counts(0) == Approx(driven.stream.position_counts()).margin(1.0));
-        worst = std::max(worst,
-                         std::fabs(driven.stream.position_counts() - circle.at(static_cast<double>(now_us) * 1e-6)[0]));
-        const std::uint64_t late_us = random() % 4000;
-        driven.axis.drive.wait_us(late_us);
-        driven.axis.send(writes);
-        driven.stream.arrived(now_us + late_us);
-        driven.axis.drive.wait_us(10'000 - late_us);
-        now_us += 10'000;
+    // With the first two a block comes late where the axis turns: the drive runs past its target, and comes back.
+    std::vector<unsigned> seeds{4204865798U, 3208929336U};
+    const unsigned first = std::random_device{}();
+    for (unsigned i = 0; i < static_cast<unsigned>(splinefeed_test::rounds(100)); ++i) {
+        seeds.push_back(first + i);
     }
-    CHECK(worst < 40.0);
+    for (const unsigned seed : seeds) {
+        INFO("seed " << seed);
+        std::mt19937 random(seed);
+        BlockAxis driven(circle);
+        driven.axis.send(driven.stream.prime());
+        std::uint64_t now_us = 0;
+        double worst = 0.0;
+        for (int i = 0; now_us + 20'000 < track.end_us(); ++i) {
+            const auto writes = driven.stream.block(track, now_us);
+            // It knows where the drive is, but for what registers round.
+            CAPTURE(i);
+            REQUIRE(driven.axis.drive.model().position_counts(0) ==
+                    Approx(driven.stream.position_counts()).margin(1.0));
+            const double here = circle.at(static_cast<double>(now_us) * 1e-6)[0];
+            worst = std::max(worst, std::fabs(driven.stream.position_counts() - here));
+            const std::uint64_t late_us = random() % 4000;
+            driven.axis.drive.wait_us(late_us);
+            driven.axis.send(writes);
+            driven.stream.arrived(now_us + late_us);
+            driven.axis.drive.wait_us(10'000 - late_us);
+            now_us += 10'000;
+        }
+        CHECK(worst < 40.0);
+    }
 }
 
 TEST_CASE("Blocks on the fly: each profile's shafts stay near the path, and end exactly at its end") {

@@ -74,31 +74,42 @@ void BlockStream::commit() noexcept {
     move_.speed = speed_;
 }
 
-// A ramp to its speed, which it keeps until it must brake for its target.
-void BlockStream::Move::pass(double duration_s, double ramp) noexcept {
-    const double sense = std::copysign(1.0, target - position);
-    const double change = sense * speed - velocity;
-    const double ramp_s = std::min(std::fabs(change) / ramp, duration_s);
-    const double rate = std::copysign(ramp, change);
-    position += ramp_s * (velocity + 0.5 * ramp_s * rate);
-    velocity = ramp_s == duration_s ? velocity + ramp_s * rate : sense * speed;
-    duration_s -= ramp_s;
-    if (duration_s <= 0.0 || velocity == 0.0) {
-        return;
+// A ramp to its speed, which it keeps until it must brake for its target. Where it moves away from that, or is too fast
+// to stop on it, it comes to rest first and then turns round: so it is where a block comes late while an axis turns.
+BlockStream::Move::Phase BlockStream::Move::phase(double ramp) const noexcept {
+    constexpr double nothing_counts = 1e-9;
+    const double ahead = target - position;
+    const double sense = std::copysign(1.0, ahead != 0.0 ? ahead : -velocity);
+    const double distance = std::fabs(ahead);
+    const double forward = sense * velocity;
+    const double braking = forward * forward / (2.0 * ramp);
+    if (forward < 0.0 || braking > distance + nothing_counts) {
+        return {std::fabs(velocity) / ramp, -std::copysign(ramp, velocity), 0.0, false};
     }
-    const double braking = velocity * velocity / (2.0 * ramp);
-    const double cruise = std::max(std::fabs(target - position) - braking, 0.0);
-    const double cruise_s = std::min(cruise / std::fabs(velocity), duration_s);
-    position += velocity * cruise_s;
-    duration_s -= cruise_s;
-    const double braking_s = std::fabs(velocity) / ramp;
-    if (duration_s >= braking_s) {
-        position = target;
-        velocity = 0.0;
-    } else if (duration_s > 0.0) {
-        const double brake = -std::copysign(ramp, velocity);
-        position += duration_s * (velocity + 0.5 * duration_s * brake);
-        velocity += duration_s * brake;
+    if (braking >= distance - nothing_counts) {
+        return {forward / ramp, -sense * ramp, 0.0, true};
+    }
+    if (forward == speed) {
+        return {speed > 0.0 ? (distance - braking) / speed : HUGE_VAL, 0.0, velocity, false};
+    }
+    // From w to p and to rest, both with the ramp A, is p^2 / A - w^2 / (2 A).
+    const double peak = std::sqrt(ramp * distance + 0.5 * forward * forward);
+    const double end = forward > speed ? speed : std::min(speed, peak);
+    return {std::fabs(end - forward) / ramp, std::copysign(ramp, sense * (end - forward)), sense * end, false};
+}
+
+void BlockStream::Move::pass(double duration_s, double ramp) noexcept {
+    constexpr int most_phases = 8; // to rest, back, to its speed, at it, to rest: what is left then is rounding
+    for (int i = 0; i < most_phases && duration_s > 0.0 && (velocity != 0.0 || position != target); ++i) {
+        const Phase now = phase(ramp);
+        const double step_s = std::min(now.duration_s, duration_s);
+        position += step_s * (velocity + 0.5 * step_s * now.rate);
+        velocity += step_s * now.rate;
+        duration_s -= step_s;
+        if (step_s == now.duration_s) {
+            velocity = now.end_velocity;
+            position = now.at_target ? target : position;
+        }
     }
 }
 

@@ -63,6 +63,13 @@ private:
         double target = 0.0;
         double speed = 0.0;
 
+        struct Phase {
+            double duration_s = 0.0;
+            double rate = 0.0;         // of the velocity
+            double end_velocity = 0.0; // without rounding
+            bool at_target = false;
+        };
+        [[nodiscard]] Phase phase(double ramp) const noexcept;
         void pass(double duration_s, double ramp) noexcept;
     };
 
