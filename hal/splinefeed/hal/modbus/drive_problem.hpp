@@ -25,6 +25,12 @@ enum class DriveProblem : std::uint8_t {
     range,         ///< a position, velocity or duration does not fit the map; nothing of it was sent
 };
 
+/// Which drive of several it is about, and what.
+struct DriveFailure {
+    std::size_t drive = 0;
+    DriveProblem problem = DriveProblem::none;
+};
+
 /// What is wrong and what to look at.
 [[nodiscard]] const char* describe(DriveProblem problem) noexcept;
 

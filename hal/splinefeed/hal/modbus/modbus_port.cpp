@@ -8,6 +8,7 @@
 #include "splinefeed/hal/modbus/modbus_port.hpp"
 
 #include "splinefeed/hal/modbus/bus_rate.hpp"
+#include "splinefeed/hal/modbus/pvt_setup.hpp"
 
 #include <algorithm>
 
@@ -18,8 +19,6 @@ namespace {
 constexpr std::uint64_t lead_us = 60'000;       // from a command to the instant that it names
 constexpr std::uint64_t settle_us = 40'000;     // until a drive's state tells of its start
 constexpr double guard_us = 60'000.0;           // to tell the others that one runs dry
-constexpr std::uint64_t command_us = 3'000'000; // for a command to be carried out
-constexpr std::uint64_t homing_us = 300'000'000;
 constexpr std::uint64_t look_every_us = 1000;
 constexpr double ticks_per_us = 8.0;
 constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before a hold becomes a quick stop
@@ -81,82 +80,6 @@ double ModbusPort::least_segment_us() {
     return least;
 }
 
-// Before anything moves: waits until all drives did it.
-std::optional<DriveFailure> ModbusPort::command_all(PvtCommand command) {
-    for (PortDrive& drive : drives_) {
-        drive.command(command, command == PvtCommand::begin ? settings_.first_sequence : 0);
-    }
-    const std::uint64_t until = settings_.clock->now_us() + command_us;
-    do {
-        settings_.clock->sleep_us(look_every_us);
-        look();
-    } while (!carried_out() && settings_.clock->now_us() < until);
-    for (std::size_t i = 0; i < drives_.size(); ++i) {
-        const DriveReport& seen = drives_[i].seen();
-        if (seen.command_pending || seen.command_refused || seen.problem != DriveProblem::none) {
-            return DriveFailure{i, seen.problem != DriveProblem::none ? seen.problem
-                                   : seen.command_refused             ? DriveProblem::refused
-                                                                      : DriveProblem::silent};
-        }
-    }
-    return std::nullopt;
-}
-
-// Out of whatever state somebody left them in: what still moves comes to rest by itself.
-std::optional<DriveFailure> ModbusPort::enable_all() {
-    const std::uint64_t until = settings_.clock->now_us() + settings_.away_us;
-    for (;;) {
-        settings_.clock->sleep_us(look_every_us);
-        look();
-        bool ready = true;
-        for (std::size_t i = 0; i < drives_.size(); ++i) {
-            PortDrive& drive = drives_[i];
-            const PvtState state = drive.status().state;
-            const bool stands = state == PvtState::standing || state == PvtState::held;
-            ready = ready && stands && !drive.pending();
-            if (now_us_ > until && !(stands && !drive.pending())) {
-                return DriveFailure{i, drive.refused() ? DriveProblem::refused : DriveProblem::silent};
-            }
-            drive.forget();
-            if (state == PvtState::fault) {
-                drive.tell(PvtCommand::fault_reset, 0);
-            } else if (state == PvtState::disabled) {
-                drive.tell(PvtCommand::enable, 0);
-            }
-        }
-        if (ready) {
-            return std::nullopt;
-        }
-    }
-}
-
-// All at once, each as it is set up; until the last one stands.
-std::optional<DriveFailure> ModbusPort::home_all() {
-    if (const auto failure = command_all(PvtCommand::home)) {
-        return failure;
-    }
-    const std::uint64_t until = settings_.clock->now_us() + homing_us;
-    for (;;) {
-        settings_.clock->sleep_us(look_every_us);
-        look();
-        const bool given_up = now_us_ > until || (settings_.interrupted != nullptr && settings_.interrupted());
-        bool homing = false;
-        for (std::size_t i = 0; i < drives_.size(); ++i) {
-            const bool turns = drives_[i].status().state == PvtState::homing;
-            homing = homing || turns;
-            if (drives_[i].seen().problem != DriveProblem::none || (turns && given_up)) {
-                quick_stop();
-                await_stop();
-                const DriveProblem problem = drives_[i].seen().problem;
-                return DriveFailure{i, problem == DriveProblem::none ? DriveProblem::not_homed : problem};
-            }
-        }
-        if (!homing) {
-            return std::nullopt;
-        }
-    }
-}
-
 std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
     times_.segment_us = first.duration_ticks / ticks_per_us;
     double ring_us = settings_.buffer_us;
@@ -181,11 +104,19 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
         bus->start();
     }
     prepared_ = true;
-    auto failure = enable_all();
-    failure = failure ? failure : command_all(PvtCommand::begin);
-    failure = failure || !settings_.home ? failure : home_all();
-    failure = failure ? failure : command_all(PvtCommand::place);
+    PvtSetup setup(drives_, times_, *settings_.clock);
+    auto failure = setup.enable(settings_.away_us);
+    failure = failure ? failure : setup.command(PvtCommand::begin, settings_.first_sequence);
+    if (!failure && settings_.home) {
+        failure = setup.home(settings_.interrupted);
+        if (failure) { // what still looks for its reference moves
+            quick_stop();
+            await_stop();
+        }
+    }
+    failure = failure ? failure : setup.command(PvtCommand::place);
     if (!failure) {
+        look();
         executed_to_ = settings_.first_sequence;
         enter(ModbusPhase::filling);
     }
@@ -256,10 +187,6 @@ void ModbusPort::enter(ModbusPhase phase) noexcept {
 void ModbusPort::fail(std::size_t drive, DriveProblem problem) noexcept {
     failure_ = DriveFailure{drive, problem};
     begin_stop(StopRequest::hold);
-}
-
-bool ModbusPort::carried_out() const noexcept {
-    return std::none_of(drives_.begin(), drives_.end(), [](const PortDrive& drive) { return drive.pending(); });
 }
 
 // Whether every drive has what it is to start with, counted from the one that is furthest behind: it is by that one
@@ -394,9 +321,9 @@ PortState ModbusPort::do_poll() noexcept {
     case ModbusPhase::filling:
     case ModbusPhase::waiting: wait(); break;
     case ModbusPhase::starting:
-        if (carried_out()) {
+        if (PvtSetup::carried_out(drives_)) {
             enter(ModbusPhase::running);
-        } else if (now_us_ > entered_us_ + command_us) {
+        } else if (now_us_ > entered_us_ + PvtSetup::command_us) {
             enter(ModbusPhase::stopping);
         }
         break;

@@ -29,12 +29,6 @@ struct ModbusPortSettings {
     Clock* clock = &system_clock(); ///< outlives the port
 };
 
-/// Which drive it is about, and what.
-struct DriveFailure {
-    std::size_t drive = 0;
-    DriveProblem problem = DriveProblem::none;
-};
-
 /// What the port does.
 enum class ModbusPhase : std::uint8_t { filling, starting, running, stopping, waiting, halting, halted, done, fault };
 
@@ -102,10 +96,6 @@ private:
     void begin_stop(StopRequest request) noexcept;
     void follow_stop() noexcept;
     void await_stop() noexcept;
-    [[nodiscard]] bool carried_out() const noexcept;
-    [[nodiscard]] std::optional<DriveFailure> enable_all();
-    [[nodiscard]] std::optional<DriveFailure> command_all(PvtCommand command);
-    [[nodiscard]] std::optional<DriveFailure> home_all();
     [[nodiscard]] std::uint32_t executed() const noexcept;
 
     ModbusPortSettings settings_;
