@@ -167,6 +167,7 @@ int move_machine(const Job& job) {
     const Summary summary = motion.summary();
     warn_of_events(job, motion.events_not_reached(), summary.cycle_time_s);
     print(summary, job.summary);
+    supervision.reset(); // from here on a signal says nothing any more: the sentence is told once
     if (stopped.empty()) {
         return 0;
     }

@@ -137,6 +137,7 @@ TEST_CASE("the planner is ahead of a port that takes nothing by no more than is 
         REQUIRE(supervision.submit(segment(i++)));
     }
     CHECK(i == Supervision::hand_over_us / 1000);
+    REQUIRE(comes([&] { return !target.told().empty(); }));
     request(1);
     CHECK_FALSE(supervision.submit(segment(i)));
     CHECK_FALSE(supervision.finish());
