@@ -46,21 +46,6 @@ struct Emitted : SteeredRun {
     std::size_t starved = 0; // rests for want of input
 };
 
-Program bounded_program(Random& random, int axes) {
-    for (;;) {
-        Program program = random_program(random, axes);
-        double reach = 0.0;
-        for (const Point& point : program.points) {
-            for (const double mm : point.mm) {
-                reach = std::max(reach, std::fabs(mm));
-            }
-        }
-        if (reach < 250.0) { // float takes moves up to 512 mm
-            return program;
-        }
-    }
-}
-
 std::vector<Event> random_orders(Random& random) {
     std::vector<Event> events;
     std::size_t at = 0;
@@ -98,7 +83,7 @@ Round random_round(Random& random, Planner planner) {
             round.machine.jerk_tier = planner == Planner::bounded ? JerkTier::bounded : JerkTier::optimal;
         }
     } while (!MotionLimits<S>::make(round.machine).has_value());
-    round.program = bounded_program(random, axes);
+    round.program = random_program_within(random, axes, 250.0); // float takes moves up to 512 mm
     round.closed = random.chance(0.4);
     constexpr std::size_t windows[] = {16, 32, 64, 256};
     round.window = windows[random.integer(0, 3)];

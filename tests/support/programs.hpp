@@ -86,6 +86,22 @@ inline Program random_program(Random& random, int axes) {
     return program;
 }
 
+/// No further than reach_mm from 0, in any axis.
+inline Program random_program_within(Random& random, int axes, double reach_mm) {
+    for (;;) {
+        Program program = random_program(random, axes);
+        double reach = 0.0;
+        for (const Point& point : program.points) {
+            for (const double mm : point.mm) {
+                reach = std::max(reach, std::fabs(mm));
+            }
+        }
+        if (reach < reach_mm) {
+            return program;
+        }
+    }
+}
+
 /// Drives a pipeline by hand: pushes waypoints as it starves, `at_once` of them at a time.
 template <class S, class Curve>
 class Feeder {
