@@ -22,9 +22,10 @@ function(repository_test name)
     endif()
     add_test(NAME ${name} COMMAND ${command} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     # What takes long begins first.
-    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 7200 COST 1000)
+    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 7200 COST 1000 PROCESSORS 2)
     if(test_ALONE)
-        set_tests_properties(${name} PROPERTIES PROCESSORS ${cores})
+        math(EXPR slots "2 * ${cores}")
+        set_tests_properties(${name} PROPERTIES PROCESSORS ${slots})
     endif()
 endfunction()
 

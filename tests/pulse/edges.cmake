@@ -10,4 +10,5 @@ foreach(case "intervals" "fixed rate" "on edges" "two motors")
     add_test(NAME pulse_edges_${name}
              COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/pulse/edges_path.py $<TARGET_FILE:splinefeed_tool>
                      ${PROJECT_SOURCE_DIR}/examples/path61.csv ${PROJECT_SOURCE_DIR}/examples/three_axis.toml ${case})
+    set_tests_properties(pulse_edges_${name} PROPERTIES PROCESSORS 2)
 endforeach()
