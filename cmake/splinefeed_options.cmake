@@ -14,8 +14,17 @@ function(splinefeed_options target)
     endif()
 endfunction()
 
+# splinefeed_sanitize_fully(target): of code that a microcontroller runs also each access's alignment, and the lines of what is
+# found. In the host tools and the tests, which are ten times as much code, that is a quarter of the time of compiling them. The
+# checks for null and for an object's size find nothing that AddressSanitizer does not.
+function(splinefeed_sanitize_fully target)
+    if(SPLINEFEED_FUZZERS)
+        target_compile_options(${target} PRIVATE -gline-tables-only -fsanitize=alignment)
+    endif()
+endfunction()
+
 # splinefeed_precompile(target header...): headers that are read once for all of its sources. Each source still includes what
-# it uses: builds without SPLINEFEED_PRECOMPILE, such as clang-tidy's, fail otherwise.
+# it uses: builds without SPLINEFEED_PRECOMPILE, such as those by g++, fail otherwise.
 function(splinefeed_precompile target)
     if(SPLINEFEED_PRECOMPILE)
         target_precompile_headers(${target} PRIVATE ${ARGN})
@@ -26,9 +35,9 @@ endfunction()
 # What a compiler cache needs to give a precompiled header back: no time in it, and its use seen by the preprocessor. For all
 # targets that use it.
 function(splinefeed_precompiled_options target)
-    if(SPLINEFEED_PRECOMPILE AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
         target_compile_options(${target} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
-    elseif(SPLINEFEED_PRECOMPILE)
+    else()
         target_compile_options(${target} PRIVATE -fpch-preprocess)
     endif()
 endfunction()

@@ -289,14 +289,13 @@ TEST_CASE("Bad input gets one line and status 2, and nothing is written") {
 TEST_CASE("A pipe moves the machine before it ends") {
     const Tool tool;
     // The writer waits for the first feed segments before it sends the rest.
-    const Call call =
-        tool.shell("mkfifo in && { '" + splinefeed::test::tool_path() +
-                   "' run in --format csv --segments - --quiet > s.csv & } && "
-                   "tool=$! && exec 3>in && "
-                   "awk 'BEGIN { for (i = 0; i < 20000; ++i) print i * 0.05 \",\" (i % 2) * 0.01 }' >&3 && "
-                   "for i in $(seq 100); do [ $(wc -l < s.csv) -gt 100 ] && break; sleep 0.1; done && "
-                   "moved=$(wc -l < s.csv) && "
-                   "kill -0 $tool && echo 1001,0 >&3 && exec 3>&- && wait $tool && [ $moved -gt 100 ]");
+    const Call call = tool.shell("mkfifo in && { '" + splinefeed::test::tool_path() +
+                                 "' run in --format csv --segments - --quiet > s.csv & } && "
+                                 "tool=$! && exec 3>in && "
+                                 "awk 'BEGIN { for (i = 0; i < 12000; ++i) print i * 0.05 \",0\" }' >&3 && "
+                                 "for i in $(seq 100); do [ $(wc -l < s.csv) -gt 100 ] && break; sleep 0.1; done && "
+                                 "moved=$(wc -l < s.csv) && "
+                                 "kill -0 $tool && echo 601,0 >&3 && exec 3>&- && wait $tool && [ $moved -gt 100 ]");
     CAPTURE(call.error);
     CHECK(call.status == 0);
 }

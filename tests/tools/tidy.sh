@@ -8,7 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 need clang-tidy python3
 # Every source as it is compiled alone; a compiler cache's name would be taken for the compiler's.
 build=build/tidy
-cmake --preset release -B "$build" -DSPLINEFEED_UNITY_BUILD=OFF -DSPLINEFEED_PRECOMPILE=OFF -DSPLINEFEED_TESTS=OFF -DSPLINEFEED_BENCHMARKS=OFF \
+cmake --preset release -B "$build" -DSPLINEFEED_UNITY_BUILD=OFF -DSPLINEFEED_TESTS=OFF -DSPLINEFEED_BENCHMARKS=OFF \
     -DCMAKE_CXX_COMPILER_LAUNCHER= >/dev/null
 base=$(git describe --tags --abbrev=0 2>/dev/null || cat tests/tools/tidy_base)
 # changed: the sources that may be another's than at the base; a header is seen by the source of its name.
