@@ -16,9 +16,9 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t lead_us = 60'000;       // from a command to the instant that it names
-constexpr std::uint64_t settle_us = 40'000;     // until a drive's state tells of its start
-constexpr double guard_us = 60'000.0;           // to tell the others that one runs dry
+constexpr std::uint64_t lead_us = 60'000;   // from a command to the instant that it names
+constexpr std::uint64_t settle_us = 40'000; // until a drive's state tells of its start
+constexpr double guard_us = 60'000.0;       // to tell the others that one runs dry
 constexpr std::uint64_t look_every_us = 1000;
 constexpr double ticks_per_us = 8.0;
 constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before a hold becomes a quick stop
