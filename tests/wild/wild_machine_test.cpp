@@ -147,6 +147,39 @@ TEMPLATE_TEST_CASE("a way too short for a speed is crawled along within every li
     static_cast<void>(checked<TestType>(write_wild(wild_round(237), WildPlan::bounded, 0.0, folder.file(""))));
 }
 
+TEST_CASE("a bend too sharp for Fixed is a stop", "[wild]") {
+    // Its second derivative was asked for all the same
+    const TemporaryFolder folder;
+    Job job;
+    job.curve.method = "g2";
+    job.window_cells = 24;
+    const WildRun run = checked<Fixed>(write_texts(job, R"(
+sample_period_us = 2000
+[path]
+max_feed_mm_s = 15.6846
+jerk_plan = "bounded"
+[[axis]]
+name = "x"
+max_velocity_mm_s = 7.10134
+max_acceleration_mm_s2 = 718.548
+steps_per_mm = 9511.56
+max_jerk_mm_s3 = 1312.51
+[[axis]]
+name = "y"
+max_velocity_mm_s = 17.2991
+max_acceleration_mm_s2 = 417.662
+steps_per_mm = 666.497
+max_jerk_mm_s3 = 879.853
+)",
+                                                   "x,y,corner\n10.897864,20.450732,\n7.888008,16.989284,\n"
+                                                   "10.897941,20.450999,0\n10.897941,20.450999,\n"
+                                                   "7.874706,16.961706,\n11.001300,20.309303,0\n"
+                                                   "14.044241,23.818947,0\n",
+                                                   "", folder.file("")));
+    CHECK(run.ended);
+    CHECK(run.seconds < 14.0); // 10.9 in double
+}
+
 TEST_CASE("float arrives at the ends of long moves without a step", "[wild][float]") {
     // Rounding is 2^-24 of the move, 1 um, and the axis that is soft moves along it
     const TemporaryFolder folder;

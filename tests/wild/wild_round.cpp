@@ -22,10 +22,11 @@ constexpr std::string_view axis_names = "xyzabc";
 void make_machine(Random& random, int axes, WildRound& round) {
     constexpr std::array periods{250, 500, 1000, 2000, 4000};
     const bool alike = random.chance(0.2);
-    std::string text = fmt::format("sample_period_us = {}\n[path]\nmax_feed_mm_s = {:.6g}\n",
-                                   random.chance(0.5) ? periods[static_cast<unsigned>(random.integer(0, 4))]
-                                                      : random.integer(250, 4000),
-                                   random.decades(1.0, 1000.0));
+    // One number a statement: compilers evaluate a call's arguments in either order.
+    const double feed = random.decades(1.0, 1000.0);
+    const int period =
+        random.chance(0.5) ? periods[static_cast<unsigned>(random.integer(0, 4))] : random.integer(250, 4000);
+    std::string text = fmt::format("sample_period_us = {}\n[path]\nmax_feed_mm_s = {:.6g}\n", period, feed);
     if (random.chance(0.3)) {
         text += fmt::format("centripetal_mm_s2 = {:.6g}\n", random.decades(30.0, 1e4));
     }
@@ -44,10 +45,12 @@ void make_machine(Random& random, int axes, WildRound& round) {
             return std::clamp(alike ? value : value * random.decades(1.0 / decades, decades), low, high);
         };
         const double limit = own(acceleration, 30.0, 1e5);
-        std::string axis = fmt::format(
-            "[[axis]]\nname = \"{}\"\nmax_velocity_mm_s = {:.6g}\nmax_acceleration_mm_s2 = {:.6g}\n"
-            "steps_per_mm = {:.6g}\n",
-            axis_names[static_cast<unsigned>(k)], own(velocity, 1.0, 1000.0), limit, random.decades(10.0, 1e4));
+        const double steps = random.decades(10.0, 1e4);
+        const double fastest = own(velocity, 1.0, 1000.0);
+        std::string axis =
+            fmt::format("[[axis]]\nname = \"{}\"\nmax_velocity_mm_s = {:.6g}\nmax_acceleration_mm_s2 = {:.6g}\n"
+                        "steps_per_mm = {:.6g}\n",
+                        axis_names[static_cast<unsigned>(k)], fastest, limit, steps);
         if (k >= linear) {
             axis += "kind = \"rotary\"\n";
         }

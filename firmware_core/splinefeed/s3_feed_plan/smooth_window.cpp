@@ -31,17 +31,23 @@ constexpr double rounding = 1e-3; // by which a reach is taken longer than it is
 
 } // namespace
 
-// Where q'' jumps by d so does the acceleration by d v^2, and a third difference over T^3 sees up to 3/4 of that over
-// T. More than the reserve of MotionLimits::make can take is a stop.
+// A bend that is too sharp for the scalar counts as a jump. Where q'' jumps by d so does the acceleration by d v^2, and
+// a third difference over T^3 sees up to 3/4 of that over T. More than the reserve of MotionLimits::make can take is a
+// stop.
 template <Scalar S>
 bool SmoothWindow<S>::bend_jumps(const Cell<S>& before, const Cell<S>& after, S speed_sq) const noexcept {
     const S per_s = literal<S>(0.75) * limits_->segments_per_s;
     const S noise = quotient_or_max(literal<S>(bend_noise<S>), smaller(before.length_mm, after.length_mm));
     const int down = -limits_->refinement.shape_log2 - 1;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
-        const S second_before = scale2(before.shape[k].bend[2] / before.length_mm, down);
-        const S second_after = scale2(after.shape[k].bend[0] / after.length_mm, down);
-        const S jump = absolute(second_after - second_before) - noise;
+        const S second_before = quotient_or_max(absolute(before.shape[k].bend[2]), before.length_mm);
+        const S second_after = quotient_or_max(absolute(after.shape[k].bend[0]), after.length_mm);
+        if (!(larger(second_before, second_after) < largest<S>())) {
+            return true;
+        }
+        const bool turns = (before.shape[k].bend[2] < S{}) != (after.shape[k].bend[0] < S{});
+        const S least = scale2(turns ? -second_before : second_before, down);
+        const S jump = absolute(scale2(second_after, down) - least) - noise;
         const S reserve = literal<S>(detail::jerk_reserve) * limits_->jerk_mm_s3[k] / per_s;
         if (jump > S{} && quotient_or_max(reserve, jump) < speed_sq) {
             return true;
