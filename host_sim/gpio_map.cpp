@@ -32,7 +32,7 @@ public:
     }
 
     LineMap map(const toml::table& root) {
-        check_.require_known(root, {"consumer", "axis", "enable", "input", "home", "thread"}, "the map");
+        check_.require_known(root, {"consumer", "axis", "enable", "brake", "input", "home", "thread"}, "the map");
         if (const toml::node* consumer = root.get("consumer")) {
             constexpr std::size_t longest = 31; // the kernel has 32 bytes, with a zero
             map_.consumer = check_.text(*consumer, "consumer");
@@ -43,6 +43,9 @@ public:
         axes(root);
         if (const toml::node* node = root.get("enable")) {
             enable(check_.table(*node, "enable"));
+        }
+        if (const toml::node* node = root.get("brake")) {
+            brake(check_.table(*node, "brake"));
         }
         for (const toml::table* table : check_.tables(root, "input")) {
             input(*table);
@@ -130,6 +133,17 @@ private:
                                     !enable.active_level);
         check_.take(table, "settle_ms", {0, 60000}, enable.settle_ms);
         map_.enable = enable;
+    }
+
+    void brake(const toml::table& table) {
+        check_.require_known(table, {"line", "released", "release_ms", "engage_ms"}, "[brake]");
+        BrakeLine brake;
+        brake.released_level = level(table, "released", true);
+        brake.line = lines_.output(check_.required(table, "line", "[brake]", "a line"), "line of [brake]",
+                                   !brake.released_level);
+        check_.take(table, "release_ms", {0, 5000}, brake.release_ms);
+        check_.take(table, "engage_ms", {0, 5000}, brake.engage_ms);
+        map_.brake = brake;
     }
 
     void input(const toml::table& table) {

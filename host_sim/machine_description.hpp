@@ -27,7 +27,10 @@ struct StepMotors {
 struct MachineDescription {
     std::string file; ///< where it was read, for messages; empty: the built-in default machine
     std::string name = "default machine";
-    MachineSettings settings{};              ///< numbers, in the core's form
+    MachineSettings settings{}; ///< numbers, in the core's form
+    /// Whether drives stay enabled where a run is over and they stand; nothing: Modbus drives do, those on lines do
+    /// not.
+    std::optional<bool> drives_on_at_end{};
     PerAxis<std::string> axis_name{};        ///< "x", "y", ...
     PerAxis<std::optional<Travel>> travel{}; ///< soft limits where the file states them
     StepSettings step{};                     ///< of the step and direction lines of all axes

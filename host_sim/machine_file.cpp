@@ -42,7 +42,7 @@ public:
     explicit Checker(const std::string& file) : file_(file) {}
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
-        require_known(root, {"name", "sample_period_us", "path", "step", "axis"}, "");
+        require_known(root, {"name", "sample_period_us", "drives_at_end", "path", "step", "axis"}, "");
         MachineDescription machine;
         machine.file = file_;
         if (const toml::node* node = root.get("name")) {
@@ -54,6 +54,13 @@ public:
                 fail(*node, "sample_period_us must be a whole number from 50 to 100000");
             }
             machine.settings.sample_period_us = static_cast<int>(*period);
+        }
+        if (const toml::node* node = root.get("drives_at_end")) {
+            const std::string end = text(*node, "drives_at_end");
+            if (end != "on" && end != "off") {
+                fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
+            }
+            machine.drives_on_at_end = end == "on";
         }
         path(root, machine.settings);
         step(root, machine.step);

@@ -89,6 +89,14 @@ std::string PvtTarget::fault() const {
     return drive_sentence(table_, port_, *port_.failure()) + unconfirmed_drives(stopped());
 }
 
+std::string PvtTarget::finish() {
+    if (machine_->drives_on_at_end.value_or(true)) {
+        return {};
+    }
+    port_.power_off();
+    return not_switched_off(stopped());
+}
+
 std::vector<StoppedDrive> PvtTarget::stopped() const {
     std::vector<StoppedDrive> drives;
     for (std::size_t i = 0; i < port_.drives(); ++i) {

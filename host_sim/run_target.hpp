@@ -66,6 +66,9 @@ public:
     [[nodiscard]] virtual std::string fault() const = 0;
     /// How the axes were stopped, after hold() or quick_stop().
     [[nodiscard]] virtual std::string halted(bool quick) const = 0;
+    /// Once, when a motion that prepare() began is over, however it ended: the drives are left as the machine file says
+    /// (drives_at_end), those that stand. Returns what was not confirmed, in a line.
+    [[nodiscard]] virtual std::string finish() = 0;
     /// Before the process ends without destructors: what drives and lines are to be left at.
     virtual void release() noexcept = 0;
 

@@ -110,6 +110,11 @@ SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machi
     }
     const std::uint32_t period_us = port_.period_us();
     for (const DriveTable::Drive& drive : table_.drives) {
+        if (!machine.drives_on_at_end.value_or(true) && drive.profile.steps_of(DriveCommand::disable).empty()) {
+            throw UsageError(fmt::format("{}: drives_at_end is \"off\", and the profile {} has no command `disable`; "
+                                         "leave drives_at_end out",
+                                         drive.address.text, drive.profile.name));
+        }
         if (drive.profile.stream == StreamWay::cyclic && period_us > drive.profile.period_us) {
             throw UsageError(fmt::format("{}: the wire carries a target every {:.2f} ms at most often, and the drive "
                                          "takes {:.2f} ms to get to one "
@@ -155,6 +160,14 @@ std::string SetpointTarget::halted(bool quick) const {
 
 std::string SetpointTarget::fault() const {
     return sentence(port_.trouble()) + unconfirmed_drives(stopped());
+}
+
+std::string SetpointTarget::finish() {
+    if (machine_->drives_on_at_end.value_or(true)) {
+        return {};
+    }
+    port_.power_off();
+    return not_switched_off(stopped());
 }
 
 std::vector<StoppedDrive> SetpointTarget::stopped() const {

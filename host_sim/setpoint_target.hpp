@@ -46,6 +46,7 @@ private:
     void complete() override { port_.complete(); }
     void quick_stop() override { port_.quick_stop(); }
     [[nodiscard]] std::string halted(bool quick) const override;
+    [[nodiscard]] std::string finish() override;
     void release() noexcept override { port_.close(); }
     [[nodiscard]] std::string fault() const override;
     [[nodiscard]] std::vector<StoppedDrive> stopped() const;

@@ -18,6 +18,16 @@ std::string unconfirmed_drives(const std::vector<StoppedDrive>& drives) {
     return text;
 }
 
+std::string not_switched_off(const std::vector<StoppedDrive>& drives) {
+    std::string text;
+    for (const StoppedDrive& drive : drives) {
+        if (drive.report.request != StopRequest::disable || drive.report.state != StopState::confirmed) {
+            text += std::string(text.empty() ? "" : "; ") + drive.name + " did not confirm that it is off";
+        }
+    }
+    return text;
+}
+
 std::string stop_sentence(const std::vector<StoppedDrive>& drives, bool twice) {
     const std::string begin = twice ? "interrupted twice: " : "interrupted: ";
     if (const std::string missing = unconfirmed_drives(drives); !missing.empty()) {

@@ -20,4 +20,7 @@ struct StoppedDrive {
 /// "; NAME did not confirm its stop and may still move", for each such drive; empty: none.
 [[nodiscard]] std::string unconfirmed_drives(const std::vector<StoppedDrive>& drives);
 
+/// "NAME did not confirm that it is off; ...", for each such drive; empty: none.
+[[nodiscard]] std::string not_switched_off(const std::vector<StoppedDrive>& drives);
+
 } // namespace splinefeed::host

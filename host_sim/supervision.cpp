@@ -150,6 +150,9 @@ void Supervision::work() noexcept {
     try {
         ending_ = supervise();
         where_ = began_ ? target_->where() : std::string();
+        if (const std::string what = began_ ? target_->finish() : std::string(); !what.empty()) {
+            ending_ += ending_.empty() ? what : "; " + what;
+        }
     } catch (const std::exception& error) {
         target_->quick_stop();
         ending_ = error.what();

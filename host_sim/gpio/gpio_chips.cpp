@@ -53,6 +53,9 @@ std::vector<ChipOutputs> GpioChips::outputs() {
     if (map_->enable) {
         chips[map_->enable->line.chip].enable = masks_of(map_->enable->line, !map_->enable->active_level);
     }
+    if (map_->brake) {
+        chips[map_->brake->line.chip].brake = masks_of(map_->brake->line, !map_->brake->released_level);
+    }
     std::erase_if(chips, [](const ChipOutputs& chip) { return chip.writer == nullptr; });
     return chips;
 }
@@ -107,6 +110,15 @@ void GpioChips::make_safe() noexcept {
         if (writer) {
             writer->lines().make_safe();
         }
+    }
+}
+
+void GpioChips::keep_drives_on() noexcept {
+    if (map_->enable) {
+        writer_[map_->enable->line.chip]->lines().keep(map_->enable->line.mask());
+    }
+    if (map_->brake) {
+        writer_[map_->brake->line.chip]->lines().keep(map_->brake->line.mask());
     }
 }
 

@@ -33,8 +33,10 @@ public:
     [[nodiscard]] virtual std::vector<Inputs> inputs() = 0;
     /// A call that sets lines takes so long, on the slowest chip: of each of `calls` calls, which change nothing. [ns]
     [[nodiscard]] virtual std::vector<std::uint64_t> set_times_ns(int calls) = 0;
-    /// All outputs take their safe levels, as at the end. @pre nobody sets any more
+    /// All outputs take their safe levels, as at the end.
     virtual void make_safe() noexcept = 0;
+    /// Enable and brake keep the levels that they have, also at the end. @pre nobody sets any more
+    virtual void keep_drives_on() noexcept = 0;
     /// Its name for messages: "/dev/gpiochip0 X_LIMIT".
     [[nodiscard]] virtual std::string name(hal::gpio::LineBit input) const = 0;
 };
@@ -49,6 +51,7 @@ public:
     [[nodiscard]] std::vector<Inputs> inputs() override;
     [[nodiscard]] std::vector<std::uint64_t> set_times_ns(int calls) override;
     void make_safe() noexcept override;
+    void keep_drives_on() noexcept override;
     [[nodiscard]] std::string name(hal::gpio::LineBit input) const override;
 
 private:

@@ -88,6 +88,8 @@ hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, con
                           .spin_ns = real ? map.thread.spin_us * ns_per_us : 0},
             .tolerated_ns = std::uint64_t{map.thread.tolerated_late_us} * ns_per_us,
             .settle_ms = map.enable ? map.enable->settle_ms : 0,
+            .brake_release_ms = map.brake ? map.brake->release_ms : 0,
+            .brake_engage_ms = map.brake ? map.brake->engage_ms : 0,
             .stall_ns = std::uint64_t{map.thread.stall_ms} * 1000 * ns_per_us,
             .clock = clock};
 }
@@ -261,9 +263,22 @@ std::string GpioTarget::halted(bool /*quick*/) const {
     return quick_ ? holds_ : holds_ + " (by the port: the plan did not bring the way to standstill in time)";
 }
 
+std::string GpioTarget::finish() {
+    port_.stop();
+    if (machine_->drives_on_at_end.value_or(false) && port_.place_known()) {
+        chips_->keep_drives_on();
+    } else {
+        port_.park();
+    }
+    finished_ = true;
+    return {};
+}
+
 void GpioTarget::release() noexcept {
     port_.stop();
-    chips_->make_safe();
+    if (!finished_) {
+        chips_->make_safe();
+    }
 }
 
 std::string GpioTarget::fault() const {

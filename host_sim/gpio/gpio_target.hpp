@@ -34,6 +34,7 @@ private:
     void hold() override { holds_ = "interrupted: held on the path"; }
     void quick_stop() override;
     [[nodiscard]] std::string halted(bool quick) const override;
+    [[nodiscard]] std::string finish() override;
     void release() noexcept override;
     void look() override;
     [[nodiscard]] std::string fault() const override;
@@ -60,6 +61,7 @@ private:
     bool probed_ = false;
     bool quick_ = false;
     bool completed_ = false;
+    bool finished_ = false; // the drives are as the machine file says
 };
 
 /// Reads the map and takes the lines. Throws InputError, TargetError and UsageError.

@@ -63,6 +63,7 @@ TEST_CASE("GPIO map: lines by chip, bits in the order of the machine's axes, saf
     CHECK((map.axis[1].motor[0].direction == LineBit{1, 0}));
     CHECK(map.axis[1].motor[0].step.mask() == 16);
     CHECK_FALSE(map.enable.has_value());
+    CHECK_FALSE(map.brake.has_value());
     CHECK(map.inputs.empty());
     CHECK(map.thread.priority == 80);
     CHECK_FALSE(map.thread.cpu.has_value());
@@ -75,6 +76,11 @@ TEST_CASE("GPIO map: enable, inputs, homing and the thread") {
 line = 20
 settle_ms = 250
 active = "low"
+[brake]
+line = 21
+released = "low"
+release_ms = 0
+engage_ms = 5000
 [[input]]
 role = "e-stop"
 line = 12
@@ -114,6 +120,12 @@ tolerated_late_us = 10000
     CHECK(map.enable->settle_ms == 250);
     CHECK((map.enable->line == LineBit{0, 5}));
     CHECK(map.chips[0].outputs[5].safe_level);
+    REQUIRE(map.brake.has_value());
+    CHECK_FALSE(map.brake->released_level);
+    CHECK(map.brake->release_ms == 0);
+    CHECK(map.brake->engage_ms == 5000);
+    CHECK((map.brake->line == LineBit{0, 6}));
+    CHECK(map.chips[0].outputs[6].safe_level);
     REQUIRE(map.inputs.size() == 4);
     CHECK(map.inputs[0].role == InputRole::e_stop);
     CHECK(map.inputs[0].axis == -1);

@@ -48,6 +48,14 @@ public:
     /// The call that comes next does not return for so long: whatever has the processor meanwhile.
     void stall(std::uint64_t ns) { stall_ns_ = ns; }
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+    /// Enable and brake are to keep what they have when the lines are released.
+    [[nodiscard]] bool kept() const { return kept_; }
+    [[nodiscard]] bool released(std::uint64_t levels) const {
+        return ((levels & map_->brake->line.mask()) != 0) == map_->brake->released_level;
+    }
+    [[nodiscard]] bool enabled(std::uint64_t levels) const {
+        return ((levels & map_->enable->line.mask()) != 0) == map_->enable->active_level;
+    }
     [[nodiscard]] bool enabled() const {
         const auto& line = map_->enable->line;
         return (levels_ & line.mask()) != (safe_ & line.mask());
@@ -64,6 +72,10 @@ public:
         }
         const std::uint64_t enable = map_->enable->line.mask();
         chip.enable = {enable, map_->enable->active_level ? 0 : enable};
+        if (map_->brake) {
+            const std::uint64_t brake = map_->brake->line.mask();
+            chip.brake = {brake, map_->brake->released_level ? 0 : brake};
+        }
         return {chip};
     }
     [[nodiscard]] std::vector<Inputs> inputs() override {
@@ -77,6 +89,7 @@ public:
         return std::vector<std::uint64_t>(static_cast<std::size_t>(calls), 1000);
     }
     void make_safe() noexcept override { levels_ = safe_; }
+    void keep_drives_on() noexcept override { kept_ = true; }
     [[nodiscard]] std::string name(splinefeed::hal::gpio::LineBit input) const override {
         return "line " + std::to_string(input.bit);
     }
@@ -123,6 +136,7 @@ private:
     std::uint64_t inputs_ = 0;
     std::uint64_t stall_ns_ = 0;
     bool fails_ = false;
+    bool kept_ = false;
 };
 
 } // namespace splinefeed_test

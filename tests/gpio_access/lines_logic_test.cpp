@@ -74,6 +74,16 @@ TEST_CASE("Output lines: make_safe() while lines are being set has the last word
     CHECK((fake_chip.writes.back() == splinefeed_test::FakeChip::Write{4, 6}));
 }
 
+TEST_CASE("Output lines: those that are kept have the same level when they are released") {
+    {
+        OutputLines lines("chip", "test", three);
+        CHECK(lines.set(all, 5));
+        lines.keep(4);
+        fake_chip.writes.clear();
+    }
+    CHECK((fake_chip.writes == Writes{{all, safe | 4}}));
+}
+
 TEST_CASE("Output lines: who has a line that is busy, and what cannot be an output") {
     const auto refusal = [](const std::string& consumer, const LineName& line) {
         const std::vector<OutputRequest> one{{line, false}};

@@ -64,6 +64,13 @@ TEST_CASE("A machine file is read") {
     CHECK(ends.travel_end_zone_mm == 5.0);
     CHECK(ends.travel_end_velocity_mm_s == 7.0);
     CHECK(machine.settings.axis[0].travel_end_zone_mm == 0.0);
+    CHECK_FALSE(machine.drives_on_at_end.has_value());
+    CHECK(parse_machine(with("[path]", "drives_at_end = 'on'\n[path]"), "m.toml").drives_on_at_end == true);
+    CHECK(parse_machine(with("[path]", "drives_at_end = 'off'\n[path]"), "m.toml").drives_on_at_end == false);
+    CHECK(refusal(with("[path]", "drives_at_end = true\n[path]")) ==
+          "m.toml:3: drives_at_end must be a text in quotes");
+    CHECK(refusal(with("[path]", "drives_at_end = 'stay'\n[path]")) ==
+          "m.toml:3: drives_at_end is 'stay'; it must be 'on' or 'off'");
     CHECK_FALSE(machine.settings.axis[1].rotary);
     CHECK(parse_machine(with("'a'\n", "'a'\nkind = 'rotary'\n"), "m.toml").settings.axis[1].rotary);
     CHECK_FALSE(parse_machine(with("'a'\n", "'a'\nkind = 'linear'\n"), "m.toml").settings.axis[1].rotary);

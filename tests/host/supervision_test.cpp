@@ -58,6 +58,10 @@ public:
     [[nodiscard]] bool achieved() const override { return false; }
     [[nodiscard]] std::string fault() const override { return "a fault"; }
     [[nodiscard]] std::string halted(bool quick) const override { return quick ? "stopped" : "held"; }
+    [[nodiscard]] std::string finish() override {
+        said("finish");
+        return unfinished;
+    }
     void release() noexcept override { said("release"); }
     [[nodiscard]] std::string where() const override { return "; there"; }
     void describe(Summary& /*summary*/) const override {}
@@ -74,6 +78,7 @@ public:
     // Before the thread, or atomic.
     std::string refusal;
     std::string reason;
+    std::string unfinished;
     std::atomic<bool> takes{true};
     std::atomic<bool> halts{true};
     std::atomic<hal::PortPhase> phase{hal::PortPhase::running};
@@ -123,8 +128,28 @@ TEST_CASE("a run's segments reach the target in order, and then its end", "[supe
     }
     CHECK(supervision.finish());
     expected.emplace_back("complete");
+    expected.emplace_back("finish");
     CHECK(target.told() == expected);
     CHECK(supervision.where() == "; there");
+}
+
+TEST_CASE("drives that are not left as the machine file says end a run with that sentence", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    target.unfinished = "a drive did not confirm that it is off";
+    SECTION("behind a whole motion") {
+        Supervision supervision(target, signals);
+        REQUIRE(supervision.submit(segment(0)));
+        CHECK_FALSE(supervision.finish());
+        CHECK(supervision.ending() == "a drive did not confirm that it is off; there");
+    }
+    SECTION("behind a refusal") {
+        target.refusal = "no";
+        Supervision supervision(target, signals);
+        static_cast<void>(supervision.submit(segment(0)));
+        CHECK_FALSE(supervision.finish());
+        CHECK(supervision.ending() == "no; a drive did not confirm that it is off; there");
+    }
 }
 
 TEST_CASE("the planner is ahead of a port that takes nothing by no more than is handed over", "[supervision]") {
@@ -142,7 +167,7 @@ TEST_CASE("the planner is ahead of a port that takes nothing by no more than is 
     CHECK_FALSE(supervision.submit(segment(i)));
     CHECK_FALSE(supervision.finish());
     CHECK(supervision.ending() == "held; there");
-    CHECK(target.told() == Told{"prepare", "hold"});
+    CHECK(target.told() == Told{"prepare", "hold", "finish"});
 }
 
 TEST_CASE("a signal is obeyed while the planner does nothing, the second one at once", "[supervision]") {
@@ -157,7 +182,7 @@ TEST_CASE("a signal is obeyed while the planner does nothing, the second one at 
     CHECK_FALSE(supervision.over());
     request(2);
     CHECK(comes([&] { return supervision.over(); }));
-    CHECK(target.told() == Told{"prepare", "segment 0", "hold", "quick stop"});
+    CHECK(target.told() == Told{"prepare", "segment 0", "hold", "quick stop", "finish"});
     CHECK_FALSE(supervision.finish());
     CHECK(supervision.ending() == "stopped; there");
 }
@@ -173,7 +198,10 @@ TEST_CASE("two signals before the first look are a quick stop", "[supervision]")
     REQUIRE(kill(getpid(), SIGTERM) == 0);
     REQUIRE(kill(getpid(), SIGHUP) == 0);
     CHECK(comes([&] { return supervision.over(); }));
-    CHECK(target.told().back() == "quick stop");
+    const Told told = target.told();
+    REQUIRE(told.size() > 2);
+    CHECK(told[told.size() - 2] == "quick stop");
+    CHECK(told.back() == "finish");
     CHECK_FALSE(supervision.finish());
 }
 

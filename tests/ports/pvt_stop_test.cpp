@@ -101,6 +101,30 @@ TEST_CASE("PVT port, virtual: a drive that is away for a moment confirms, but no
     check_stands_since(plant, plant.clock.now_us());
 }
 
+TEST_CASE("PVT port, virtual: drives are switched off at the end, and one that does not confirm it is told",
+          "[ports]") {
+    for (const bool deaf : {false, true}) {
+        for (const std::uint64_t hold_us : {std::uint64_t{200'000}, UINT64_MAX}) {
+            PvtPlant plant({});
+            prepare(plant);
+            CHECK(run(plant, motion, {.hold_us = hold_us}) != PortPhase::fault);
+            CHECK(plant.drives[1]->machine().state() != PvtState::disabled);
+            const std::uint64_t asked_us = plant.clock.now_us();
+            if (deaf) {
+                plant.stations[1]->mute.push_back({asked_us, UINT64_MAX});
+            }
+            plant.port->power_off();
+            CHECK(plant.clock.now_us() < asked_us + plant.port->longest_stop_us() + 5000);
+            for (std::size_t i = 0; i < 3; ++i) {
+                const bool on = deaf && i == 1;
+                CHECK(plant.port->stop_report(i).request == StopRequest::disable);
+                CHECK((plant.port->stop_report(i).state == StopState::confirmed) != on);
+                CHECK((plant.drives[i]->machine().state() == PvtState::disabled) != on);
+            }
+        }
+    }
+}
+
 TEST_CASE("PVT port, virtual: a port that goes while its drives run holds them first", "[ports]") {
     PvtPlant plant({});
     prepare(plant);

@@ -107,6 +107,30 @@ TEST_CASE("Set-point port, virtual: a dead drive is unconfirmed, the others stop
     }
 }
 
+TEST_CASE("Set-point port, virtual: drives are switched off at the end, and one that does not confirm it is told",
+          "[ports]") {
+    for (const char* const profile : profiles) {
+        for (const bool deaf : {false, true}) {
+            INFO(profile << ", deaf " << deaf);
+            TargetPlant plant({.profile = profile});
+            prepare(plant);
+            CHECK(run(plant, motion, {}) == PortPhase::idle);
+            const std::uint64_t asked_us = plant.clock.now_us();
+            if (deaf) {
+                plant.stations[1]->mute.push_back({asked_us, UINT64_MAX});
+            }
+            plant.port->power_off();
+            CHECK(plant.clock.now_us() < asked_us + plant.port->longest_stop_us() + 5000);
+            for (std::size_t i = 0; i < 3; ++i) {
+                const bool on = deaf && i == 1;
+                CHECK(plant.port->stop_report(i).request == StopRequest::disable);
+                CHECK((plant.port->stop_report(i).state == StopState::confirmed) != on);
+                CHECK((plant.drives[i]->axis().power() == splinefeed::host::AxisPower::off) != on);
+            }
+        }
+    }
+}
+
 TEST_CASE("Set-point port, virtual: one drive stops for itself, and all stop", "[ports]") {
     for (const char* const profile : profiles) {
         INFO(profile);

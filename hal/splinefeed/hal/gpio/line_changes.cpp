@@ -17,23 +17,34 @@ void LineChanges::drop() noexcept {
     std::fill(change_.begin(), change_.end(), Change{});
 }
 
+void LineChanges::take(std::size_t chip, const LevelMasks& lines, bool level) noexcept {
+    change_[chip].mask |= lines.mask;
+    change_[chip].levels |= level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
+}
+
 bool LineChanges::enable(bool on) noexcept {
     for (std::size_t c = 0; c < chips_.size(); ++c) {
         const ChipOutputs& chip = chips_[c];
-        const auto take = [&](const LevelMasks& lines, bool level) {
-            change_[c].mask |= lines.mask;
-            change_[c].levels |= level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
-        };
-        take(chip.enable, on);
+        take(c, chip.enable, on);
+        if (!on) {
+            take(c, chip.brake, false);
+        }
         // With step_on_edge any change of a step line would be a step.
         for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
             if (!step_on_edge_) {
-                take(chip.step[k], false);
+                take(c, chip.step[k], false);
             }
             if (on) {
-                take(chip.direction[k], false);
+                take(c, chip.direction[k], false);
             }
         }
+    }
+    return write();
+}
+
+bool LineChanges::brake(bool released) noexcept {
+    for (std::size_t c = 0; c < chips_.size(); ++c) {
+        take(c, chips_[c].brake, released);
     }
     return write();
 }
@@ -43,9 +54,7 @@ void LineChanges::add(const Edge& edge) noexcept {
     const bool turned = edge.line == Line::step && step_on_edge_ && base_[edge.axis];
     const bool level = edge.level != turned;
     for (std::size_t c = 0; c < chips_.size(); ++c) {
-        const LevelMasks& lines = edge.line == Line::step ? chips_[c].step[edge.axis] : chips_[c].direction[edge.axis];
-        change_[c].mask |= lines.mask;
-        change_[c].levels |= level ? lines.mask & ~lines.inverted : lines.mask & lines.inverted;
+        take(c, edge.line == Line::step ? chips_[c].step[edge.axis] : chips_[c].direction[edge.axis], level);
     }
     (edge.line == Line::direction ? up_ : level_)[edge.axis] = level;
 }

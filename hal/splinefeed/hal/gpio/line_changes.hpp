@@ -21,6 +21,7 @@ struct ChipOutputs {
     PerAxis<LevelMasks> step{};
     PerAxis<LevelMasks> direction{};
     LevelMasks enable{}; ///< level true: the drives are on
+    LevelMasks brake{};  ///< level true: it is released
 };
 
 /// Used by one thread at a time. It allocates when it is made, and never again.
@@ -35,8 +36,11 @@ public:
     void add(const Edge& edge) noexcept;
     /// One call a chip. False: a chip did not take it, errno says why; all others did.
     [[nodiscard]] bool write() noexcept;
-    /// Writes with what is collected: drives on or off, steps idle; on: directions down, where every motion begins.
+    /// Writes with what is collected: drives on or off, steps idle; on: directions down, where every motion begins;
+    /// off: the brake is engaged with it.
     [[nodiscard]] bool enable(bool on) noexcept;
+    /// Writes with what is collected: the brake is released or engaged.
+    [[nodiscard]] bool brake(bool released) noexcept;
     /// The axis's last direction.
     [[nodiscard]] bool up(unsigned axis) const noexcept { return up_[axis]; }
 
@@ -45,6 +49,8 @@ private:
         std::uint64_t mask = 0;
         std::uint64_t levels = 0;
     };
+
+    void take(std::size_t chip, const LevelMasks& lines, bool level) noexcept;
 
     std::vector<ChipOutputs> chips_;
     std::vector<Change> change_; // of each chip

@@ -47,6 +47,14 @@ struct EnableLine {
     std::uint32_t settle_ms = 500; ///< from there to the first step, 0 to 60000
 };
 
+/// Holds an axis that would fall while the drives are off.
+struct BrakeLine {
+    LineBit line;
+    bool released_level = true;     ///< the axis is free; its safe level is the other one
+    std::uint32_t release_ms = 100; ///< from releasing it to the first step, 0 to 5000
+    std::uint32_t engage_ms = 100;  ///< from engaging it to switching the drives off, 0 to 5000
+};
+
 enum class InputRole : std::uint8_t { e_stop, limit, home, drive_fault, probe };
 
 struct MappedInput {
@@ -80,6 +88,7 @@ struct LineMap {
     std::vector<ChipLines> chips;
     std::array<AxisLines, max_axes> axis{}; ///< in the order of the machine file
     std::optional<EnableLine> enable;
+    std::optional<BrakeLine> brake;
     std::vector<MappedInput> inputs; ///< in the order of the map file
     std::array<std::optional<HomeSearch>, max_axes> home{};
     ThreadSettings thread;

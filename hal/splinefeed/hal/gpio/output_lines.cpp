@@ -45,7 +45,7 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std
 
 OutputLines::OutputLines(const std::string& chip, const std::string& consumer, std::span<const OutputRequest> requests)
     : lines_(std::make_unique<Lines>(chip, consumer, requests)), size_(static_cast<int>(requests.size())),
-      safe_levels_(safe_levels_of(requests)), levels_(safe_levels_) {}
+      safe_levels_(safe_levels_of(requests)), levels_(safe_levels_.load()) {}
 
 OutputLines::~OutputLines() {
     make_safe();
@@ -65,8 +65,8 @@ bool OutputLines::set(std::uint64_t mask, std::uint64_t levels) noexcept {
         return true;
     }
     // make_safe() came while we were on the way with other levels, and ours may have been the last: safe ones again.
-    levels_.store(safe_levels_);
-    if (lines_->output.write(mask_of(size_), safe_levels_)) {
+    levels_.store(safe_levels_.load());
+    if (lines_->output.write(mask_of(size_), safe_levels_.load())) {
         errno = ECANCELED;
     }
     return false;
@@ -75,9 +75,13 @@ bool OutputLines::set(std::uint64_t mask, std::uint64_t levels) noexcept {
 void OutputLines::make_safe() noexcept {
     const int before = errno;
     times_made_safe_.fetch_add(1); // first: a set() that overtakes us from here on sees it
-    levels_.store(safe_levels_);
-    lines_->output.write(mask_of(size_), safe_levels_);
+    levels_.store(safe_levels_.load());
+    lines_->output.write(mask_of(size_), safe_levels_.load());
     errno = before;
+}
+
+void OutputLines::keep(std::uint64_t mask) noexcept {
+    safe_levels_.store((safe_levels_.load() & ~mask) | (levels_.load() & mask));
 }
 
 } // namespace splinefeed::hal::gpio

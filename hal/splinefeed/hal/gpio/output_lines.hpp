@@ -37,6 +37,10 @@ public:
     /// 1.6.3 and 2.1.3); errno stays as it was.
     void make_safe() noexcept;
 
+    /// From now on the safe levels of these lines are what they have: they keep them when all are released.
+    /// @pre nobody sets any more
+    void keep(std::uint64_t mask) noexcept;
+
     [[nodiscard]] int size() const noexcept { return size_; }
 
 private:
@@ -44,7 +48,7 @@ private:
 
     std::unique_ptr<Lines> lines_;
     int size_;
-    std::uint64_t safe_levels_;
+    std::atomic<std::uint64_t> safe_levels_;
     std::atomic<std::uint64_t> levels_;
     std::atomic<std::uint32_t> times_made_safe_{0};
 };

@@ -89,6 +89,21 @@ void StepPort::stop() noexcept {
     }
 }
 
+void StepPort::park() noexcept {
+    if (!on_ || !place_known()) {
+        return; // never on, or off at once
+    }
+    if (!lines_.brake(false)) {
+        may_be_on_.store(true);
+    }
+    time_->sleep_until_ns(time_->now_ns() + settings_.brake_engage_ms * ns_per_ms);
+    if (!lines_.enable(false)) {
+        may_be_on_.store(true);
+    }
+    on_ = false;
+    released_ = false;
+}
+
 void StepPort::reset() noexcept {
     train_ = train_for(settings_);
     ring_.clear();
@@ -280,9 +295,25 @@ bool StepPort::obey(std::uint64_t now_ns) noexcept {
     return state == State::idle || state == State::running;
 }
 
+// The brake is released once the drives hold the axes.
+bool StepPort::drives_hold(std::uint64_t now_ns) noexcept {
+    if (now_ns < settled_ns_) {
+        return false;
+    }
+    if (!released_) {
+        if (!lines_.brake(true)) {
+            fail(errno);
+            return false;
+        }
+        released_ = true;
+        freed_ns_ = now_ns + settings_.brake_release_ms * ns_per_ms;
+    }
+    return now_ns >= freed_ns_;
+}
+
 void StepPort::advance(std::uint64_t now_ns) noexcept {
     const bool idle = state_.load(std::memory_order_relaxed) == State::idle;
-    const bool ready = !(idle && (now_ns < settled_ns_ || !filled())) && (gathered_ || gather());
+    const bool ready = !(idle && (!drives_hold(now_ns) || !filled())) && (gathered_ || gather());
     if (!idle) {
         watch_supply(now_ns);
         if (state_.load(std::memory_order_relaxed) == State::failed) {

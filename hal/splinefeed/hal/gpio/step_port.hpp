@@ -24,7 +24,9 @@ struct StepPortSettings {
     StepTiming timing{};
     RealTimeSettings real_time{};
     std::uint64_t tolerated_ns = 100'000; ///< EdgeClockSettings
-    std::uint32_t settle_ms = 0;          ///< from switching the drives on to the first step
+    std::uint32_t settle_ms = 0;          ///< from switching the drives on to releasing the brake, or to the first step
+    std::uint32_t brake_release_ms = 0;   ///< from releasing the brake to the first step
+    std::uint32_t brake_engage_ms = 0;    ///< from engaging the brake to switching the drives off
     std::uint32_t buffer_ms = 50;         ///< what is held of a motion: how long a feed hold takes to act
     /// Edges of axes that move came later than this: the motors have stopped at once, from whatever speed, and where
     /// they stand is not known. That is a fault. The default is how long the clock takes to slow down to stand.
@@ -65,6 +67,9 @@ public:
     void quick_stop() noexcept { quick_stop_.store(true, std::memory_order_release); }
     /// Ends the thread; the drives stay enabled, unless they were cut or a line could not be set.
     void stop() noexcept;
+    /// Engages the brake, waits until it holds, and switches the drives off. start() switches them on again.
+    /// @pre stopped
+    void park() noexcept;
     /// @pre stopped. For another motion, which may begin anywhere.
     void reset() noexcept;
 
@@ -102,6 +107,7 @@ private:
     [[nodiscard]] static Train train_for(const StepPortSettings& settings);
     void work() noexcept;
     bool obey(std::uint64_t now_ns) noexcept;
+    [[nodiscard]] bool drives_hold(std::uint64_t now_ns) noexcept;
     void advance(std::uint64_t now_ns) noexcept;
     void switch_off() noexcept;
     void fail(int error) noexcept;
@@ -146,8 +152,10 @@ private:
     PerAxis<bool> stepped_{};      // by what was gathered
     std::uint64_t overdue_ns_ = 0; // it was already when the thread looked at it
     std::uint64_t settled_ns_ = 0; // since they were switched on
+    std::uint64_t freed_ns_ = 0;   // since the brake was released
     bool on_ = false;              // the drives
     bool off_ = false;             // and they were switched off for good
+    bool released_ = false;        // the brake
     bool have_ = false;
     bool gathered_ = false;
     bool finished_ = false; // the train's

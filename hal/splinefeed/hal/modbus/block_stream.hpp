@@ -50,6 +50,12 @@ public:
     [[nodiscard]] bool clamped() const noexcept { return clamped_; }
     /// The last block led to the end of the motion.
     [[nodiscard]] bool told_end() const noexcept { return told_end_; }
+    /// The last frames once more, as a start of their own.
+    [[nodiscard]] std::span<const RegisterWrite> again() noexcept { return frames_.build(); }
+    /// Where the last block sent the drive.
+    [[nodiscard]] double target_counts() const noexcept { return target_; }
+    /// It has executed the block before the last one, and stands, as far as its blocks tell.
+    [[nodiscard]] bool at_rest() const noexcept { return here_.velocity == 0.0 && here_.position == here_.target; }
     /// Where the drive is at the instant of the last block, as far as its blocks tell.
     [[nodiscard]] double position_counts() const noexcept { return here_.position; }
     [[nodiscard]] double velocity_counts_s() const noexcept { return here_.velocity; }

@@ -348,6 +348,11 @@ void ModbusPort::quick_stop() noexcept {
     begin_stop(StopRequest::quick_stop);
 }
 
+void ModbusPort::power_off() noexcept {
+    begin_stop(StopRequest::disable);
+    await_stop();
+}
+
 void ModbusPort::do_halt() noexcept {
     if (phase_ != ModbusPhase::fault && phase_ != ModbusPhase::done) {
         begin_stop(StopRequest::hold);

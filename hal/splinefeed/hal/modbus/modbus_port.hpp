@@ -53,6 +53,9 @@ public:
     /// Every axis stops as hard as it can, off the path, ahead of everything else. Ends like halt(): when every drive
     /// has confirmed its stop, or did not within its time; stop_report() says which.
     void quick_stop() noexcept;
+    /// Switches every drive's power off; waits until each has confirmed it, or stop_report() says that it did not. @pre
+    /// they stand
+    void power_off() noexcept;
     /// How a drive was stopped: by halt(), quick_stop(), or because the port is in fault. Nothing asked for: request
     /// none.
     [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.sequence().report(drive); }

@@ -82,6 +82,7 @@ void TargetBus::keep(Place& place) noexcept {
     place.report.heard_us = place.drive.heard_us();
     place.report.fault = place.drive.last_answer().fault;
     place.report.clamped = place.drive.clamped();
+    place.report.at_target = place.drive.at_target();
     place.report.counts = place.drive.counts();
 }
 
@@ -96,12 +97,17 @@ void TargetBus::tell(Place& place, TargetMotion& motion, std::uint32_t period_us
         if (motion.track.empty() || instant.motion_us == 0) {
             return; // not started
         }
-        if (place.ended_us != 0 && !place.drive.reading().done && arrives_us > place.ended_us + again_us) {
+        if (!motion.stops && place.ended_us != 0 && !(place.drive.reading().done && place.drive.at_target()) &&
+            arrives_us > place.ended_us + again_us) {
             place.ended_us = 0;
-            place.drive.arrived(UINT64_MAX); // it may not have seen the last one
+            place.drive.arrived(UINT64_MAX); // it may not have seen the last one, or come from elsewhere
+            place.drive.correct();
         }
         if (place.told_us != 0 && arrives_us > place.told_us + std::max(period_us, place.drive.profile().period_us)) {
             place.drive.stood(motion.track, instant);
+        }
+        if (!motion.stops && motion.clock.stands(arrives_us) && place.shaft.still_us() >= stand_still_us) {
+            place.drive.correct();
         }
         place.drive.aim(motion.track, instant);
         told_end = motion.complete && place.drive.told_end(motion.track, instant.motion_us);

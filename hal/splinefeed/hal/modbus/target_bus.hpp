@@ -29,6 +29,7 @@ struct TargetMotion {
     std::uint64_t ahead_us = 0; ///< how far ahead of its time targets are
     std::uint64_t told_us = 0;  ///< when the last target arrived at any drive
     bool complete = false;      ///< the track has the end of the motion
+    bool stops = false;         ///< a stop was asked for: who stands is not to move any more
 };
 
 /// How a drive of a bus does.
@@ -45,7 +46,11 @@ struct TargetReport {
     LinkFault fault = LinkFault::none; ///< of the last exchange
     bool clamped = false;
     bool told_end = false;
+    bool at_target = true; ///< it is where it was told to be, or is told that each period
 };
+
+/// A position that has not changed for this long stands. [us]
+inline constexpr std::uint64_t stand_still_us = 40'000;
 
 class TargetBus {
 public:

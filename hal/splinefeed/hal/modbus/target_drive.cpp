@@ -2,6 +2,7 @@
 #include "splinefeed/hal/modbus/target_drive.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace splinefeed::hal::modbus {
 
@@ -328,12 +329,32 @@ bool TargetDrive::send() noexcept {
         }
         return false;
     };
-    return std::all_of(aimed_.begin(), aimed_.end(), told);
+    bool sent = std::all_of(aimed_.begin(), aimed_.end(), told);
+    if (sent && unsure_ && block_ && !aimed_.empty()) {
+        aimed_ = block_->again();
+        sent = std::all_of(aimed_.begin(), aimed_.end(), told);
+    }
+    unsure_ = aimed_.empty() ? unsure_ : !sent;
+    return sent;
+}
+
+bool TargetDrive::at_target() const noexcept {
+    constexpr double window_counts = 64.0; // drives call less `in position`
+    const double says_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
+    return !block_ || std::fabs(says_counts - block_->target_counts()) <= window_counts;
 }
 
 void TargetDrive::stood(const SegmentTrack& track, const MotionInstant& instant) noexcept {
     if (cyclic_) {
         cyclic_->stood(track, instant);
+    }
+}
+
+void TargetDrive::correct() noexcept {
+    constexpr double rounding_counts = 1.5; // of what it says, and of the model
+    const double says_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
+    if (block_ && block_->at_rest() && std::fabs(says_counts - block_->position_counts()) > rounding_counts) {
+        block_->begin(says_counts);
     }
 }
 

@@ -43,10 +43,14 @@ public:
 
     /// Computes the frames that arrive at that instant.
     void aim(const SegmentTrack& track, const MotionInstant& instant) noexcept;
-    /// Writes them. False: they were not answered, or refused.
+    /// Writes them. False: they were not answered, or refused. Then the next ones are written twice: where a toggle
+    /// starts a block, nobody knows how the drive saw it last.
     bool send() noexcept;
     /// It was not told anything for longer than it goes on by itself: it stands.
     void stood(const SegmentTrack& track, const MotionInstant& instant) noexcept;
+    /// It stands, or nearly, as the path does: where its block stream took it to be elsewhere, since it is not known
+    /// which blocks it got, that goes on from what the drive says.
+    void correct() noexcept;
     /// When the last block arrived; UINT64_MAX: it did not.
     void arrived(std::uint64_t arrival_us) noexcept;
     /// Reads what reading() tells: all frames of it, or the next one in turn.
@@ -61,6 +65,8 @@ public:
 
     [[nodiscard]] const DriveReading& reading() const noexcept { return reading_; }
     [[nodiscard]] bool told_end(const SegmentTrack& track, std::uint64_t motion_us) const noexcept;
+    /// It stands within what a loop in position may be off where the last block sent it; a cyclic drive: true.
+    [[nodiscard]] bool at_target() const noexcept;
     /// A register could not hold what it was to be told.
     [[nodiscard]] bool clamped() const noexcept;
     /// Its segments are the targets.
@@ -101,6 +107,7 @@ private:
     std::optional<BlockStream> block_;
     std::optional<CyclicStream> cyclic_;
     std::span<const RegisterWrite> aimed_;
+    bool unsure_ = false; // whether it got the last ones
     DriveReading reading_;
     LinkAnswer answer_;
     LinkCounts counts_;

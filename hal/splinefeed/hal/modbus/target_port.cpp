@@ -142,23 +142,6 @@ void TargetPort::complete() noexcept {
     motion_.complete = true;
 }
 
-TargetReport TargetPort::report(std::size_t drive) const noexcept {
-    return places_[drive].bus->report(places_[drive].index);
-}
-
-double TargetPort::standing_counts(std::size_t drive) const noexcept {
-    const DriveReading& reading = places_[drive].bus->drive(places_[drive].index).reading();
-    return static_cast<double>(reading.position_q16) / (1 << physical_bits);
-}
-
-const LinkCounts& TargetPort::counts(std::size_t drive) const noexcept {
-    return places_[drive].bus->drive(places_[drive].index).counts();
-}
-
-double TargetPort::position_counts(std::size_t drive) const noexcept {
-    return places_[drive].frame.axis_counts(report(drive).reading.position_q16);
-}
-
 bool TargetPort::heard(std::size_t drive) const noexcept {
     const std::uint64_t now = settings_.clock->now_us();
     return now < report(drive).heard_us + recent_us + std::uint64_t{drives()} * period_us_;
@@ -190,10 +173,7 @@ void TargetPort::close() noexcept {
         if (!stop_.requested()) {
             begin_stop(StopRequest::hold);
         }
-        while (phase_ == Phase::ending) {
-            settings_.clock->sleep_us(look_every_us);
-            follow_stop(settings_.clock->now_us());
-        }
+        await_stop();
     }
     began_us_ = 0;
     for (const auto& bus : buses_) {
@@ -248,11 +228,10 @@ void TargetPort::begin_stop(StopRequest request) noexcept {
         stop_began_us_ = now;
     }
     stop_.request(request, now);
-    if (phase_ != Phase::filling) { // else the motion's clock was never started, and never will be
-        const std::lock_guard lock(motion_.mutex);
-        if (!motion_.clock.stopping()) {
-            motion_.clock.stop(now);
-        }
+    const std::lock_guard lock(motion_.mutex);
+    motion_.stops = true;
+    if (phase_ != Phase::filling && !motion_.clock.stopping()) { // else it was never started, and never will be
+        motion_.clock.stop(now);
     }
     phase_ = Phase::ending;
 }
@@ -292,15 +271,11 @@ void TargetPort::follow_stop(std::uint64_t now_us) noexcept {
     }
 }
 
-std::uint64_t TargetPort::longest_stop_us() const noexcept {
-    return stop_times_.hold_us + stop_times_.quick_stop_us + stop_times_.disable_us;
-}
-
 // A cyclic drive has no move that could be done: it counts where it stands.
 bool TargetPort::arrived() noexcept {
     for (std::size_t i = 0; i < places_.size(); ++i) {
         const TargetReport seen = report(i);
-        bool there = seen.reading.done;
+        bool there = seen.reading.done && seen.at_target;
         if (places_[i].wiring.profile->stream == StreamWay::cyclic) {
             const std::lock_guard lock(motion_.mutex);
             const TrackPoint end = motion_.track.at(places_[i].wiring.axis, motion_.track.end_us());
@@ -324,7 +299,10 @@ std::uint64_t TargetPort::executed() const noexcept {
 void TargetPort::follow_clock(std::uint64_t now_us) noexcept {
     bool all_heard = true;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        all_heard = all_heard && heard(i);
+        // A drive that is told blocks may not have got some of them: then it is to get to the path first.
+        const bool returns = phase_ == Phase::waiting && places_[i].wiring.profile->stream == StreamWay::blocks &&
+                             report(i).still_us < stand_still_us;
+        all_heard = all_heard && heard(i) && !returns;
     }
     const std::lock_guard lock(motion_.mutex);
     const std::uint64_t time_us = motion_.time_us(now_us);
@@ -354,7 +332,9 @@ void TargetPort::follow_clock(std::uint64_t now_us) noexcept {
             phase_ = Phase::running;
         }
         break;
-    case Phase::arriving:
+    case Phase::arriving: // a bus may have stopped the clock since then, from an instant before the end on
+        phase_ = motion_.clock.stopping() ? Phase::stopping : phase_;
+        break;
     case Phase::ending:
     case Phase::halted:
     case Phase::done:
@@ -394,6 +374,18 @@ void TargetPort::do_halt() noexcept {
 
 void TargetPort::quick_stop() noexcept {
     begin_stop(StopRequest::quick_stop);
+}
+
+void TargetPort::power_off() noexcept {
+    begin_stop(StopRequest::disable);
+    await_stop();
+}
+
+void TargetPort::await_stop() noexcept {
+    while (phase_ == Phase::ending) {
+        settings_.clock->sleep_us(look_every_us);
+        follow_stop(settings_.clock->now_us());
+    }
 }
 
 } // namespace splinefeed::hal::modbus

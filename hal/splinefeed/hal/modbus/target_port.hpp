@@ -44,22 +44,36 @@ public:
     /// Every axis stops as hard as its drive can, off the path. Ends like halt(): when every drive has confirmed its
     /// stop, or did not within its time; stop_report() says which.
     void quick_stop() noexcept;
+    /// Switches every drive's power off; waits until each has confirmed it, or stop_report() says that it did not. @pre
+    /// they stand
+    void power_off() noexcept;
     /// How a drive was stopped: by halt(), quick_stop(), or because the port is in fault. Nothing asked for: request
     /// none.
     [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.report(drive); }
     /// The longest that a stop takes, whatever answers. [us] After prepare().
-    [[nodiscard]] std::uint64_t longest_stop_us() const noexcept;
+    [[nodiscard]] std::uint64_t longest_stop_us() const noexcept {
+        return stop_times_.hold_us + stop_times_.quick_stop_us + stop_times_.disable_us;
+    }
 
     /// Why it is in fault, or did not take a segment; the drive that it is about.
     [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
     [[nodiscard]] std::size_t trouble_with() const noexcept { return trouble_with_; }
     [[nodiscard]] std::size_t drives() const noexcept { return places_.size(); }
-    [[nodiscard]] TargetReport report(std::size_t drive) const noexcept;
+    [[nodiscard]] TargetReport report(std::size_t drive) const noexcept {
+        return places_[drive].bus->report(places_[drive].index);
+    }
     /// Before prepare(): where the drive itself says that it is, and how its wire did.
-    [[nodiscard]] double standing_counts(std::size_t drive) const noexcept;
-    [[nodiscard]] const LinkCounts& counts(std::size_t drive) const noexcept;
+    [[nodiscard]] double standing_counts(std::size_t drive) const noexcept {
+        const DriveReading& reading = places_[drive].bus->drive(places_[drive].index).reading();
+        return static_cast<double>(reading.position_q16) / (1 << physical_bits);
+    }
+    [[nodiscard]] const LinkCounts& counts(std::size_t drive) const noexcept {
+        return places_[drive].bus->drive(places_[drive].index).counts();
+    }
     /// Where a machine's axis stands by what its drive says, in counts of the machine.
-    [[nodiscard]] double position_counts(std::size_t drive) const noexcept;
+    [[nodiscard]] double position_counts(std::size_t drive) const noexcept {
+        return places_[drive].frame.axis_counts(report(drive).reading.position_q16);
+    }
     /// Whether it was heard just now.
     [[nodiscard]] bool heard(std::size_t drive) const noexcept;
     /// How far the drive may have been from the path between two targets, by what was submitted so far, with what its
@@ -95,6 +109,7 @@ private:
     bool watch() noexcept;
     void begin_stop(StopRequest request) noexcept;
     void follow_stop(std::uint64_t now_us) noexcept;
+    void await_stop() noexcept;
     void follow_clock(std::uint64_t now_us) noexcept;
     [[nodiscard]] bool takes() const noexcept {
         return phase_ == Phase::filling || phase_ == Phase::running || phase_ == Phase::waiting ||

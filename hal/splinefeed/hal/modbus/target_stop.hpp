@@ -6,9 +6,6 @@
 
 namespace splinefeed::hal::modbus {
 
-/// A position that has not changed for this long stands. [us]
-inline constexpr std::uint64_t stand_still_us = 40'000;
-
 /// @param began_us  when the stop was asked for
 [[nodiscard]] StopFacts stop_facts(const TargetReport& seen, TargetMotion& motion, std::uint64_t began_us) noexcept;
 
