@@ -45,6 +45,7 @@ std::vector<TargetWiring> target_wiring(const DriveTable& table, const MachineDe
                           .axis = axis,
                           .acceleration_counts_s2 = planned * settings.steps_per_mm,
                           .ramp_counts_s2 = ramp_mm_s2(drive, settings) * settings.steps_per_mm,
+                          .fastest_counts_s = settings.max_velocity_mm_s * settings.steps_per_mm,
                           .inverted = machine.inverted[static_cast<unsigned>(axis)]});
     }
     return wiring;

@@ -79,6 +79,7 @@ TEST_CASE("Ramps: a drive that is told blocks ramps as the machine file says, an
     const DriveTable table = blocks(described, "leadshine-pr");
     const auto wiring = target_wiring(table, described);
     CHECK(wiring[1].ramp_counts_s2 == Approx(1000.0 * 320.0));
+    CHECK(wiring[1].fastest_counts_s == Approx(100.0 * 320.0));
     CHECK(wiring[1].acceleration_counts_s2 == Approx(250.0 * 320.0));
     const std::string lowered = fit_to_ramps(table, described);
     CHECK(contains(lowered, "it is planned with x 250 mm/s^2, y 250 mm/s^2"));

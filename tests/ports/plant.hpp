@@ -79,6 +79,8 @@ public:
         }
         off_path_counts = std::max(off_path_counts, most - least);
         now_off_counts = most - least;
+        lowest_counts = std::min(lowest_counts, least);
+        highest_counts = std::max(highest_counts, most);
         positions = here;
         moved_us.resize(here.size());
     }
@@ -89,6 +91,8 @@ public:
     std::vector<std::uint64_t> moved_us; ///< when an axis was seen moving last
     double off_path_counts = 0.0;        ///< the most so far, by the first axis
     double now_off_counts = 0.0;
+    double lowest_counts = 0.0; ///< that any axis has been at so far, by the first axis
+    double highest_counts = 0.0;
 
 private:
     bool looking_ = true;

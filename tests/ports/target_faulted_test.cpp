@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::array profiles{"cia402-index", "lexium32m", "leadshine-pr", "oriental-az", "cia402-kinco"};
 constexpr std::uint64_t away_us = 1'500'000;
+constexpr double way_counts = 8000.0; // of the first axis, there and back
 // Of the first axis: each axis stands within 2 counts of the path and what its registers round, up to 3; that of the
 // axis which goes a quarter of the way counts four times.
 constexpr double most_held_counts = (1.0 + 4.0) * (2.0 + 3.0);
@@ -102,11 +103,15 @@ struct Tally {
     double most_off_counts = 0.0; ///< off the path where it was held
 };
 
-void judge(TargetPlant& plant, const Scenario& scenario, PortPhase phase, Tally& tally) {
+void judge(TargetPlant& plant, const Scenario& scenario, const SmoothMotion& motion, PortPhase phase, Tally& tally) {
     TargetPort& port = *plant.port;
     INFO("trouble: " << port.trouble() << ", " << port.poll().executed << " segments executed, " << port.resumes()
                      << " resumes");
     CHECK(phase != PortPhase::running);
+    // A drive that is not told what comes next goes on for a period, and brakes; who catches up goes no further.
+    const double beyond_counts = 1.2 * motion.fastest_counts_s * 1e-6 * port.period_us() + 0.05 * way_counts;
+    CHECK(plant.lowest_counts > -beyond_counts);
+    CHECK(plant.highest_counts < way_counts + beyond_counts);
     CHECK((phase != PortPhase::halted || scenario.asked.hold_us != UINT64_MAX));
     CHECK((phase != PortPhase::fault || scenario.fatal));
     if (phase == PortPhase::idle) {
@@ -148,14 +153,14 @@ void run_seed(std::uint64_t seed, Tally& tally) {
     plant.make({.away_us = away_us});
     plant.look();
     REQUIRE(plant.port->open() == "");
-    const SmoothMotion motion = smooth_motion(8000.0, 2, 60 + static_cast<int>(scenario.dice(80)), 4000);
+    const SmoothMotion motion = smooth_motion(way_counts, 2, 60 + static_cast<int>(scenario.dice(80)), 4000);
     REQUIRE(plant.port->prepare(motion.segments.front()) == "");
     plant.began_us = plant.clock.now_us();
     scenario.spoil(plant, 4000 * motion.segments.size());
     INFO("seed " << seed << ": " << scenario.parameters.profile << "," << scenario.text << "; " << plant.drives.size()
                  << " drives, one wire " << scenario.parameters.one_wire);
     const PortPhase phase = run(plant, motion, scenario.asked);
-    judge(plant, scenario, phase, tally);
+    judge(plant, scenario, motion, phase, tally);
 }
 
 } // namespace

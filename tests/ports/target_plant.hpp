@@ -16,6 +16,7 @@ struct TargetPlantParameters {
     int drives = 3;
     bool one_wire = false;
     double acceleration_counts_s2 = 2e6; ///< of the first axis, as planned
+    double fastest_counts_s = 60'000.0;  ///< of the first axis
     std::uint64_t seed = 1;
     std::function<void(splinefeed::hal::modbus::DriveProfile&)> change{}; ///< of the profile, before drives are made
 };
@@ -47,7 +48,8 @@ public:
                                .profile = &profile,
                                .axis = i,
                                .acceleration_counts_s2 = share * parameters.acceleration_counts_s2,
-                               .ramp_counts_s2 = 4.0 * share * parameters.acceleration_counts_s2});
+                               .ramp_counts_s2 = 4.0 * share * parameters.acceleration_counts_s2,
+                               .fastest_counts_s = share * parameters.fastest_counts_s});
         }
     }
 

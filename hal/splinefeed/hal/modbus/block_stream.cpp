@@ -20,7 +20,9 @@ namespace splinefeed::hal::modbus {
 namespace {
 
 constexpr double us_per_s = 1e6;
-constexpr double one = 65536.0; // of a physical value
+constexpr double one = 65536.0;        // of a physical value
+constexpr double catching_up = 1.1;    // of the largest speed
+constexpr double share_of_path = 0.25; // of the ramp, in the path's acceleration (BlockSettings::acceleration)
 
 std::int64_t q16(double physical) noexcept {
     return std::llround(physical * one);
@@ -113,17 +115,20 @@ void BlockStream::Move::pass(double duration_s, double ramp) noexcept {
     }
 }
 
-// The speed with which the drive is at `there` a period later, with its sign. Where that cannot be it comes nearer to
-// the path as fast as it could still come to rest on it with half of its ramp.
-double BlockStream::velocity_to(double here, double there, double period_s) const noexcept {
+// The speed with which the drive is at `there` a period later, with its sign; nothing: it cannot be there by then.
+std::optional<double> BlockStream::velocity_to(double there, double period_s) const noexcept {
     const double missing = there - here_.position - here_.velocity * period_s;
     const double square = period_s * period_s - 2.0 * std::fabs(missing) / ramp_;
-    if (square >= 0.0) {
-        return here_.velocity + std::copysign(ramp_ * (period_s - std::sqrt(square)), missing);
+    if (square < 0.0) {
+        return std::nullopt;
     }
-    const double off = here - here_.position;
-    const double wish = (there - here) / period_s + std::copysign(std::sqrt(ramp_ * std::fabs(off)), off);
-    return std::clamp(wish, here_.velocity - ramp_ * period_s, here_.velocity + ramp_ * period_s);
+    return here_.velocity + std::copysign(ramp_ * (period_s - std::sqrt(square)), missing);
+}
+
+// How far beyond a place a drive that passes it with a speed is sent: it keeps that until the next block, which may be
+// late, and can come to rest.
+double BlockStream::beyond(double speed) const noexcept {
+    return speed * settings_.reserve_us / us_per_s + speed * speed / (2.0 * ramp_);
 }
 
 std::span<const RegisterWrite> BlockStream::block(const SegmentTrack& track, const MotionInstant& instant) noexcept {
@@ -134,24 +139,34 @@ std::span<const RegisterWrite> BlockStream::block(const SegmentTrack& track, con
     const double period_s = settings_.period_us / us_per_s;
     const double here = static_cast<double>(track.at(settings_.axis, instant.motion_us).position_q16) / one;
     const double there = static_cast<double>(track.at(settings_.axis, instant.next_us).position_q16) / one;
-    const double wish = velocity_to(here, there, period_s);
-    if (instant.next_us >= track.end_us()) { // the drive's own braking finds the end
-        if (told_end_) {
-            return {};
-        }
-        told_end_ = true;
+    const bool ends = instant.next_us >= track.end_us();
+    if (ends && told_end_) {
+        return {};
+    }
+    told_end_ = ends;
+    const double path_speed = std::fabs(there - here) / period_s;
+    // What catches up comes nearer as fast as it could still come to rest on the path with half of its ramp.
+    const double most =
+        settings_.fastest > 0.0 ? catching_up * std::max(settings_.fastest, path_speed) : path_speed + ramp_ * period_s;
+    const double catch_up = std::min(most, path_speed + std::sqrt(ramp_ * std::fabs(here - here_.position)));
+    std::optional<double> wish = velocity_to(there, period_s);
+    if (wish && std::fabs(*wish) > most) {
+        wish.reset();
+    }
+    const double speed_there = wish ? std::fabs(*wish) : catch_up;
+    if (ends || here == there) { // the drive's own braking finds the place
         // Not so slowly that it would not come to an end, though it were a count further away than is known.
         const double left = std::max(std::fabs(there - here_.position), 1.0);
-        tell(there, std::max({std::fabs(wish), 2.0 * left / period_s, slowest_}));
-        return frames_.build();
+        tell(there, std::max({speed_there, std::min(2.0 * left / period_s, most), slowest_}));
+    } else if (!wish) { // nor does it go beyond the path by more than one that is on it
+        tell(there + std::copysign(beyond(path_speed), there - here), catch_up);
+    } else {
+        const double speed = frames_.rounded(FieldRole::profile_velocity, std::fabs(*wish));
+        const double carried = std::min(speed, path_speed + share_of_path * ramp_ * period_s);
+        // Where it turns round it must first come to rest: that is ahead of it, too.
+        const double turning = here_.velocity * *wish < 0.0 ? here_.velocity * here_.velocity / (2.0 * ramp_) : 0.0;
+        tell(here_.position + std::copysign(speed * period_s + beyond(carried) + turning, *wish), std::fabs(*wish));
     }
-    told_end_ = false;
-    const double speed = frames_.rounded(FieldRole::profile_velocity, std::fabs(wish));
-    const double ahead_s = period_s + settings_.reserve_us / us_per_s;
-    // Where it turns round it must first come to rest: that is ahead of it, too.
-    const double turning = here_.velocity * wish < 0.0 ? here_.velocity * here_.velocity / (2.0 * ramp_) : 0.0;
-    tell(here_.position + std::copysign(speed * ahead_s + speed * speed / (2.0 * ramp_) + turning, wish),
-         std::fabs(wish));
     return frames_.build();
 }
 

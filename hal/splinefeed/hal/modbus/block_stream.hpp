@@ -5,6 +5,8 @@
 #include "splinefeed/hal/modbus/segment_track.hpp"
 #include "splinefeed/hal/modbus/target_frames.hpp"
 
+#include <optional>
+
 namespace splinefeed::hal::modbus {
 
 struct BlockSettings {
@@ -16,6 +18,8 @@ struct BlockSettings {
     /// of the path or more: a speed is reached within a quarter of a period then, and errors of speed die out by a
     /// third from block to block.
     double acceleration = 1e6;
+    /// Of a drive that catches up, unless the path itself is faster [counts/s]; 0: what its ramp reaches in a period.
+    double fastest = 0.0;
 };
 
 /// Each block has the speed with which the drive is on the path a period later, and its target further ahead, so that
@@ -80,7 +84,8 @@ private:
     };
 
     void commit() noexcept;
-    [[nodiscard]] double velocity_to(double here, double there, double period_s) const noexcept;
+    [[nodiscard]] std::optional<double> velocity_to(double there, double period_s) const noexcept;
+    [[nodiscard]] double beyond(double speed) const noexcept;
     void tell(double target, double speed) noexcept;
 
     BlockSettings settings_;

@@ -212,7 +212,8 @@ std::string TargetDrive::switch_on(const TargetSettings& settings) {
     if (profile_->stream == StreamWay::blocks) {
         block_.emplace(*profile_, BlockSettings{.axis = settings.axis,
                                                 .period_us = settings.period_us,
-                                                .acceleration = settings.ramp_counts_s2});
+                                                .acceleration = settings.ramp_counts_s2,
+                                                .fastest = settings.fastest_counts_s});
     } else {
         cyclic_.emplace(*profile_, CyclicSettings{settings.axis, profile_->period_us, settings.period_us,
                                                   settings.acceleration_counts_s2});

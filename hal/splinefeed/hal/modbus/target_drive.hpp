@@ -23,6 +23,7 @@ struct TargetSettings {
     bool home = false;                   ///< it finds its reference first
     bool (*interrupted)() = nullptr;     ///< asked meanwhile: a quick stop
     double ramp_counts_s2 = 4e6;         ///< BlockSettings::acceleration
+    double fastest_counts_s = 0.0;       ///< BlockSettings::fastest
     /// Asked again and again while this drive is waited for: other drives are heard meanwhile, so that their watchdogs
     /// do not run out. What it returns, if not empty, ends the wait.
     std::function<std::string()> meanwhile{};

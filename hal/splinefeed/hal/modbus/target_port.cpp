@@ -96,6 +96,7 @@ std::string TargetPort::prepare(const FeedSegment& first) {
                                           .home = settings_.home,
                                           .interrupted = settings_.interrupted,
                                           .ramp_counts_s2 = place.wiring.ramp_counts_s2,
+                                          .fastest_counts_s = place.wiring.fastest_counts_s,
                                           .meanwhile = attend};
             if (std::string what = enabled ? drive.begin(settings) : drive.enable(settings); !what.empty()) {
                 trouble_with_ = elsewhere ? company.troubled() : trouble_with_;

@@ -16,7 +16,8 @@ struct TargetWiring {
     /// Of a drive that is told blocks: what its ramps are set to, or are where its profile has no register for them.
     /// BlockSettings::acceleration
     double ramp_counts_s2 = 4e6;
-    bool inverted = false; ///< the drive counts down where the axis goes up
+    double fastest_counts_s = 0.0; ///< of a drive that catches up, BlockSettings::fastest
+    bool inverted = false;         ///< the drive counts down where the axis goes up
 };
 
 /// How far ahead a target is: a block's at the next one, a cyclic one at the end of the drive's own period.
