@@ -100,13 +100,14 @@ void TargetBus::tell(Place& place, TargetMotion& motion, std::uint32_t period_us
         if (!motion.stops && place.ended_us != 0 && !(place.drive.reading().done && place.drive.at_target()) &&
             arrives_us > place.ended_us + again_us) {
             place.ended_us = 0;
-            place.drive.arrived(UINT64_MAX); // it may not have seen the last one, or come from elsewhere
-            place.drive.correct();
+            place.drive.arrived(UINT64_MAX); // it may not have seen the last one
         }
         if (place.told_us != 0 && arrives_us > place.told_us + std::max(period_us, place.drive.profile().period_us)) {
             place.drive.stood(motion.track, instant);
         }
-        if (!motion.stops && motion.clock.stands(arrives_us) && place.shaft.still_us() >= stand_still_us) {
+        const bool path_stands = motion.clock.stands(arrives_us) || place.ended_us != 0;
+        place.rests_us = !path_stands || !place.drive.at_rest() ? 0 : place.rests_us == 0 ? arrives_us : place.rests_us;
+        if (!motion.stops && place.rests_us != 0 && arrives_us > place.rests_us + stand_still_us) {
             place.drive.correct();
         }
         place.drive.aim(motion.track, instant);

@@ -94,6 +94,7 @@ private:
         std::atomic<StopRequest> wanted{StopRequest::none};
         std::uint64_t told_us = 0;  // when the last target arrived; 0: none did
         std::uint64_t ended_us = 0; // when it was told the end; 0: not yet
+        std::uint64_t rests_us = 0; // the path stands since then, and so should the drive; 0: it does not
     };
 
     void run(TargetMotion& motion, std::uint32_t period_us) noexcept;

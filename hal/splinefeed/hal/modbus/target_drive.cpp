@@ -354,7 +354,7 @@ void TargetDrive::stood(const SegmentTrack& track, const MotionInstant& instant)
 void TargetDrive::correct() noexcept {
     constexpr double rounding_counts = 1.5; // of what it says, and of the model
     const double says_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
-    if (block_ && block_->at_rest() && std::fabs(says_counts - block_->position_counts()) > rounding_counts) {
+    if (block_ && std::fabs(says_counts - block_->position_counts()) > rounding_counts) {
         block_->begin(says_counts);
     }
 }

@@ -49,8 +49,10 @@ public:
     bool send() noexcept;
     /// It was not told anything for longer than it goes on by itself: it stands.
     void stood(const SegmentTrack& track, const MotionInstant& instant) noexcept;
-    /// It stands, or nearly, as the path does: where its block stream took it to be elsewhere, since it is not known
-    /// which blocks it got, that goes on from what the drive says.
+    /// A drive that is told blocks stands, as far as they tell.
+    [[nodiscard]] bool at_rest() const noexcept { return block_ && block_->at_rest(); }
+    /// It has stood for some time, as far as its blocks tell. Where it says that it is elsewhere, since it is not known
+    /// which of them it got, the next one goes on from there.
     void correct() noexcept;
     /// When the last block arrived; UINT64_MAX: it did not.
     void arrived(std::uint64_t arrival_us) noexcept;
