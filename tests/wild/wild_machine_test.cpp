@@ -78,7 +78,7 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
         }
     }
     CAPTURE(compared, slow_in_float);
-    CHECK(compared > 5);
+    CHECK(4 * compared > rounds(20, 2000)); // else nothing is compared
     CHECK(slow_in_float <= 1 + compared / 10);
 }
 
