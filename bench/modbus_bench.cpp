@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What drives on Modbus TCP cost: exchanges one by one, and motion in real time through the port. The simulated drives
 // are processes of their own on the loopback. items_per_second counts segments of the whole machine (three axes).
+#include "host_sim/diagnose/round_trips.hpp"
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/pvt_drive.hpp"
-#include "host_sim/round_trips.hpp"
 #include "splinefeed/hal/modbus/modbus_link.hpp"
 #include "splinefeed/hal/modbus/modbus_port.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/drive_command.hpp"
 
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/option_number.hpp"
+#include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/profile_drive.hpp"
 #include "host_sim/drive/pvt_drive.hpp"
-#include "host_sim/drive/shipped_profiles.hpp"
-#include "host_sim/input_error.hpp"
-#include "host_sim/option_number.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/drive_exchange.hpp"
 
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
 
 #include <array>
 #include <cerrno>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/drive_faults.hpp"
 
-#include "host_sim/input_error.hpp"
-#include "host_sim/nearest_name.hpp"
-#include "host_sim/number_text.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/number_text.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 // DriveRecord: what the shafts of a simulated drive did, a row each millisecond, and what segments it executed.
 #pragma once
 
+#include "host_sim/base/output_file.hpp"
 #include "host_sim/drive/drive_model.hpp"
 #include "host_sim/drive/pvt_machine.hpp"
-#include "host_sim/output_file.hpp"
 
 #include <string>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/listen_address.hpp"
 
-#include "host_sim/baud_rate.hpp"
-#include "host_sim/input_error.hpp"
-#include "host_sim/nearest_name.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/config/baud_rate.hpp"
 
 #include <algorithm>
 #include <arpa/inet.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/profile_drive.hpp"
 
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
 #include "splinefeed/hal/modbus/field_codec.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/surface/described_surface.hpp"
 
-#include "host_sim/input_error.hpp"
-#include "host_sim/nearest_name.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
 #include "splinefeed/surfaces/surface_interpolation.hpp"
 
 #include <algorithm>

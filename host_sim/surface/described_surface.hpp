@@ -2,8 +2,8 @@
 // DescribedSurface: a surface that was computed from a description, with all that led to it.
 #pragma once
 
-#include "host_sim/methods/description.hpp"
-#include "host_sim/scalar_kind.hpp"
+#include "host_sim/base/scalar_kind.hpp"
+#include "host_sim/curve/methods/description.hpp"
 #include "splinefeed/surfaces/bspline_surface.hpp"
 
 #include <string>

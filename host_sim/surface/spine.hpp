@@ -2,7 +2,7 @@
 // spine: a curve that sections are carried along, in frames that do not turn about it.
 #pragma once
 
-#include "host_sim/methods/description.hpp"
+#include "host_sim/curve/methods/description.hpp"
 
 #include <vector>
 

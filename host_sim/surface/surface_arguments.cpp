@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/surface/surface_arguments.hpp"
 
-#include "host_sim/input_error.hpp"
-#include "host_sim/nearest_name.hpp"
-#include "host_sim/option_number.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/option_number.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>

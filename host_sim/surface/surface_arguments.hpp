@@ -2,7 +2,7 @@
 // SurfaceArguments: the options of `splinefeed surface` as they were typed, and what they ask for.
 #pragma once
 
-#include "host_sim/scalar_kind.hpp"
+#include "host_sim/base/scalar_kind.hpp"
 #include "host_sim/surface/raster.hpp"
 
 #include <optional>

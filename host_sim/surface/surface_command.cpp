@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/curve_writer.hpp"
-#include "host_sim/input_error.hpp"
-#include "host_sim/json_text.hpp"
-#include "host_sim/output_file.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/json_text.hpp"
+#include "host_sim/base/output_file.hpp"
+#include "host_sim/base/text_file.hpp"
+#include "host_sim/output/curve_writer.hpp"
 #include "host_sim/surface/surface_arguments.hpp"
-#include "host_sim/text_file.hpp"
 #include "splinefeed/number/position.hpp"
 
 #include <algorithm>

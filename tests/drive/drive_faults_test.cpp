@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "host_sim/base/input_error.hpp"
 #include "host_sim/drive/drive_faults.hpp"
 #include "host_sim/drive/listen_address.hpp"
-#include "host_sim/input_error.hpp"
 #include "support/catch.hpp"
 
 #include <cmath>

@@ -2,8 +2,8 @@
 // DrivenDrive: the model of a profile, and a client that knows the profile alone.
 #pragma once
 
+#include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/profile_drive.hpp"
-#include "host_sim/drive/shipped_profiles.hpp"
 #include "splinefeed/hal/modbus/field_codec.hpp"
 #include "support/catch.hpp"
 

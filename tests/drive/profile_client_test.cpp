@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Commands and readings by the profile, against the models: what a client on a bus does, without the bus.
+#include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/profile_drive.hpp"
-#include "host_sim/drive/shipped_profiles.hpp"
 #include "splinefeed/hal/modbus/command_sequence.hpp"
 #include "splinefeed/hal/modbus/status_frames.hpp"
 #include "support/catch.hpp"

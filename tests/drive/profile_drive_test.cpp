@@ -4,8 +4,8 @@
 
 #include "drive/driven_drive.hpp"
 #include "host/refusal.hpp"
-#include "host_sim/drive/profile_file.hpp"
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/profile_file.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::hal::modbus;

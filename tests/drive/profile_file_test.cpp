@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/drive/profile_file.hpp"
+#include "host_sim/config/profile_file.hpp"
 
 #include "host/refusal.hpp"
 #include "support/catch.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `splinefeed drive` with other profiles than its own, over real Modbus: this library's client, mbpoll.
 #include "drive/drive_process.hpp"
-#include "host_sim/drive/shipped_profiles.hpp"
+#include "host_sim/config/shipped_profiles.hpp"
 #include "splinefeed/hal/modbus/status_frames.hpp"
 #include "splinefeed/hal/modbus/target_frames.hpp"
 #include "support/catch.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/drive/shipped_profiles.hpp"
+#include "host_sim/config/shipped_profiles.hpp"
 
 #include "host/refusal.hpp"
-#include "host_sim/drive/profile_file.hpp"
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/profile_file.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Cyclic and block streams against the drive models: how near the shafts stay to the path.
 #include "drive/driven_drive.hpp"
 #include "drive/smooth_track.hpp"
-#include "host_sim/drive/shipped_profiles.hpp"
+#include "host_sim/config/shipped_profiles.hpp"
 #include "splinefeed/hal/modbus/block_stream.hpp"
 #include "splinefeed/hal/modbus/cyclic_stream.hpp"
 #include "support/catch.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a curve file: segments that chain, from each scalar, or one line that says what is wrong.
-#include "host_sim/bezier_source.hpp"
-#include "host_sim/curve_file.hpp"
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/curve/bezier_source.hpp"
+#include "host_sim/curve/curve_file.hpp"
 
 #include <cstdlib>
 #include <string_view>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a map file: a map whose lines are all there and each once, or one line that says what is wrong.
-#include "host_sim/gpio_map.hpp"
-#include "host_sim/input_error.hpp"
-#include "host_sim/machine_file.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/gpio_map.hpp"
+#include "host_sim/config/machine_file.hpp"
 
 #include <cstdlib>
 #include <set>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a machine file: a machine that the planner takes, or one line that says what is wrong.
-#include "host_sim/input_error.hpp"
-#include "host_sim/machine_file.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/machine_file.hpp"
 
 #include <cstdlib>
 #include <string_view>

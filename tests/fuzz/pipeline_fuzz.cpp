@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any waypoints, options and machine: the simulated machine keeps every limit, the segments chain exactly, the motion
 // ends at rest on the last waypoint, and it takes no longer than its length and its stops explain.
-#include "host_sim/machine_file.hpp"
-#include "host_sim/simulated_machine.hpp"
+#include "host_sim/config/machine_file.hpp"
+#include "host_sim/machine/simulated_machine.hpp"
 
 #include "splinefeed/s1_curve/catmull_rom.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"

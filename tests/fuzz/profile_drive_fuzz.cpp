@@ -2,8 +2,8 @@
 // Any registers at any time to the simulated drives of the shipped profiles: they take or refuse them, what is refused
 // changes nothing, and their shafts stay finite and within what the time allows.
 #include "fuzz/bytes.hpp"
+#include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/profile_drive.hpp"
-#include "host_sim/drive/shipped_profiles.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a drive profile: a profile whose fields, groups and steps fit together, or one line that says what is
 // wrong.
-#include "host_sim/drive/profile_file.hpp"
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/profile_file.hpp"
 #include "splinefeed/hal/modbus/field_codec.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a waypoint file: rows that keep what the reader promises, or one line that says what is wrong.
-#include "host_sim/input_error.hpp"
-#include "host_sim/waypoint_reader.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/program/waypoint_reader.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The brake of an axis that would fall, and what drives on lines are left at, on a virtual clock.
 #include "gpio_bench.hpp"
-#include "host_sim/gpio/gpio_target.hpp"
-#include "host_sim/straight_motion.hpp"
+#include "host_sim/planning/straight_motion.hpp"
+#include "host_sim/target/gpio/gpio_target.hpp"
 #include "support/catch.hpp"
 #include "support/virtual_clock.hpp"
 

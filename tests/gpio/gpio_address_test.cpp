@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/gpio_address.hpp"
+#include "host_sim/config/gpio_address.hpp"
 
 #include "host/refusal.hpp"
-#include "host_sim/target_address.hpp"
+#include "host_sim/config/target_address.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::host;

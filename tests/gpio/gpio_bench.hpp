@@ -2,8 +2,8 @@
 // A machine of two axes with switches on one simulated chip: what tests of GPIO targets share.
 #pragma once
 
-#include "host_sim/gpio_map.hpp"
-#include "host_sim/machine_file.hpp"
+#include "host_sim/config/gpio_map.hpp"
+#include "host_sim/config/machine_file.hpp"
 #include "simulated_lines.hpp"
 
 namespace splinefeed_test {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Wrong map files: each is refused with its line, what is wrong, and what would be right.
-#include "host_sim/gpio_map.hpp"
+#include "host_sim/config/gpio_map.hpp"
 
 #include "host/refusal.hpp"
-#include "host_sim/machine_file.hpp"
+#include "host_sim/config/machine_file.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::host;

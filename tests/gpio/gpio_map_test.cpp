@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/gpio_map.hpp"
+#include "host_sim/config/gpio_map.hpp"
 
-#include "host_sim/machine_file.hpp"
+#include "host_sim/config/machine_file.hpp"
 #include "support/catch.hpp"
 #include "support/places.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How a run on GPIO lines stops, on a virtual clock: whatever asks for it, and whatever the planner does meanwhile.
 #include "gpio_bench.hpp"
-#include "host_sim/gpio/gpio_target.hpp"
-#include "host_sim/straight_motion.hpp"
+#include "host_sim/planning/straight_motion.hpp"
+#include "host_sim/target/gpio/gpio_target.hpp"
 #include "support/catch.hpp"
 #include "support/random_path.hpp"
 #include "support/rounds.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the simulated machine grants beyond a limit, against the rounding of control points as the stream makes it.
-#include "host_sim/axis_allowance.hpp"
+#include "host_sim/machine/axis_allowance.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/bezier_source.hpp"
+#include "host_sim/curve/bezier_source.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/compensated_sum.hpp"
+#include "host_sim/base/compensated_sum.hpp"
 
 #include "support/catch.hpp"
 

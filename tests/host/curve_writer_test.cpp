@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/curve_writer.hpp"
+#include "host_sim/output/curve_writer.hpp"
 
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"

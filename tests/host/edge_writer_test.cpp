@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/edge_writer.hpp"
+#include "host_sim/output/edge_writer.hpp"
 
-#include "host_sim/input_error.hpp"
-#include "host_sim/step_lines.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/step_lines.hpp"
 #include "refusal.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What a run of 10^9 mm, 10^10 segments and 2^32 waypoints says of itself: its counters start shortly before.
-#include "host_sim/motion.hpp"
+#include "host_sim/run/motion.hpp"
 
-#include "host_sim/input_error.hpp"
-#include "host_sim/machine_file.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/machine_file.hpp"
 #include "support/catch.hpp"
 #include "support/counter_seam.hpp"
 #include "temporary_folder.hpp"

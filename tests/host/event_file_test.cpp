@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/event_file.hpp"
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/program/event_file.hpp"
 #include "refusal.hpp"
 #include "support/catch.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/json_text.hpp"
+#include "host_sim/base/json_text.hpp"
 
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::host;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/limit_advice.hpp"
+#include "host_sim/analysis/limit_advice.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Shares of motions of which it is known what bounds them when.
-#include "host_sim/limit_share.hpp"
+#include "host_sim/analysis/limit_share.hpp"
 
 #include "support/catch.hpp"
 #include "support/machine_motion.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the machine does about segments that do not join, faults, running dry and its trace.
-#include "host_sim/simulated_machine.hpp"
+#include "host_sim/machine/simulated_machine.hpp"
 
 #include "support/catch.hpp"
 #include "support/machine_motion.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/nearest_name.hpp"
+#include "host_sim/base/nearest_name.hpp"
 
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
 #include "support/catch.hpp"
 
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The least time against closed forms, against an independent computation, and below what the pipeline takes.
-#include "host_sim/optimum_time.hpp"
+#include "host_sim/analysis/optimum_time.hpp"
 
-#include "host_sim/bezier_source.hpp"
+#include "host_sim/curve/bezier_source.hpp"
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"
 #include "support/places.hpp"

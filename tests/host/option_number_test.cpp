@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/option_number.hpp"
+#include "host_sim/base/option_number.hpp"
 
 #include "host/refusal.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/output_file.hpp"
+#include "host_sim/base/output_file.hpp"
 
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The intervals against the curve in long double: lengths, travels, and what caps the speed at the nodes.
-#include "host_sim/path_grid.hpp"
+#include "host_sim/analysis/path_grid.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"

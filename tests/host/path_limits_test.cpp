@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/path_limits.hpp"
+#include "host_sim/planning/path_limits.hpp"
 
-#include "host_sim/machine_file.hpp"
+#include "host_sim/config/machine_file.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;

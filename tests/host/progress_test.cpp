@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/progress.hpp"
+#include "host_sim/output/progress.hpp"
 
 #include "support/catch.hpp"
 

@@ -3,7 +3,7 @@
 // What a reader says of input that it refuses.
 #pragma once
 
-#include "host_sim/input_error.hpp"
+#include "host_sim/base/input_error.hpp"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/row_queue.hpp"
+#include "host_sim/program/row_queue.hpp"
 
-#include "host_sim/input_error.hpp"
-#include "host_sim/input_stream.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/input_stream.hpp"
 #include "support/catch.hpp"
 
 #include <istream>

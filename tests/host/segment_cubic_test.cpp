@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Positions against the Hermite basis in exact fractions; derivatives against differences of positions.
-#include "host_sim/segment_cubic.hpp"
+#include "host_sim/machine/segment_cubic.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/signal_watch.hpp"
+#include "host_sim/base/signal_watch.hpp"
 
 #include "support/catch.hpp"
 

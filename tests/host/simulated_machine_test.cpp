@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the machine checks and counts while segments move it.
-#include "host_sim/simulated_machine.hpp"
+#include "host_sim/machine/simulated_machine.hpp"
 
 #include "support/catch.hpp"
 #include "support/machine_motion.hpp"

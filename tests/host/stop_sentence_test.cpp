@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/stop_sentence.hpp"
+#include "host_sim/target/stop_sentence.hpp"
 
 #include "support/catch.hpp"
 

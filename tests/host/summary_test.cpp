@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/summary.hpp"
+#include "host_sim/output/summary.hpp"
 
 #include "support/catch.hpp"
 

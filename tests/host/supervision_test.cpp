@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/supervision.hpp"
+#include "host_sim/run/supervision.hpp"
 
 #include "support/catch.hpp"
 

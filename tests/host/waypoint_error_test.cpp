@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/waypoint_error.hpp"
+#include "host_sim/analysis/waypoint_error.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/methods/method_table.hpp"
+#include "host_sim/curve/methods/method_table.hpp"
 #include "support/catch.hpp"
 #include "support/golden.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Descriptions of the original Catmull-Rom curve: joints of degenerate points, and what is refused.
-#include "host_sim/methods/method_table.hpp"
+#include "host_sim/curve/methods/method_table.hpp"
 
 #include "support/catch.hpp"
 

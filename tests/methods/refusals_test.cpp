@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What a description is refused for, in the words that name the reason and the limits.
-#include "host_sim/methods/method_table.hpp"
+#include "host_sim/curve/methods/method_table.hpp"
 #include "host_sim/surface/described_surface.hpp"
 
 #include "support/catch.hpp"

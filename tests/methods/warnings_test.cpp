@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is valid, but hardly meant: sentences beside the results, for every scalar.
-#include "host_sim/methods/method_table.hpp"
+#include "host_sim/curve/methods/method_table.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // What a drive's registers cannot carry is refused before anything moves, by the machine's limits.
-#include "host_sim/input_error.hpp"
-#include "host_sim/machine_file.hpp"
-#include "host_sim/pvt_target.hpp"
-#include "host_sim/setpoint_target.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/machine_file.hpp"
+#include "host_sim/target/pvt_target.hpp"
+#include "host_sim/target/setpoint_target.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/round_trips.hpp"
+#include "host_sim/diagnose/round_trips.hpp"
 
 #include "support/catch.hpp"
 

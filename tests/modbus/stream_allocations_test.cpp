@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "drive/smooth_track.hpp"
-#include "host_sim/drive/shipped_profiles.hpp"
+#include "host_sim/config/shipped_profiles.hpp"
 #include "splinefeed/hal/modbus/block_stream.hpp"
 #include "splinefeed/hal/modbus/cyclic_stream.hpp"
 #include "support/allocations.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/stream_cost.hpp"
 
-#include "host_sim/drive/shipped_profiles.hpp"
+#include "host_sim/config/shipped_profiles.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::hal::modbus;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/target_address.hpp"
+#include "host_sim/config/target_address.hpp"
 
 #include "support/catch.hpp"
 

@@ -2,8 +2,8 @@
 // TargetPlant: a TargetPort with drives of shipped profiles, all simulated.
 #pragma once
 
+#include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/profile_drive.hpp"
-#include "host_sim/drive/shipped_profiles.hpp"
 #include "ports/plant.hpp"
 #include "splinefeed/hal/modbus/target_port.hpp"
 

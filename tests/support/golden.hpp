@@ -3,8 +3,8 @@
 // Reference vectors of the spline methods: cases with input, expected output and tolerance (tests/golden/README.md).
 #pragma once
 
-#include "host_sim/methods/joint_report.hpp"
-#include "host_sim/methods/method_table.hpp"
+#include "host_sim/curve/methods/joint_report.hpp"
+#include "host_sim/curve/methods/method_table.hpp"
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 // uniform B-spline.
 #pragma once
 
-#include "host_sim/simulated_machine.hpp"
+#include "host_sim/machine/simulated_machine.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -3,7 +3,7 @@
 // the files that `splinefeed run` takes. What fails can be run by hand.
 #pragma once
 
-#include "host_sim/job.hpp"
+#include "host_sim/cli/job.hpp"
 #include "support/bezier_paths.hpp"
 
 #include <cstdint>

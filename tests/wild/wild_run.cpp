@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "wild_run.hpp"
 
-#include "host_sim/curve_feeder.hpp"
-#include "host_sim/event_file.hpp"
-#include "host_sim/input_error.hpp"
-#include "host_sim/machine_file.hpp"
-#include "host_sim/optimum_time.hpp"
-#include "host_sim/path_tee.hpp"
-#include "host_sim/planner.hpp"
-#include "host_sim/simulated_machine.hpp"
+#include "host_sim/analysis/optimum_time.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/machine_file.hpp"
+#include "host_sim/machine/simulated_machine.hpp"
+#include "host_sim/planning/curve_feeder.hpp"
+#include "host_sim/planning/planner.hpp"
+#include "host_sim/program/event_file.hpp"
+#include "host_sim/run/path_tee.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // WildRun: a job through the planner and the simulated machine, which checks every limit, for so many segments.
 #pragma once
 
-#include "host_sim/job.hpp"
+#include "host_sim/cli/job.hpp"
 
 #include "splinefeed/number/scalar.hpp"
 

@@ -42,7 +42,7 @@ if ((status == 0)); then
     libraries=("$build"/host_sim/libsplinefeed_host.a "$work"/objects/*.o "$build"/hal/libsplinefeed_hal_modbus.a
         "$build"/hal/libsplinefeed_hal_rt.a
         "$build"/firmware_core/libsplinefeed_core.a)
-    g++ -o "$work/second/splinefeed" "$build"/host_sim/CMakeFiles/splinefeed_tool.dir/main.cpp.o "${libraries[@]}" -L$second/lib \
+    g++ -o "$work/second/splinefeed" "$build"/host_sim/CMakeFiles/splinefeed_tool.dir/cli/main.cpp.o "${libraries[@]}" -L$second/lib \
         -Wl,-rpath,"$PWD/$second/lib" -lgpiod -lmodbus -lfmt -ltomlplusplus -lpthread
     programs+=("$work/second/splinefeed")
 elif ((status != 77)); then

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// limit_advice: the shares of the limits as text: a table, and what to change to go faster.
+#pragma once
+
+#include "host_sim/analysis/limit_share.hpp"
+
+#include <string>
+
+namespace splinefeed::host {
+
+/// One row per axis and one for each limit of the path, percent of the time; each ends with a line end.
+/// @param names  of the axes, as many as there are in `shares`
+[[nodiscard]] std::string share_table(const std::vector<std::string>& names, const LimitShares& shares);
+
+/// One sentence that names the limit that bound longest, and a line end.
+[[nodiscard]] std::string advice(const std::vector<std::string>& names, const LimitShares& shares);
+
+} // namespace splinefeed::host

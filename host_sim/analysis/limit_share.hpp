@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// LimitShare: which limit bound, and for what share of the time, on the segments that were emitted.
+#pragma once
+
+#include "host_sim/config/machine_description.hpp"
+
+#include "splinefeed/s4_segment_stream/feed_segment.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// Shares of the time, 0 to 1. Limits may bind at the same time (an axis and the feed on a straight line), so they can
+/// add up to more than 1; `none` is the time in which none does: at rest, and where the plan stays below all of them.
+struct LimitShares {
+    struct Axis {
+        double velocity = 0.0;
+        double acceleration = 0.0;
+        std::optional<double> jerk; ///< none: the machine file has no such limit; so below
+    };
+    std::vector<Axis> axis; ///< in the order of the machine file
+    double feed = 0.0;
+    double programmed_feed = 0.0; ///< the part of `feed` in which the program's feed was below the machine's
+    std::optional<double> centripetal;
+    std::optional<double> chord;
+    double none = 0.0;
+};
+
+/// A limit binds where at least 95 % of it is used: a plan that is cautious by a few percent is still bound by it.
+/// Looked at in the middle of each segment, with that segment's duration: the resolution is a segment (a sample period
+/// at most). Speed along the path and curvature are taken over all axes, as the plan takes them. Memory: the waypoints
+/// between the curve and the motion. Cost: below 0.1 us a segment.
+class LimitShare {
+public:
+    static constexpr double binding = 0.95;
+
+    explicit LimitShare(const MachineSettings& machine);
+
+    /// The feed on the way to a waypoint; 0: the machine's. In travel order, before the segments that lead there.
+    void programmed(std::uint32_t waypoint, double feed_mm_s);
+
+    void segment(const FeedSegment& segment);
+
+    [[nodiscard]] LimitShares shares() const;
+
+private:
+    struct Axis {
+        double mm_per_unit = 0.0;
+        std::uint64_t velocity = 0; // ticks
+        std::uint64_t acceleration = 0;
+        std::uint64_t jerk = 0;
+    };
+    struct Feed {
+        std::uint32_t waypoint;
+        double mm_s;
+    };
+
+    MachineSettings machine_;
+    unsigned axes_;
+    double chord_mm_s2_; // largest kappa v^2 for the chord error
+    PerAxis<Axis> axis_{};
+    std::deque<Feed> feeds_;
+    std::uint64_t feed_ = 0;
+    std::uint64_t programmed_ = 0;
+    std::uint64_t centripetal_ = 0;
+    std::uint64_t chord_ = 0;
+    std::uint64_t none_ = 0;
+    std::uint64_t total_ = 0;
+};
+
+} // namespace splinefeed::host

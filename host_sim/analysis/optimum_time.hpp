@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// OptimumTime: the least time in which the axes can follow the curve, by another way than the plan.
+//
+//      b |      /\    ______       the speed limits of the nodes
+//        |  ___/  \__/      \      backward: the largest b from which what follows can be reached
+//        | /                 \     forward: the largest b that can be reached
+//        +-----------------------> s
+//        ^committed     ^half     ^end of the window: any b
+#pragma once
+
+#include "host_sim/analysis/path_grid.hpp"
+#include "host_sim/base/compensated_sum.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace splinefeed::host {
+
+/// Takes the curve's segments in travel order. The curve starts and ends at rest, and stops where the plan stops
+/// (PathGrid). Velocity, acceleration, programmed feed, centripetal and chord limits in full; jerk is not looked at, so
+/// this is a lower bound for machines with and without a jerk limit.
+///
+/// Limits are asked for at the nodes of a grid only, and beyond the window nothing is: whatever a machine can do is
+/// allowed here. The grid can make the result too large by 1e-4 of it, and too small by 3e-2 where axes differ by
+/// decades (0.0005 on the butterfly); tests/host measures both. Memory: the window. Cost: about 0.2 us a node, three
+/// axes; each is visited about three times, whatever the window.
+class OptimumTime {
+public:
+    static constexpr std::size_t usual_window = 4096; ///< 1 MB
+
+    /// @param direction_jump  Refinement::direction_jump of the plan
+    /// @pre window >= 4
+    OptimumTime(const MachineSettings& machine, double direction_jump, std::size_t window = usual_window);
+
+    template <Scalar S>
+    void segment(const CurveSegment<S>& segment);
+
+    /// The curve ends here, at rest. Idempotent.
+    void finish();
+
+    /// @pre finish() was called
+    [[nodiscard]] double seconds() const noexcept { return seconds_.value(); }
+    [[nodiscard]] std::uint64_t nodes() const noexcept { return nodes_; }
+    /// What all of this took.
+    [[nodiscard]] std::chrono::steady_clock::duration spent() const noexcept { return spent_; }
+
+private:
+    struct Stage {
+        PathInterval interval;
+        double limit_sq = 0.0; ///< of b at its start, from both sides
+        double reach_sq = 0.0; ///< largest b at its start from which all that follows can be done
+    };
+
+    void add(const PathInterval& interval);
+    void advance(double end_sq, std::size_t count);
+    [[nodiscard]] double before(const Stage& stage, double end_sq) const noexcept;
+    [[nodiscard]] double after(const PathInterval& interval, double start_sq) const noexcept;
+    [[nodiscard]] double time(const PathInterval& interval, double start_sq, double end_sq) const noexcept;
+
+    PathGrid grid_;
+    unsigned axes_;
+    PerAxis<double> speeding_{};
+    PerAxis<double> braking_{};
+    std::size_t window_;
+    std::vector<PathInterval> fresh_; // of one segment
+    std::vector<Stage> stages_;       // from the committed node on
+    double start_sq_ = 0.0;           // b at the committed node
+    CompensatedSum seconds_;
+    std::uint64_t nodes_ = 0;
+    std::chrono::steady_clock::duration spent_{};
+};
+
+} // namespace splinefeed::host

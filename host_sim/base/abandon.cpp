@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/base/abandon.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/output_file.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <climits>
+#include <string>
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr int taken_within_ms = 100;
+
+std::atomic<bool> abandoned{false};
+
+// A pipe that has room takes PIPE_BUF bytes without waiting.
+void tell(std::string_view sentence) {
+    std::string line = "splinefeed: " + printable(sentence);
+    line.resize(std::min<std::size_t>(line.size(), PIPE_BUF - 1));
+    line += '\n';
+    pollfd errors{STDERR_FILENO, POLLOUT, 0};
+    if (poll(&errors, 1, taken_within_ms) == 1 && (errors.revents & POLLOUT) != 0) {
+        [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+    }
+}
+
+} // namespace
+
+void abandon(std::string_view sentence, int status) noexcept {
+    while (abandoned.exchange(true)) {
+        pause();
+    }
+    OutputFile::discard_all();
+    tell(sentence);
+    _exit(status);
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/base/toml_checker.hpp"
+
+#include "host_sim/base/nearest_name.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+void TomlChecker::require_known(const toml::table& table, std::initializer_list<std::string_view> known,
+                                std::string_view where) const {
+    for (const auto& [key, value] : table) {
+        const std::string_view name = key.str();
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            throw InputError(file_, key.source().begin.line,
+                             fmt::format("unknown key {} in {}{}", in_quotes(name), where,
+                                         suggestion(name, {known.begin(), known.size()})));
+        }
+    }
+}
+
+std::string TomlChecker::text(const toml::node& node, std::string_view key) const {
+    const auto value = node.value_exact<std::string>();
+    if (!value || value->empty()) {
+        fail(node, fmt::format("{} must be a text in quotes, and not empty", key));
+    }
+    return *value;
+}
+
+bool TomlChecker::flag(const toml::node& node, std::string_view key) const {
+    const auto value = node.value_exact<bool>();
+    if (!value) {
+        fail(node, fmt::format("{} must be true or false", key));
+    }
+    return *value;
+}
+
+std::int64_t TomlChecker::whole(const toml::node& node, std::string_view key, WholeRange range) const {
+    const auto value = node.value_exact<std::int64_t>();
+    if (!value || *value < range.low || *value > range.high) {
+        fail(node, fmt::format("{} must be a whole number from {} to {}", key, range.low, range.high));
+    }
+    return *value;
+}
+
+double TomlChecker::number(const toml::node& node, std::string_view key, const NumberRange& range) const {
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value >= range.low && *value <= range.high)) {
+        fail(node, fmt::format("{} must be a number from {} to {} {}", key, range.low, range.high, range.unit));
+    }
+    return *value;
+}
+
+std::uint32_t TomlChecker::microseconds(const toml::node& node, std::string_view key, double most_ms) const {
+    constexpr double us_per_ms = 1000.0;
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value >= 0.0 && *value <= most_ms)) {
+        fail(node, fmt::format("{} must be a number from 0 to {} ms", key, most_ms));
+    }
+    return static_cast<std::uint32_t>(std::lround(*value * us_per_ms));
+}
+
+std::size_t TomlChecker::choice(const toml::node& node, std::string_view key,
+                                std::span<const std::string_view> names) const {
+    const std::string name = text(node, key);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+        fail(node, fmt::format("{} is {}{}", key, in_quotes(name), suggestion(name, names)));
+    }
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<std::string> TomlChecker::texts(const toml::node& node, std::string_view key, bool may_be_empty) const {
+    const toml::array& list = array(node, key, "a list of texts, like [\"a\", \"b\"]");
+    if (list.empty() && !may_be_empty) {
+        fail(node, fmt::format("{} must name one at least", key));
+    }
+    std::vector<std::string> out;
+    for (const toml::node& entry : list) {
+        out.push_back(text(entry, key));
+    }
+    return out;
+}
+
+const toml::table& TomlChecker::table(const toml::node& node, std::string_view key) const {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+        fail(node, fmt::format("{0} must be a table: [{0}] and its keys below", key));
+    }
+    return *table;
+}
+
+const toml::array& TomlChecker::array(const toml::node& node, std::string_view key, std::string_view what) const {
+    const toml::array* list = node.as_array();
+    if (list == nullptr) {
+        fail(node, fmt::format("{} must be {}", key, what));
+    }
+    return *list;
+}
+
+std::vector<const toml::table*> TomlChecker::tables(const toml::table& root, std::string_view key) const {
+    std::vector<const toml::table*> out;
+    const toml::node* node = root.get(key);
+    if (node == nullptr) {
+        return out;
+    }
+    const toml::array* list = node->as_array();
+    if (list == nullptr) {
+        fail(*node, fmt::format("{0} must be tables, each with [[{0}]] above it", key));
+    }
+    for (const toml::node& entry : *list) {
+        const toml::table* table = entry.as_table();
+        if (table == nullptr) {
+            fail(entry, fmt::format("{0} must be tables, each with [[{0}]] above it", key));
+        }
+        out.push_back(table);
+    }
+    return out;
+}
+
+const toml::node& TomlChecker::required(const toml::table& table, std::string_view key, std::string_view where,
+                                        std::string_view what) const {
+    const toml::node* node = table.get(key);
+    if (node == nullptr) {
+        fail(table, fmt::format("{} has no {}; it must be {}", where, key, what));
+    }
+    return *node;
+}
+
+void TomlChecker::take_flag(const toml::table& table, std::string_view key, bool& out) const {
+    if (const toml::node* node = table.get(key)) {
+        out = flag(*node, key);
+    }
+}
+
+void TomlChecker::take_ms(const toml::table& table, std::string_view key, double most_ms, std::uint32_t& out_us) const {
+    if (const toml::node* node = table.get(key)) {
+        out_us = microseconds(*node, key, most_ms);
+    }
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// TomlChecker: takes values out of a TOML file, and refuses each wrong one with its line.
+#pragma once
+
+#include "host_sim/base/input_error.hpp"
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <toml++/toml.h>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// Whole numbers that a key may hold.
+struct WholeRange {
+    std::int64_t low = 0;
+    std::int64_t high = 0;
+};
+
+/// Numbers that a key may hold.
+struct NumberRange {
+    double low = 0.0;
+    double high = 0.0;
+    std::string_view unit; ///< for the message: "mm/s"
+};
+
+/// Every member throws InputError `FILE:LINE: what is wrong, what would be right`. `where` goes into messages:
+/// "[link]".
+class TomlChecker {
+public:
+    explicit TomlChecker(const std::string& file) : file_(file) {}
+
+    template <class Node>
+    [[noreturn]] void fail(const Node& node, std::string_view what) const {
+        throw InputError(file_, node.source().begin.line, what);
+    }
+    [[noreturn]] void fail_file(std::string_view what) const { throw InputError(file_, 0, what); }
+
+    void require_known(const toml::table& table, std::initializer_list<std::string_view> known,
+                       std::string_view where) const;
+
+    [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const;
+    [[nodiscard]] bool flag(const toml::node& node, std::string_view key) const;
+    [[nodiscard]] std::int64_t whole(const toml::node& node, std::string_view key, WholeRange range) const;
+    [[nodiscard]] double number(const toml::node& node, std::string_view key, const NumberRange& range) const;
+    /// Milliseconds, also with a fraction, as whole microseconds.
+    [[nodiscard]] std::uint32_t microseconds(const toml::node& node, std::string_view key, double most_ms) const;
+    /// Which of the names it is.
+    [[nodiscard]] std::size_t choice(const toml::node& node, std::string_view key,
+                                     std::span<const std::string_view> names) const;
+    /// Texts, one at least unless `may_be_empty`.
+    [[nodiscard]] std::vector<std::string> texts(const toml::node& node, std::string_view key, bool may_be_empty) const;
+
+    [[nodiscard]] const toml::table& table(const toml::node& node, std::string_view key) const;
+    [[nodiscard]] const toml::array& array(const toml::node& node, std::string_view key, std::string_view what) const;
+    /// The tables below [[key]]; none where the key is not there.
+    [[nodiscard]] std::vector<const toml::table*> tables(const toml::table& root, std::string_view key) const;
+
+    [[nodiscard]] const toml::node& required(const toml::table& table, std::string_view key, std::string_view where,
+                                             std::string_view what) const;
+
+    // Those that may be left out: then `out` stays as it is.
+    template <class Whole>
+    void take(const toml::table& table, std::string_view key, WholeRange range, Whole& out) const {
+        if (const toml::node* node = table.get(key)) {
+            out = static_cast<Whole>(whole(*node, key, range));
+        }
+    }
+    void take_flag(const toml::table& table, std::string_view key, bool& out) const;
+    void take_ms(const toml::table& table, std::string_view key, double most_ms, std::uint32_t& out_us) const;
+
+private:
+    const std::string& file_;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/cli/command_line.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/config/target_address.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+#ifndef SPLINEFEED_VERSION
+#define SPLINEFEED_VERSION "unknown"
+#endif
+
+constexpr const char* exit_statuses =
+    "Exit status: 0 done; 1 the machine did not finish, and where it stands, or a drive cannot be used; 2 bad input or "
+    "usage, told in one line.";
+
+/// What was typed, before it is checked.
+struct Typed {
+    std::optional<std::string> machine;
+    std::optional<std::string> scalar;
+    std::string format;
+    std::string summary;
+    std::string window = "1024";
+};
+
+std::string joined(std::initializer_list<std::string_view> names) {
+    return listed({names.begin(), names.size()});
+}
+
+[[noreturn]] void refuse_value(std::string_view option, std::string_view value,
+                               std::initializer_list<std::string_view> known) {
+    throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(value), joined(known)));
+}
+
+void add_input(CLI::App& app, Job& job, Typed& typed) {
+    app.add_option("FILE", job.input, "waypoints (.csv) or a curve (.json); - reads standard input")->required();
+    app.add_option("--format", typed.format,
+                   "csv or json: what the input is (default: what its name says; of standard input csv)");
+}
+
+void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
+    CurveArguments& curve = job.curve;
+    const std::string group = "Curve";
+    const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
+        app.add_option(name, value, text)->group(group);
+    };
+    option("--curve", curve.method,
+           "g2, g2-bezier, catmull-rom, catmull-rom-modified, bspline, bspline-interpolation, ferguson, beta-chain or "
+           "polyline (default g2); docs/curves.md compares them");
+    app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
+        ->group(group)
+        ->disable_flag_override();
+    app.add_flag("--smooth", curve.smooth,
+                 "join the segments of a curve whose curvature jumps (catmull-rom and others) with G2: quintics")
+        ->group(group)
+        ->disable_flag_override();
+    option("--parameterization", curve.parameterization,
+           "uniform, chordal or centripetal (default: catmull-rom centripetal, else chordal)");
+    option("--degree", curve.degree,
+           "of bspline, 2 or 3, bspline-interpolation, 1 to 9, beta-chain, 2 to 9 (default 3)");
+    option("--knots", curve.knots, "of bspline-interpolation: uniform or averaged (default averaged)");
+    option("--tension", curve.tension,
+           "of catmull-rom, 0 to 10 (default 0.5); factor of catmull-rom-modified, 0 to 2, constant 0 to 65536 mm "
+           "(default 1)");
+    option("--factor", curve.factor,
+           "of catmull-rom-modified: chord, the tension times each chord, or constant, the tension in mm (default "
+           "chord)");
+    option("--beta1", curve.beta1, "bias of g2-bezier (default: the ratio of the chords) and beta-chain (default 1)");
+    option("--beta2", curve.beta2, "tension of g2-bezier, not below 0, and beta-chain (default 0)");
+    option("--lambda", curve.lambda, "of ferguson: ratio of the tangents at each point, 1/16 to 16 (default 1)");
+    option(
+        "--mu", curve.mu,
+        "of ferguson: tension, -65536 to 65536, or auto, the nearest to 0 that keeps the solve stable (default auto)");
+    option("--curvature-sign", curve.curvature_sign,
+           "of ferguson: 1, -1 (flips the curvature at every point) or auto (-1 at inflections; default 1)");
+    option("--corner-angle", curve.corner_angle,
+           "a sharper turn, in degrees, is a corner: the machine stops there (default 60, of "
+           "bspline 180: none is)");
+    option("--start-tangent", curve.start_tangent,
+           "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
+           "derivative)");
+    option("--end-tangent", curve.end_tangent, "X,Y,Z: the same at the end");
+    app.add_option("--scalar", typed.scalar,
+                   "fixed, float or double: what it is computed in (default fixed, as on a microcontroller); float not "
+                   "with a jerk limit")
+        ->group(group);
+}
+
+void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
+    app.add_option("-m,--machine", typed.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
+    if (executes) {
+        app.add_option("--target", job.target,
+                       std::string("sim: the simulated machine in this process (default); ") + target_text);
+        app.add_flag("--home", job.wishes.home, "the axes find their references first; then the program begins")
+            ->disable_flag_override();
+        app.add_flag("--probe", job.wishes.probe, "it ends where the probe touches (gpio://); 1 where it never does")
+            ->disable_flag_override();
+    }
+    app.add_option("--window", typed.window,
+                   "cells that the feed plan looks ahead, 16 to 1000000 (default 1024); a jerk-limited plan a quarter");
+    app.add_option("--events", job.events,
+                   "E.csv: what an operator does while it runs, rows t,hold|resume|abort or t,override,0 to 2");
+    const std::string group = "Outputs (- is standard output)";
+    app.add_option("--trace", job.trace, "T.csv: positions and speed at every sample period")->group(group);
+    app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);
+    app.add_option("--edges", job.edges,
+                   "E.csv: what the step and direction lines do, on a virtual clock; docs/pulse_train.md")
+        ->group(group);
+    app.add_option("--curve-out", job.curve_out, "C.json: the curve as Bezier segments")->group(group);
+    app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
+    app.add_flag("--quiet", job.quiet, "no progress and no warnings on standard error")
+        ->group(group)
+        ->disable_flag_override();
+}
+
+/// The options of an app by their long names, as they are typed.
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+        for (const std::string& name : option->get_snames()) {
+            names.push_back("-" + name);
+        }
+    }
+    return names;
+}
+
+bool takes_no_input(const CLI::App& app) {
+    return app.get_name() == "drive" || app.get_name() == "link";
+}
+
+// What CLI11 did not know: an option, or one word too many.
+void refuse_extras(const CLI::App& app, const Job& job) {
+    for (const std::string& word : app.remaining()) {
+        if (word.size() > 1 && word.front() == '-') {
+            const std::vector<std::string> names = option_names(app);
+            const std::vector<std::string_view> known(names.begin(), names.end());
+            const std::string_view near = nearest_name(word.substr(0, word.find('=')), known);
+            throw UsageError(fmt::format("'{}' has no option {}; {}", app.get_name(), in_quotes(word),
+                                         near.empty() ? fmt::format("see splinefeed {} --help", app.get_name())
+                                                      : fmt::format("did you mean '{}'?", near)));
+        }
+        throw UsageError(takes_no_input(app) ? fmt::format("'{}' takes no input; {} is one word too many",
+                                                           app.get_name(), in_quotes(word))
+                                             : fmt::format("there is one input, {}; {} is one word too many",
+                                                           in_quotes(job.input), in_quotes(word)));
+    }
+}
+
+// CLI11's errors name the option first: "--trace: 1 required TEXT missing".
+std::string explained(const CLI::ParseError& error) {
+    const std::string_view text = error.what();
+    const std::string_view option = text.substr(0, text.find(':'));
+    if (text.find("missing") != std::string_view::npos) {
+        return fmt::format("{} needs a value; see splinefeed --help", option);
+    }
+    if (text.find("At Most 1") != std::string_view::npos) {
+        return fmt::format("{} is given more than once; give it once", option);
+    }
+    if (text.find("flag override") != std::string_view::npos) {
+        return fmt::format("--{} takes no value; leave it out", text.substr(0, text.find(' ')));
+    }
+    if (text.find("FILE is required") != std::string_view::npos) {
+        return "there is no input; name a .csv or .json file, or - for standard input";
+    }
+    return fmt::format("{}; see splinefeed --help", text);
+}
+
+void take_format(Job& job, const std::string& format) {
+    const std::size_t dot = job.input.rfind('.');
+    const std::string suffix = job.input == "-" ? ".csv" : dot == std::string::npos ? "" : job.input.substr(dot);
+    const std::string kind = format.empty() ? suffix.substr(suffix.empty() ? 0 : 1) : format;
+    if (kind == "csv") {
+        job.format = InputFormat::csv;
+    } else if (kind == "json") {
+        job.format = InputFormat::json;
+    } else if (!format.empty()) {
+        refuse_value("--format", format, {"csv", "json"});
+    } else {
+        throw UsageError(
+            fmt::format("{}: the name does not say what it is; name a .csv or .json file, or add --format csv|json",
+                        in_quotes(job.input)));
+    }
+}
+
+void take_scalar(Job& job, const std::string& scalar) {
+    if (scalar == "fixed") {
+        job.scalar = ScalarKind::fixed;
+    } else if (scalar == "float") {
+        job.scalar = ScalarKind::single;
+    } else if (scalar == "double") {
+        job.scalar = ScalarKind::dual;
+    } else {
+        refuse_value("--scalar", scalar, {"fixed", "float", "double"});
+    }
+}
+
+void take_window(Job& job, const std::string& text) {
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, job.window_cells);
+    if (end != last || error != std::errc{} || job.window_cells < 16 || job.window_cells > 1000000) {
+        throw UsageError(fmt::format("--window {}: it must be a whole number from 16 to 1000000", in_quotes(text)));
+    }
+}
+
+// One output at most goes to standard output, and no two to one file.
+void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
+    const std::array<std::pair<const char*, const std::string*>, 4> files{{{"--trace", &job.trace},
+                                                                           {"--segments", &job.segments},
+                                                                           {"--edges", &job.edges},
+                                                                           {"--curve-out", &job.curve_out}}};
+    const char* on_stdout = nullptr;
+    std::error_code ignored;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto& [option, path] = files[i];
+        const CLI::Option* const given = app.get_option_no_throw(option);
+        if (given != nullptr && given->count() > 0 && path->empty()) {
+            throw UsageError(fmt::format("{} needs the name of a file, or - for standard output", option));
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!path->empty() && *path == *files[j].second && !std::filesystem::is_character_file(*path, ignored)) {
+                throw UsageError(fmt::format("{} and {} both go to {}; give each its own", files[j].first, option,
+                                             *path == "-" ? "standard output" : in_quotes(*path)));
+            }
+        }
+        on_stdout = *path == "-" ? option : on_stdout;
+    }
+    if (!summary.empty() && summary != "text" && summary != "json") {
+        refuse_value("--summary", summary, {"text", "json"});
+    }
+    if (!summary.empty() && on_stdout != nullptr) {
+        throw UsageError(fmt::format("{} - and --summary both go to standard output; write one to a file", on_stdout));
+    }
+    job.summary = on_stdout != nullptr ? SummaryKind::none : summary == "json" ? SummaryKind::json : SummaryKind::text;
+}
+
+void describe_commands(CLI::App& app, Job& job, Typed& typed) {
+    CLI::App* const run = app.add_subcommand("run", "Plan a path and execute it");
+    add_input(*run, job, typed);
+    add_machine_options(*run, job, typed, true);
+    add_curve_options(*run, job, typed);
+    run->footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
+    CLI::App* const plan = app.add_subcommand("plan", "Plan a path, execute nothing");
+    add_input(*plan, job, typed);
+    add_machine_options(*plan, job, typed, false);
+    add_curve_options(*plan, job, typed);
+    plan->footer(std::string("Example: splinefeed plan part.csv --curve catmull-rom --summary json\n") + exit_statuses);
+    CLI::App* const curve = app.add_subcommand("curve", "Print the curve through the points as Bezier segments");
+    add_input(*curve, job, typed);
+    add_curve_options(*curve, job, typed);
+    curve->add_option("-o,--curve-out", job.curve_out, "C.json (default: standard output)");
+    curve->add_flag("--quiet", job.quiet, "no warnings on standard error")->disable_flag_override();
+    curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
+    CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
+    surface->add_option("FILE", job.input, "a grid or sections (.json); - reads standard input")->required();
+    surface->add_option("--format", typed.format, "json: what the input is, whatever its name");
+    add_surface_options(*surface, job.surface);
+    surface->add_flag("--quiet", job.quiet, "no warnings on standard error")->disable_flag_override();
+    surface->add_option("--scalar", typed.scalar,
+                        "fixed, float or double: what parameters, knots and control points are computed in (default "
+                        "double)");
+    surface->footer(std::string("Example: splinefeed surface dome.json --along u --scallop 0.01 --ball-radius 6 -o "
+                                "path.csv\n") +
+                    exit_statuses);
+    CLI::App* const drive = app.add_subcommand("drive", "Play a Modbus drive, until it is interrupted");
+    add_drive_options(*drive, job.drive);
+    drive->footer(
+        "Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
+        "It prints one line when it listens, and exits with 0 after SIGINT (Ctrl-C) or SIGTERM, its records complete.");
+    CLI::App* const link = app.add_subcommand("link", "Test the link to drives: who answers, how fast, how surely");
+    add_link_options(*link, job.link);
+    link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
+                 exit_statuses);
+    for (CLI::App* const command : {run, plan, curve, surface, drive, link}) {
+        for (CLI::Option* const option : command->get_options()) {
+            option->type_name(""); // the descriptions say what a value may be
+        }
+        command->allow_extras();
+        command->set_help_flag("-h,--help", "print this");
+    }
+}
+
+} // namespace
+
+std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
+    constexpr std::array<std::string_view, 6> commands{"run", "plan", "curve", "surface", "drive", "link"};
+    Job job;
+    Typed typed;
+    CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
+    app.set_help_flag("-h,--help", "print this, or what a command takes: splinefeed run --help");
+    app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
+    app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
+    app.require_subcommand(0, 1);
+    app.allow_extras();
+    describe_commands(app, job, typed);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        const auto chosen = app.get_subcommands();
+        return Answer{chosen.empty() ? app.help() : chosen.front()->help("splinefeed")};
+    } catch (const CLI::CallForVersion& version) {
+        return Answer{std::string(version.what()) + "\n"};
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(explained(error));
+    }
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty()) {
+        const std::vector<std::string> words = app.remaining();
+        if (words.empty()) {
+            throw UsageError("there is no command; it must be one of " + listed(commands) + "; see splinefeed --help");
+        }
+        if (words.front().substr(0, 1) == "-") {
+            throw UsageError(fmt::format("there is no option {}; before a command there are --help and --version",
+                                         in_quotes(words.front())));
+        }
+        throw UsageError(
+            fmt::format("there is no command {}{}", in_quotes(words.front()), suggestion(words.front(), commands)));
+    }
+    const CLI::App& command = *chosen.front();
+    refuse_extras(command, job);
+    if (takes_no_input(command)) {
+        job.command = command.get_name() == "drive" ? Command::drive : Command::link;
+        return job;
+    }
+    if (job.input.empty()) {
+        throw UsageError("the input has no name; give a .csv or .json file, or - for standard input");
+    }
+    if (command.get_name() == "surface") {
+        job.command = Command::surface;
+        static_cast<void>(choose_raster(job.surface));
+        if (!typed.format.empty() && typed.format != "json") {
+            throw UsageError(fmt::format("--format {}: a surface is described in json", in_quotes(typed.format)));
+        }
+        take_scalar(job, typed.scalar.value_or("double"));
+        return job;
+    }
+    job.machine = typed.machine.value_or("");
+    if (typed.machine && job.machine.empty()) {
+        throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
+    }
+    job.command = command.get_name() == "run"    ? Command::run
+                  : command.get_name() == "plan" ? Command::plan
+                                                 : Command::curve;
+    check_target(job.target);
+    if ((job.wishes.home || job.wishes.probe) && job.target == "sim") {
+        throw UsageError(
+            fmt::format("--{} is for machines with switches or drives, and the simulated one has none; name "
+                        "yours with --target",
+                        job.wishes.home ? "home" : "probe"));
+    }
+    take_format(job, typed.format);
+    take_scalar(job, typed.scalar.value_or("fixed"));
+    take_window(job, typed.window);
+    take_outputs(job, command, typed.summary);
+    if (job.command == Command::curve && job.curve_out.empty()) {
+        job.curve_out = "-";
+    }
+    if (job.format == InputFormat::csv) {
+        static_cast<void>(choose_curve(job.curve));
+    }
+    return job;
+}
+
+} // namespace splinefeed::host

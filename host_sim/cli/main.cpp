@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The tool `splinefeed`: exceptions become exit statuses here and nowhere else.
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/output_file.hpp"
+#include "host_sim/cli/command_line.hpp"
+#include "host_sim/run/runner.hpp"
+#include "host_sim/target/run_target.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+#include <iostream>
+
+int main(int argc, char** argv) {
+    using namespace splinefeed::host;
+    constexpr int not_finished = 1;
+    constexpr int bad_input = 2;
+    std::ios::sync_with_stdio(false);                 // a pipe is read in blocks of what has arrived
+    static_cast<void>(std::signal(SIGPIPE, SIG_IGN)); // an output whose reader has gone is an error like any other
+    try {
+        const auto parsed = parse_command_line(argc, argv);
+        if (const Answer* const answer = std::get_if<Answer>(&parsed)) {
+            return std::fputs(answer->text.c_str(), stdout) < 0 || std::fflush(stdout) != 0 ? bad_input : 0;
+        }
+        return run(std::get<Job>(parsed));
+    } catch (const InputError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return bad_input;
+    } catch (const UsageError& error) {
+        fmt::print(stderr, "splinefeed: {}\n", error.what());
+        return bad_input;
+    } catch (const OutputError& error) {
+        fmt::print(stderr, "splinefeed: {}\n", printable(error.what()));
+        return bad_input;
+    } catch (const TargetError& error) {
+        fmt::print(stderr, "splinefeed: {}\n", printable(error.what()));
+        return not_finished;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "splinefeed: internal error: {}\n", printable(error.what()));
+        return not_finished;
+    }
+}

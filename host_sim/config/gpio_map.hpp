@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// gpio_map: reads a map file, which says what the lines of GPIO chips are for (docs/gpio.md).
+#pragma once
+
+#include "host_sim/config/machine_description.hpp"
+
+#include "splinefeed/hal/gpio/line_map.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace splinefeed::host {
+
+/// Reads and checks the file, every key of it, against the machine's axes, motors and polarities.
+/// @param chip  that of lines for which the file names none
+/// Throws InputError, with the line of what is wrong. Whether a chip has such lines is known when they are requested.
+[[nodiscard]] hal::gpio::LineMap read_gpio_map(const std::string& file, const MachineDescription& machine,
+                                               const std::string& chip);
+
+/// The same for a text; `file` is its name in messages.
+[[nodiscard]] hal::gpio::LineMap parse_gpio_map(std::string_view text, const std::string& file,
+                                                const MachineDescription& machine, const std::string& chip);
+
+} // namespace splinefeed::host

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/config/gpio_map_lines.hpp"
+
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+using namespace hal::gpio;
+
+namespace {
+
+constexpr std::size_t longest_name = 31;    // the kernel has 32 bytes, with a zero
+constexpr std::int64_t most_offset = 65535; // the largest chips have about a thousand
+constexpr std::string_view a_line =
+    "a line's name like \"X_STEP\", its offset like 4, or { offset = 4, name = \"X_STEP\" }";
+
+} // namespace
+
+std::string GpioMapLines::name(const toml::node& node, std::string_view key) const {
+    std::string name = check_.text(node, key);
+    if (name.size() > longest_name) {
+        check_.fail(
+            node, fmt::format("{} is {}; names of lines have at most {} letters", key, in_quotes(name), longest_name));
+    }
+    return name;
+}
+
+unsigned GpioMapLines::offset(const toml::node& node, std::string_view key) const {
+    return static_cast<unsigned>(check_.whole(node, key, {0, most_offset}));
+}
+
+GpioMapLines::Wanted GpioMapLines::wanted(const toml::node& node, std::string_view key) const {
+    Wanted wanted{default_chip_, {}};
+    if (node.is_integer()) {
+        wanted.line.offset = offset(node, key);
+        return wanted;
+    }
+    if (node.is_string()) {
+        wanted.line.name = name(node, key);
+        return wanted;
+    }
+    const toml::table* const table = node.as_table();
+    if (table == nullptr) {
+        check_.fail(node, fmt::format("{} must be {}", key, a_line));
+    }
+    check_.require_known(*table, {"chip", "offset", "name"}, key);
+    if (const toml::node* given = table->get("chip")) {
+        wanted.chip = check_.text(*given, "chip");
+        if (wanted.chip.size() < 2 || wanted.chip.front() != '/') {
+            check_.fail(*given, fmt::format("chip is {}; it must be its whole path, like \"/dev/gpiochip1\"",
+                                            in_quotes(wanted.chip)));
+        }
+    }
+    if (const toml::node* given = table->get("offset")) {
+        wanted.line.offset = offset(*given, "offset");
+    }
+    if (const toml::node* given = table->get("name")) {
+        wanted.line.name = name(*given, "name");
+    }
+    if (wanted.line.name.empty() && !wanted.line.offset) {
+        check_.fail(node, fmt::format("{} has neither offset nor name; give one of both, or both", key));
+    }
+    return wanted;
+}
+
+// A line that is named here and given by its offset there is found when it is requested.
+void GpioMapLines::require_unused(const toml::node& node, std::string_view key, const Wanted& line) {
+    std::vector<std::string> ways;
+    if (line.line.offset) {
+        ways.push_back(fmt::format("line {}", *line.line.offset));
+    }
+    if (!line.line.name.empty()) {
+        ways.push_back(fmt::format("line {}", in_quotes(line.line.name)));
+    }
+    for (const std::string& way : ways) {
+        const auto [before, unused] = used_.emplace(std::pair(line.chip, way), std::string(key));
+        if (!unused) {
+            check_.fail(node,
+                        fmt::format("{} is {} of {}, which is {} already; each needs a line of its own (inputs may "
+                                    "share one, which each of them then names alike)",
+                                    key, way, line.chip, before->second));
+        }
+    }
+}
+
+std::size_t GpioMapLines::chip_index(const std::string& chip) {
+    for (std::size_t i = 0; i < chips_.size(); ++i) {
+        if (chips_[i].chip == chip) {
+            return i;
+        }
+    }
+    chips_.push_back({chip, {}, {}});
+    return chips_.size() - 1;
+}
+
+template <class Request>
+LineBit GpioMapLines::add(const toml::node& node, std::size_t chip, std::vector<Request>& requests,
+                          const Request& request) const {
+    if (requests.size() == most_lines || chip > UINT8_MAX) {
+        check_.fail(node,
+                    fmt::format("this is more than {} lines of {}; leave some out", most_lines, chips_[chip].chip));
+    }
+    requests.push_back(request);
+    return {static_cast<std::uint8_t>(chip), static_cast<std::uint8_t>(requests.size() - 1)};
+}
+
+LineBit GpioMapLines::output(const toml::node& node, std::string_view key, bool safe_level) {
+    const Wanted line = wanted(node, key);
+    require_unused(node, key, line);
+    const std::size_t chip = chip_index(line.chip);
+    return add(node, chip, chips_[chip].outputs, OutputRequest{line.line, safe_level});
+}
+
+LineBit GpioMapLines::input(const toml::node& node, std::string_view key, Bias bias) {
+    const Wanted line = wanted(node, key);
+    for (const Input& other : inputs_) {
+        if (other.wanted.chip == line.chip && other.wanted.line == line.line) {
+            if (other.bias != bias) {
+                check_.fail(node, fmt::format("{} shares its line with another input, and has another bias; a line has "
+                                              "one bias",
+                                              key));
+            }
+            return other.bit;
+        }
+    }
+    require_unused(node, key, line);
+    const std::size_t chip = chip_index(line.chip);
+    const LineBit bit = add(node, chip, chips_[chip].inputs, InputRequest{line.line, bias});
+    inputs_.push_back({line, bias, bit});
+    return bit;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// GpioMapLines: the lines of a map file, each used once, grouped by chip. For gpio_map.
+#pragma once
+
+#include "host_sim/base/toml_checker.hpp"
+
+#include "splinefeed/hal/gpio/line_map.hpp"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// Fills LineMap::chips. Its members throw InputError, with the line of what is wrong.
+class GpioMapLines {
+public:
+    /// @param chip  that of lines for which the file names none
+    GpioMapLines(const TomlChecker& check, std::string chip, std::vector<hal::gpio::ChipLines>& chips)
+        : check_(check), default_chip_(std::move(chip)), chips_(chips) {}
+
+    /// @param node  a name, an offset, or a table with chip, offset and name
+    /// @param key  that it stands behind, for messages
+    hal::gpio::LineBit output(const toml::node& node, std::string_view key, bool safe_level);
+    /// Inputs may share a line, named alike each time and with the same bias.
+    hal::gpio::LineBit input(const toml::node& node, std::string_view key, hal::gpio::Bias bias);
+
+private:
+    struct Wanted {
+        std::string chip;
+        hal::gpio::LineName line;
+    };
+    struct Input {
+        Wanted wanted;
+        hal::gpio::Bias bias;
+        hal::gpio::LineBit bit;
+    };
+
+    [[nodiscard]] std::string name(const toml::node& node, std::string_view key) const;
+    [[nodiscard]] unsigned offset(const toml::node& node, std::string_view key) const;
+    [[nodiscard]] Wanted wanted(const toml::node& node, std::string_view key) const;
+    void require_unused(const toml::node& node, std::string_view key, const Wanted& line);
+    std::size_t chip_index(const std::string& chip);
+    template <class Request>
+    hal::gpio::LineBit add(const toml::node& node, std::size_t chip, std::vector<Request>& requests,
+                           const Request& request) const;
+
+    const TomlChecker& check_;
+    std::string default_chip_;
+    std::vector<hal::gpio::ChipLines>& chips_;
+    std::map<std::pair<std::string, std::string>, std::string> used_; ///< chip and line, by which key
+    std::vector<Input> inputs_;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/config/machine_file.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/text_file.hpp"
+#include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/target_address.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <initializer_list>
+#include <toml++/toml.h>
+#include <vector>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr std::string_view axis_letters = "xyzabc";
+constexpr double most_counts = 2147483647.0;
+
+/// A number that a key may hold.
+struct Range {
+    double low;
+    double high;
+    const char* unit;
+};
+
+// As MotionLimits::make has them: here with the line of the file.
+constexpr Range velocity_range{0.001, 10000.0, "mm/s"};
+constexpr Range acceleration_range{0.1, 1e6, "mm/s^2"};
+constexpr Range chord_error_range{1e-6, 1.0, "mm"};
+constexpr Range zone_range{0.001, 1e6, "mm"};
+constexpr Range steps_range{0.001, 1e6, "counts per mm"};
+constexpr Range jerk_range{1.0, 1e9, "mm/s^3"};
+
+/// Checks one file; remembers its name for messages.
+class Checker {
+public:
+    explicit Checker(const std::string& file) : file_(file) {}
+
+    [[nodiscard]] MachineDescription machine(const toml::table& root) const {
+        require_known(root, {"name", "sample_period_us", "drives_at_end", "path", "step", "axis"}, "");
+        MachineDescription machine;
+        machine.file = file_;
+        if (const toml::node* node = root.get("name")) {
+            machine.name = text(*node, "name");
+        }
+        if (const toml::node* node = root.get("sample_period_us")) {
+            const auto period = node->value_exact<std::int64_t>();
+            if (!period || *period < 50 || *period > 100000) {
+                fail(*node, "sample_period_us must be a whole number from 50 to 100000");
+            }
+            machine.settings.sample_period_us = static_cast<int>(*period);
+        }
+        if (const toml::node* node = root.get("drives_at_end")) {
+            const std::string end = text(*node, "drives_at_end");
+            if (end != "on" && end != "off") {
+                fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
+            }
+            machine.drives_on_at_end = end == "on";
+        }
+        path(root, machine.settings);
+        step(root, machine.step);
+        axes(root, machine);
+        return machine;
+    }
+
+private:
+    template <class Node>
+    [[noreturn]] void fail(const Node& node, std::string_view what) const {
+        throw InputError(file_, node.source().begin.line, what);
+    }
+
+    void require_known(const toml::table& table, std::initializer_list<std::string_view> known,
+                       std::string_view where) const {
+        for (const auto& [key, value] : table) {
+            const std::string_view name = key.str();
+            if (std::find(known.begin(), known.end(), name) == known.end()) {
+                throw InputError(file_, key.source().begin.line,
+                                 fmt::format("unknown key {}{}{}", in_quotes(name), where,
+                                             suggestion(name, {known.begin(), known.size()})));
+            }
+        }
+    }
+
+    [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const {
+        const auto value = node.value_exact<std::string>();
+        if (!value) {
+            fail(node, fmt::format("{} must be a text in quotes", key));
+        }
+        return *value;
+    }
+
+    [[nodiscard]] double number(const toml::node& node, std::string_view key) const {
+        const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+        if (!value || !std::isfinite(*value)) {
+            fail(node, fmt::format("{} must be a finite number", key));
+        }
+        return *value;
+    }
+
+    [[nodiscard]] double number(const toml::node& node, std::string_view key, const Range& range) const {
+        const double value = number(node, key);
+        if (value < range.low || value > range.high) {
+            fail(node, fmt::format("{} is {}; it must lie between {} and {} {}", key, value, range.low, range.high,
+                                   range.unit));
+        }
+        return value;
+    }
+
+    [[nodiscard]] double required(const toml::table& table, std::string_view key, const Range& range,
+                                  std::string_view where) const {
+        const toml::node* node = table.get(key);
+        if (node == nullptr) {
+            fail(table, fmt::format("{} has no {}; it must be a number between {} and {} {}", where, key, range.low,
+                                    range.high, range.unit));
+        }
+        return number(*node, key, range);
+    }
+
+    void path(const toml::table& root, MachineSettings& settings) const {
+        const toml::node* node = root.get("path");
+        const toml::table* table = node != nullptr ? node->as_table() : nullptr;
+        if (node == nullptr) {
+            throw InputError(file_, 0, "there is no [path]; write [path] and below it max_feed_mm_s = 100");
+        }
+        if (table == nullptr) {
+            fail(*node, "path must be a table: [path] and its keys below");
+        }
+        require_known(*table, {"max_feed_mm_s", "centripetal_mm_s2", "chord_error_mm", "jerk_plan"}, " in [path]");
+        settings.max_feed_mm_s = required(*table, "max_feed_mm_s", velocity_range, "[path]");
+        if (const toml::node* limit = table->get("centripetal_mm_s2")) {
+            settings.centripetal_mm_s2 = number(*limit, "centripetal_mm_s2", acceleration_range);
+        }
+        if (const toml::node* limit = table->get("chord_error_mm")) {
+            settings.chord_error_mm = number(*limit, "chord_error_mm", chord_error_range);
+        }
+        if (const toml::node* tier = table->get("jerk_plan")) {
+            const std::string name = tier->value_or(std::string{});
+            if (name != "optimal" && name != "bounded") {
+                fail(*tier, R"(jerk_plan must be "optimal" or "bounded")");
+            }
+            settings.jerk_tier = name == "bounded" ? JerkTier::bounded : JerkTier::optimal;
+        }
+    }
+
+    void step(const toml::table& root, StepSettings& settings) const {
+        const toml::node* node = root.get("step");
+        if (node == nullptr) {
+            return;
+        }
+        const toml::table* table = node->as_table();
+        if (table == nullptr) {
+            fail(*node, "step must be a table: [step] and its keys below");
+        }
+        require_known(
+            *table,
+            {"engine", "tick_us", "high_us", "low_us", "direction_setup_us", "direction_hold_us", "step_on_edge"},
+            " in [step]");
+        const toml::node* engine = table->get("engine");
+        const std::string kind = engine != nullptr ? text(*engine, "engine") : "intervals";
+        if (kind != "intervals" && kind != "fixed-rate") {
+            fail(*engine, fmt::format("engine is {}; it must be 'intervals' or 'fixed-rate'", in_quotes(kind)));
+        }
+        settings.tick_us = kind == "fixed-rate" ? 10.0 : 0.0;
+        if (const toml::node* tick = table->get("tick_us")) {
+            if (kind != "fixed-rate") {
+                fail(*tick, "tick_us is of engine = 'fixed-rate'; leave it out, or state that engine");
+            }
+            settings.tick_us = number(*tick, "tick_us");
+            if (StepTiming::make({.tick_us = settings.tick_us}).error() != Error::none || settings.tick_us == 0.0) {
+                fail(*tick,
+                     fmt::format("tick_us is {}; it must be a multiple of 0.25 from 0.25 to 1000", settings.tick_us));
+            }
+        }
+        const auto time = [&](const char* key, double least_us, double& value) {
+            if (const toml::node* given = table->get(key)) {
+                value = number(*given, key, {least_us, 1000.0, "us"});
+            }
+        };
+        time("high_us", 0.125, settings.high_us);
+        time("low_us", 0.125, settings.low_us);
+        time("direction_setup_us", 0.0, settings.direction_setup_us);
+        time("direction_hold_us", 0.0, settings.direction_hold_us);
+        if (const toml::node* on_edge = table->get("step_on_edge")) {
+            settings.step_on_edge = flag(*on_edge, "step_on_edge");
+        }
+    }
+
+    [[nodiscard]] bool flag(const toml::node& node, std::string_view key) const {
+        const auto value = node.value_exact<bool>();
+        if (!value) {
+            fail(node, fmt::format("{} must be true or false", key));
+        }
+        return *value;
+    }
+
+    void motors(const toml::table& table, StepMotors& motors) const {
+        if (const toml::node* count = table.get("motors")) {
+            const auto value = count->value_exact<std::int64_t>();
+            if (!value || *value < 1 || *value > 2) {
+                fail(*count, "motors must be 1 or 2");
+            }
+            motors.count = static_cast<int>(*value);
+        }
+        if (const toml::node* invert = table.get("invert_step")) {
+            motors.invert_step = flag(*invert, "invert_step");
+        }
+        const toml::node* invert = table.get("invert_direction");
+        if (invert == nullptr) {
+            return;
+        }
+        const toml::array* each = invert->as_array();
+        if (each == nullptr) {
+            motors.invert_direction.fill(flag(*invert, "invert_direction"));
+            return;
+        }
+        if (each->size() != static_cast<std::size_t>(motors.count)) {
+            fail(*invert,
+                 fmt::format("invert_direction has {} values; it must have one for each of {} motors, or be true or "
+                             "false for all",
+                             each->size(), motors.count));
+        }
+        for (std::size_t i = 0; i < each->size(); ++i) {
+            motors.invert_direction[i] = flag((*each)[i], "invert_direction");
+        }
+    }
+
+    void axes(const toml::table& root, MachineDescription& machine) const {
+        const toml::node* node = root.get("axis");
+        const toml::array* array = node != nullptr ? node->as_array() : nullptr;
+        if (node == nullptr) {
+            throw InputError(file_, 0, "there is no [[axis]]; a machine has one to six");
+        }
+        if (array == nullptr || array->empty()) {
+            fail(*node, "axis must be one to six tables, each with [[axis]] above it");
+        }
+        if (array->size() > static_cast<std::size_t>(max_axes)) {
+            fail((*array)[static_cast<std::size_t>(max_axes)],
+                 fmt::format("there are {} axes; a machine has one to {}", array->size(), max_axes));
+        }
+        machine.settings.axes = static_cast<int>(array->size());
+        for (std::size_t k = 0; k < array->size(); ++k) {
+            const toml::table* table = (*array)[k].as_table();
+            if (table == nullptr) {
+                fail((*array)[k], "axis must be one to six tables, each with [[axis]] above it");
+            }
+            axis(*table, k, machine);
+        }
+    }
+
+    void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
+        require_known(table,
+                      {"name", "kind", "travel_mm", "travel_end_zone_mm", "travel_end_velocity_mm_s",
+                       "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2", "max_jerk_mm_s3",
+                       "steps_per_mm", "invert", "motors", "invert_step", "invert_direction", "drive"},
+                      " in [[axis]]");
+        const toml::node* name = table.get("name");
+        if (name == nullptr) {
+            fail(table, "[[axis]] has no name; it must be one of x, y, z, a, b, c");
+        }
+        const std::string letter = text(*name, "name");
+        if (letter.size() != 1 || axis_letters.find(letter) == std::string_view::npos) {
+            fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter)));
+        }
+        for (std::size_t j = 0; j < k; ++j) {
+            if (machine.axis_name[j] == letter) {
+                fail(*name, fmt::format("there are two axes '{}'; each needs a name of its own", letter));
+            }
+        }
+        const std::string where = fmt::format("axis {}", letter);
+        machine.axis_name[k] = letter;
+        AxisSettings& axis = machine.settings.axis[k];
+        if (const toml::node* kind = table.get("kind")) {
+            axis.rotary = is_rotary(*kind);
+        }
+        axis.max_velocity_mm_s = required(table, "max_velocity_mm_s", velocity_range, where);
+        axis.max_acceleration_mm_s2 = required(table, "max_acceleration_mm_s2", acceleration_range, where);
+        if (const toml::node* braking = table.get("max_braking_mm_s2")) {
+            axis.max_braking_mm_s2 = number(*braking, "max_braking_mm_s2", acceleration_range);
+        }
+        if (const toml::node* jerk = table.get("max_jerk_mm_s3")) { // without: acceleration-limited
+            axis.max_jerk_mm_s3 = number(*jerk, "max_jerk_mm_s3", jerk_range);
+        }
+        if (const toml::node* steps = table.get("steps_per_mm")) { // without: a count is 1 um, as AxisSettings has it
+            axis.steps_per_mm = number(*steps, "steps_per_mm", steps_range);
+        }
+        if (const toml::node* node = table.get("travel_mm")) {
+            machine.travel[k] = travel(*node, axis.steps_per_mm);
+        }
+        travel_end(table, where, machine.travel[k], axis);
+        motors(table, machine.motors[k]);
+        if (const toml::node* invert = table.get("invert")) {
+            machine.inverted[k] = flag(*invert, "invert");
+        }
+        for (bool& direction : machine.motors[k].invert_direction) {
+            direction = direction != machine.inverted[k];
+        }
+        if (const toml::node* drive = table.get("drive")) {
+            machine.drive[k] = text(*drive, "drive");
+            try {
+                static_cast<void>(parse_target_address(machine.drive[k]));
+            } catch (const AddressError& error) {
+                fail(*drive, fmt::format("drive: {}", error.what()));
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_rotary(const toml::node& node) const {
+        const std::string kind = text(node, "kind");
+        if (kind != "linear" && kind != "rotary") {
+            fail(node, fmt::format("kind is {}; it must be 'linear' or 'rotary'", in_quotes(kind)));
+        }
+        return kind == "rotary";
+    }
+
+    void travel_end(const toml::table& table, std::string_view where, const std::optional<Travel>& travel,
+                    AxisSettings& axis) const {
+        const toml::node* zone = table.get("travel_end_zone_mm");
+        const toml::node* velocity = table.get("travel_end_velocity_mm_s");
+        if (zone == nullptr && velocity == nullptr) {
+            return;
+        }
+        const toml::node& given = zone != nullptr ? *zone : *velocity;
+        if (zone == nullptr || velocity == nullptr) {
+            fail(given,
+                 fmt::format("{} must have both travel_end_zone_mm and travel_end_velocity_mm_s, or neither", where));
+        }
+        if (!travel) {
+            fail(given,
+                 fmt::format("{} has a travel_end_zone_mm, but no travel_mm; give both, like travel_mm = [-10, 310]",
+                             where));
+        }
+        axis.travel_end_zone_mm = number(*zone, "travel_end_zone_mm", zone_range);
+        axis.travel_end_velocity_mm_s = number(*velocity, "travel_end_velocity_mm_s", velocity_range);
+        axis.travel_low_mm = travel->low;
+        axis.travel_high_mm = travel->high;
+    }
+
+    [[nodiscard]] Travel travel(const toml::node& node, double steps_per_mm) const {
+        const toml::array* array = node.as_array();
+        if (array == nullptr || array->size() != 2) {
+            fail(node, "travel_mm must be two numbers, the lowest and the highest position, like [-10, 310]");
+        }
+        const Travel travel{number((*array)[0], "travel_mm"), number((*array)[1], "travel_mm")};
+        if (!position_representable(travel.low) || !position_representable(travel.high)) {
+            fail(node, "travel_mm must lie within +-1048576 mm");
+        }
+        if (!(travel.low < travel.high)) {
+            fail(node, fmt::format("travel_mm is [{}, {}]; the second number must be the larger one", travel.low,
+                                   travel.high));
+        }
+        if (std::fmax(-travel.low, travel.high) * steps_per_mm > most_counts) {
+            fail(node, "travel_mm times steps_per_mm must stay within +-2147483647 counts");
+        }
+        return travel;
+    }
+
+    const std::string& file_;
+};
+
+} // namespace
+
+MachineDescription parse_machine(std::string_view text, const std::string& file) {
+    require_plain_toml(text, file);
+    try {
+        return Checker(file).machine(toml::parse(text, file));
+    } catch (const toml::parse_error& error) {
+        throw InputError(file, error.source().begin.line, error.description());
+    }
+}
+
+MachineDescription read_machine_file(const std::string& path) {
+    constexpr std::size_t largest = std::size_t{1} << 20;
+    return parse_machine(read_text_file(path, largest), path);
+}
+
+MachineDescription default_machine() {
+    MachineDescription machine;
+    machine.settings.axes = 3;
+    for (unsigned k = 0; k < 3; ++k) {
+        machine.settings.axis[k] = {
+            .max_velocity_mm_s = 100.0, .max_acceleration_mm_s2 = 1000.0, .steps_per_mm = 320.0};
+        machine.axis_name[k] = std::string(axis_letters.substr(k, 1));
+    }
+    return machine;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+// The sections of a profile that say where numbers are: [link], [[field]], [[group]].
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/config/profile_sections.hpp"
+#include "splinefeed/hal/modbus/link_address.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+using namespace hal::modbus;
+
+namespace {
+
+constexpr std::array<std::string_view, field_roles> role_names{"none",
+                                                               "control",
+                                                               "status",
+                                                               "mode",
+                                                               "mode_display",
+                                                               "target_position",
+                                                               "target_velocity",
+                                                               "profile_velocity",
+                                                               "profile_acceleration",
+                                                               "profile_deceleration",
+                                                               "actual_position",
+                                                               "actual_velocity",
+                                                               "following_error",
+                                                               "following_error_window",
+                                                               "fault_code",
+                                                               "watchdog"};
+constexpr std::array<PhysicalUnit, field_roles> role_units{
+    PhysicalUnit::number,        PhysicalUnit::number,        PhysicalUnit::number,       PhysicalUnit::number,
+    PhysicalUnit::number,        PhysicalUnit::counts,        PhysicalUnit::counts_per_s, PhysicalUnit::counts_per_s,
+    PhysicalUnit::counts_per_s2, PhysicalUnit::counts_per_s2, PhysicalUnit::counts,       PhysicalUnit::counts_per_s,
+    PhysicalUnit::counts,        PhysicalUnit::counts,        PhysicalUnit::number,       PhysicalUnit::ms};
+constexpr std::array<std::string_view, 5> unit_names{"number", "counts", "counts/s", "counts/s^2", "ms"};
+constexpr std::array<std::string_view, 2> order_names{"high_first", "low_first"};
+constexpr std::array<std::string_view, 3> access_names{"read_write", "read", "write"};
+constexpr std::array<std::string_view, 2> use_names{"target", "status"};
+constexpr std::array<std::string_view, 2> wire_names{"rtu", "tcp"};
+constexpr std::array<std::string_view, 3> parity_names{"N", "E", "O"};
+constexpr double longest_ms = 60000.0;
+
+void read_wires(const TomlChecker& check, const toml::table& table, LinkSettings& link) {
+    const toml::node& node = check.required(table, "wires", "[link]", R"(a list of "rtu" and "tcp")");
+    const toml::array& list = check.array(node, "wires", R"(a list of "rtu" and "tcp")");
+    link.rtu = false;
+    for (const toml::node& entry : list) {
+        (check.choice(entry, "wires", wire_names) == 0 ? link.rtu : link.tcp) = true;
+    }
+    if (!link.rtu && !link.tcp) {
+        check.fail(node, R"(wires must name "rtu", "tcp" or both)");
+    }
+}
+
+void read_functions(const TomlChecker& check, const toml::table& table, LinkSettings& link) {
+    constexpr std::string_view known = "a list of 3, 6, 16 and 23";
+    const toml::node& node = check.required(table, "functions", "[link]", known);
+    link.function_read = link.function_write_one = link.function_write = false;
+    for (const toml::node& entry : check.array(node, "functions", known)) {
+        switch (entry.value_exact<std::int64_t>().value_or(0)) {
+        case 3: link.function_read = true; break;
+        case 6: link.function_write_one = true; break;
+        case 16: link.function_write = true; break;
+        case 23: link.function_exchange = true; break;
+        default: check.fail(entry, "functions must be 3, 6, 16 and 23, those of them that the drive has");
+        }
+    }
+    if (!link.function_read || !(link.function_write_one || link.function_write)) {
+        check.fail(node, "functions must hold 3, which reads, and 6 or 16, which write");
+    }
+}
+
+// Unit 0 is a broadcast, which nobody answers, and 248 to 254 are reserved.
+void read_unit(const TomlChecker& check, const toml::table& table, LinkSettings& link) {
+    const toml::node* const node = table.get("unit");
+    if (node == nullptr) {
+        return;
+    }
+    if (link.tcp && node->value_exact<std::int64_t>() == single_unit) {
+        link.unit = single_unit;
+        return;
+    }
+    check.take(table, "unit", {1, most_unit}, link.unit);
+}
+
+void read_exchanges(const TomlChecker& check, const toml::node& node, LinkSettings& link) {
+    constexpr std::string_view form = "pairs of baud rate and ms, like [[9600, 24.9], [115200, 3.08]]";
+    for (const toml::node& entry : check.array(node, "exchange_ms", form)) {
+        const toml::array* const pair = entry.as_array();
+        if (pair == nullptr || pair->size() != 2) {
+            check.fail(entry, fmt::format("exchange_ms must be {}", form));
+        }
+        link.exchanges.push_back({static_cast<int>(check.whole((*pair)[0], "the baud rate", {1200, 4000000})),
+                                  check.microseconds((*pair)[1], "the time of an exchange", longest_ms)});
+    }
+}
+
+std::int64_t lowest_raw(const RegisterField& field) {
+    return !field.is_signed         ? 0
+           : field.width_bits == 64 ? std::numeric_limits<std::int64_t>::min()
+                                    : -(std::int64_t{1} << (field.width_bits - 1U));
+}
+
+std::int64_t highest_raw(const RegisterField& field) {
+    const unsigned bits = field.width_bits - (field.is_signed ? 1U : 0U);
+    return bits >= 63 ? std::numeric_limits<std::int64_t>::max() : (std::int64_t{1} << bits) - 1;
+}
+
+void read_scale(const TomlChecker& check, const toml::table& table, RegisterField& field) {
+    constexpr std::int64_t largest = 1'000'000'000'000'000;
+    if (const toml::node* node = table.get("scale")) {
+        constexpr std::string_view form = "two whole numbers: register = physical * first / second";
+        const toml::array& pair = check.array(*node, "scale", form);
+        if (pair.size() != 2) {
+            check.fail(*node, fmt::format("scale must be {}", form));
+        }
+        field.scale_numerator = check.whole(pair[0], "the first number of scale", {-largest, largest});
+        field.scale_denominator = check.whole(pair[1], "the second number of scale", {1, largest});
+        if (field.scale_numerator == 0) {
+            check.fail(*node, "the first number of scale is 0; it must be another one");
+        }
+    }
+    check.take_flag(table, "inverse", field.inverse);
+    field.lowest = lowest_raw(field);
+    field.highest = highest_raw(field);
+    if (const toml::node* node = table.get("clamp")) {
+        constexpr std::string_view form = "the lowest and the highest value of the register";
+        const toml::array& pair = check.array(*node, "clamp", form);
+        if (pair.size() != 2) {
+            check.fail(*node, fmt::format("clamp must be {}", form));
+        }
+        const WholeRange range{field.lowest, field.highest};
+        field.lowest = check.whole(pair[0], "the first number of clamp", range);
+        field.highest = check.whole(pair[1], "the second number of clamp", range);
+        if (field.lowest > field.highest) {
+            check.fail(*node, "the second number of clamp must not be below the first");
+        }
+    }
+}
+
+void read_name(const TomlChecker& check, const toml::table& table, const DriveProfile& profile, RegisterField& field) {
+    const toml::node* const role = table.get("role");
+    const toml::node* const name = table.get("name");
+    if ((role == nullptr) == (name == nullptr)) {
+        check.fail(table, fmt::format("[[field]] must have a role or, where none fits, a name; roles are {}",
+                                      listed(std::span(role_names).subspan(1))));
+    }
+    const toml::node& node = role != nullptr ? *role : *name;
+    if (role != nullptr) {
+        const std::size_t index = check.choice(node, "role", std::span(role_names).subspan(1)) + 1;
+        field.role = static_cast<FieldRole>(index);
+        field.name = role_names[index];
+        field.unit = role_units[index];
+    } else {
+        field.name = check.text(node, "name");
+        if (std::find(role_names.begin(), role_names.end(), field.name) != role_names.end()) {
+            check.fail(node, fmt::format("{} is a role; write role = \"{}\"", in_quotes(field.name), field.name));
+        }
+    }
+    if (profile.index_of(field.name) != no_field) {
+        check.fail(node, fmt::format("there are two fields {}; each needs a name of its own", in_quotes(field.name)));
+    }
+}
+
+// Two fields may share registers only where one is read and the other written: some drives have two images.
+void refuse_overlap(const TomlChecker& check, const toml::table& table, const DriveProfile& profile,
+                    const RegisterField& field) {
+    for (const RegisterField& other : profile.fields) {
+        const bool apart =
+            field.address + field.registers() <= other.address || other.address + other.registers() <= field.address;
+        const bool both_read = field.readable() && other.readable();
+        const bool both_written = field.writable() && other.writable();
+        if (!apart && (both_read || both_written)) {
+            check.fail(table,
+                       fmt::format("fields {} and {} share registers; give each its own, or one access = \"read\" "
+                                   "and the other access = \"write\"",
+                                   in_quotes(other.name), in_quotes(field.name)));
+        }
+    }
+}
+
+RegisterField read_field(const TomlChecker& check, const toml::table& table, const DriveProfile& profile) {
+    check.require_known(table,
+                        {"role", "name", "address", "width", "signed", "word_order", "byte_order", "scale", "inverse",
+                         "unit", "clamp", "access", "flash", "value"},
+                        "[[field]]");
+    RegisterField field;
+    read_name(check, table, profile, field);
+    const std::string where = fmt::format("field {}", in_quotes(field.name));
+    if (const toml::node* node = table.get("width")) {
+        const auto width = node->value_exact<std::int64_t>().value_or(0);
+        if (width != 16 && width != 32 && width != 64) {
+            check.fail(*node, "width must be 16, 32 or 64");
+        }
+        field.width_bits = static_cast<std::uint8_t>(width);
+    }
+    const int base = profile.link.address_base;
+    const std::int64_t last = 65536 - static_cast<std::int64_t>(field.registers());
+    const toml::node& address = check.required(table, "address", where, "the first register");
+    field.address = static_cast<std::uint16_t>(check.whole(address, "address", {base, base + last}) - base);
+    check.take_flag(table, "signed", field.is_signed);
+    if (const toml::node* node = table.get("word_order")) {
+        field.word_order = static_cast<Significance>(check.choice(*node, "word_order", order_names));
+    }
+    if (const toml::node* node = table.get("byte_order")) {
+        field.byte_order = static_cast<Significance>(check.choice(*node, "byte_order", order_names));
+    }
+    if (const toml::node* node = table.get("unit")) {
+        field.unit = static_cast<PhysicalUnit>(check.choice(*node, "unit", unit_names));
+        const PhysicalUnit expected = role_units[static_cast<std::size_t>(field.role)];
+        if (field.role != FieldRole::none && field.unit != expected) {
+            check.fail(*node, fmt::format("unit of role \"{}\" must be \"{}\"; the scale leads from it to the register",
+                                          field.name, unit_names[static_cast<std::size_t>(expected)]));
+        }
+    }
+    if (const toml::node* node = table.get("access")) {
+        field.access = static_cast<FieldAccess>(check.choice(*node, "access", access_names));
+    }
+    read_scale(check, table, field);
+    check.take_flag(table, "flash", field.flash);
+    field.value = std::clamp(std::int64_t{0}, field.lowest, field.highest);
+    check.take(table, "value", {field.lowest, field.highest}, field.value);
+    refuse_overlap(check, table, profile, field);
+    return field;
+}
+
+} // namespace
+
+void read_link(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
+    const toml::table& table =
+        check.table(check.required(root, "link", "the profile", "a table: [link] and its keys below"), "link");
+    check.require_known(table,
+                        {"wires", "unit", "baud", "parity", "stop_bits", "silence_before_ms", "silence_after_ms",
+                         "turnaround_ms", "response_timeout_ms", "retries", "functions", "most_read_registers",
+                         "most_write_registers", "address_base", "reads_zero_until_written", "exchange_ms"},
+                        "[link]");
+    LinkSettings& link = profile.link;
+    read_wires(check, table, link);
+    read_functions(check, table, link);
+    read_unit(check, table, link);
+    check.take(table, "baud", {1200, 4000000}, link.baud);
+    if (const toml::node* node = table.get("parity")) {
+        link.parity = parity_names[check.choice(*node, "parity", parity_names)].front();
+    }
+    check.take(table, "stop_bits", {1, 2}, link.stop_bits);
+    check.take_ms(table, "silence_before_ms", 1000.0, link.silence_before_us);
+    check.take_ms(table, "silence_after_ms", 1000.0, link.silence_after_us);
+    check.take_ms(table, "turnaround_ms", 1000.0, link.turnaround_us);
+    check.take_ms(table, "response_timeout_ms", longest_ms, link.response_timeout_us);
+    if (link.response_timeout_us == 0) {
+        check.fail(*table.get("response_timeout_ms"), "response_timeout_ms must be more than 0");
+    }
+    check.take(table, "retries", {0, 100}, link.retries);
+    check.take(table, "most_read_registers", {1, 125}, link.most_read_registers);
+    check.take(table, "most_write_registers", {1, 123}, link.most_write_registers);
+    check.take(table, "address_base", {0, 1}, link.address_base);
+    check.take_flag(table, "reads_zero_until_written", link.reads_zero_until_written);
+    if (const toml::node* node = table.get("exchange_ms")) {
+        read_exchanges(check, *node, link);
+    }
+}
+
+// What cannot travel in a frame of the drive's.
+void require_frame(const TomlChecker& check, const toml::table& table, const RegisterField& field,
+                   const LinkSettings& link) {
+    const auto registers = static_cast<int>(field.registers());
+    if (field.writable() && registers > 1 && !link.function_write) {
+        check.fail(table, fmt::format("field {} has {} registers, which function 16 alone writes at once, and "
+                                      "`functions` of [link] does not have it; say access = \"read\", or leave it out",
+                                      in_quotes(field.name), registers));
+    }
+    const bool reads = field.readable() && registers > link.most_read_registers;
+    if (reads || (field.writable() && registers > link.most_write_registers)) {
+        check.fail(table, fmt::format("field {} has {} registers; by [link] the drive {} at most {} in a frame",
+                                      in_quotes(field.name), registers, reads ? "sends" : "takes",
+                                      reads ? link.most_read_registers : link.most_write_registers));
+    }
+}
+
+void read_fields(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
+    for (const toml::table* table : check.tables(root, "field")) {
+        profile.fields.push_back(read_field(check, *table, profile));
+        require_frame(check, *table, profile.fields.back(), profile.link);
+    }
+    if (profile.fields.empty()) {
+        check.fail_file("there is no [[field]]; a profile has one for each number that it reads or writes");
+    }
+}
+
+void read_groups(const TomlChecker& check, const toml::table& root, DriveProfile& profile) {
+    for (const toml::table* table : check.tables(root, "group")) {
+        check.require_known(*table, {"use", "fields"}, "[[group]]");
+        FieldGroup group;
+        group.use = static_cast<GroupUse>(
+            check.choice(check.required(*table, "use", "[[group]]", R"("target" or "status")"), "use", use_names));
+        if (profile.group_for(group.use) != nullptr) {
+            check.fail(*table, fmt::format("there are two groups with use = \"{}\"; write one",
+                                           use_names[static_cast<std::size_t>(group.use)]));
+        }
+        const bool written = group.use == GroupUse::target;
+        const toml::node& list = check.required(*table, "fields", "[[group]]", "a list of names of fields");
+        for (const toml::node& entry : check.array(list, "fields", "a list of names of fields")) {
+            const FieldIndex index =
+                named_field(check, entry, "fields", profile, written ? FieldUse::write : FieldUse::read);
+            const RegisterField& field = profile.fields[index];
+            const std::size_t next = group.fields.empty() ? field.address : group.address + group.registers;
+            if (field.address != next) {
+                check.fail(entry,
+                           fmt::format("field {} begins at {}, but the group goes on at {}; one frame has no gaps",
+                                       in_quotes(field.name), field.address + profile.link.address_base,
+                                       next + static_cast<std::size_t>(profile.link.address_base)));
+            }
+            if (written && field.flash) {
+                check.fail(entry,
+                           fmt::format("field {} wears its flash with every write, and a target group is written "
+                                       "again and again; leave it out",
+                                       in_quotes(field.name)));
+            }
+            group.address = group.fields.empty() ? field.address : group.address;
+            group.registers += field.registers();
+            group.fields.push_back(index);
+        }
+        const int most = written ? profile.link.most_write_registers : profile.link.most_read_registers;
+        if (written && group.registers > 1 && !profile.link.function_write) {
+            check.fail(list, "a target group is written by function 16, and `functions` of [link] does not have it");
+        }
+        if (group.fields.empty() || group.registers > static_cast<std::size_t>(most)) {
+            check.fail(list, fmt::format("the group has {} registers; it must have 1 to {}", group.registers, most));
+        }
+        profile.groups.push_back(std::move(group));
+    }
+}
+
+FieldIndex named_field(const TomlChecker& check, const toml::node& node, std::string_view key,
+                       const DriveProfile& profile, FieldUse use) {
+    std::vector<std::string_view> names;
+    for (const RegisterField& field : profile.fields) {
+        names.emplace_back(field.name);
+    }
+    const FieldIndex index = check.choice(node, key, names);
+    const RegisterField& field = profile.fields[index];
+    if (use == FieldUse::read ? !field.readable() : !field.writable()) {
+        check.fail(node, fmt::format("field {} cannot be {}: its access is \"{}\"", in_quotes(field.name),
+                                     use == FieldUse::read ? "read" : "written",
+                                     access_names[static_cast<std::size_t>(field.access)]));
+    }
+    return index;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/config/profile_file.hpp"
+
+#include "host_sim/base/text_file.hpp"
+#include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/profile_sections.hpp"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+using namespace hal::modbus;
+
+namespace {
+
+constexpr std::array<std::string_view, 3> stream_names{"pvt", "cyclic", "blocks"};
+
+std::string name_of_profile(const TomlChecker& check, const toml::table& root) {
+    const toml::node& node = check.required(root, "name", "the profile", "a text like \"maker-mode\"");
+    std::string name = check.text(node, "name");
+    if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
+        check.fail(node, fmt::format("name is {}; it must be of small letters, digits and -", in_quotes(name)));
+    }
+    return name;
+}
+
+void require_role(const TomlChecker& check, const DriveProfile& profile, FieldRole role, std::string_view name,
+                  bool written) {
+    const RegisterField* const field = profile.field_of(role);
+    if (field == nullptr || (written ? !field->writable() : !field->readable())) {
+        check.fail_file(fmt::format("stream = \"{}\" needs a field that is {}, with role = \"{}\"",
+                                    stream_names[static_cast<std::size_t>(profile.stream)],
+                                    written ? "written" : "read", name));
+    }
+}
+
+// What the way of streaming cannot do without.
+void require_complete(const TomlChecker& check, const DriveProfile& profile) {
+    if (profile.stream == StreamWay::pvt) {
+        if (!profile.link.function_write) {
+            check.fail_file("stream = \"pvt\" needs function 16 in `functions` of [link]: segments are written by it");
+        }
+        return;
+    }
+    require_role(check, profile, FieldRole::status, "status", false);
+    require_role(check, profile, FieldRole::actual_position, "actual_position", false);
+    require_role(check, profile, FieldRole::target_position, "target_position", true);
+    if (profile.cia402) {
+        require_role(check, profile, FieldRole::control, "control", true);
+    } else if (profile.states.empty()) {
+        check.fail_file("there is no state; write states = \"cia402\", or [[state]] for each that the drive tells");
+    }
+    constexpr std::array<std::pair<DriveCommand, std::string_view>, 4> needed{
+        {{DriveCommand::enable, "enable"},
+         {DriveCommand::disable, "disable"},
+         {DriveCommand::fault_reset, "fault_reset"},
+         {DriveCommand::quick_stop, "quick_stop"}}};
+    for (const auto& [command, name] : needed) {
+        if (profile.steps_of(command).empty()) {
+            check.fail_file(
+                fmt::format("there is no command {0}; write [[command]] with name = \"{0}\" and its steps", name));
+        }
+    }
+    if (profile.stream == StreamWay::blocks) {
+        require_role(check, profile, FieldRole::profile_velocity, "profile_velocity", true);
+        if (profile.steps_of(DriveCommand::start_move).empty()) {
+            check.fail_file("stream = \"blocks\" needs the command start_move: how a block is started");
+        }
+        if (!profile.change_on_the_fly) {
+            check.fail_file(
+                "stream = \"blocks\" needs change_on_the_fly = true in [motion]: a drive that finishes each "
+                "block at rest cannot follow a path");
+        }
+    }
+}
+
+DriveProfile profile_of(const toml::table& root, const std::string& file) {
+    const TomlChecker check(file);
+    check.require_known(root,
+                        {"name", "drive", "sources", "not_verified", "stream", "axes", "states", "link", "field",
+                         "group", "state", "command", "motion", "watchdog", "init", "identity"},
+                        "the profile");
+    DriveProfile profile;
+    profile.name = name_of_profile(check, root);
+    profile.drive = check.text(check.required(root, "drive", "the profile", "a text: makes and models"), "drive");
+    profile.sources = check.texts(
+        check.required(root, "sources", "the profile", "a list of texts: where its registers and values come from"),
+        "sources", false);
+    profile.not_verified = check.texts(
+        check.required(root, "not_verified", "the profile", "a list of texts: what was not tried on hardware"),
+        "not_verified", true);
+    profile.stream = static_cast<StreamWay>(check.choice(
+        check.required(root, "stream", "the profile", "\"pvt\", \"cyclic\" or \"blocks\""), "stream", stream_names));
+    check.take(root, "axes", {1, 6}, profile.axes);
+    if (profile.axes > 1 && profile.stream != StreamWay::pvt) {
+        check.fail(*root.get("axes"), "axes beyond 1 are for stream = \"pvt\" alone; leave axes out");
+    }
+    read_link(check, root, profile);
+    read_fields(check, root, profile);
+    read_groups(check, root, profile);
+    read_states(check, root, profile);
+    read_commands(check, root, profile);
+    read_motion(check, root, profile);
+    read_watchdog(check, root, profile);
+    read_init(check, root, profile);
+    read_identity(check, root, profile);
+    require_complete(check, profile);
+    return profile;
+}
+
+} // namespace
+
+DriveProfile parse_profile(std::string_view text, const std::string& file) {
+    require_plain_toml(text, file);
+    try {
+        return profile_of(toml::parse(text, file), file);
+    } catch (const toml::parse_error& error) {
+        throw InputError(file, error.source().begin.line, error.description());
+    }
+}
+
+DriveProfile read_profile_file(const std::string& path) {
+    constexpr std::size_t largest = std::size_t{1} << 20;
+    return parse_profile(read_text_file(path, largest), path);
+}
+
+} // namespace splinefeed::host

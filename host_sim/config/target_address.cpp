@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/config/target_address.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/number_text.hpp"
+#include "host_sim/config/baud_rate.hpp"
+#include "host_sim/config/gpio_address.hpp"
+
+#include "splinefeed/base/capacity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr std::string_view tcp = "modbus-tcp://";
+constexpr std::string_view rtu = "modbus-rtu://";
+
+int whole_number(std::string_view key, std::string_view value, int low, int high) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error != std::errc{} || end != value.data() + value.size() || number < low || number > high) {
+        throw AddressError(
+            fmt::format("{} is {}; it must be a whole number from {} to {}", key, in_quotes(value), low, high));
+    }
+    return number;
+}
+
+void take_baud(TargetAddress& address, std::string_view value) {
+    address.link.baud = whole_number("baud", value, baud_rates.front(), baud_rates.back());
+    address.states_baud = true;
+    if (!is_baud_rate(address.link.baud)) {
+        throw AddressError(fmt::format("baud is {}; it must be one of {}", value, fmt::join(baud_rates, ", ")));
+    }
+}
+
+double ramp(std::string_view value) {
+    constexpr double least = 1.0;
+    constexpr double most = 1e12;
+    double number = 0.0;
+    if (read_number(value, number) != NumberText::number || number < least || number > most) {
+        throw AddressError(
+            fmt::format("ramp is {}; it must be a number of counts/s^2 from 1 to 1e12", in_quotes(value)));
+    }
+    return number;
+}
+
+int unit_number(std::string_view value, hal::modbus::Wire wire) {
+    using namespace hal::modbus;
+    const bool single = wire == Wire::tcp && value == std::to_string(single_unit);
+    try {
+        return single ? single_unit : whole_number("unit", value, 1, most_unit);
+    } catch (const AddressError& error) {
+        throw AddressError(std::string(error.what()) +
+                           (wire == Wire::tcp ? ", or 255, the device at that address itself" : ""));
+    }
+}
+
+void take_key(TargetAddress& address, std::string_view key, std::string_view value) {
+    constexpr std::array<std::string_view, 9> serial{"profile",          "unit", "axis",   "resample", "ramp",
+                                                     "following_window", "baud", "parity", "stop"};
+    constexpr std::size_t serial_only = 3;
+    constexpr int most_window = 0x7FFFFFFF;
+    const bool line = address.link.wire == hal::modbus::Wire::rtu;
+    if (key == "profile") {
+        address.profile = value;
+    } else if (key == "unit") {
+        address.link.unit = unit_number(value, address.link.wire);
+        address.states_unit = true;
+    } else if (key == "ramp") {
+        address.ramp_counts_s2 = ramp(value);
+    } else if (key == "following_window") {
+        address.following_window_counts = whole_number(key, value, 0, most_window);
+    } else if (key == "axis") {
+        address.axis = whole_number(key, value, 0, max_axes - 1);
+    } else if (key == "resample" && (value == "yes" || value == "no")) {
+        address.resample = value == "yes";
+    } else if (key == "resample") {
+        throw AddressError(fmt::format("resample is {}; it must be yes or no", in_quotes(value)));
+    } else if (key == "baud" && line) {
+        take_baud(address, value);
+    } else if (key == "parity" && line) {
+        if (value != "N" && value != "E" && value != "O") {
+            throw AddressError(fmt::format("parity is {}; it must be N, E or O", in_quotes(value)));
+        }
+        address.link.parity = value.front();
+        address.states_parity = true;
+    } else if (key == "stop" && line) {
+        address.link.stop_bits = whole_number(key, value, 1, 2);
+    } else {
+        const std::size_t known = line ? serial.size() : serial.size() - serial_only;
+        throw AddressError(fmt::format("unknown key {}{}", in_quotes(key), suggestion(key, {serial.data(), known})));
+    }
+}
+
+void take_place(TargetAddress& address, std::string_view place) {
+    if (place.empty()) {
+        throw AddressError(address.link.wire == hal::modbus::Wire::rtu
+                               ? "there is no device; write modbus-rtu:///dev/ttyUSB0?baud=115200"
+                               : "there is no host; write modbus-tcp://192.168.0.10:502");
+    }
+    if (address.link.wire == hal::modbus::Wire::rtu) {
+        address.link.host = place;
+        return;
+    }
+    const std::size_t colon = place.find(':');
+    if (place.find(':', colon == std::string_view::npos ? colon : colon + 1) != std::string_view::npos &&
+        colon != std::string_view::npos) {
+        throw AddressError("more than one ':' in the host; give a name or an IPv4 address, then :PORT");
+    }
+    address.link.host = place.substr(0, colon);
+    if (colon != std::string_view::npos) {
+        constexpr int most_port = 65535;
+        address.link.port = whole_number("port", place.substr(colon + 1), 1, most_port);
+    }
+}
+
+} // namespace
+
+TargetAddress parse_target_address(const std::string& text) {
+    TargetAddress address;
+    address.text = text;
+    std::string_view rest = text;
+    if (rest.substr(0, tcp.size()) == tcp) {
+        rest.remove_prefix(tcp.size());
+    } else if (rest.substr(0, rtu.size()) == rtu) {
+        address.link.wire = hal::modbus::Wire::rtu;
+        rest.remove_prefix(rtu.size());
+    } else {
+        throw AddressError(fmt::format("{} is no address of a drive; write modbus-tcp://HOST:PORT or "
+                                       "modbus-rtu:///dev/ttyUSB0?baud=115200",
+                                       in_quotes(text)));
+    }
+    const std::size_t query = rest.find('?');
+    take_place(address, rest.substr(0, query));
+    if (query == std::string_view::npos) {
+        return address;
+    }
+    rest.remove_prefix(query + 1);
+    while (!rest.empty()) {
+        const std::string_view pair = rest.substr(0, rest.find('&'));
+        rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
+        const std::size_t equals = pair.find('=');
+        if (equals == std::string_view::npos || equals + 1 == pair.size()) {
+            throw AddressError(fmt::format("{} has no value; write key=value, with & between two", in_quotes(pair)));
+        }
+        take_key(address, pair.substr(0, equals), pair.substr(equals + 1));
+    }
+    return address;
+}
+
+void check_target(const std::string& target) {
+    if (target == "sim" || target == "modbus") {
+        return;
+    }
+    if (is_gpio_address(target)) {
+#ifndef SPLINEFEED_HAS_GPIO
+        throw UsageError("--target gpio://: this splinefeed was built without libgpiod; install it (Debian: "
+                         "libgpiod-dev) and build again");
+#endif
+        try {
+            static_cast<void>(parse_gpio_address(target));
+        } catch (const AddressError& error) {
+            throw UsageError(fmt::format("--target: {}", error.what()));
+        }
+        return;
+    }
+    if (target.rfind("modbus-", 0) != 0) {
+        throw UsageError(fmt::format("--target {}: there is no such target; available are sim, modbus, modbus-tcp://, "
+                                     "modbus-rtu:// (docs/modbus.md) and gpio:// (docs/gpio.md)",
+                                     in_quotes(target)));
+    }
+    try {
+        static_cast<void>(parse_target_address(target));
+    } catch (const AddressError& error) {
+        throw UsageError(fmt::format("--target: {}", error.what()));
+    }
+}
+
+} // namespace splinefeed::host

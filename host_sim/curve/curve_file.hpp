@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// CurveFile: a curve .json: Bezier segments that are executed as they stand, or points and the method that joins them.
+#pragma once
+
+#include "host_sim/base/scalar_kind.hpp"
+
+#include "host_sim/curve/methods/description.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// A curve as Bezier segments, read from the file or computed as it describes.
+struct CurveFile {
+    /// Control points first_point to first_point + degree.
+    struct Segment {
+        std::size_t first_point = 0;
+        int degree = 0;
+    };
+    static constexpr double largest_gap_mm = 1e-6; ///< between segments that meet
+
+    std::string method = "bezier"; ///< the name of --curve
+    bool described = false;        ///< computed from a description
+    bool closed = false;
+    int axes = 0;                                    ///< numbers a point, 1 to 6
+    std::vector<double> numbers;                     ///< all control points in order, `axes` numbers each [mm]
+    std::vector<Segment> segments;                   ///< at least one
+    std::vector<DescribedCurve::Interval> intervals; ///< as in DescribedCurve
+    nlohmann::ordered_json results = nlohmann::ordered_json::object();
+    std::vector<std::string> warnings; ///< sentences
+
+    [[nodiscard]] std::size_t points() const noexcept { return numbers.size() / static_cast<std::size_t>(axes); }
+    [[nodiscard]] double at(std::size_t point, std::size_t axis) const noexcept {
+        return numbers[point * static_cast<std::size_t>(axes) + axis];
+    }
+};
+
+/// Reads the file ("-": standard input); a description is computed in `scalar`. Segments from the file are checked:
+/// finite numbers in range, one dimension, segments that meet. Throws InputError.
+[[nodiscard]] CurveFile read_curve_file(const std::string& path, ScalarKind scalar);
+
+/// The same for a text; `file` is its name in messages.
+[[nodiscard]] CurveFile parse_curve(std::string_view text, const std::string& file,
+                                    ScalarKind scalar = ScalarKind::dual);
+
+/// Computes a description's curve. Throws InputError.
+[[nodiscard]] CurveFile compute_curve(std::string_view method, const nlohmann::json& input, ScalarKind scalar,
+                                      const std::string& file);
+
+/// Whether a machine can be sent along a computed curve: positions in range, segments of a length that the core takes.
+/// Throws InputError.
+void require_executable(const CurveFile& curve, const std::string& file);
+
+} // namespace splinefeed::host

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/curve/methods/method_table.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/curve/methods/joint_report.hpp"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+using Describe = DescribedCurve (*)(const nlohmann::json&);
+
+/// One row per name: a new method adds its own.
+struct Row {
+    std::string_view name;
+    std::string_view curve; ///< the name of --curve
+    Describe fixed;
+    Describe single;
+    Describe dual;
+};
+
+constexpr std::array table{
+    Row{"bspline_interpolation", "bspline-interpolation", describe_bspline_interpolation<Fixed>,
+        describe_bspline_interpolation<float>, describe_bspline_interpolation<double>},
+    Row{"catmull_rom", "catmull-rom", describe_catmull_rom<Fixed>, describe_catmull_rom<float>,
+        describe_catmull_rom<double>},
+    Row{"beta_chain", "beta-chain", describe_beta_chain<Fixed>, describe_beta_chain<float>,
+        describe_beta_chain<double>},
+    Row{"boehm", "bspline", describe_boehm<Fixed>, describe_boehm<float>, describe_boehm<double>},
+    Row{"bspline", "bspline", describe_boehm<Fixed>, describe_boehm<float>, describe_boehm<double>},
+    Row{"catmull_rom_modified", "catmull-rom-modified", describe_catmull_rom_modified<Fixed>,
+        describe_catmull_rom_modified<float>, describe_catmull_rom_modified<double>},
+    Row{"ferguson", "ferguson", describe_ferguson<Fixed>, describe_ferguson<float>, describe_ferguson<double>},
+    Row{"hermite_delta_lambda_mu", "ferguson", describe_ferguson<Fixed>, describe_ferguson<float>,
+        describe_ferguson<double>},
+};
+
+const Row* find(std::string_view method) noexcept {
+    for (const Row& row : table) {
+        if (row.name == method) {
+            return &row;
+        }
+    }
+    return nullptr;
+}
+
+} // namespace
+
+std::vector<std::string_view> described_methods() {
+    std::vector<std::string_view> names;
+    names.reserve(table.size());
+    for (const Row& row : table) {
+        names.push_back(row.name);
+    }
+    return names;
+}
+
+std::string curve_name_of(std::string_view method) {
+    const Row* const row = find(method);
+    return std::string(row == nullptr ? method : row->curve);
+}
+
+DescribedCurve describe_curve(std::string_view method, const nlohmann::json& input, ScalarKind scalar) {
+    const Row* const row = find(method);
+    if (row == nullptr) {
+        const std::vector<std::string_view> names = described_methods();
+        throw DescriptionError(
+            fmt::format("\"method\" {} is not available{}", in_quotes(method), suggestion(method, names)));
+    }
+    DescribedCurve curve = scalar == ScalarKind::fixed    ? row->fixed(input)
+                           : scalar == ScalarKind::single ? row->single(input)
+                                                          : row->dual(input);
+    if (!curve.results.contains("joints")) {
+        curve.results["joints"] = joint_report(curve, scalar == ScalarKind::fixed    ? agreement_of<Fixed>
+                                                      : scalar == ScalarKind::single ? agreement_of<float>
+                                                                                     : agreement_of<double>);
+    }
+    curve.results["warnings"] = curve.warnings;
+    return curve;
+}
+
+} // namespace splinefeed::host

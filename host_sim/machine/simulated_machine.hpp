@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// SimulatedMachine: a motion port that executes feed segments in virtual time and proves that they keep every limit.
+//
+// It trusts nothing: each segment must start exactly where the last one ended, and velocity, acceleration, jerk, travel
+// and path speed are checked against the machine file. The first violation stops it for good.
+#pragma once
+
+#include "host_sim/config/machine_description.hpp"
+#include "host_sim/machine/axis_allowance.hpp"
+#include "host_sim/machine/machine_fault.hpp"
+#include "host_sim/machine/segment_cubic.hpp"
+
+#include "splinefeed/hal/motion_port.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splinefeed {
+struct CounterSeam; // of tests
+} // namespace splinefeed
+
+namespace splinefeed::host {
+
+/// Takes what the axes were told, once per sample period.
+struct TraceSink {
+    /// @param ticks  since the start of the first segment, in 1/8 us
+    virtual void row(std::uint64_t ticks, const PerAxis<double>& position_mm, double speed_mm_s) = 0;
+
+protected:
+    ~TraceSink() = default;
+};
+
+/// Largest use of an axis's limits, 1 = at the limit; jerk is 0 where the machine file has no limit.
+struct LimitUse {
+    double velocity = 0.0;
+    double acceleration = 0.0;
+    double jerk = 0.0;
+};
+
+struct SimulationOptions {
+    bool enforce = true; ///< false: limits are measured only (chain, duration and underrun are faults all the same)
+    int ticks_per_segment = 8; ///< rate of its own interpolation, 1 to 1024
+    int queue = 64;            ///< segments that wait at most
+    TraceSink* trace = nullptr;
+};
+
+/// Per segment: velocity, acceleration and jerk of an axis are checked over all of it, not only at ticks (acceleration
+/// is linear, velocity a parabola with a known peak). Acceleration against the velocity of that instant is braking. Per
+/// tick, `ticks_per_segment` times: position, counts, travel and path speed (with its peak between ticks). Tolerance:
+/// what AxisAllowance adds. Memory: the queue. Cost of a segment: about 0.5 us for three axes and 8 ticks; no
+/// allocation but for a fault.
+class SimulatedMachine final : public hal::MotionPort {
+public:
+    using Options = SimulationOptions;
+
+    /// `segments_per_sample`: a trace row every so many segments (MotionLimits::segments_per_sample).
+    /// @pre the machine's settings are those MotionLimits::make accepts (but for jerk)
+    SimulatedMachine(const MachineDescription& machine, int segments_per_sample, const Options& options = {});
+
+    /// Call it when the motion is over: writes the last trace row if the last sample period is incomplete (not after a
+    /// fault), and throws what the trace sink threw.
+    void finish();
+
+    [[nodiscard]] const std::optional<Fault>& fault() const noexcept { return fault_; }
+    [[nodiscard]] const LimitUse& use(int axis) const noexcept { return use_[static_cast<unsigned>(axis)]; }
+    [[nodiscard]] double max_path_speed_mm_s() const noexcept { return max_path_speed_; }
+    /// Duration of all segments that were executed completely.
+    [[nodiscard]] double cycle_time_s() const noexcept { return seconds(elapsed_ticks_); }
+    [[nodiscard]] std::uint64_t segments() const noexcept { return executed_; }
+    /// Where the axis stands in whole counts: nearest to the position, ties upwards.
+    [[nodiscard]] std::int64_t counts(int axis) const noexcept { return counts_[static_cast<unsigned>(axis)]; }
+    /// Counts travelled to and fro, as seen at ticks.
+    [[nodiscard]] std::uint64_t pulses(int axis) const noexcept { return pulses_[static_cast<unsigned>(axis)]; }
+    /// Where the machine stands (after a fault: at the last tick before it).
+    [[nodiscard]] PerAxis<double> position_mm() const noexcept;
+
+private:
+    friend struct splinefeed::CounterSeam;
+
+    struct Motion;
+
+    [[nodiscard]] int do_room() const noexcept override;
+    [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
+    hal::PortState do_poll() noexcept override;
+    void do_halt() noexcept override;
+
+    [[nodiscard]] static double seconds(std::uint64_t ticks) noexcept {
+        return static_cast<double>(ticks) / (ticks_per_us * 1e6);
+    }
+    [[nodiscard]] bool moving() const noexcept;
+    [[nodiscard]] double path_speed() const noexcept;
+    bool execute(const FeedSegment& segment);
+    bool accept(const FeedSegment& segment);
+    void survey(Motion& motion) noexcept;
+    bool tick(Motion& motion, int j);
+    bool check_axes(const Motion& motion, int j);
+    bool check_path(Motion& motion, int j);
+    bool check_travel(const Motion& motion, unsigned k, std::int64_t position, double u);
+    bool fail(FaultKind kind, unsigned axis, double time_s, double value, double limit, const char* unit,
+              std::uint32_t waypoint);
+    void trace_row();
+
+    PerAxis<AxisAllowance> axis_{};
+    PerAxis<std::string> name_{};
+    Allowance feed_{};
+    Allowance turning_feed_{}; ///< where rotary axes alone move
+    bool mixed_ = false;       ///< rotary axes beside linear ones
+    Options options_;
+    unsigned axes_;
+    int segments_per_sample_;
+
+    std::vector<FeedSegment> queue_; // ring
+    std::size_t head_ = 0;
+    std::size_t queued_ = 0;
+
+    PerAxis<std::int64_t> position_{}; // [units]
+    PerAxis<std::int64_t> velocity_{}; // at the end of the last segment [units per duration_ticks_]
+    PerAxis<double> acceleration_{};   // at the end of the last segment [mm/s^2]
+    PerAxis<std::int64_t> counts_{};
+    PerAxis<std::uint64_t> pulses_{};
+    std::uint32_t duration_ticks_ = 1;
+    std::uint32_t waypoint_ = 0;
+    std::uint64_t elapsed_ticks_ = 0;
+    std::uint64_t executed_ = 0;
+    int untraced_ = 0; // segments since the last trace row
+    bool started_ = false;
+    bool halted_ = false;
+
+    PerAxis<LimitUse> use_{};
+    double max_path_speed_ = 0.0;
+    std::optional<Fault> fault_;
+    std::exception_ptr trace_failure_;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/output/edge_writer.hpp"
+
+#include "host_sim/config/step_lines.hpp"
+
+namespace splinefeed::host {
+
+namespace {
+
+using Train = std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>>;
+
+Train train_for(const MachineDescription& machine) {
+    const StepTiming timing = checked_step_timing(machine);
+    const int axes = machine.settings.axes;
+    const LineDiscipline lines(axes, timing);
+    if (timing.grid > 1) {
+        return PulseTrain<FixedRate>(FixedRate(axes, timing.grid), lines);
+    }
+    return PulseTrain<StepIntervals>(StepIntervals(axes), lines);
+}
+
+} // namespace
+
+EdgeWriter::EdgeWriter(OutputFile& file, const MachineDescription& machine)
+    : file_(&file), train_(train_for(machine)), motors_(machine.motors) {
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        name_[k] = {machine.axis_name[k], machine.axis_name[k] + "2"};
+    }
+    file.append("t_ns,axis,line,value\n");
+}
+
+void EdgeWriter::segment(const FeedSegment& segment) {
+    std::visit([&](auto& train) { train.take(segment); }, train_);
+    drain();
+}
+
+void EdgeWriter::finish() {
+    std::visit([](auto& train) { train.finish(); }, train_);
+    drain();
+}
+
+void EdgeWriter::drain() {
+    std::visit(
+        [this](auto& train) {
+            Edge edge;
+            while (train.next(edge)) {
+                row(edge);
+            }
+        },
+        train_);
+}
+
+void EdgeWriter::row(const Edge& edge) {
+    constexpr std::int64_t tick_ns = 1000 / ticks_per_us;
+    const StepMotors& motors = motors_[edge.axis];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(motors.count); ++i) {
+        const bool step = edge.line == Line::step;
+        const bool inverted = step ? motors.invert_step : motors.invert_direction[i];
+        file_->format("{},{},{},{}\n", edge.tick * tick_ns, name_[edge.axis][i], step ? "step" : "dir",
+                      edge.level != inverted ? 1 : 0);
+    }
+}
+
+} // namespace splinefeed::host

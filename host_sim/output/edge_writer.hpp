@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// EdgeWriter: the edges .csv: what the step and direction lines do, on a virtual clock.
+#pragma once
+
+#include "host_sim/base/output_file.hpp"
+#include "host_sim/config/machine_description.hpp"
+
+#include "splinefeed/s5_pulse_train/pulse_train.hpp"
+
+#include <array>
+#include <string>
+#include <variant>
+
+namespace splinefeed::host {
+
+/// A header `t_ns,axis,line,value`, one row an edge, in order of time; t = 0 is the start of the first feed segment.
+/// Each motor of an axis has its rows: the second one's axis is named with a 2 behind. No allocation per row.
+class EdgeWriter {
+public:
+    /// Writes the head. The caller commits the file, which must outlive the writer. Throws OutputError from the file,
+    /// as every method does, and InputError where the lines cannot carry the machine's limits (step_lines.hpp).
+    EdgeWriter(OutputFile& file, const MachineDescription& machine);
+
+    void segment(const FeedSegment& segment);
+    /// What is left at the end of all motion. Once.
+    void finish();
+
+private:
+    void drain();
+    void row(const Edge& edge);
+
+    OutputFile* file_;
+    std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>> train_;
+    PerAxis<StepMotors> motors_;
+    PerAxis<std::array<std::string, 2>> name_{};
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/output/gpio_summary.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace splinefeed::host {
+
+nlohmann::ordered_json to_json(const GpioSummary& gpio) {
+    nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+    for (const GpioSummary::Change& change : gpio.changes) {
+        nlohmann::ordered_json json{{"role", change.role}};
+        if (!change.axis.empty()) {
+            json["axis"] = change.axis;
+        }
+        json["active"] = change.active;
+        json["time_s"] = change.time_s;
+        json["position_mm"] = change.position_mm ? nlohmann::ordered_json(*change.position_mm) : nullptr;
+        changes.push_back(std::move(json));
+    }
+    nlohmann::ordered_json late = nlohmann::ordered_json::array();
+    for (const GpioSummary::Octave& octave : gpio.late) {
+        late.push_back({{"below_s", octave.below_s}, {"edges", octave.edges}});
+    }
+    return {{"edges", gpio.edges},
+            {"median_late_s", gpio.median_late_s},
+            {"percent_late_s", gpio.percent_late_s},
+            {"most_late_s", gpio.most_late_s},
+            {"late", std::move(late)},
+            {"stretched_s", gpio.stretched_s},
+            {"slowdowns", gpio.slowdowns},
+            {"began_monotonic_s", gpio.began_monotonic_s},
+            {"missed", gpio.missed},
+            {"changes_left_out", gpio.changes_left_out},
+            {"changes", std::move(changes)}};
+}
+
+std::string to_text(const GpioSummary& gpio) {
+    std::string text =
+        fmt::format("{} edges; half of them within {:.0f} us of their instant, 99 % within {:.0f} us, "
+                    "the latest {:.0f} us late\n",
+                    gpio.edges, gpio.median_late_s * 1e6, gpio.percent_late_s * 1e6, gpio.most_late_s * 1e6);
+    if (gpio.stretched_s > 0.0) {
+        text +=
+            fmt::format("The motion took {:.6f} s longer than planned, since edges came too late.\n", gpio.stretched_s);
+    }
+    if (gpio.slowdowns > 0) {
+        text += fmt::format("All axes slowed down {} time{}, on the path: the plan was not ready.\n", gpio.slowdowns,
+                            gpio.slowdowns == 1 ? "" : "s");
+    }
+    if (gpio.missed > 0) {
+        text += fmt::format("{} edges of inputs were lost.\n", gpio.missed);
+    }
+    if (gpio.changes_left_out > 0) {
+        text += fmt::format("{} older changes of inputs are left out.\n", gpio.changes_left_out);
+    }
+    for (const GpioSummary::Change& change : gpio.changes) {
+        text += fmt::format("{:.6f} s: {}{}{} {}", change.time_s, change.role, change.axis.empty() ? "" : " of axis ",
+                            change.axis, change.active ? "acts" : "acts no more");
+        if (change.position_mm) {
+            text += ", at";
+            for (const double mm : *change.position_mm) {
+                text += fmt::format(" {:.4f}", mm);
+            }
+            text += " mm";
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+} // namespace splinefeed::host

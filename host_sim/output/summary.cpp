@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/output/summary.hpp"
+
+#include "host_sim/analysis/limit_advice.hpp"
+#include "host_sim/curve/curve_choice.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+namespace splinefeed::host {
+
+namespace {
+
+// A use above this is worth a sentence: the tolerance of the simulated machine.
+constexpr double over_limit = 1.0 + 1e-6;
+
+using Lines = std::back_insert_iterator<std::string>;
+
+void row(Lines out, std::string_view label, const std::string& value, std::string_view unit) {
+    fmt::format_to(out, "{:<22}{:>14}{}{}\n", label, value, unit.empty() ? "" : " ", unit);
+}
+
+// Lengths of a millionth of a millimetre are of interest and so are kilometres.
+std::string fine(double value) {
+    return fmt::format("{:.3g}", value);
+}
+
+std::string percent(double use) {
+    return fmt::format("{:.2f} %", use * 100.0);
+}
+
+std::string plural(std::uint64_t n, std::string_view thing) {
+    return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
+
+// Of the optimum: how much longer the run takes.
+std::string longer(const Summary& summary) {
+    const double optimum = summary.optimum_time_s.value_or(0.0);
+    return optimum > 0.0
+               ? fmt::format("; this run takes {:.2f} % longer)", (summary.cycle_time_s / optimum - 1.0) * 100.0)
+               : ")";
+}
+
+void write_limit_use(Lines out, const Summary& summary) {
+    const auto& uses = summary.limit_use;
+    const bool any_jerk =
+        std::any_of(uses.begin(), uses.end(), [](const Summary::AxisUse& use) { return use.jerk.has_value(); });
+    fmt::format_to(out, "\n{:<22}{:>14}{:>14}{}\n", "limits used", "velocity", "acceleration",
+                   any_jerk ? "          jerk" : "");
+    for (const Summary::AxisUse& use : uses) {
+        fmt::format_to(out, "{:<22}{:>14}{:>14}", "  axis " + use.axis, percent(use.velocity),
+                       percent(use.acceleration));
+        if (any_jerk) {
+            fmt::format_to(out, "{:>14}", use.jerk ? percent(*use.jerk) : "no limit");
+        }
+        fmt::format_to(out, "\n");
+    }
+}
+
+void write_use_sentence(Lines out, const std::string& axis, std::string_view limit, double use) {
+    if (use > over_limit) {
+        fmt::format_to(out, "Axis {} is above its {} limit: {:.7g} of it.\n", axis, limit, use);
+    }
+}
+
+std::vector<std::string> axis_names(const Summary& summary) {
+    std::vector<std::string> names;
+    for (const Summary::AxisUse& use : summary.limit_use) {
+        names.push_back(use.axis);
+    }
+    return names;
+}
+
+void write_sentences(Lines out, const Summary& summary) {
+    if (summary.stopped) {
+        fmt::format_to(out, "The run was stopped before the end of the program.\n");
+    }
+    if (summary.events_not_reached > 0) {
+        fmt::format_to(out, "The run was over before {} of the operator.\n",
+                       plural(summary.events_not_reached, "event"));
+    }
+    if (summary.events > 0) {
+        fmt::format_to(out, "It was steered: {} of the operator.\n", plural(summary.events, "event"));
+    }
+    if (!passes_waypoints(summary.curve)) {
+        fmt::format_to(out,
+                       "The waypoints are control points: the curve is drawn towards them and need not pass them.\n");
+    }
+    for (const Summary::AxisUse& use : summary.limit_use) {
+        write_use_sentence(out, use.axis, "velocity", use.velocity);
+        write_use_sentence(out, use.axis, "acceleration", use.acceleration);
+        write_use_sentence(out, use.axis, "jerk", use.jerk.value_or(0.0));
+    }
+    if (summary.window_limited > 0) {
+        fmt::format_to(out, "The planning window was too short {}: a longer one may be faster.\n",
+                       plural(summary.window_limited, "time"));
+    }
+    if (summary.limit_share && summary.cycle_time_s > 0.0) {
+        fmt::format_to(out, "{}", advice(axis_names(summary), *summary.limit_share));
+    }
+    if (summary.stops > 0) {
+        fmt::format_to(out, "The machine stops at {} on the way, where the path turns sharply.\n",
+                       plural(summary.stops, "corner"));
+    }
+}
+
+nlohmann::ordered_json share_json(const Summary& summary) {
+    using Json = nlohmann::ordered_json;
+    if (!summary.limit_share) {
+        return nullptr;
+    }
+    const LimitShares& shares = *summary.limit_share;
+    Json json;
+    for (const char* limit : {"velocity", "acceleration", "jerk"}) {
+        json[limit] = Json::object();
+    }
+    const std::vector<std::string> names = axis_names(summary);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        json["velocity"][names[k]] = shares.axis[k].velocity;
+        json["acceleration"][names[k]] = shares.axis[k].acceleration;
+        if (shares.axis[k].jerk) {
+            json["jerk"][names[k]] = *shares.axis[k].jerk;
+        }
+    }
+    json["feed"] = shares.feed;
+    json["centripetal"] = shares.centripetal.value_or(0.0);
+    json["chord"] = shares.chord.value_or(0.0);
+    json["none"] = shares.none;
+    return json;
+}
+
+} // namespace
+
+std::string to_json(const Summary& summary) {
+    using Json = nlohmann::ordered_json;
+    Json velocity = Json::object();
+    Json acceleration = Json::object();
+    Json jerk = Json::object();
+    for (const Summary::AxisUse& use : summary.limit_use) {
+        velocity[use.axis] = use.velocity;
+        acceleration[use.axis] = use.acceleration;
+        if (use.jerk) {
+            jerk[use.axis] = *use.jerk;
+        }
+    }
+    Json json;
+    json["cycle_time_s"] = summary.cycle_time_s;
+    json["length_mm"] = summary.length_mm;
+    json["waypoints"] = summary.waypoints;
+    json["curve_segments"] = summary.curve_segments;
+    json["feed_segments"] = summary.feed_segments;
+    json["scalar"] = summary.scalar;
+    json["curve"] = summary.curve;
+    json["max_speed_mm_s"] = summary.max_speed_mm_s;
+    json["limit_use"]["velocity"] = velocity;
+    json["limit_use"]["acceleration"] = acceleration;
+    json["limit_use"]["jerk"] = jerk;
+    json["waypoint_error_mm"] = summary.waypoint_error_mm ? Json(*summary.waypoint_error_mm) : Json(nullptr);
+    json["optimum_time_s"] = summary.optimum_time_s ? Json(*summary.optimum_time_s) : Json(nullptr);
+    json["planning_time_s"] = summary.planning_time_s;
+    json["memory_bytes"]["curve"] = summary.memory_bytes.curve;
+    json["memory_bytes"]["feed_plan"] = summary.memory_bytes.feed_plan;
+    json["memory_bytes"]["stream"] = summary.memory_bytes.stream;
+    json["stopped"] = summary.stopped;
+    json["window_limited"] = summary.window_limited;
+    json["stops"] = summary.stops;
+    json["smoothing_bound_mm"] = summary.smoothing_bound_mm;
+    json["peak_rss_bytes"] = summary.peak_rss_bytes;
+    json["limit_share"] = share_json(summary);
+    if (summary.events + summary.events_not_reached > 0) {
+        json["events"] = summary.events;
+        json["events_not_reached"] = summary.events_not_reached;
+    }
+    if (summary.link) {
+        json["link"] = to_json(*summary.link);
+    }
+    if (summary.gpio) {
+        json["gpio"] = to_json(*summary.gpio);
+    }
+    return json.dump(2) + "\n";
+}
+
+std::string to_text(const Summary& summary) {
+    std::string text;
+    const Lines out(text);
+    row(out, "cycle time", fmt::format("{:.6f}", summary.cycle_time_s), "s");
+    if (summary.optimum_time_s) {
+        row(out, "optimum", fmt::format("{:.6f}", *summary.optimum_time_s),
+            "s (acceleration-limited" + longer(summary));
+    }
+    row(out, "path length", fmt::format("{:.6f}", summary.length_mm), "mm");
+    row(out, "largest speed", fmt::format("{:.6f}", summary.max_speed_mm_s), "mm/s");
+    if (summary.waypoint_error_mm) {
+        row(out, "waypoint error", fine(*summary.waypoint_error_mm), "mm at most");
+    }
+    row(out, "smoothing error", fine(summary.smoothing_bound_mm), "mm at most");
+    row(out, "waypoints", std::to_string(summary.waypoints), "");
+    row(out, "curve segments", std::to_string(summary.curve_segments), summary.curve);
+    row(out, "feed segments", std::to_string(summary.feed_segments), summary.scalar);
+    row(out, "planning time", fmt::format("{:.3f}", summary.planning_time_s), "s");
+    const Summary::MemoryBytes& memory = summary.memory_bytes;
+    row(out, "planner's memory", std::to_string(memory.curve + memory.feed_plan + memory.stream),
+        fmt::format("bytes (curve {}, feed plan {}, stream {})", memory.curve, memory.feed_plan, memory.stream));
+    if (summary.peak_rss_bytes > 0) {
+        row(out, "memory of the process",
+            fmt::format("{:.1f}", static_cast<double>(summary.peak_rss_bytes) / 1048576.0), "MiB");
+    }
+    if (!summary.limit_use.empty()) {
+        write_limit_use(out, summary);
+    }
+    if (summary.link) {
+        text += '\n' + to_text(*summary.link);
+    }
+    if (summary.gpio) {
+        text += '\n' + to_text(*summary.gpio);
+    }
+    if (summary.limit_share && summary.cycle_time_s > 0.0) {
+        text += '\n' + share_table(axis_names(summary), *summary.limit_share);
+    }
+    std::string sentences;
+    write_sentences(Lines(sentences), summary);
+    if (!sentences.empty()) {
+        text += '\n';
+        text += sentences;
+    }
+    return text;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/planning/curve_feeder.hpp"
+
+#include "host_sim/base/input_error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double same_point_mm = 1e-4; // as the core merges waypoints
+
+template <Scalar S>
+void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerAxis<S>& out) {
+    if (!given) {
+        return;
+    }
+    if (given->components > axes) {
+        throw UsageError(
+            fmt::format("an end tangent has {} components, but the path has {} axes; give one for each axis",
+                        given->components, axes));
+    }
+    has = true;
+    for (unsigned k = 0; k < static_cast<unsigned>(given->components); ++k) {
+        out[k] = from_double<S>(given->value[k]);
+    }
+}
+
+bool same_point(const WaypointRow& a, const WaypointRow& b) {
+    for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+        if (!(std::fabs(a.position[k] - b.position[k]) < same_point_mm)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+template <Scalar S>
+template <class Curve, class... Arguments>
+void CurveFeeder<S>::build(const Arguments&... arguments) {
+    Curve& curve = curve_.template emplace<Curve>(arguments...);
+    source_ = &curve;
+    if constexpr (!std::is_same_v<Curve, BezierSource<S>>) {
+        waypoints_ = &curve;
+    }
+}
+
+template <Scalar S>
+CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
+    const CurveChoice& choice = input.choice();
+    CurveOptions<S> options;
+    options.axes = static_cast<int>(input.axes().size());
+    options.parameterization = choice.parameterization;
+    options.corner_cosine = from_double<S>(corner_cosine(choice.corner_angle_deg));
+    options.seam_segments = choice.smooth && choice.closed;
+    EndTangents<S> tangents;
+    take_tangent(choice.start_tangent, options.axes, tangents.has_start, tangents.start);
+    take_tangent(choice.end_tangent, options.axes, tangents.has_end, tangents.end);
+    if (input.segments() != nullptr) {
+        build<BezierSource<S>>(*input.segments(), options.axes, choice.smooth);
+        if (choice.smooth) {
+            for (const CurveFile::Segment& segment : input.segments()->segments) {
+                if (segment.degree > 5) {
+                    throw UsageError(fmt::format("--smooth takes segments up to degree 5; there is one of degree {}",
+                                                 segment.degree));
+                }
+            }
+            const bool seam = std::get<BezierSource<S>>(curve_).repeats_seam();
+            source_ = &smoothed_.emplace(*source_, seam ? Seam::repeated : Seam::open);
+        }
+        rows_read_ = input.points_read();
+        finished_ = true;
+        return;
+    }
+    switch (choice.method) {
+    case Method::g2: build<G2Spline<S>>(options, tangents); break;
+    case Method::g2_bezier: {
+        BetaJoints<S> joints;
+        joints.span_ratio = !choice.beta1.has_value();
+        joints.beta1 = from_double<S>(choice.beta1.value_or(1.0));
+        joints.beta2 = from_double<S>(choice.beta2);
+        if (const Status status = joints.check(); !status.ok()) {
+            throw UsageError(fmt::format("--curve g2-bezier: {}", describe(status.error())));
+        }
+        build<G2Bezier<S>>(options, joints, tangents);
+        break;
+    }
+    case Method::catmull_rom: build<CatmullRom<S>>(options, from_double<S>(choice.tension)); break;
+    case Method::catmull_rom_modified:
+        if (!choice.constant_factor && choice.tension > 2.0) {
+            throw UsageError("--tension of catmull-rom-modified is at most 2 (a length in mm with --factor constant)");
+        }
+        build<CatmullRomModified<S>>(options, from_double<S>(choice.tension),
+                                     choice.constant_factor ? ChordFactor::constant : ChordFactor::chord);
+        break;
+    case Method::bspline: build<BSplineCurve<S>>(options, choice.degree); break;
+    case Method::polyline: build<Polyline<S>>(options); break;
+    default: throw UsageError(fmt::format("--curve {} is not available yet", method_name(choice.method)));
+    }
+    if (choice.smooth) {
+        source_ = &smoothed_.emplace(*source_, choice.closed ? Seam::repeated : Seam::open);
+    }
+    input_rows_ = input.rows();
+    lines_.resize(remembered);
+}
+
+template <Scalar S>
+void CurveFeeder<S>::read_all() {
+    WaypointRow row;
+    while (input_rows_->next(row)) {
+        if (all_.size() == most_closed) {
+            throw InputError(input_->name(), row.line,
+                             fmt::format("a closed curve is kept in memory as a whole, and has at most {} waypoints; "
+                                         "leave --closed out, or take fewer",
+                                         most_closed));
+        }
+        all_.push_back(row);
+        ++rows_read_;
+    }
+    if (all_.size() > 1 && same_point(all_.front(), all_.back())) { // the seam, written twice
+        // The move that closes the path ends at the last row; nothing leads to the first one.
+        WaypointRow& seam = all_.front();
+        seam.feed_mm_s = all_.back().feed_mm_s;
+        seam.max_feed_mm_s = all_.back().max_feed_mm_s;
+        seam.corner = all_.back().corner != Corner::automatic ? all_.back().corner : seam.corner;
+        all_.pop_back();
+    }
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+        different += same_point(all_[i], all_[(i + 1) % all_.size()]) ? 0U : 1U;
+    }
+    if (different < 3) {
+        throw InputError(input_->name(), all_.back().line, "a closed path needs three different waypoints");
+    }
+}
+
+// The next waypoint in the order of pushing.
+template <Scalar S>
+bool CurveFeeder<S>::next_row(WaypointRow& row, Role& role) {
+    role = Role::path;
+    if (!input_->choice().closed) {
+        if (!input_rows_->next(row)) {
+            return false;
+        }
+        lines_[rows_read_ % remembered] = row.line;
+        ++rows_read_;
+        return true;
+    }
+    if (all_.empty()) {
+        read_all();
+    }
+    const std::size_t count = all_.size();
+    if (pushed_ == lead + count + 1 + lead) {
+        return false;
+    }
+    role = pushed_ < lead ? Role::lead_in : pushed_ <= lead + count ? Role::path : Role::lead_out;
+    row = all_[row_of(static_cast<std::uint32_t>(pushed_))];
+    return true;
+}
+
+template <Scalar S>
+bool CurveFeeder<S>::more(Pushed& pushed) {
+    if (finished_) {
+        return false;
+    }
+    WaypointRow row;
+    Role role{};
+    try {
+        if (!next_row(row, role)) {
+            finish();
+            return false;
+        }
+        Waypoint<S> waypoint;
+        for (unsigned k = 0; k < input_->axes().size(); ++k) {
+            waypoint.position[k] = position_from_mm(row.position[k]);
+        }
+        waypoint.feed_mm_s = from_double<S>(row.feed_mm_s);
+        waypoint.max_feed_mm_s = from_double<S>(row.max_feed_mm_s);
+        waypoint.corner = row.corner;
+        if (const Status status = waypoints_->push(waypoint, role); !status.ok()) {
+            throw InputError(input_->name(), row.line, describe(status.error()));
+        }
+        pushed = {static_cast<std::uint32_t>(pushed_++), waypoint.position, role == Role::path};
+        return true;
+    } catch (...) {
+        if (!finished_) {
+            finished_ = true;
+            static_cast<void>(waypoints_->finish());
+        }
+        throw;
+    }
+}
+
+template <Scalar S>
+void CurveFeeder<S>::finish() {
+    finished_ = true;
+    if (const Status status = waypoints_->finish(); !status.ok()) {
+        throw InputError(input_->name(), 0, describe(status.error()));
+    }
+}
+
+template <Scalar S>
+std::uint32_t CurveFeeder<S>::row_of(std::uint32_t index) const noexcept {
+    if (all_.empty()) {
+        return index;
+    }
+    const auto count = static_cast<std::int64_t>(all_.size());
+    const std::int64_t behind = (static_cast<std::int64_t>(index) - static_cast<std::int64_t>(lead)) % count;
+    return static_cast<std::uint32_t>(behind < 0 ? behind + count : behind);
+}
+
+template <Scalar S>
+std::uint64_t CurveFeeder<S>::line_of_row(std::uint32_t row) const noexcept {
+    if (!all_.empty()) {
+        return row < all_.size() ? all_[row].line : 0;
+    }
+    const std::uint64_t whole = whole_row(row);
+    const bool known = whole < rows_read_ && whole + remembered >= rows_read_;
+    return known ? lines_[whole % remembered] : 0;
+}
+
+template <Scalar S>
+std::uint64_t CurveFeeder<S>::whole_row(std::uint32_t row) const noexcept {
+    const auto ago = static_cast<std::uint32_t>(static_cast<std::uint32_t>(rows_read_) - row);
+    return rows_read_ >= ago ? rows_read_ - ago : row;
+}
+
+template <Scalar S>
+std::size_t CurveFeeder<S>::bytes() const {
+    return std::visit([](const auto& curve) { return sizeof(curve); }, curve_);
+}
+
+template class CurveFeeder<double>;
+template class CurveFeeder<float>;
+template class CurveFeeder<Fixed>;
+
+} // namespace splinefeed::host

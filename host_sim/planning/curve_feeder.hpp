@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// CurveFeeder: the curve that the user chose, and the waypoints on their way into it.
+#pragma once
+
+#include "host_sim/curve/bezier_source.hpp"
+#include "host_sim/program/path_input.hpp"
+
+#include "splinefeed/s1_curve/bspline_curve.hpp"
+#include "splinefeed/s1_curve/catmull_rom.hpp"
+#include "splinefeed/s1_curve/catmull_rom_modified.hpp"
+#include "splinefeed/s1_curve/g2_bezier.hpp"
+#include "splinefeed/s1_curve/g2_spline.hpp"
+#include "splinefeed/s1_curve/polyline.hpp"
+#include "splinefeed/s1_curve/smoothed_curve.hpp"
+
+#include <optional>
+#include <variant>
+
+namespace splinefeed {
+struct CounterSeam; // of tests
+} // namespace splinefeed
+
+namespace splinefeed::host {
+
+/// Owns the curve. more() pushes one waypoint at a time, so that nothing is read before the curve needs it.
+/// A closed curve has to be read whole: it goes in as the 16 points before the seam, the path with its first point at
+/// both ends, and the 16 points after the seam.
+template <Scalar S>
+class CurveFeeder {
+public:
+    /// Throws UsageError where an end tangent does not fit the axes. `input` must outlive it.
+    explicit CurveFeeder(PathInput& input);
+    CurveFeeder(const CurveFeeder&) = delete;
+    CurveFeeder& operator=(const CurveFeeder&) = delete;
+
+    [[nodiscard]] CurveSource<S>& source() noexcept { return *source_; }
+
+    /// What became of a waypoint that was pushed.
+    struct Pushed {
+        std::uint32_t index = 0; ///< as CurveSegment::waypoint counts, modulo 2^32
+        PerAxis<Position> position{};
+        bool on_path = false; ///< false: lead-in or lead-out
+    };
+    /// Pushes the next waypoint, or finishes; false when there was none. Throws InputError; the curve then ends with
+    /// the waypoints before. @pre the curve is starved
+    bool more(Pushed& pushed);
+    /// Whether more() answers at once, or will within so long, for which it waits. A closed curve is read whole before.
+    [[nodiscard]] bool wait_for_row(WaypointRows::Patience patience) {
+        return finished_ || input_->choice().closed || input_rows_->wait(patience);
+    }
+
+    /// Waypoints of the input so far.
+    [[nodiscard]] std::uint64_t rows() const noexcept { return rows_read_; }
+    /// Index of the waypoint in the input, from 0, for an index as CurveSegment::waypoint counts.
+    [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept;
+    /// Line of the waypoint in its file; 0: unknown.
+    [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept;
+    /// All of the index of a row that was read not long ago.
+    [[nodiscard]] std::uint64_t whole_row(std::uint32_t row) const noexcept;
+    /// Memory of the curve stage.
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    friend struct splinefeed::CounterSeam;
+
+    static constexpr std::size_t lead = 16;               ///< waypoints beyond the seam that shape a closed curve
+    static constexpr std::size_t remembered = 1024;       ///< lines
+    static constexpr std::size_t most_closed = 4'000'000; ///< waypoints of a closed curve, 400 MB
+
+    template <class Curve, class... Arguments>
+    void build(const Arguments&... arguments);
+    void read_all();
+    bool next_row(WaypointRow& row, Role& role);
+    void finish();
+
+    std::variant<std::monostate, G2Spline<S>, G2Bezier<S>, CatmullRom<S>, CatmullRomModified<S>, BSplineCurve<S>,
+                 Polyline<S>, BezierSource<S>>
+        curve_;
+    std::optional<SmoothedCurve<S>> smoothed_; // --smooth
+    CurveSource<S>* source_ = nullptr;
+    WaypointCurve<S>* waypoints_ = nullptr; // null: Bezier segments
+    PathInput* input_;
+    std::unique_ptr<WaypointRows> input_rows_;
+    std::vector<WaypointRow> all_;     // closed: the whole input
+    std::vector<std::uint64_t> lines_; // of row i at i % remembered
+    std::uint64_t rows_read_ = 0;
+    std::uint64_t pushed_ = 0;
+    bool finished_ = false;
+};
+
+} // namespace splinefeed::host

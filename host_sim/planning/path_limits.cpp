@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/planning/path_limits.hpp"
+
+#include "splinefeed/splines/curve_hull.hpp"
+
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double tolerance_mm = 1e-6;
+constexpr double most_counts = 2147483647.0;
+constexpr double slack_mm = 1e-9; // rounding of points up to 2^20 mm
+
+} // namespace
+
+PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settings.axes) {
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        const double reach = most_counts / machine.settings.axis[k].steps_per_mm;
+        const Travel travel = machine.travel[k].value_or(Travel{-reach, reach});
+        const char* const unit = machine.settings.axis[k].rotary ? "degrees" : "mm";
+        axis_[k] = {machine.axis_name[k], unit, travel.low, travel.high, machine.travel[k].has_value()};
+    }
+}
+
+template <Scalar S>
+std::optional<std::string> PathLimits::violation(const CurveSegment<S>& segment) const {
+    const auto degree = static_cast<unsigned>(segment.degree);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        const Axis& axis = axis_[k];
+        PerDegree<double> points{};
+        for (unsigned i = 0; i <= degree; ++i) {
+            points[i] = segment.control_mm(static_cast<int>(k), static_cast<int>(i));
+        }
+        const Extent<double> limits{axis.low - tolerance_mm, axis.high + tolerance_mm};
+        const Extent<double> found = extent_beyond(points, segment.degree, limits, slack_mm);
+        if (limits.contains(found)) {
+            continue;
+        }
+        const double value = found.low < limits.low ? found.low : found.high;
+        if (axis.travel) {
+            return fmt::format("axis {} goes to {:.6f} {}; its travel_mm is [{}, {}]", axis.name, value, axis.unit,
+                               axis.low, axis.high);
+        }
+        return fmt::format(
+            "axis {} goes to {:.6f} {}; with its steps_per_mm it must stay within +-{:.6f} {}, 2147483647 counts",
+            axis.name, value, axis.unit, axis.high, axis.unit);
+    }
+    return std::nullopt;
+}
+
+template std::optional<std::string> PathLimits::violation(const CurveSegment<double>&) const;
+template std::optional<std::string> PathLimits::violation(const CurveSegment<float>&) const;
+template std::optional<std::string> PathLimits::violation(const CurveSegment<Fixed>&) const;
+
+} // namespace splinefeed::host

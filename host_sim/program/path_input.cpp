@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/path_input.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/input_stream.hpp"
+#include "host_sim/base/text_file.hpp"
+#include "host_sim/program/row_queue.hpp"
+
+#include "host_sim/curve/points_description.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <istream>
+
+namespace splinefeed::host {
+
+namespace {
+
+const std::vector<std::string> every_axis{"x", "y", "z", "a", "b", "c"};
+
+/// Of a curve that is made of all of them: about 2 GB.
+constexpr std::uint64_t most_points = 1'000'000;
+
+/// Whether two waypoints are one, as WaypointCurve::push has it for the streaming methods: 0.1 um on every axis.
+bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::fabs(x - y) < 1e-4; });
+}
+
+/// A waypoint file or a pipe.
+class TableRows final : public WaypointRows {
+public:
+    TableRows(const std::string& path, const std::string& name, const std::vector<std::string>& axes)
+        : file_(path, name), reader_(stream_, name, axes.empty() ? every_axis : axes, axes.empty()) {}
+
+    bool next(WaypointRow& out) override { return reader_.next(out); }
+    [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return reader_.axes(); }
+
+    void stop() noexcept override { file_.stop(); }
+
+private:
+    InputStream file_;
+    std::istream stream_{&file_};
+    WaypointReader reader_;
+};
+
+} // namespace
+
+PathInput::PathInput(const Job& job, const std::vector<std::string>& machine_axes)
+    : name_(job.input), path_(job.input), read_ahead_(job.command == Command::run && job.target != "sim") {
+    if (job.format == InputFormat::json) {
+        open_description(job, machine_axes);
+        return;
+    }
+    choice_ = choose_curve(job.curve);
+    if (path_ == "-" && is_regular_file("/dev/stdin")) {
+        path_ = "/dev/stdin"; // it can be read twice
+    }
+    repeatable_ = is_regular_file(path_);
+    machine_axes_ = machine_axes;
+    auto rows = std::make_unique<TableRows>(path_, name_, machine_axes_);
+    axes_ = rows->axes();
+    opened_ = std::move(rows);
+    if (needs_all_points(choice_.method)) {
+        compute_from_points(job);
+    }
+}
+
+void PathInput::compute_from_points(const Job& job) {
+    std::vector<PerAxis<double>> points;
+    WaypointRow row;
+    while (opened_->next(row)) {
+        if (points_read_ == most_points) {
+            throw InputError(name_, row.line,
+                             fmt::format("--curve {} is made of all points at once, and takes at most {}; take another "
+                                         "curve, which streams (g2), or fewer points",
+                                         method_name(choice_.method), most_points));
+        }
+        if (row.feed_mm_s > 0.0 || row.max_feed_mm_s > 0.0 || row.corner != Corner::automatic) {
+            throw InputError(name_, row.line,
+                             fmt::format("--curve {} takes all points as one smooth curve; leave out the columns "
+                                         "feed, max_feed and corner",
+                                         method_name(choice_.method)));
+        }
+        if (points.empty() || !merged(points.back(), row.position)) {
+            points.push_back(row.position);
+        }
+        ++points_read_;
+    }
+    if (choice_.closed && points.size() > 1 && merged(points.front(), points.back())) {
+        points.pop_back();
+    }
+    opened_.reset();
+    const int axes = static_cast<int>(axes_.size());
+    try {
+        file_ = compute_curve(description_name(choice_.method), points_description(choice_, points, axes), job.scalar,
+                              name_);
+    } catch (const DescriptionError& error) {
+        throw InputError(name_, 0, error.what());
+    }
+    if (job.command != Command::curve) {
+        require_executable(file_, name_);
+    }
+}
+
+void PathInput::open_description(const Job& job, const std::vector<std::string>& machine_axes) {
+    if (const std::string_view option = first_option(job.curve); !option.empty()) {
+        throw UsageError(fmt::format("{}: a curve file says itself which curve it is; leave the option out", option));
+    }
+    file_ = read_curve_file(name_, job.scalar);
+    if (file_.described && job.command != Command::curve) {
+        require_executable(file_, name_);
+    }
+    choice_.method = Method::bezier;
+    choice_.closed = file_.closed;
+    choice_.smooth = job.curve.smooth;
+    const auto count = static_cast<std::size_t>(file_.axes);
+    axes_ = machine_axes.empty() ? std::vector<std::string>(every_axis.begin(), every_axis.begin() + file_.axes)
+                                 : machine_axes;
+    if (count > axes_.size()) {
+        throw InputError(name_, 0,
+                         fmt::format("the points have {} coordinates; the machine has {} axes: {}", count, axes_.size(),
+                                     fmt::join(axes_, ", ")));
+    }
+}
+
+std::unique_ptr<WaypointRows> PathInput::rows() {
+    std::unique_ptr<WaypointRows> rows =
+        opened_ ? std::move(opened_) : std::make_unique<TableRows>(path_, name_, machine_axes_);
+    return read_ahead_ ? std::make_unique<RowQueue>(std::move(rows)) : std::move(rows);
+}
+
+} // namespace splinefeed::host

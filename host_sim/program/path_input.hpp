@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// PathInput: what the path is made of: rows of waypoints, from a file or a pipe, or Bezier segments.
+#pragma once
+
+#include "host_sim/cli/job.hpp"
+#include "host_sim/curve/curve_choice.hpp"
+#include "host_sim/curve/curve_file.hpp"
+#include "host_sim/program/waypoint_rows.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+class PathInput {
+public:
+    /// Opens the input and reads as far as its axes are known. Throws InputError and UsageError.
+    /// @param machine_axes  names; empty: the path has the axes that the input has
+    PathInput(const Job& job, const std::vector<std::string>& machine_axes);
+
+    [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
+    /// The curve's name for files and reports.
+    [[nodiscard]] std::string_view curve_name() const noexcept {
+        return file_.segments.empty() ? method_name(choice_.method) : std::string_view(file_.method);
+    }
+    [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
+    /// Bezier segments to be executed as they stand: a curve file, what a description asks for, or what a method made
+    /// of all waypoints; null: there are waypoints, and the method streams.
+    [[nodiscard]] const CurveFile* segments() const noexcept { return file_.segments.empty() ? nullptr : &file_; }
+    /// Waypoints that the segments were made of; 0: none, or not known.
+    [[nodiscard]] std::uint64_t points_read() const noexcept { return points_read_; }
+    /// Whether rows() can be called again: the input is no pipe.
+    [[nodiscard]] bool repeatable() const noexcept { return repeatable_; }
+    /// The waypoints, from the first, read ahead by a thread where a run moves a real machine; once only where the
+    /// input is not repeatable. @pre segments() is null
+    [[nodiscard]] std::unique_ptr<WaypointRows> rows();
+    /// Name for messages.
+    [[nodiscard]] const std::string& name() const noexcept { return name_; }
+
+private:
+    void open_description(const Job& job, const std::vector<std::string>& machine_axes);
+    void compute_from_points(const Job& job);
+
+    std::string name_;
+    std::string path_; // what is opened: /dev/stdin for a file that is standard input
+    CurveChoice choice_;
+    CurveFile file_;
+    std::vector<std::string> machine_axes_;
+    std::vector<std::string> axes_;
+    std::unique_ptr<WaypointRows> opened_;
+    std::uint64_t points_read_ = 0;
+    bool repeatable_ = true;
+    bool read_ahead_ = false;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// PathTee: the curve on its way to the machine, seen by those who check, measure and write it.
+#pragma once
+
+#include "host_sim/analysis/limit_share.hpp"
+#include "host_sim/analysis/optimum_time.hpp"
+#include "host_sim/analysis/waypoint_error.hpp"
+#include "host_sim/output/curve_writer.hpp"
+#include "host_sim/planning/curve_feeder.hpp"
+#include "host_sim/planning/path_limits.hpp"
+
+#include <exception>
+
+namespace splinefeed::host {
+
+/// Who looks at the curve; null: nobody.
+struct PathObservers {
+    const PathLimits* limits = nullptr;
+    CurveWriter* writer = nullptr;
+    WaypointError* error = nullptr;
+    OptimumTime* optimum = nullptr;
+    LimitShare* share = nullptr;
+};
+
+/// A decorator. A segment that leaves the limits, or cannot be written, is kept back and the curve ends before it: the
+/// machine stops there in a controlled way, and the reason waits in failure().
+template <Scalar S>
+class PathTee final : public CurveSource<S> {
+public:
+    /// `file`: the name of the input for messages. All arguments must outlive it.
+    PathTee(CurveFeeder<S>& feeder, const std::string& file, const PathObservers& observers) noexcept
+        : feeder_(&feeder), file_(&file), observers_(observers) {}
+
+    /// Segments leave with the index of the waypoint in the input, from 0.
+    Pull next(CurveSegment<S>& out) noexcept override;
+
+    [[nodiscard]] const std::exception_ptr& failure() const noexcept { return failure_; }
+    [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
+
+private:
+    void look(CurveSegment<S>& segment);
+
+    CurveFeeder<S>* feeder_;
+    const std::string* file_;
+    PathObservers observers_;
+    std::exception_ptr failure_;
+    std::uint64_t segments_ = 0;
+};
+
+} // namespace splinefeed::host

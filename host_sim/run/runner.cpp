@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/run/runner.hpp"
+
+#include "host_sim/base/abandon.hpp"
+#include "host_sim/base/file_claims.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/machine_file.hpp"
+#include "host_sim/diagnose/link_report.hpp"
+#include "host_sim/output/outputs.hpp"
+#include "host_sim/output/summary.hpp"
+#include "host_sim/run/motion.hpp"
+#include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/supervision.hpp"
+#include "host_sim/target/run_target.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <optional>
+#include <span>
+
+namespace splinefeed::host {
+
+namespace {
+
+/// The whole curve, to those who look at it; nothing moves. Returns the number of waypoints.
+template <Scalar S>
+std::uint64_t draw(PathInput& input, const PathObservers& observers) {
+    CurveFeeder<S> feeder(input);
+    PathTee<S> tee(feeder, input.name(), observers);
+    CurveSegment<S> segment;
+    for (Pull pull = Pull::starved; pull != Pull::finished; pull = tee.next(segment)) {
+        typename CurveFeeder<S>::Pushed ignored;
+        if (pull == Pull::starved) {
+            static_cast<void>(feeder.more(ignored));
+        }
+    }
+    if (tee.failure()) {
+        std::rethrow_exception(tee.failure());
+    }
+    return feeder.rows();
+}
+
+/// Input that is valid, but whose curve is hardly what was meant.
+void warn(const PathInput& input, const Job& job) {
+    if (input.segments() == nullptr || job.quiet) {
+        return;
+    }
+    for (const std::string& warning : input.segments()->warnings) {
+        fmt::print(stderr, "{}: warning: {}\n", printable(input.name()), warning);
+    }
+}
+
+template <Scalar S>
+int draw_curve(const Job& job) {
+    PathInput input(job, {});
+    warn(input, job);
+    if (const CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
+        Outputs outputs(job, input.curve_name(), curve->closed);
+        outputs.curve()->segments(*curve);
+        outputs.commit(&curve->results);
+        return 0;
+    }
+    if (input.repeatable()) {
+        static_cast<void>(draw<S>(input, {}));
+    }
+    Outputs outputs(job, input.curve_name(), input.choice().closed);
+    static_cast<void>(draw<S>(input, {.writer = outputs.curve()}));
+    outputs.commit();
+    return 0;
+}
+
+/// Events that never happened: as a rule a time that was mistyped, or a run that was shorter than thought.
+void warn_of_events(const Job& job, std::span<const OperatorEvent> events, double end_s) {
+    constexpr std::size_t most = 3; // lines
+    if (job.quiet) {
+        return;
+    }
+    for (const OperatorEvent& event : events.first(std::min(events.size(), most))) {
+        fmt::print(stderr, "{}:{}: warning: the event at {} s did not happen: the run ended at {:.6g} s\n",
+                   printable(job.events), event.line, event.time_s, end_s);
+    }
+    if (events.size() > most) {
+        fmt::print(stderr, "{}: warning: nor did the {} events after them\n", printable(job.events),
+                   events.size() - most);
+    }
+}
+
+void print(const Summary& summary, SummaryKind kind) {
+    if (kind == SummaryKind::none) {
+        return;
+    }
+    const std::string text = kind == SummaryKind::json ? to_json(summary) : to_text(summary);
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw OutputError("standard output: the summary cannot be written; keep its reader running to the end");
+    }
+}
+
+/// The limits with segments that the lines carry: those of the machine file, or longer ones. Then nothing is lost but
+/// smoothness in space, which the summary states.
+template <Scalar S>
+Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& target, bool quiet) {
+    constexpr int longest_us = 100'000;
+    constexpr int step_us = 50;
+    const int asked_us = machine.settings.sample_period_us;
+    const std::string lowered = target.fit(machine);
+    auto limits = MotionLimits<S>::make(machine.settings);
+    for (const std::string& note : {lowered, target.note()}) {
+        if (!note.empty() && !quiet) {
+            fmt::print(stderr, "splinefeed: note: {}\n", printable(note));
+        }
+    }
+    if (!limits.has_value() || limits->segment_ticks >= target.least_segment_us() * ticks_per_us) {
+        return limits;
+    }
+    const int period_us = step_us * static_cast<int>(std::ceil(target.least_segment_us() / step_us));
+    if (!target.resamples() || period_us > longest_us) {
+        throw UsageError(fmt::format("the drives' lines carry a segment every {:.2f} ms at most often, and the machine "
+                                     "file asks for one every {:.2f} ms; raise sample_period_us, or take a faster line",
+                                     target.least_segment_us() * 1e-3, limits->segment_ticks * 1e-3 / ticks_per_us));
+    }
+    machine.settings.sample_period_us = std::max(period_us, asked_us);
+    machine.settings.segments_per_sample = 1;
+    limits = MotionLimits<S>::make(machine.settings);
+    if (!quiet) {
+        fmt::print(stderr,
+                   "splinefeed: note: the drives' lines carry a segment every {:.2f} ms at most often: segments and "
+                   "samples are {:.2f} ms long, not {:.2f} ms; what that smoothes the path is in the summary\n",
+                   target.least_segment_us() * 1e-3, machine.settings.sample_period_us * 1e-3, asked_us * 1e-3);
+    }
+    return limits;
+}
+
+template <Scalar S>
+int move_machine(const Job& job) {
+    // First of all: threads that are started later have the same signals blocked.
+    std::optional<SignalWatch> signals;
+    if (job.target != "sim") {
+        signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
+    }
+    MachineDescription machine = job.machine.empty() ? default_machine() : read_machine_file(job.machine);
+    auto limits = MotionLimits<S>::make(machine.settings);
+    if (!limits.has_value()) {
+        throw InputError(machine.file, 0, describe(limits.error()));
+    }
+    const auto axes = static_cast<std::size_t>(machine.settings.axes);
+    PathInput input(job, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+    warn(input, job);
+    const PathLimits path_limits(machine);
+    std::optional<std::uint64_t> waypoints;
+    if (input.repeatable()) {
+        waypoints = draw<S>(input, {.limits = &path_limits});
+    }
+    std::unique_ptr<RunTarget> target;
+    std::optional<Supervision> supervision;
+    if (signals) {
+        target = make_run_target(job.target, machine, job.wishes);
+        limits = fitted<S>(machine, *target, job.quiet);
+        target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
+        supervision.emplace(*target, *signals);
+    }
+    Outputs outputs(job, input.curve_name(), input.choice().closed, machine);
+    Motion<S> motion(job, machine, *limits, input, path_limits, outputs, supervision ? &*supervision : nullptr);
+    const std::string stopped = motion.run(waypoints);
+    outputs.commit();
+    const Summary summary = motion.summary();
+    warn_of_events(job, motion.events_not_reached(), summary.cycle_time_s);
+    print(summary, job.summary);
+    supervision.reset(); // from here on a signal says nothing any more: the sentence is told once
+    if (stopped.empty()) {
+        return 0;
+    }
+    fmt::print(stderr, "splinefeed: {}\n", printable(stopped));
+    return 1;
+}
+
+template <Scalar S>
+int run_with(const Job& job) {
+    return job.command == Command::curve ? draw_curve<S>(job) : move_machine<S>(job);
+}
+
+} // namespace
+
+int run(const Job& job) {
+    const FileClaims claims;
+    if (job.command == Command::link) {
+        return report_link(job.link);
+    }
+    if (job.command == Command::surface) {
+        return run_surface(job.input, job.surface, job.scalar);
+    }
+    if (job.command == Command::drive) {
+        return run_drive(job.drive);
+    }
+    switch (job.scalar) {
+    case ScalarKind::fixed: return run_with<Fixed>(job);
+    case ScalarKind::single: return run_with<float>(job);
+    case ScalarKind::dual: return run_with<double>(job);
+    }
+    return 1;
+}
+
+} // namespace splinefeed::host

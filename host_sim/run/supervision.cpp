@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/run/supervision.hpp"
+
+#include "host_sim/base/abandon.hpp"
+#include "host_sim/base/output_file.hpp"
+
+#include "splinefeed/hal/modbus/link_address.hpp"
+
+#include <algorithm>
+#include <exception>
+
+namespace splinefeed::host {
+
+using hal::modbus::monotonic_us;
+using hal::modbus::sleep_until_us;
+
+namespace {
+
+constexpr std::uint64_t poll_every_us = 1000;
+constexpr std::uint64_t us_per_s = 1'000'000;
+constexpr std::uint64_t halt_us = 10 * us_per_s;    // then a hold becomes a quick stop,
+constexpr std::uint64_t give_up_us = 15 * us_per_s; // and then nobody waits for the port any more
+constexpr int looks_a_second = 100;
+constexpr int not_finished = 1;
+
+} // namespace
+
+Supervision::~Supervision() {
+    leaves_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+    signals_->at_once({});
+}
+
+bool Supervision::room() const noexcept {
+    const std::uint64_t ahead = pushed_ticks_ - taken_ticks_.load(std::memory_order_relaxed);
+    return ring_.empty() || (ring_.room() > 0 && ahead < hand_over_us * static_cast<std::uint64_t>(ticks_per_us));
+}
+
+bool Supervision::submit(const FeedSegment& segment) {
+    while (!over() && !room()) {
+        sleep_until_us(monotonic_us() + poll_every_us);
+    }
+    if (over()) {
+        return false;
+    }
+    pushed_ticks_ += segment.duration_ticks;
+    ring_.push(segment);
+    if (!thread_.joinable()) {
+        thread_ = std::thread([this] { work(); });
+    }
+    return true;
+}
+
+bool Supervision::finish() {
+    complete_.store(true);
+    while (thread_.joinable() && !over()) {
+        sleep_until_us(monotonic_us() + poll_every_us);
+    }
+    return ending_.empty();
+}
+
+// Twice before one look counts twice.
+void Supervision::obey() {
+    const bool given_up = leaves_.load() && !complete_.load(); // the planner failed: as if the user asked once
+    const int asked = std::min(std::max(SignalWatch::interrupts(), given_up ? 1 : 0), 2);
+    if (asked <= obeyed_) {
+        return;
+    }
+    obeyed_us_ = monotonic_us();
+    obeyed_ = asked;
+    if (asked > 1) {
+        target_->quick_stop();
+    } else {
+        target_->hold();
+    }
+}
+
+void Supervision::hand_over() {
+    FeedSegment segment;
+    hal::MotionPort& port = target_->port();
+    bool takes = true;
+    while (takes && port.room() > 0 && ring_.pop(segment)) {
+        taken_ticks_.fetch_add(segment.duration_ticks, std::memory_order_relaxed);
+        takes = port.submit(segment);
+    }
+    // In this order: what was pushed before complete_ is seen.
+    const bool complete = complete_.load();
+    if (complete && !completed_ && ring_.empty()) {
+        completed_ = true;
+        target_->complete();
+    }
+}
+
+// Returns why the run ended; empty: all was executed.
+std::string Supervision::supervise() {
+    const FeedSegment first = ring_.front();
+    signals_->supervise();
+    if (SignalWatch::interrupted()) {
+        return "interrupted before anything was moved; the drives were not enabled";
+    }
+    began_ = true;
+    if (std::string what = target_->prepare(first); !what.empty()) {
+        return what;
+    }
+    for (std::uint64_t next_us = monotonic_us();; next_us = std::max(next_us + poll_every_us, monotonic_us())) {
+        sleep_until_us(next_us);
+        obey();
+        target_->look();
+        hold_asked_.store(!target_->holds().empty());
+        hand_over();
+        const hal::PortPhase phase = target_->port().poll().phase;
+        const std::uint64_t now_us = monotonic_us();
+        if (phase == hal::PortPhase::fault) {
+            return target_->fault();
+        }
+        if (phase == hal::PortPhase::halted) {
+            return target_->halted(obeyed_ > 1);
+        }
+        if (phase == hal::PortPhase::idle && completed_) {
+            return target_->achieved() ? std::string() : target_->holds();
+        }
+        if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {
+            obeyed_ = 2;
+            target_->quick_stop();
+        } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
+            return "interrupted, but not every drive has confirmed that it stands";
+        }
+    }
+}
+
+// Counted in looks, not in time: a process that was stopped meanwhile is no planner that is blocked.
+void Supervision::await_planner() noexcept {
+    std::uint64_t writes = OutputFile::writes();
+    for (int looks = 0; looks < stall_s * looks_a_second && !leaves_.load(); ++looks) {
+        sleep_until_us(monotonic_us() + us_per_s / looks_a_second);
+        if (const std::uint64_t now = OutputFile::writes(); now != writes) {
+            writes = now;
+            looks = 0;
+        }
+    }
+    if (!leaves_.load()) {
+        target_->release();
+        abandon(ending_ + "; an output whose reader does not read was given up", not_finished);
+    }
+}
+
+void Supervision::work() noexcept {
+    try {
+        ending_ = supervise();
+        where_ = began_ ? target_->where() : std::string();
+        if (const std::string what = began_ ? target_->finish() : std::string(); !what.empty()) {
+            ending_ += ending_.empty() ? what : "; " + what;
+        }
+    } catch (const std::exception& error) {
+        target_->quick_stop();
+        ending_ = error.what();
+    }
+    const std::string sentence =
+        (ending_.empty() ? std::string("interrupted while outputs were written; the motion was complete") : ending_) +
+        where_;
+    signals_->at_once([this, sentence] {
+        target_->release();
+        abandon(sentence, not_finished);
+    });
+    if (!ending_.empty()) {
+        ending_ += where_;
+    }
+    const bool complete = ending_.empty();
+    over_.store(true);
+    if (!complete) {
+        await_planner();
+    }
+}
+
+} // namespace splinefeed::host

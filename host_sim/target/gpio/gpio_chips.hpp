@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// GpioChips: the lines of a map, taken from their chips, in the form that the port uses.
+#pragma once
+
+#include "host_sim/config/machine_description.hpp"
+
+#include "splinefeed/hal/gpio/crash_guard.hpp"
+#include "splinefeed/hal/gpio/input_lines.hpp"
+#include "splinefeed/hal/gpio/input_source.hpp"
+#include "splinefeed/hal/gpio/line_map.hpp"
+#include "splinefeed/hal/gpio/step_port.hpp"
+
+#include <deque>
+#include <memory>
+
+namespace splinefeed::host {
+
+/// The lines of a map, as a target uses them: a test has its own.
+class GpioLines {
+public:
+    GpioLines() = default;
+    GpioLines(const GpioLines&) = delete;
+    GpioLines& operator=(const GpioLines&) = delete;
+    virtual ~GpioLines() = default;
+
+    /// What a port needs.
+    [[nodiscard]] virtual std::vector<hal::gpio::ChipOutputs> outputs() = 0;
+    /// Of each chip that has inputs: where its edges come from, and the indices of its inputs in the map.
+    struct Inputs {
+        hal::gpio::InputSource* source;
+        std::vector<std::size_t> input;
+    };
+    [[nodiscard]] virtual std::vector<Inputs> inputs() = 0;
+    /// A call that sets lines takes so long, on the slowest chip: of each of `calls` calls, which change nothing. [ns]
+    [[nodiscard]] virtual std::vector<std::uint64_t> set_times_ns(int calls) = 0;
+    /// All outputs take their safe levels, as at the end.
+    virtual void make_safe() noexcept = 0;
+    /// Enable and brake keep the levels that they have, also at the end. @pre nobody sets any more
+    virtual void keep_drives_on() noexcept = 0;
+    /// Its name for messages: "/dev/gpiochip0 X_LIMIT".
+    [[nodiscard]] virtual std::string name(hal::gpio::LineBit input) const = 0;
+};
+
+/// Those of real chips. They are safe from its making to its end, also where the program crashes.
+class GpioChips final : public GpioLines {
+public:
+    /// Takes the lines. Throws hal::gpio::GpioError; then none was taken. `map` outlives it.
+    GpioChips(const hal::gpio::LineMap& map, const MachineDescription& machine);
+
+    [[nodiscard]] std::vector<hal::gpio::ChipOutputs> outputs() override;
+    [[nodiscard]] std::vector<Inputs> inputs() override;
+    [[nodiscard]] std::vector<std::uint64_t> set_times_ns(int calls) override;
+    void make_safe() noexcept override;
+    void keep_drives_on() noexcept override;
+    [[nodiscard]] std::string name(hal::gpio::LineBit input) const override;
+
+private:
+    class Writer final : public hal::gpio::LineWriter {
+    public:
+        Writer(const hal::gpio::ChipLines& chip, const std::string& consumer)
+            : lines_(chip.chip, consumer, chip.outputs) {}
+        [[nodiscard]] bool set(std::uint64_t mask, std::uint64_t levels) noexcept override {
+            return lines_.set(mask, levels);
+        }
+        [[nodiscard]] hal::gpio::OutputLines& lines() noexcept { return lines_; }
+
+    private:
+        hal::gpio::OutputLines lines_;
+    };
+    class Source final : public hal::gpio::InputSource {
+    public:
+        Source(const hal::gpio::ChipLines& chip, const std::string& consumer)
+            : lines_(chip.chip, consumer, chip.inputs) {}
+        [[nodiscard]] std::optional<std::uint64_t> levels() noexcept override { return lines_.levels(); }
+        [[nodiscard]] int wait(std::span<hal::gpio::InputEvent> out, std::uint32_t timeout_us) noexcept override {
+            return lines_.wait(out, timeout_us);
+        }
+
+    private:
+        hal::gpio::InputLines lines_;
+    };
+
+    const hal::gpio::LineMap* map_;
+    const MachineDescription* machine_;
+    std::vector<std::unique_ptr<Writer>> writer_; // of each chip; null: it has no outputs
+    std::vector<std::unique_ptr<Source>> source_; // the same
+    std::optional<hal::gpio::CrashGuard> guard_;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// GpioTarget: a run on step and direction lines of GPIO chips.
+#pragma once
+
+#include "host_sim/config/gpio_address.hpp"
+#include "host_sim/target/gpio/gpio_mover.hpp"
+#include "host_sim/target/run_target.hpp"
+
+#include "splinefeed/hal/stop_sequence.hpp"
+
+namespace splinefeed::host {
+
+class GpioTarget final : public RunTarget {
+public:
+    /// Throws TargetError, and UsageError where the chip is too slow for the machine's limits. `machine` outlives it.
+    /// @param lines  of the map
+    /// @param clock  null: the system's, and the target asks the system for real time. Outlives it.
+    GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
+               const MachineDescription& machine, const RunWishes& wishes, hal::Clock* clock = nullptr);
+    ~GpioTarget() override;
+
+    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
+    [[nodiscard]] bool resamples() const noexcept override { return false; }
+    [[nodiscard]] std::string note() const override;
+    [[nodiscard]] std::string where() const override;
+    void describe(Summary& summary) const override;
+    [[nodiscard]] std::string holds() const override { return holds_; }
+    [[nodiscard]] bool achieved() const override { return probed_; }
+
+private:
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    [[nodiscard]] std::string prepare(const FeedSegment& first) override;
+    void complete() override;
+    void hold() override { holds_ = "interrupted: held on the path"; }
+    void quick_stop() override;
+    [[nodiscard]] std::string halted(bool quick) const override;
+    [[nodiscard]] std::string finish() override;
+    void release() noexcept override;
+    void look() override;
+    [[nodiscard]] std::string fault() const override;
+
+    void take_changes();
+    void follow_stop();
+
+    const MachineDescription* machine_;
+    RunWishes wishes_;
+    hal::Clock* time_;
+    std::optional<hal::gpio::AwakeHost> awake_;
+    std::unique_ptr<hal::gpio::LineMap> map_;
+    std::unique_ptr<GpioLines> chips_;
+    hal::gpio::StepPort port_;
+    GpioInputs inputs_;
+    GpioMover mover_;
+    hal::StopSequence stop_; // all axes stop as one
+    std::uint64_t executed_us_ = 0;
+    std::string missing_; // of real time
+    std::string holds_;   // why the motion is held, and ends
+    GpioSummary seen_;    // of inputs
+    std::uint64_t began_ns_;
+    bool began_ = false; // the lines may have changed
+    bool probed_ = false;
+    bool quick_ = false;
+    bool completed_ = false;
+    bool finished_ = false; // the drives are as the machine file says
+};
+
+/// Reads the map and takes the lines. Throws InputError, TargetError and UsageError.
+[[nodiscard]] std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address,
+                                                           const MachineDescription& machine, const RunWishes& wishes);
+
+/// How many lines a second may be set where a call takes so long: half of the time.
+[[nodiscard]] double most_edges_per_s(double call_ns) noexcept;
+/// What the machine's limits may ask for.
+[[nodiscard]] double asked_edges_per_s(const MachineDescription& machine) noexcept;
+/// Of the map's thread.
+[[nodiscard]] hal::gpio::StepPortSettings port_settings(const MachineDescription& machine,
+                                                        const hal::gpio::LineMap& map, hal::Clock* clock = nullptr);
+
+} // namespace splinefeed::host

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/target/pvt_target.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/signal_watch.hpp"
+
+#include "splinefeed/hal/modbus/stream_cost.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+using namespace hal::modbus;
+
+namespace {
+
+constexpr std::uint64_t stale_us = 100'000; // a drive's place, where it has not been heard for this long
+
+} // namespace
+
+std::vector<DriveWiring> pvt_wiring(const DriveTable& table, const MachineDescription& machine) {
+    std::vector<DriveWiring> wiring;
+    for (const DriveTable::Drive& drive : table.drives) {
+        DriveWiring& out = wiring.emplace_back();
+        out.link = drive.address.link;
+        for (const int axis : drive.machine_axis) {
+            out.axes.emplace_back(axis, axis >= 0 && machine.inverted[static_cast<unsigned>(axis)]);
+        }
+        out.timing = timing_of(drive.profile.link);
+        out.both_in_one = drive.profile.link.function_exchange;
+        const std::uint32_t watchdog_ms = drive.profile.watchdog_timeout_ms;
+        out.watchdog_ms = watchdog_ms > 0 ? std::optional(static_cast<std::uint16_t>(watchdog_ms)) : std::nullopt;
+        if (const auto window = drive.profile.following_error_window_counts) {
+            out.following_window = static_cast<std::uint32_t>(*window);
+        }
+    }
+    return wiring;
+}
+
+void check_pvt_range(const MachineDescription& machine, double segment_us) {
+    constexpr double us_per_s = 1e6;
+    constexpr double margin = 1.001; // of what a plan's arithmetic may be above its limits
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        const double counts = axis.max_velocity_mm_s * axis.steps_per_mm * segment_us / us_per_s;
+        if (counts * margin >= pvt_velocity_range) {
+            throw UsageError(fmt::format(
+                "axis {}: {} mm/s at {} counts/mm are {:.0f} counts in a segment of {:.2f} ms, and splinefeed-pvt "
+                "carries {:.0f}; lower max_velocity_mm_s or steps_per_mm, or take a faster line or a shorter "
+                "sample_period_us",
+                machine.axis_name[k], axis.max_velocity_mm_s, axis.steps_per_mm, counts, segment_us * 1e-3,
+                pvt_velocity_range / margin));
+        }
+    }
+}
+
+PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, bool home)
+    : machine_(&machine), table_(std::move(table)),
+      port_(pvt_wiring(table_, machine), {.home = home, .interrupted = &SignalWatch::interrupted}) {
+    if (const auto failure = port_.open()) {
+        throw TargetError(drive_sentence(table_, port_, *failure));
+    }
+    least_segment_us_ = port_.least_segment_us();
+}
+
+bool PvtTarget::resamples() const noexcept {
+    return std::all_of(table_.drives.begin(), table_.drives.end(),
+                       [](const DriveTable::Drive& drive) { return drive.address.resample; });
+}
+
+std::string drive_sentence(const DriveTable& table, const ModbusPort& port, const DriveFailure& failure) {
+    const DriveReport report = port.report(failure.drive);
+    std::string text = fmt::format("{}: {}", table.drives[failure.drive].address.text, describe(failure.problem));
+    if (failure.problem == DriveProblem::fault) {
+        text += fmt::format(", code {} on its axis {}: {}", report.status.fault, report.status.fault_axis,
+                            fault_name(report.status.fault));
+    } else if (failure.problem == DriveProblem::silent && report.last_fault != LinkFault::none) {
+        text += fmt::format(" (last: {})", describe(report.last_fault));
+    }
+    return text;
+}
+
+std::string PvtTarget::halted(bool quick) const {
+    return stop_sentence(stopped(), quick);
+}
+
+std::string PvtTarget::fault() const {
+    return drive_sentence(table_, port_, *port_.failure()) + unconfirmed_drives(stopped());
+}
+
+std::string PvtTarget::finish() {
+    if (machine_->drives_on_at_end.value_or(true)) {
+        return {};
+    }
+    port_.power_off();
+    return not_switched_off(stopped());
+}
+
+std::vector<StoppedDrive> PvtTarget::stopped() const {
+    std::vector<StoppedDrive> drives;
+    for (std::size_t i = 0; i < port_.drives(); ++i) {
+        drives.push_back({table_.drives[i].address.text, port_.stop_report(i)});
+    }
+    return drives;
+}
+
+std::string PvtTarget::where() const {
+    std::string text = "; the machine stands at";
+    for (std::size_t i = 0; i < port_.drives(); ++i) {
+        const DriveReport report = port_.report(i);
+        const DriveWiring& wiring = port_.wiring(i);
+        for (std::size_t k = 0; k < wiring.axes.size(); ++k) {
+            if (wiring.axes[k].machine_axis >= 0) {
+                const auto axis = static_cast<unsigned>(wiring.axes[k].machine_axis);
+                const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
+                // One that is away went on to where all were to stop.
+                const bool heard = monotonic_us() - report.answered_us < stale_us;
+                text += fmt::format(" {}={:.4f}{}", machine_->axis_name[axis],
+                                    counts / machine_->settings.axis[axis].steps_per_mm,
+                                    heard ? "" : " (when it was last heard)");
+            }
+        }
+    }
+    return text + " mm";
+}
+
+std::string PvtTarget::prepare(const FeedSegment& first) {
+    const auto failure = port_.prepare(first);
+    return failure ? drive_sentence(table_, port_, *failure) : std::string();
+}
+
+void PvtTarget::describe(Summary& summary) const {
+    LinkSummary& link = summary.link.emplace();
+    double worst_us = 0.0;
+    for (std::size_t i = 0; i < port_.drives(); ++i) {
+        link.drives.push_back({table_.drives[i].address.text, port_.report(i).counts});
+        link.clocks_s = std::max(link.clocks_s, (worst_us + port_.unsure_us(i)) * 1e-6);
+        worst_us = std::max(worst_us, port_.unsure_us(i));
+    }
+    link.resumes = port_.resumes();
+    link.bus_s = static_cast<double>(port_.busy_us()) * 1e-6;
+}
+
+} // namespace splinefeed::host

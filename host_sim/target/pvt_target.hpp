@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// PvtTarget: a run on drives that interpolate: who they are, whether the line carries the plan, and how the run went.
+#pragma once
+
+#include "host_sim/config/drive_table.hpp"
+#include "host_sim/target/run_target.hpp"
+#include "host_sim/target/stop_sentence.hpp"
+
+#include "splinefeed/hal/modbus/modbus_port.hpp"
+
+namespace splinefeed::host {
+
+/// The drives of a table in the port's form. @pre they interpolate
+[[nodiscard]] std::vector<hal::modbus::DriveWiring> pvt_wiring(const DriveTable& table,
+                                                               const MachineDescription& machine);
+
+/// Whether segments that long can carry the machine's velocities. Throws UsageError with the axis, its value and the
+/// range.
+void check_pvt_range(const MachineDescription& machine, double segment_us);
+
+/// What is wrong with which drive, in a line.
+[[nodiscard]] std::string drive_sentence(const DriveTable& table, const hal::modbus::ModbusPort& port,
+                                         const hal::modbus::DriveFailure& failure);
+
+class PvtTarget final : public RunTarget {
+public:
+    /// Connects to the drives. Throws TargetError. @pre they interpolate
+    PvtTarget(DriveTable table, const MachineDescription& machine, bool home);
+
+    [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
+    [[nodiscard]] bool resamples() const noexcept override;
+    void check(const MachineDescription& machine, double segment_us) const override {
+        check_pvt_range(machine, segment_us);
+    }
+    [[nodiscard]] std::string where() const override;
+    void describe(Summary& summary) const override;
+
+private:
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    [[nodiscard]] std::string prepare(const FeedSegment& first) override;
+    void complete() override { port_.complete(); }
+    void quick_stop() override { port_.quick_stop(); }
+    [[nodiscard]] std::string halted(bool quick) const override;
+    [[nodiscard]] std::string finish() override;
+    void release() noexcept override { port_.close(); }
+    [[nodiscard]] std::string fault() const override;
+    [[nodiscard]] std::vector<StoppedDrive> stopped() const;
+
+    const MachineDescription* machine_;
+    DriveTable table_;
+    hal::modbus::ModbusPort port_;
+    double least_segment_us_ = 0.0;
+};
+
+} // namespace splinefeed::host
