@@ -176,24 +176,24 @@ void sustained(benchmark::State& state) {
         }
         const std::uint64_t busy_before = port.busy_us();
         const std::uint64_t allocated_before = allocations.load();
-        const std::uint64_t before_us = monotonic_us();
+        const std::uint64_t before_us = hal::system_clock().now_us();
         for (std::int64_t i = 0; i < count && port.phase() != ModbusPhase::fault;) {
             while (i < count && port.room() > 0) {
                 static_cast<void>(port.submit(sine_segment(i++, count, ticks)));
             }
             port.poll();
-            sleep_until_us(monotonic_us() + 1000);
+            hal::system_clock().sleep_until_us(hal::system_clock().now_us() + 1000);
         }
         port.complete();
         while (port.phase() != ModbusPhase::done && port.phase() != ModbusPhase::fault) {
             port.poll();
-            sleep_until_us(monotonic_us() + 1000);
+            hal::system_clock().sleep_until_us(hal::system_clock().now_us() + 1000);
         }
         const auto all = static_cast<double>(count);
         state.counters["allocations"] = static_cast<double>(allocations.load() - allocated_before);
         state.counters["stops"] = port.resumes();
         state.counters["bus_us_a_segment"] = static_cast<double>(port.busy_us() - busy_before) / all;
-        state.counters["segments_a_s"] = 1e6 * all / static_cast<double>(monotonic_us() - before_us);
+        state.counters["segments_a_s"] = 1e6 * all / static_cast<double>(hal::system_clock().now_us() - before_us);
         std::uint64_t exchanges = 0;
         for (std::size_t i = 0; i < port.drives(); ++i) {
             exchanges += port.report(i).counts.exchanges;

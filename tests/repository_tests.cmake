@@ -41,6 +41,7 @@ repository_test(readme_example tools/readme_example.sh ${PROJECT_BINARY_DIR})
 repository_test(two_compilers tools/two_compilers.sh ${PROJECT_BINARY_DIR}/bin/splinefeed ${sanitized}/bin/splinefeed)
 repository_test(format tools/format.sh)
 repository_test(scripts tools/scripts.sh)
+repository_test(rooms tools/rooms.py)
 repository_test(harness tools/harness.sh ${sanitized}/bin/base_tests)
 
 # Also the bits of both compilers' optimised arithmetic, and that each source includes what it uses.

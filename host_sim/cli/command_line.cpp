@@ -3,7 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
-#include "host_sim/config/target_address.hpp"
+#include "host_sim/targets/target_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -43,13 +43,14 @@ std::string joined(std::initializer_list<std::string_view> names) {
 }
 
 void add_input(CLI::App& app, Job& job, Typed& typed) {
-    app.add_option("FILE", job.input, "waypoints (.csv) or a curve (.json); - reads standard input")->required();
+    app.add_option("FILE", job.run.path.input, "waypoints (.csv) or a curve (.json); - reads standard input")
+        ->required();
     app.add_option("--format", typed.format,
                    "csv or json: what the input is (default: what its name says; of standard input csv)");
 }
 
 void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
-    CurveArguments& curve = job.curve;
+    CurveArguments& curve = job.run.path.curve;
     const std::string group = "Curve";
     const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
         app.add_option(name, value, text)->group(group);
@@ -99,26 +100,27 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
 void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_option("-m,--machine", typed.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
     if (executes) {
-        app.add_option("--target", job.target,
+        app.add_option("--target", job.run.target,
                        std::string("sim: the simulated machine in this process (default); ") + target_text);
-        app.add_flag("--home", job.wishes.home, "the axes find their references first; then the program begins")
+        app.add_flag("--home", job.run.wishes.home, "the axes find their references first; then the program begins")
             ->disable_flag_override();
-        app.add_flag("--probe", job.wishes.probe, "it ends where the probe touches (gpio://); 1 where it never does")
+        app.add_flag("--probe", job.run.wishes.probe,
+                     "it ends where the probe touches (gpio://); 1 where it never does")
             ->disable_flag_override();
     }
     app.add_option("--window", typed.window,
                    "cells that the feed plan looks ahead, 16 to 1000000 (default 1024); a jerk-limited plan a quarter");
-    app.add_option("--events", job.events,
+    app.add_option("--events", job.run.motion.events,
                    "E.csv: what an operator does while it runs, rows t,hold|resume|abort or t,override,0 to 2");
     const std::string group = "Outputs (- is standard output)";
-    app.add_option("--trace", job.trace, "T.csv: positions and speed at every sample period")->group(group);
-    app.add_option("--segments", job.segments, "S.csv: the feed segments, in integers")->group(group);
-    app.add_option("--edges", job.edges,
+    app.add_option("--trace", job.run.outputs.trace, "T.csv: positions and speed at every sample period")->group(group);
+    app.add_option("--segments", job.run.outputs.segments, "S.csv: the feed segments, in integers")->group(group);
+    app.add_option("--edges", job.run.outputs.edges,
                    "E.csv: what the step and direction lines do, on a virtual clock; docs/pulse_train.md")
         ->group(group);
-    app.add_option("--curve-out", job.curve_out, "C.json: the curve as Bezier segments")->group(group);
+    app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
-    app.add_flag("--quiet", job.quiet, "no progress and no warnings on standard error")
+    app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error")
         ->group(group)
         ->disable_flag_override();
 }
@@ -155,7 +157,7 @@ void refuse_extras(const CLI::App& app, const Job& job) {
         throw UsageError(takes_no_input(app) ? fmt::format("'{}' takes no input; {} is one word too many",
                                                            app.get_name(), in_quotes(word))
                                              : fmt::format("there is one input, {}; {} is one word too many",
-                                                           in_quotes(job.input), in_quotes(word)));
+                                                           in_quotes(job.run.path.input), in_quotes(word)));
     }
 }
 
@@ -179,29 +181,31 @@ std::string explained(const CLI::ParseError& error) {
 }
 
 void take_format(Job& job, const std::string& format) {
-    const std::size_t dot = job.input.rfind('.');
-    const std::string suffix = job.input == "-" ? ".csv" : dot == std::string::npos ? "" : job.input.substr(dot);
+    const std::size_t dot = job.run.path.input.rfind('.');
+    const std::string suffix = job.run.path.input == "-"  ? ".csv"
+                               : dot == std::string::npos ? ""
+                                                          : job.run.path.input.substr(dot);
     const std::string kind = format.empty() ? suffix.substr(suffix.empty() ? 0 : 1) : format;
     if (kind == "csv") {
-        job.format = InputFormat::csv;
+        job.run.path.format = InputFormat::csv;
     } else if (kind == "json") {
-        job.format = InputFormat::json;
+        job.run.path.format = InputFormat::json;
     } else if (!format.empty()) {
         refuse_value("--format", format, {"csv", "json"});
     } else {
         throw UsageError(
             fmt::format("{}: the name does not say what it is; name a .csv or .json file, or add --format csv|json",
-                        in_quotes(job.input)));
+                        in_quotes(job.run.path.input)));
     }
 }
 
 void take_scalar(Job& job, const std::string& scalar) {
     if (scalar == "fixed") {
-        job.scalar = ScalarKind::fixed;
+        job.run.path.scalar = ScalarKind::fixed;
     } else if (scalar == "float") {
-        job.scalar = ScalarKind::single;
+        job.run.path.scalar = ScalarKind::single;
     } else if (scalar == "double") {
-        job.scalar = ScalarKind::dual;
+        job.run.path.scalar = ScalarKind::dual;
     } else {
         refuse_value("--scalar", scalar, {"fixed", "float", "double"});
     }
@@ -209,18 +213,19 @@ void take_scalar(Job& job, const std::string& scalar) {
 
 void take_window(Job& job, const std::string& text) {
     const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, job.window_cells);
-    if (end != last || error != std::errc{} || job.window_cells < 16 || job.window_cells > 1000000) {
+    const auto [end, error] = std::from_chars(text.data(), last, job.run.motion.window_cells);
+    if (end != last || error != std::errc{} || job.run.motion.window_cells < 16 ||
+        job.run.motion.window_cells > 1000000) {
         throw UsageError(fmt::format("--window {}: it must be a whole number from 16 to 1000000", in_quotes(text)));
     }
 }
 
 // One output at most goes to standard output, and no two to one file.
 void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
-    const std::array<std::pair<const char*, const std::string*>, 4> files{{{"--trace", &job.trace},
-                                                                           {"--segments", &job.segments},
-                                                                           {"--edges", &job.edges},
-                                                                           {"--curve-out", &job.curve_out}}};
+    const std::array<std::pair<const char*, const std::string*>, 4> files{{{"--trace", &job.run.outputs.trace},
+                                                                           {"--segments", &job.run.outputs.segments},
+                                                                           {"--edges", &job.run.outputs.edges},
+                                                                           {"--curve-out", &job.run.outputs.curve}}};
     const char* on_stdout = nullptr;
     std::error_code ignored;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -243,7 +248,10 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
     if (!summary.empty() && on_stdout != nullptr) {
         throw UsageError(fmt::format("{} - and --summary both go to standard output; write one to a file", on_stdout));
     }
-    job.summary = on_stdout != nullptr ? SummaryKind::none : summary == "json" ? SummaryKind::json : SummaryKind::text;
+    job.run.outputs.prints_summary = on_stdout == nullptr;
+    job.run.summary = on_stdout != nullptr ? SummaryKind::none
+                      : summary == "json"  ? SummaryKind::json
+                                           : SummaryKind::text;
 }
 
 void describe_commands(CLI::App& app, Job& job, Typed& typed) {
@@ -260,14 +268,14 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     CLI::App* const curve = app.add_subcommand("curve", "Print the curve through the points as Bezier segments");
     add_input(*curve, job, typed);
     add_curve_options(*curve, job, typed);
-    curve->add_option("-o,--curve-out", job.curve_out, "C.json (default: standard output)");
-    curve->add_flag("--quiet", job.quiet, "no warnings on standard error")->disable_flag_override();
+    curve->add_option("-o,--curve-out", job.run.outputs.curve, "C.json (default: standard output)");
+    curve->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
     curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
     CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
-    surface->add_option("FILE", job.input, "a grid or sections (.json); - reads standard input")->required();
+    surface->add_option("FILE", job.run.path.input, "a grid or sections (.json); - reads standard input")->required();
     surface->add_option("--format", typed.format, "json: what the input is, whatever its name");
     add_surface_options(*surface, job.surface);
-    surface->add_flag("--quiet", job.quiet, "no warnings on standard error")->disable_flag_override();
+    surface->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
     surface->add_option("--scalar", typed.scalar,
                         "fixed, float or double: what parameters, knots and control points are computed in (default "
                         "double)");
@@ -334,7 +342,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         job.command = command.get_name() == "drive" ? Command::drive : Command::link;
         return job;
     }
-    if (job.input.empty()) {
+    if (job.run.path.input.empty()) {
         throw UsageError("the input has no name; give a .csv or .json file, or - for standard input");
     }
     if (command.get_name() == "surface") {
@@ -346,29 +354,30 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         take_scalar(job, typed.scalar.value_or("double"));
         return job;
     }
-    job.machine = typed.machine.value_or("");
-    if (typed.machine && job.machine.empty()) {
+    job.run.machine = typed.machine.value_or("");
+    if (typed.machine && job.run.machine.empty()) {
         throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
     }
     job.command = command.get_name() == "run"    ? Command::run
                   : command.get_name() == "plan" ? Command::plan
                                                  : Command::curve;
-    check_target(job.target);
-    if ((job.wishes.home || job.wishes.probe) && job.target == "sim") {
+    job.run.motion.enforce = job.command == Command::run;
+    check_target(job.run.target);
+    if ((job.run.wishes.home || job.run.wishes.probe) && job.run.target == "sim") {
         throw UsageError(
             fmt::format("--{} is for machines with switches or drives, and the simulated one has none; name "
                         "yours with --target",
-                        job.wishes.home ? "home" : "probe"));
+                        job.run.wishes.home ? "home" : "probe"));
     }
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));
     take_window(job, typed.window);
     take_outputs(job, command, typed.summary);
-    if (job.command == Command::curve && job.curve_out.empty()) {
-        job.curve_out = "-";
+    if (job.command == Command::curve && job.run.outputs.curve.empty()) {
+        job.run.outputs.curve = "-";
     }
-    if (job.format == InputFormat::csv) {
-        static_cast<void>(choose_curve(job.curve));
+    if (job.run.path.format == InputFormat::csv) {
+        static_cast<void>(choose_curve(job.run.path.curve));
     }
     return job;
 }

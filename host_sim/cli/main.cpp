@@ -3,7 +3,6 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/cli/command_line.hpp"
-#include "host_sim/run/runner.hpp"
 #include "host_sim/target/run_target.hpp"
 
 #include <csignal>
@@ -23,7 +22,7 @@ int main(int argc, char** argv) {
         if (const Answer* const answer = std::get_if<Answer>(&parsed)) {
             return std::fputs(answer->text.c_str(), stdout) < 0 || std::fflush(stdout) != 0 ? bad_input : 0;
         }
-        return run(std::get<Job>(parsed));
+        return carry_out(std::get<Job>(parsed));
     } catch (const InputError& error) {
         fmt::print(stderr, "{}\n", error.what());
         return bad_input;

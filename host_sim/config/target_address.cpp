@@ -154,32 +154,4 @@ TargetAddress parse_target_address(const std::string& text) {
     return address;
 }
 
-void check_target(const std::string& target) {
-    if (target == "sim" || target == "modbus") {
-        return;
-    }
-    if (is_gpio_address(target)) {
-#ifndef SPLINEFEED_HAS_GPIO
-        throw UsageError("--target gpio://: this splinefeed was built without libgpiod; install it (Debian: "
-                         "libgpiod-dev) and build again");
-#endif
-        try {
-            static_cast<void>(parse_gpio_address(target));
-        } catch (const AddressError& error) {
-            throw UsageError(fmt::format("--target: {}", error.what()));
-        }
-        return;
-    }
-    if (target.rfind("modbus-", 0) != 0) {
-        throw UsageError(fmt::format("--target {}: there is no such target; available are sim, modbus, modbus-tcp://, "
-                                     "modbus-rtu:// (docs/modbus.md) and gpio:// (docs/gpio.md)",
-                                     in_quotes(target)));
-    }
-    try {
-        static_cast<void>(parse_target_address(target));
-    } catch (const AddressError& error) {
-        throw UsageError(fmt::format("--target: {}", error.what()));
-    }
-}
-
 } // namespace splinefeed::host

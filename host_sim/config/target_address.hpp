@@ -35,12 +35,4 @@ struct TargetAddress {
 /// following_window, of a serial line baud, parity (N, E, O) and stop (1, 2). Throws AddressError.
 [[nodiscard]] TargetAddress parse_target_address(const std::string& text);
 
-/// What --help says of the targets that are drives.
-inline constexpr const char* target_text =
-    "modbus: each axis's drive as the machine file names it; modbus-tcp://HOST:PORT?unit=1 or "
-    "modbus-rtu:///dev/ttyUSB0?baud=115200: one drive with all axes; gpio:///dev/gpiochip0?map=FILE.toml: step lines";
-
-/// Whether --target can be that: sim, modbus, or an address. Throws UsageError where not.
-void check_target(const std::string& target);
-
 } // namespace splinefeed::host

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/diagnose/gpio_link.hpp"
 
+#include "splinefeed/hal/rt/clock.hpp"
+
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/diagnose/round_trips.hpp"
 #include "host_sim/target/gpio/gpio_target.hpp"
@@ -50,7 +52,7 @@ RoundTrips wake_ups(const hal::gpio::RealTimeSettings& settings, double seconds,
     std::thread([&] {
         missing = claim_real_time(settings);
         constexpr std::uint64_t period_ns = 1'000'000;
-        const std::uint64_t begin = hal::gpio::monotonic_ns();
+        const std::uint64_t begin = hal::system_clock().now_ns();
         const auto rounds = static_cast<std::uint64_t>(seconds * 1e3);
         for (std::uint64_t i = 1; i <= rounds; ++i) {
             const std::uint64_t due = begin + i * period_ns;

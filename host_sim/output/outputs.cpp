@@ -5,25 +5,25 @@
 
 namespace splinefeed::host {
 
-Outputs::Outputs(const Job& job, std::string_view method, bool closed) {
-    if (!job.curve_out.empty()) {
-        curve_.emplace(curve_file_.emplace(job.curve_out), method, closed);
+Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed) {
+    if (!names.curve.empty()) {
+        curve_.emplace(curve_file_.emplace(names.curve), method, closed);
     }
 }
 
-Outputs::Outputs(const Job& job, std::string_view method, bool closed, const MachineDescription& machine)
-    : Outputs(job, method, closed) {
-    if (job.summary != SummaryKind::none) {
+Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed, const MachineDescription& machine)
+    : Outputs(names, method, closed) {
+    if (names.prints_summary) {
         FileClaims::writes("-");
     }
-    if (!job.trace.empty()) {
-        trace_.emplace(trace_file_.emplace(job.trace), machine);
+    if (!names.trace.empty()) {
+        trace_.emplace(trace_file_.emplace(names.trace), machine);
     }
-    if (!job.segments.empty()) {
-        segments_.emplace(segments_file_.emplace(job.segments), machine);
+    if (!names.segments.empty()) {
+        segments_.emplace(segments_file_.emplace(names.segments), machine);
     }
-    if (!job.edges.empty()) {
-        edges_.emplace(edges_file_.emplace(job.edges), machine);
+    if (!names.edges.empty()) {
+        edges_.emplace(edges_file_.emplace(names.edges), machine);
     }
 }
 

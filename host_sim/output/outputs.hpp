@@ -3,24 +3,33 @@
 #pragma once
 
 #include "host_sim/base/output_file.hpp"
-#include "host_sim/cli/job.hpp"
 #include "host_sim/output/curve_writer.hpp"
 #include "host_sim/output/edge_writer.hpp"
 #include "host_sim/output/segment_writer.hpp"
 #include "host_sim/output/trace_writer.hpp"
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace splinefeed::host {
 
-/// Each one is there where the job names it. Without commit() nothing is left behind.
+/// Where the outputs of a run go. Empty: there is no such output; "-": standard output.
+struct OutputNames {
+    std::string trace;
+    std::string segments;
+    std::string edges;
+    std::string curve;
+    bool prints_summary = true; ///< on standard output
+};
+
+/// Each one is there where it has a name. Without commit() nothing is left behind.
 class Outputs {
 public:
     /// Opens the curve alone. Throws OutputError, as every method does.
-    Outputs(const Job& job, std::string_view method, bool closed);
-    /// Opens what the job names.
-    Outputs(const Job& job, std::string_view method, bool closed, const MachineDescription& machine);
+    Outputs(const OutputNames& names, std::string_view method, bool closed);
+    /// Opens what has a name.
+    Outputs(const OutputNames& names, std::string_view method, bool closed, const MachineDescription& machine);
 
     [[nodiscard]] TraceWriter* trace() noexcept { return trace_ ? &*trace_ : nullptr; }
     [[nodiscard]] SegmentWriter* segments() noexcept { return segments_ ? &*segments_ : nullptr; }

@@ -46,13 +46,13 @@ private:
 
 } // namespace
 
-PathInput::PathInput(const Job& job, const std::vector<std::string>& machine_axes)
-    : name_(job.input), path_(job.input), read_ahead_(job.command == Command::run && job.target != "sim") {
-    if (job.format == InputFormat::json) {
-        open_description(job, machine_axes);
+PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes)
+    : name_(arguments.input), path_(arguments.input), read_ahead_(use == PathUse::followed) {
+    if (arguments.format == InputFormat::json) {
+        open_description(arguments, use, machine_axes);
         return;
     }
-    choice_ = choose_curve(job.curve);
+    choice_ = choose_curve(arguments.curve);
     if (path_ == "-" && is_regular_file("/dev/stdin")) {
         path_ = "/dev/stdin"; // it can be read twice
     }
@@ -62,11 +62,11 @@ PathInput::PathInput(const Job& job, const std::vector<std::string>& machine_axe
     axes_ = rows->axes();
     opened_ = std::move(rows);
     if (needs_all_points(choice_.method)) {
-        compute_from_points(job);
+        compute_from_points(arguments.scalar, use);
     }
 }
 
-void PathInput::compute_from_points(const Job& job) {
+void PathInput::compute_from_points(ScalarKind scalar, PathUse use) {
     std::vector<PerAxis<double>> points;
     WaypointRow row;
     while (opened_->next(row)) {
@@ -93,27 +93,28 @@ void PathInput::compute_from_points(const Job& job) {
     opened_.reset();
     const int axes = static_cast<int>(axes_.size());
     try {
-        file_ = compute_curve(description_name(choice_.method), points_description(choice_, points, axes), job.scalar,
-                              name_);
+        file_ =
+            compute_curve(description_name(choice_.method), points_description(choice_, points, axes), scalar, name_);
     } catch (const DescriptionError& error) {
         throw InputError(name_, 0, error.what());
     }
-    if (job.command != Command::curve) {
+    if (use != PathUse::drawn) {
         require_executable(file_, name_);
     }
 }
 
-void PathInput::open_description(const Job& job, const std::vector<std::string>& machine_axes) {
-    if (const std::string_view option = first_option(job.curve); !option.empty()) {
+void PathInput::open_description(const PathArguments& arguments, PathUse use,
+                                 const std::vector<std::string>& machine_axes) {
+    if (const std::string_view option = first_option(arguments.curve); !option.empty()) {
         throw UsageError(fmt::format("{}: a curve file says itself which curve it is; leave the option out", option));
     }
-    file_ = read_curve_file(name_, job.scalar);
-    if (file_.described && job.command != Command::curve) {
+    file_ = read_curve_file(name_, arguments.scalar);
+    if (file_.described && use != PathUse::drawn) {
         require_executable(file_, name_);
     }
     choice_.method = Method::bezier;
     choice_.closed = file_.closed;
-    choice_.smooth = job.curve.smooth;
+    choice_.smooth = arguments.curve.smooth;
     const auto count = static_cast<std::size_t>(file_.axes);
     axes_ = machine_axes.empty() ? std::vector<std::string>(every_axis.begin(), every_axis.begin() + file_.axes)
                                  : machine_axes;

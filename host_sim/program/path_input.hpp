@@ -2,7 +2,7 @@
 // PathInput: what the path is made of: rows of waypoints, from a file or a pipe, or Bezier segments.
 #pragma once
 
-#include "host_sim/cli/job.hpp"
+#include "host_sim/base/scalar_kind.hpp"
 #include "host_sim/curve/curve_choice.hpp"
 #include "host_sim/curve/curve_file.hpp"
 #include "host_sim/program/waypoint_rows.hpp"
@@ -13,11 +13,27 @@
 
 namespace splinefeed::host {
 
+enum class InputFormat { csv, json };
+
+/// What a path is read from, and how its curve is made.
+struct PathArguments {
+    std::string input; ///< a path, or "-"
+    InputFormat format = InputFormat::csv;
+    CurveArguments curve;
+    ScalarKind scalar = ScalarKind::fixed;
+};
+
+enum class PathUse {
+    drawn,    ///< nobody executes it: its tangent may jump where it does not stop
+    executed, ///< by the simulated machine alone
+    followed, ///< by a real machine: a thread reads its waypoints ahead
+};
+
 class PathInput {
 public:
     /// Opens the input and reads as far as its axes are known. Throws InputError and UsageError.
     /// @param machine_axes  names; empty: the path has the axes that the input has
-    PathInput(const Job& job, const std::vector<std::string>& machine_axes);
+    PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
 
     [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
     /// The curve's name for files and reports.
@@ -39,8 +55,8 @@ public:
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
 private:
-    void open_description(const Job& job, const std::vector<std::string>& machine_axes);
-    void compute_from_points(const Job& job);
+    void open_description(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
+    void compute_from_points(ScalarKind scalar, PathUse use);
 
     std::string name_;
     std::string path_; // what is opened: /dev/stdin for a file that is standard input

@@ -18,24 +18,24 @@ constexpr std::chrono::milliseconds wait_slice{1}; // for input, before the targ
 } // namespace
 
 template <Scalar S>
-Motion<S>::Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits,
-                  PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target)
-    : job_(&job), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs), target_(target),
-      optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
-      feeder_(input), tee_(feeder_, input.name(),
-                           {.limits = &path_limits,
-                            .writer = outputs.curve(),
-                            .error = &error_,
-                            .optimum = &optimum_,
-                            .share = &share_}),
-      planner_(tee_, limits, job.window_cells), trajectory_(planner_.trajectory()),
-      machine_(description, limits.segments_per_sample,
-               {.enforce = job.command == Command::run, .trace = outputs.trace()}),
-      events_(job.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(job.events)) {}
+Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& description,
+                  const MotionLimits<S>& limits, PathInput& input, const PathLimits& path_limits, Outputs& outputs,
+                  Supervision* target)
+    : quiet_(arguments.quiet), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs),
+      target_(target), optimum_(description.settings, to_double(limits.refinement.direction_jump)),
+      share_(description.settings), feeder_(input), tee_(feeder_, input.name(),
+                                                         {.limits = &path_limits,
+                                                          .writer = outputs.curve(),
+                                                          .error = &error_,
+                                                          .optimum = &optimum_,
+                                                          .share = &share_}),
+      planner_(tee_, limits, arguments.window_cells), trajectory_(planner_.trajectory()),
+      machine_(description, limits.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
+      events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {}
 
 template <Scalar S>
 void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
-    Progress progress({.quiet = job_->quiet, .waypoints = waypoints});
+    Progress progress({.quiet = quiet_, .waypoints = waypoints});
     FeedSegment segment;
     for (;;) {
         operate();

@@ -20,6 +20,13 @@ struct CounterSeam; // of tests
 
 namespace splinefeed::host {
 
+struct MotionArguments {
+    std::size_t window_cells = 1024; ///< that the feed plan looks ahead
+    std::string events;              ///< file of what an operator does; empty: nobody steers
+    bool enforce = true;             ///< the simulated machine stops where a limit is broken
+    bool quiet = false;              ///< nothing on standard error
+};
+
 /// One run. A waypoint is read only when the planner is out of segments.
 ///
 /// Without a target it waits for its input. With one a machine that moves cannot: while the target needs segments the
@@ -31,8 +38,8 @@ public:
     static constexpr int pause_ms = 100;
 
     /// All arguments must outlive it.
-    Motion(const Job& job, const MachineDescription& description, const MotionLimits<S>& limits, PathInput& input,
-           const PathLimits& path_limits, Outputs& outputs, Supervision* target = nullptr);
+    Motion(const MotionArguments& arguments, const MachineDescription& description, const MotionLimits<S>& limits,
+           PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target = nullptr);
     Motion(const Motion&) = delete;
     Motion& operator=(const Motion&) = delete;
 
@@ -64,7 +71,7 @@ private:
     void keep_failure(const std::exception_ptr& failure);
     [[nodiscard]] std::string where() const;
 
-    const Job* job_;
+    bool quiet_;
     const MachineDescription* description_;
     const MotionLimits<S>* limits_;
     PathInput* input_;

@@ -5,13 +5,13 @@
 #include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/machine_file.hpp"
-#include "host_sim/diagnose/link_report.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/path_tee.hpp"
 #include "host_sim/run/supervision.hpp"
 #include "host_sim/target/run_target.hpp"
+#include "host_sim/targets/target_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace {
 
 /// The whole curve, to those who look at it; nothing moves. Returns the number of waypoints.
 template <Scalar S>
-std::uint64_t draw(PathInput& input, const PathObservers& observers) {
+std::uint64_t pass(PathInput& input, const PathObservers& observers) {
     CurveFeeder<S> feeder(input);
     PathTee<S> tee(feeder, input.name(), observers);
     CurveSegment<S> segment;
@@ -43,8 +43,8 @@ std::uint64_t draw(PathInput& input, const PathObservers& observers) {
 }
 
 /// Input that is valid, but whose curve is hardly what was meant.
-void warn(const PathInput& input, const Job& job) {
-    if (input.segments() == nullptr || job.quiet) {
+void warn(const PathInput& input, bool quiet) {
+    if (input.segments() == nullptr || quiet) {
         return;
     }
     for (const std::string& warning : input.segments()->warnings) {
@@ -53,36 +53,36 @@ void warn(const PathInput& input, const Job& job) {
 }
 
 template <Scalar S>
-int draw_curve(const Job& job) {
-    PathInput input(job, {});
-    warn(input, job);
+int draw_curve(const RunArguments& arguments) {
+    PathInput input(arguments.path, PathUse::drawn, {});
+    warn(input, arguments.motion.quiet);
     if (const CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
-        Outputs outputs(job, input.curve_name(), curve->closed);
+        Outputs outputs(arguments.outputs, input.curve_name(), curve->closed);
         outputs.curve()->segments(*curve);
         outputs.commit(&curve->results);
         return 0;
     }
     if (input.repeatable()) {
-        static_cast<void>(draw<S>(input, {}));
+        static_cast<void>(pass<S>(input, {}));
     }
-    Outputs outputs(job, input.curve_name(), input.choice().closed);
-    static_cast<void>(draw<S>(input, {.writer = outputs.curve()}));
+    Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed);
+    static_cast<void>(pass<S>(input, {.writer = outputs.curve()}));
     outputs.commit();
     return 0;
 }
 
 /// Events that never happened: as a rule a time that was mistyped, or a run that was shorter than thought.
-void warn_of_events(const Job& job, std::span<const OperatorEvent> events, double end_s) {
+void warn_of_events(const MotionArguments& arguments, std::span<const OperatorEvent> events, double end_s) {
     constexpr std::size_t most = 3; // lines
-    if (job.quiet) {
+    if (arguments.quiet) {
         return;
     }
     for (const OperatorEvent& event : events.first(std::min(events.size(), most))) {
         fmt::print(stderr, "{}:{}: warning: the event at {} s did not happen: the run ended at {:.6g} s\n",
-                   printable(job.events), event.line, event.time_s, end_s);
+                   printable(arguments.events), event.line, event.time_s, end_s);
     }
     if (events.size() > most) {
-        fmt::print(stderr, "{}: warning: nor did the {} events after them\n", printable(job.events),
+        fmt::print(stderr, "{}: warning: nor did the {} events after them\n", printable(arguments.events),
                    events.size() - most);
     }
 }
@@ -133,40 +133,42 @@ Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& tar
 }
 
 template <Scalar S>
-int move_machine(const Job& job) {
+int move_machine(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.
     std::optional<SignalWatch> signals;
-    if (job.target != "sim") {
+    if (arguments.target != "sim") {
         signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     }
-    MachineDescription machine = job.machine.empty() ? default_machine() : read_machine_file(job.machine);
+    MachineDescription machine = arguments.machine.empty() ? default_machine() : read_machine_file(arguments.machine);
     auto limits = MotionLimits<S>::make(machine.settings);
     if (!limits.has_value()) {
         throw InputError(machine.file, 0, describe(limits.error()));
     }
     const auto axes = static_cast<std::size_t>(machine.settings.axes);
-    PathInput input(job, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
-    warn(input, job);
+    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed,
+                    {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+    warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;
     if (input.repeatable()) {
-        waypoints = draw<S>(input, {.limits = &path_limits});
+        waypoints = pass<S>(input, {.limits = &path_limits});
     }
     std::unique_ptr<RunTarget> target;
     std::optional<Supervision> supervision;
     if (signals) {
-        target = make_run_target(job.target, machine, job.wishes);
-        limits = fitted<S>(machine, *target, job.quiet);
+        target = target_kind(arguments.target).make(arguments.target, machine, arguments.wishes);
+        limits = fitted<S>(machine, *target, arguments.motion.quiet);
         target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
         supervision.emplace(*target, *signals);
     }
-    Outputs outputs(job, input.curve_name(), input.choice().closed, machine);
-    Motion<S> motion(job, machine, *limits, input, path_limits, outputs, supervision ? &*supervision : nullptr);
+    Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine);
+    Motion<S> motion(arguments.motion, machine, *limits, input, path_limits, outputs,
+                     supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
     const Summary summary = motion.summary();
-    warn_of_events(job, motion.events_not_reached(), summary.cycle_time_s);
-    print(summary, job.summary);
+    warn_of_events(arguments.motion, motion.events_not_reached(), summary.cycle_time_s);
+    print(summary, arguments.summary);
     supervision.reset(); // from here on a signal says nothing any more: the sentence is told once
     if (stopped.empty()) {
         return 0;
@@ -175,30 +177,25 @@ int move_machine(const Job& job) {
     return 1;
 }
 
-template <Scalar S>
-int run_with(const Job& job) {
-    return job.command == Command::curve ? draw_curve<S>(job) : move_machine<S>(job);
+/// In the scalar that was asked for.
+template <class Work>
+int with_scalar(ScalarKind scalar, const Work& work) {
+    switch (scalar) {
+    case ScalarKind::fixed: return work(Fixed{});
+    case ScalarKind::single: return work(float{});
+    case ScalarKind::dual: return work(double{});
+    }
+    return 1;
 }
 
 } // namespace
 
-int run(const Job& job) {
-    const FileClaims claims;
-    if (job.command == Command::link) {
-        return report_link(job.link);
-    }
-    if (job.command == Command::surface) {
-        return run_surface(job.input, job.surface, job.scalar);
-    }
-    if (job.command == Command::drive) {
-        return run_drive(job.drive);
-    }
-    switch (job.scalar) {
-    case ScalarKind::fixed: return run_with<Fixed>(job);
-    case ScalarKind::single: return run_with<float>(job);
-    case ScalarKind::dual: return run_with<double>(job);
-    }
-    return 1;
+int run(const RunArguments& arguments) {
+    return with_scalar(arguments.path.scalar, [&]<class S>(S /*zero*/) { return move_machine<S>(arguments); });
+}
+
+int draw(const RunArguments& arguments) {
+    return with_scalar(arguments.path.scalar, [&]<class S>(S /*zero*/) { return draw_curve<S>(arguments); });
 }
 
 } // namespace splinefeed::host

@@ -4,15 +4,14 @@
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/output_file.hpp"
 
-#include "splinefeed/hal/modbus/link_address.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>
 #include <exception>
 
 namespace splinefeed::host {
 
-using hal::modbus::monotonic_us;
-using hal::modbus::sleep_until_us;
+using hal::system_clock;
 
 namespace {
 
@@ -40,7 +39,7 @@ bool Supervision::room() const noexcept {
 
 bool Supervision::submit(const FeedSegment& segment) {
     while (!over() && !room()) {
-        sleep_until_us(monotonic_us() + poll_every_us);
+        system_clock().sleep_us(poll_every_us);
     }
     if (over()) {
         return false;
@@ -56,7 +55,7 @@ bool Supervision::submit(const FeedSegment& segment) {
 bool Supervision::finish() {
     complete_.store(true);
     while (thread_.joinable() && !over()) {
-        sleep_until_us(monotonic_us() + poll_every_us);
+        system_clock().sleep_us(poll_every_us);
     }
     return ending_.empty();
 }
@@ -68,7 +67,7 @@ void Supervision::obey() {
     if (asked <= obeyed_) {
         return;
     }
-    obeyed_us_ = monotonic_us();
+    obeyed_us_ = system_clock().now_us();
     obeyed_ = asked;
     if (asked > 1) {
         target_->quick_stop();
@@ -104,14 +103,15 @@ std::string Supervision::supervise() {
     if (std::string what = target_->prepare(first); !what.empty()) {
         return what;
     }
-    for (std::uint64_t next_us = monotonic_us();; next_us = std::max(next_us + poll_every_us, monotonic_us())) {
-        sleep_until_us(next_us);
+    for (std::uint64_t next_us = system_clock().now_us();;
+         next_us = std::max(next_us + poll_every_us, system_clock().now_us())) {
+        system_clock().sleep_until_us(next_us);
         obey();
         target_->look();
         hold_asked_.store(!target_->holds().empty());
         hand_over();
         const hal::PortPhase phase = target_->port().poll().phase;
-        const std::uint64_t now_us = monotonic_us();
+        const std::uint64_t now_us = system_clock().now_us();
         if (phase == hal::PortPhase::fault) {
             return target_->fault();
         }
@@ -134,7 +134,7 @@ std::string Supervision::supervise() {
 void Supervision::await_planner() noexcept {
     std::uint64_t writes = OutputFile::writes();
     for (int looks = 0; looks < stall_s * looks_a_second && !leaves_.load(); ++looks) {
-        sleep_until_us(monotonic_us() + us_per_s / looks_a_second);
+        system_clock().sleep_us(us_per_s / looks_a_second);
         if (const std::uint64_t now = OutputFile::writes(); now != writes) {
             writes = now;
             looks = 0;

@@ -5,8 +5,9 @@
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/target/run_target.hpp"
 
-#include "splinefeed/hal/gpio/segment_ring.hpp"
+#include "splinefeed/s4_segment_stream/segment_ring.hpp"
 
+#include <array>
 #include <atomic>
 #include <thread>
 
@@ -25,7 +26,7 @@ public:
     static constexpr int stall_s = 2;
 
     /// No thread runs before the first segment. Both must outlive it.
-    Supervision(RunTarget& target, SignalWatch& signals) : target_(&target), signals_(&signals), ring_(capacity) {}
+    Supervision(RunTarget& target, SignalWatch& signals) : target_(&target), signals_(&signals) {}
     Supervision(const Supervision&) = delete;
     Supervision& operator=(const Supervision&) = delete;
     /// Where the run is not over: stops the axes as for the first signal, and waits for it.
@@ -61,7 +62,8 @@ private:
 
     RunTarget* target_;
     SignalWatch* signals_;
-    hal::gpio::SegmentRing ring_;
+    std::array<FeedSegment, capacity + 1> segments_{}; // the ring's
+    SegmentRing ring_{segments_};
     std::uint64_t pushed_ticks_ = 0; // the planner's
     std::atomic<std::uint64_t> taken_ticks_{0};
     std::atomic<bool> hold_asked_{false};

@@ -78,8 +78,4 @@ public:
     virtual void describe(Summary& summary) const = 0;
 };
 
-/// Connects to the drives of --target. `machine` must outlive it. Throws UsageError, InputError, TargetError.
-[[nodiscard]] std::unique_ptr<RunTarget> make_run_target(const std::string& target, const MachineDescription& machine,
-                                                         const RunWishes& wishes);
-
 } // namespace splinefeed::host

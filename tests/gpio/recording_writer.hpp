@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/hal/gpio/line_writer.hpp"
-#include "splinefeed/hal/gpio/real_time.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 
 #include <cerrno>
 #include <chrono>
@@ -24,7 +24,7 @@ public:
     [[nodiscard]] bool set(std::uint64_t mask, std::uint64_t levels) noexcept override {
         const std::lock_guard lock(mutex_);
         levels_ = (levels_ & ~mask) | (levels & mask);
-        rows_.push_back({splinefeed::hal::gpio::monotonic_ns(), levels_, mask});
+        rows_.push_back({splinefeed::hal::system_clock().now_ns(), levels_, mask});
         if (rows_.size() == stalls_after_) { // the thread that sets stands still
             std::this_thread::sleep_for(std::chrono::milliseconds(stall_ms_));
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What a run of 10^9 mm, 10^10 segments and 2^32 waypoints says of itself: its counters start shortly before.
-#include "host_sim/run/motion.hpp"
+#include "host_sim/run/runner.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/machine_file.hpp"
@@ -31,17 +31,17 @@ struct Outcome {
 
 Outcome run(const std::string& program, bool old, const MachineDescription& machine = default_machine()) {
     const TemporaryFolder folder;
-    Job job;
-    job.input = folder.file("p.csv");
-    job.trace = folder.file("t.csv");
-    job.quiet = true;
-    std::ofstream(job.input) << program;
+    RunArguments arguments;
+    arguments.path.input = folder.file("p.csv");
+    arguments.outputs.trace = folder.file("t.csv");
+    arguments.motion.quiet = true;
+    std::ofstream(arguments.path.input) << program;
     const auto limits = MotionLimits<Fixed>::make(machine.settings).value();
     const auto axes = static_cast<std::size_t>(machine.settings.axes);
-    PathInput input(job, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+    PathInput input(arguments.path, PathUse::executed, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
     const PathLimits path_limits(machine);
-    Outputs outputs(job, input.curve_name(), false, machine);
-    Motion<Fixed> motion(job, machine, limits, input, path_limits, outputs);
+    Outputs outputs(arguments.outputs, input.curve_name(), false, machine);
+    Motion<Fixed> motion(arguments.motion, machine, limits, input, path_limits, outputs);
     if (old) {
         CounterSeam::travelled(CounterSeam::trajectory(motion), far_length, far_segments, far_segments);
         CounterSeam::ran(motion, far_ticks, far_segments, far_rows);
@@ -50,7 +50,7 @@ Outcome run(const std::string& program, bool old, const MachineDescription& mach
     result.stopped = motion.run({});
     result.summary = motion.summary();
     outputs.commit();
-    result.trace = lines_of(job.trace);
+    result.trace = lines_of(arguments.outputs.trace);
     return result;
 }
 

@@ -53,20 +53,21 @@ TEST_CASE("Port: no allocation after prepare, in any of its threads", "[modbus]"
     constexpr int segments = 700; // more than a ring, so that it is refilled on the way
     REQUIRE_FALSE(port.prepare(smooth_segment(0, segments)));
     const std::size_t before = allocations();
-    const std::uint64_t until_us = monotonic_us() + 5'000'000;
+    const std::uint64_t until_us = hal::system_clock().now_us() + 5'000'000;
     bool taken = true;
     for (int i = 0; i < segments && taken;) {
         while (i < segments && taken && port.room() > 0) {
             taken = port.submit(smooth_segment(i++, segments));
         }
         port.poll();
-        taken = taken && monotonic_us() < until_us;
-        sleep_until_us(monotonic_us() + 500);
+        taken = taken && hal::system_clock().now_us() < until_us;
+        hal::system_clock().sleep_until_us(hal::system_clock().now_us() + 500);
     }
     port.complete();
-    while (port.phase() != ModbusPhase::done && port.phase() != ModbusPhase::fault && monotonic_us() < until_us) {
+    while (port.phase() != ModbusPhase::done && port.phase() != ModbusPhase::fault &&
+           hal::system_clock().now_us() < until_us) {
         port.poll();
-        sleep_until_us(monotonic_us() + 500);
+        hal::system_clock().sleep_until_us(hal::system_clock().now_us() + 500);
     }
     const std::size_t after = allocations();
     CHECK(port.phase() == ModbusPhase::done);

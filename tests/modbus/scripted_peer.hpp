@@ -165,12 +165,12 @@ private:
     void answer(const Bytes& request) {
         {
             const std::lock_guard lock(mutex_);
-            arrived_us_.push_back(splinefeed::hal::modbus::monotonic_us());
+            arrived_us_.push_back(splinefeed::hal::system_clock().now_us());
         }
         const Reply reply = script_(request);
         {
             const std::lock_guard lock(mutex_);
-            replied_us_.push_back(splinefeed::hal::modbus::monotonic_us());
+            replied_us_.push_back(splinefeed::hal::system_clock().now_us());
         }
         if (!reply.bytes.empty() &&
             write(line_, reply.bytes.data(), reply.bytes.size()) != static_cast<ssize_t>(reply.bytes.size())) {

@@ -11,7 +11,7 @@
 
 using namespace splinefeed_test;
 using splinefeed::Fixed;
-using splinefeed::host::Job;
+using splinefeed::host::RunArguments;
 
 namespace {
 
@@ -20,21 +20,21 @@ constexpr std::uint64_t most_segments = 15'000; // of a run in double: then it i
 
 /// @return  what the run was; false: it was refused
 template <class S>
-WildRun checked(const Job& job, std::uint64_t most = most_segments) {
-    INFO(printed(job, splinefeed::scalar_name<S>()));
-    const WildRun run = wild_run<S>(job, most);
+WildRun checked(const RunArguments& arguments, std::uint64_t most = most_segments) {
+    INFO(printed(arguments, splinefeed::scalar_name<S>()));
+    const WildRun run = wild_run<S>(arguments, most);
     CHECK(run.fault == "");
     return run;
 }
 
 /// The same run as one in double. @return  how much longer it takes; 1 where either was refused or left
 template <class S>
-double ratio(const Job& job, const WildRun& wanted) {
-    const WildRun run = checked<S>(job, wanted.ended ? 20 * wanted.segments + 100 : most_segments);
+double ratio(const RunArguments& arguments, const WildRun& wanted) {
+    const WildRun run = checked<S>(arguments, wanted.ended ? 20 * wanted.segments + 100 : most_segments);
     if (!wanted.ended || !run.refused.empty()) {
         return 1.0;
     }
-    INFO(printed(job, splinefeed::scalar_name<S>()));
+    INFO(printed(arguments, splinefeed::scalar_name<S>()));
     CHECK(run.ended);
     return (run.seconds - 4.0 * run.sample_s) / wanted.seconds;
 }
@@ -50,25 +50,25 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
         const WildRound wild = wild_round(seed + round);
         for (const WildPlan plan : {WildPlan::acceleration, WildPlan::optimal, WildPlan::bounded}) {
             const bool plain = plan == WildPlan::acceleration;
-            const Job job = write_wild(wild, plan, 0.0, folder.file(""));
-            const WildRun run = checked<double>(job);
+            const RunArguments arguments = write_wild(wild, plan, 0.0, folder.file(""));
+            const WildRun run = checked<double>(arguments);
             if (!run.refused.empty()) {
                 continue;
             }
             {
-                INFO(printed(job, "double"));
+                INFO(printed(arguments, "double"));
                 CAPTURE(run.seconds, run.least_s, run.most_s);
                 CHECK((!run.ended || run.seconds <= 4.0 * run.most_s));
                 CHECK((!run.ended || !plain || run.short_window ||
                        run.seconds <= 3.0 * run.least_s + 20.0 * run.sample_s));
-                CHECK(ratio<Fixed>(job, run) <= (plain ? 1.02 : 1.6));
+                CHECK(ratio<Fixed>(arguments, run) <= (plain ? 1.02 : 1.6));
             }
             if (plain && run.ended) {
                 ++compared;
-                slow_in_float += ratio<float>(job, run) > 1.2 ? 1 : 0;
+                slow_in_float += ratio<float>(arguments, run) > 1.2 ? 1 : 0;
             }
             if (wild.orders && run.ended) {
-                const Job steered = write_wild(wild, plan, run.seconds, folder.file(""));
+                const RunArguments steered = write_wild(wild, plan, run.seconds, folder.file(""));
                 static_cast<void>(checked<double>(steered, 4 * most_segments));
                 static_cast<void>(checked<Fixed>(steered, 4 * most_segments));
                 if (plain) {
@@ -97,10 +97,10 @@ TEMPLATE_TEST_CASE("a hairpin of a nanometre is passed within every limit of an 
                    Fixed) {
     // No plan is slower than 1 um/s away from a stop, and at that the jerk was 1.4 times what the axis allows
     const TemporaryFolder folder;
-    Job job;
-    job.curve.method = "catmull-rom-modified";
-    job.curve.corner_angle = "180";
-    const WildRun run = checked<TestType>(write_texts(job, R"(
+    RunArguments arguments;
+    arguments.path.curve.method = "catmull-rom-modified";
+    arguments.path.curve.corner_angle = "180";
+    const WildRun run = checked<TestType>(write_texts(arguments, R"(
 sample_period_us = 1000
 [path]
 max_feed_mm_s = 800
@@ -150,10 +150,10 @@ TEMPLATE_TEST_CASE("a way too short for a speed is crawled along within every li
 TEST_CASE("a bend too sharp for Fixed is a stop", "[wild]") {
     // Its second derivative was asked for all the same
     const TemporaryFolder folder;
-    Job job;
-    job.curve.method = "g2";
-    job.window_cells = 24;
-    const WildRun run = checked<Fixed>(write_texts(job, R"(
+    RunArguments arguments;
+    arguments.path.curve.method = "g2";
+    arguments.motion.window_cells = 24;
+    const WildRun run = checked<Fixed>(write_texts(arguments, R"(
 sample_period_us = 2000
 [path]
 max_feed_mm_s = 15.6846
@@ -183,9 +183,9 @@ max_jerk_mm_s3 = 879.853
 TEST_CASE("float arrives at the ends of long moves without a step", "[wild][float]") {
     // Rounding is 2^-24 of the move, 1 um, and the axis that is soft moves along it
     const TemporaryFolder folder;
-    Job job;
-    job.curve.method = "polyline";
-    job.window_cells = 64;
+    RunArguments arguments;
+    arguments.path.curve.method = "polyline";
+    arguments.motion.window_cells = 64;
     const std::string machine = R"(
 sample_period_us = 1000
 [path]
@@ -204,14 +204,14 @@ max_velocity_mm_s = 100
 max_acceleration_mm_s2 = 44.8076
 )";
     const std::string program = "36.884463,-49.106353,-30.856842\n63.769175,-41.608288,-60.826221\n";
-    const Job written = write_texts(job, machine, program, "", folder.file(""));
+    const RunArguments written = write_texts(arguments, machine, program, "", folder.file(""));
     CHECK(checked<float>(written, 400'000).ended);
 }
 
 TEST_CASE("float is as fast as double where a soft axis hardly moves", "[wild][float]") {
     const TemporaryFolder folder;
-    Job job;
-    job.curve.method = "g2";
+    RunArguments arguments;
+    arguments.path.curve.method = "g2";
     const std::string machine = R"(
 sample_period_us = 4000
 [path]
@@ -233,9 +233,9 @@ name = "a"
 max_velocity_mm_s = 44.6
 max_acceleration_mm_s2 = 3592
 )";
-    const Job written =
-        write_texts(job, machine, "13.730051,47.100598,40.223821,20.434744\n-4.799827,46.619125,41.241539,-0.004341\n",
-                    "", folder.file(""));
+    const RunArguments written = write_texts(
+        arguments, machine, "13.730051,47.100598,40.223821,20.434744\n-4.799827,46.619125,41.241539,-0.004341\n", "",
+        folder.file(""));
     const WildRun wanted = checked<double>(written);
     REQUIRE(wanted.ended);
     CHECK(ratio<float>(written, wanted) < 1.05);

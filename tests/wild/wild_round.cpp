@@ -11,7 +11,7 @@
 
 namespace splinefeed_test {
 
-using splinefeed::host::Job;
+using splinefeed::host::RunArguments;
 
 namespace {
 
@@ -172,14 +172,15 @@ WildRound wild_round(std::uint64_t seed) {
     const auto curve = static_cast<unsigned>(random.integer(0, 8));
     make_machine(random, axes, round);
     make_program(random, axes, curve < 6, round);
-    round.job.quiet = true;
-    round.job.curve.method = curves[curve];
-    round.job.curve.closed = curve != 7 && random.chance(0.2);
-    round.job.curve.smooth = curve >= 2 && curve <= 3 && random.chance(0.2);
+    round.arguments.motion.quiet = true;
+    round.arguments.path.curve.method = curves[curve];
+    round.arguments.path.curve.closed = curve != 7 && random.chance(0.2);
+    round.arguments.path.curve.smooth = curve >= 2 && curve <= 3 && random.chance(0.2);
     if (curve < 6 && random.chance(0.4)) {
-        round.job.curve.corner_angle = random.chance(0.5) ? "180" : "20";
+        round.arguments.path.curve.corner_angle = random.chance(0.5) ? "180" : "20";
     }
-    round.job.window_cells = static_cast<std::size_t>(windows[static_cast<unsigned>(random.integer(0, 4))]);
+    round.arguments.motion.window_cells =
+        static_cast<std::size_t>(windows[static_cast<unsigned>(random.integer(0, 4))]);
     round.orders = random.chance(0.4);
     return round;
 }
@@ -205,37 +206,38 @@ std::string WildRound::events(double seconds) const {
     return text;
 }
 
-Job write_texts(const Job& job, const std::string& machine, const std::string& program, const std::string& events,
-                const std::string& folder) {
-    Job written = job;
-    written.input = folder + "/wild.csv";
+RunArguments write_texts(const RunArguments& arguments, const std::string& machine, const std::string& program,
+                         const std::string& events, const std::string& folder) {
+    RunArguments written = arguments;
+    written.path.input = folder + "/wild.csv";
     written.machine = folder + "/wild.toml";
-    write(written.input, program);
+    write(written.path.input, program);
     write(written.machine, machine);
     if (!events.empty()) {
-        written.events = folder + "/wild.events.csv";
-        write(written.events, events);
+        written.motion.events = folder + "/wild.events.csv";
+        write(written.motion.events, events);
     }
     return written;
 }
 
-Job write_wild(const WildRound& round, WildPlan plan, double seconds, const std::string& folder) {
+RunArguments write_wild(const WildRound& round, WildPlan plan, double seconds, const std::string& folder) {
     std::string machine = plan == WildPlan::acceleration ? round.machine : round.jerk;
     if (const auto at = machine.find("PLAN"); at != std::string::npos) {
         machine.replace(at, 4, plan == WildPlan::optimal ? "optimal" : "bounded");
     }
-    return write_texts(round.job, machine, round.program, seconds > 0.0 ? round.events(seconds) : "", folder);
+    return write_texts(round.arguments, machine, round.program, seconds > 0.0 ? round.events(seconds) : "", folder);
 }
 
-std::string printed(const Job& job, std::string_view scalar) {
+std::string printed(const RunArguments& arguments, std::string_view scalar) {
     std::string text =
         fmt::format("splinefeed run wild.csv -m wild.toml --scalar {} --curve {} --window {}{}{}{}\n", scalar,
-                    *job.curve.method, job.window_cells, job.curve.closed ? " --closed" : "",
-                    job.curve.smooth ? " --smooth" : "", job.events.empty() ? "" : " --events wild.events.csv");
-    if (job.curve.corner_angle) {
-        text.insert(text.size() - 1, " --corner-angle " + *job.curve.corner_angle);
+                    *arguments.path.curve.method, arguments.motion.window_cells,
+                    arguments.path.curve.closed ? " --closed" : "", arguments.path.curve.smooth ? " --smooth" : "",
+                    arguments.motion.events.empty() ? "" : " --events wild.events.csv");
+    if (arguments.path.curve.corner_angle) {
+        text.insert(text.size() - 1, " --corner-angle " + *arguments.path.curve.corner_angle);
     }
-    for (const std::string& file : {job.machine, job.input, job.events}) {
+    for (const std::string& file : {arguments.machine, arguments.path.input, arguments.motion.events}) {
         text += file.empty() ? "" : fmt::format("# {}\n{}", file, contents(file));
     }
     return text;

@@ -51,9 +51,9 @@ double from_rest_to_rest(const MachineSettings& machine, double length_mm, doubl
 } // namespace
 
 template <Scalar S>
-WildRun wild_run(const Job& job, std::uint64_t most_segments) {
+WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
     WildRun run;
-    const MachineDescription machine = read_machine_file(job.machine);
+    const MachineDescription machine = read_machine_file(arguments.machine);
     const auto limits = MotionLimits<S>::make(machine.settings);
     if (!limits.has_value()) {
         run.refused = describe(limits.error());
@@ -61,14 +61,16 @@ WildRun wild_run(const Job& job, std::uint64_t most_segments) {
     }
     try {
         const auto axes = static_cast<std::size_t>(machine.settings.axes);
-        PathInput input(job, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+        PathInput input(arguments.path, PathUse::executed,
+                        {machine.axis_name.begin(), machine.axis_name.begin() + axes});
         OptimumTime optimum(machine.settings, to_double(limits->refinement.direction_jump));
         CurveFeeder<S> feeder(input);
         PathTee<S> tee(feeder, input.name(), {.optimum = &optimum});
-        Planner<S> planner(tee, *limits, job.window_cells);
+        Planner<S> planner(tee, *limits, arguments.motion.window_cells);
         Trajectory<S>& trajectory = planner.trajectory();
         SimulatedMachine simulated(machine, limits->segments_per_sample);
-        const auto events = job.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(job.events);
+        const auto events =
+            arguments.motion.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.motion.events);
         std::size_t obeyed = 0;
         FeedSegment segment;
         run.sample_s = machine.settings.sample_period_us * 1e-6;
@@ -109,8 +111,8 @@ WildRun wild_run(const Job& job, std::uint64_t most_segments) {
     return run;
 }
 
-template WildRun wild_run<double>(const Job& job, std::uint64_t most_segments);
-template WildRun wild_run<float>(const Job& job, std::uint64_t most_segments);
-template WildRun wild_run<Fixed>(const Job& job, std::uint64_t most_segments);
+template WildRun wild_run<double>(const RunArguments& arguments, std::uint64_t most_segments);
+template WildRun wild_run<float>(const RunArguments& arguments, std::uint64_t most_segments);
+template WildRun wild_run<Fixed>(const RunArguments& arguments, std::uint64_t most_segments);
 
 } // namespace splinefeed_test

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// WildRun: a job through the planner and the simulated machine, which checks every limit, for so many segments.
+// WildRun: a arguments through the planner and the simulated machine, which checks every limit, for so many segments.
 #pragma once
 
-#include "host_sim/cli/job.hpp"
+#include "host_sim/run/runner.hpp"
 
 #include "splinefeed/number/scalar.hpp"
 
@@ -24,6 +24,6 @@ struct WildRun {
 };
 
 template <splinefeed::Scalar S>
-[[nodiscard]] WildRun wild_run(const splinefeed::host::Job& job, std::uint64_t most_segments);
+[[nodiscard]] WildRun wild_run(const splinefeed::host::RunArguments& arguments, std::uint64_t most_segments);
 
 } // namespace splinefeed_test

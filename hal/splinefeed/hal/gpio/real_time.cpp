@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/real_time.hpp"
 
+#include "splinefeed/hal/rt/clock.hpp"
+
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
@@ -14,31 +16,18 @@ namespace splinefeed::hal::gpio {
 
 namespace {
 
-constexpr std::uint64_t ns_per_s = 1'000'000'000;
-
 std::string reason(int error) {
     return std::strerror(error); // NOLINT(concurrency-mt-unsafe): before threads run
 }
 
 } // namespace
 
-std::uint64_t monotonic_ns() noexcept {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return static_cast<std::uint64_t>(now.tv_sec) * ns_per_s + static_cast<std::uint64_t>(now.tv_nsec);
-}
-
 std::uint64_t wait_until_ns(std::uint64_t instant_ns, std::uint32_t spin_ns) noexcept {
-    std::uint64_t now = monotonic_ns();
-    if (instant_ns > now + spin_ns) {
-        const std::uint64_t wake_ns = instant_ns - spin_ns;
-        const timespec wake{static_cast<time_t>(wake_ns / ns_per_s), static_cast<long>(wake_ns % ns_per_s)};
-        while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {
-        }
-        now = monotonic_ns();
-    }
+    Clock& clock = system_clock();
+    clock.sleep_until_ns(instant_ns - std::min<std::uint64_t>(spin_ns, instant_ns));
+    std::uint64_t now = clock.now_ns();
     while (now < instant_ns) {
-        now = monotonic_ns();
+        now = clock.now_ns();
     }
     return now;
 }

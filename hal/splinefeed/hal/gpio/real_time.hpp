@@ -14,10 +14,8 @@ struct RealTimeSettings {
     std::uint32_t spin_ns = 30'000; ///< of each wait is spent spinning
 };
 
-/// CLOCK_MONOTONIC.
-[[nodiscard]] std::uint64_t monotonic_ns() noexcept;
-
-/// Sleeps until so long before the instant as the thread spins, then spins. Returns when it was there.
+/// By the system's clock: sleeps until so long before the instant as the thread spins, then spins. Returns when it was
+/// there.
 std::uint64_t wait_until_ns(std::uint64_t instant_ns, std::uint32_t spin_ns) noexcept;
 
 /// While one lives the processors stay awake (/dev/cpu_dma_latency), and the process stays in memory.

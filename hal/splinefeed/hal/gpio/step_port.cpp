@@ -46,7 +46,7 @@ StepPort::StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& setti
       train_(train_for(settings)), clock_({.guard_ns = guard_of(settings.timing),
                                            .tolerated_ns = settings.tolerated_ns,
                                            .reserve_ns = settings.buffer_ms * ns_per_ms * 2 / 5}),
-      ring_(ring_segments), time_(settings.clock != nullptr ? settings.clock : &system_clock()) {}
+      segments_(ring_segments), ring_(segments_), time_(settings.clock != nullptr ? settings.clock : &system_clock()) {}
 
 StepPort::~StepPort() {
     stop();

@@ -6,10 +6,10 @@
 #include "splinefeed/hal/gpio/late_histogram.hpp"
 #include "splinefeed/hal/gpio/line_changes.hpp"
 #include "splinefeed/hal/gpio/real_time.hpp"
-#include "splinefeed/hal/gpio/segment_ring.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
+#include "splinefeed/s4_segment_stream/segment_ring.hpp"
 #include "splinefeed/s5_pulse_train/pulse_train.hpp"
 
 #include <memory>
@@ -126,6 +126,7 @@ private:
     StepPortSettings settings_;
     Train train_;
     EdgeClock clock_;
+    std::vector<FeedSegment> segments_; // the ring's
     SegmentRing ring_;
     StepLog log_;
     LateHistogram late_;

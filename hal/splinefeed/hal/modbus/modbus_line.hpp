@@ -36,15 +36,6 @@ struct LinkAnswer {
 /// "illegal address", ...
 [[nodiscard]] const char* exception_name(std::uint8_t code) noexcept;
 
-/// CLOCK_MONOTONIC [us]
-[[nodiscard]] inline std::uint64_t monotonic_us() noexcept {
-    return system_clock().now_us();
-}
-/// Sleeps until that instant.
-inline void sleep_until_us(std::uint64_t instant_us) noexcept {
-    system_clock().sleep_until_us(instant_us);
-}
-
 /// One wire to one or several drives. Used by one thread at a time; calls block until the answer came or its time has
 /// passed. connect() may be called as often as the wire breaks.
 class ModbusLine {

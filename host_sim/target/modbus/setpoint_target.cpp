@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/target/setpoint_target.hpp"
+#include "host_sim/target/modbus/setpoint_target.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/signal_watch.hpp"

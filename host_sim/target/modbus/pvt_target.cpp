@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/target/pvt_target.hpp"
+#include "host_sim/target/modbus/pvt_target.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/signal_watch.hpp"
 
 #include "splinefeed/hal/modbus/stream_cost.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -115,7 +116,7 @@ std::string PvtTarget::where() const {
                 const auto axis = static_cast<unsigned>(wiring.axes[k].machine_axis);
                 const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
                 // One that is away went on to where all were to stop.
-                const bool heard = monotonic_us() - report.answered_us < stale_us;
+                const bool heard = hal::system_clock().now_us() - report.answered_us < stale_us;
                 text += fmt::format(" {}={:.4f}{}", machine_->axis_name[axis],
                                     counts / machine_->settings.axis[axis].steps_per_mm,
                                     heard ? "" : " (when it was last heard)");

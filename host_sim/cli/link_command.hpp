@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LinkArguments: the options of `splinefeed link` as they were typed, and the command: who answers at an address, how
-// fast and how surely, and what to do about it.
+// link_command: `splinefeed link`, its options as they were typed and what it does: the report of a target.
 #pragma once
 
 #include <string>

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/diagnose/link_report.hpp"
+#include "host_sim/diagnose/modbus_report.hpp"
 
-#include "host_sim/base/input_error.hpp"
-#include "host_sim/base/number_text.hpp"
-#include "host_sim/config/machine_file.hpp"
+#include "host_sim/config/drive_table.hpp"
 #include "host_sim/diagnose/round_trips.hpp"
-#include "host_sim/target/pvt_target.hpp"
-#include "host_sim/target/setpoint_target.hpp"
+#include "host_sim/target/modbus/pvt_target.hpp"
+#include "host_sim/target/modbus/setpoint_target.hpp"
 
 #include "host_sim/config/shipped_profiles.hpp"
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
+#include "splinefeed/hal/rt/clock.hpp"
+
+#include <algorithm>
 #include <fmt/format.h>
-#ifdef SPLINEFEED_HAS_GPIO
-#include "host_sim/diagnose/gpio_link.hpp"
-#endif
 
 namespace splinefeed::host {
 
@@ -32,20 +28,10 @@ struct Measured {
     std::uint64_t lost = 0;
 };
 
-double measuring_time(const std::string& text) {
-    constexpr double shortest_s = 0.1;
-    constexpr double longest_s = 3600.0;
-    double seconds = 0.0;
-    if (read_number(text, seconds) != NumberText::number || seconds < shortest_s || seconds > longest_s) {
-        throw UsageError(fmt::format("--seconds {}: it must be a number from 0.1 to 3600", in_quotes(text)));
-    }
-    return seconds;
-}
-
 template <class Port>
 void measure(Port& port, double seconds, std::vector<Measured>& drives) {
-    const std::uint64_t until = monotonic_us() + static_cast<std::uint64_t>(seconds * 1e6);
-    while (monotonic_us() < until) {
+    const std::uint64_t until = hal::system_clock().now_us() + static_cast<std::uint64_t>(seconds * 1e6);
+    while (hal::system_clock().now_us() < until) {
         for (std::size_t i = 0; i < drives.size(); ++i) {
             const LinkAnswer answer = port.probe(i);
             if (answer.ok()) {
@@ -164,36 +150,13 @@ std::string target_report(const DriveTable& table, const MachineDescription& mac
 
 } // namespace
 
-void add_link_options(CLI::App& app, LinkArguments& arguments) {
-    app.add_option("--target", arguments.target, target_text);
-    app.add_option("-m,--machine", arguments.machine,
-                   "machine file (.toml), for modbus and gpio:// (default: three axes)");
-    app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");
-}
-
-int report_link(const LinkArguments& arguments) {
-    if (arguments.target.empty() || arguments.target == "sim") {
-        throw UsageError("there is nothing to test; name the drives with --target modbus-tcp://HOST:PORT, "
-                         "modbus-rtu://DEVICE, gpio:///dev/gpiochip0?map=FILE.toml, or modbus and -m MACHINE.toml");
-    }
-    check_target(arguments.target);
-    const double seconds = measuring_time(arguments.seconds);
-    MachineDescription machine = arguments.machine.empty() ? default_machine() : read_machine_file(arguments.machine);
-#ifdef SPLINEFEED_HAS_GPIO
-    if (is_gpio_address(arguments.target)) {
-        std::fputs(gpio_report(parse_gpio_address(arguments.target), machine, seconds).c_str(), stdout);
-        return 0;
-    }
-#endif
-    if (arguments.machine.empty() && arguments.target != "modbus") { // one drive, whatever axes it has
-        const DriveProfile profile = find_profile(parse_target_address(arguments.target).profile);
+std::string modbus_report(const std::string& target, MachineDescription machine, bool any_axes, double seconds) {
+    if (any_axes && target != "modbus") {
+        const DriveProfile profile = find_profile(parse_target_address(target).profile);
         machine.settings.axes = std::min(machine.settings.axes, profile.axes);
     }
-    const DriveTable table = drive_table(arguments.target, machine);
-    const std::string text =
-        table.interpolate ? pvt_report(table, machine, seconds) : target_report(table, machine, seconds);
-    std::fputs(text.c_str(), stdout);
-    return 0;
+    const DriveTable table = drive_table(target, machine);
+    return table.interpolate ? pvt_report(table, machine, seconds) : target_report(table, machine, seconds);
 }
 
 } // namespace splinefeed::host

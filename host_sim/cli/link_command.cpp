@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/cli/link_command.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/number_text.hpp"
+#include "host_sim/config/machine_file.hpp"
+#include "host_sim/targets/target_table.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+double measuring_time(const std::string& text) {
+    constexpr double shortest_s = 0.1;
+    constexpr double longest_s = 3600.0;
+    double seconds = 0.0;
+    if (read_number(text, seconds) != NumberText::number || seconds < shortest_s || seconds > longest_s) {
+        throw UsageError(fmt::format("--seconds {}: it must be a number from 0.1 to 3600", in_quotes(text)));
+    }
+    return seconds;
+}
+
+} // namespace
+
+void add_link_options(CLI::App& app, LinkArguments& arguments) {
+    app.add_option("--target", arguments.target, target_text);
+    app.add_option("-m,--machine", arguments.machine,
+                   "machine file (.toml), for modbus and gpio:// (default: three axes)");
+    app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");
+}
+
+int report_link(const LinkArguments& arguments) {
+    if (arguments.target.empty() || arguments.target == "sim") {
+        throw UsageError("there is nothing to test; name the drives with --target modbus-tcp://HOST:PORT, "
+                         "modbus-rtu://DEVICE, gpio:///dev/gpiochip0?map=FILE.toml, or modbus and -m MACHINE.toml");
+    }
+    const TargetKind& kind = target_kind(arguments.target);
+    const double seconds = measuring_time(arguments.seconds);
+    const bool any_machine = arguments.machine.empty();
+    const MachineDescription machine = any_machine ? default_machine() : read_machine_file(arguments.machine);
+    std::fputs(kind.report(arguments.target, machine, any_machine, seconds).c_str(), stdout);
+    return 0;
+}
+
+} // namespace splinefeed::host

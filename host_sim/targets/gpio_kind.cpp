@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/config/gpio_address.hpp"
+#include "host_sim/diagnose/gpio_link.hpp"
+#include "host_sim/target/gpio/gpio_target.hpp"
+#include "host_sim/targets/target_table.hpp"
+
+namespace splinefeed::host {
+
+namespace {
+
+void check_gpio(const std::string& target) {
+    static_cast<void>(parse_gpio_address(target));
+}
+
+std::unique_ptr<RunTarget> make(const std::string& target, const MachineDescription& machine, const RunWishes& wishes) {
+    return make_gpio_target(parse_gpio_address(target), machine, wishes);
+}
+
+std::string report(const std::string& target, const MachineDescription& machine, bool /*any_machine*/, double seconds) {
+    return gpio_report(parse_gpio_address(target), machine, seconds);
+}
+
+} // namespace
+
+const TargetKind gpio_kind{"gpio:// (docs/gpio.md)", is_gpio_address, check_gpio, make, report};
+
+} // namespace splinefeed::host

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/config/target_address.hpp"
+#include "host_sim/diagnose/modbus_report.hpp"
+#include "host_sim/target/modbus/pvt_target.hpp"
+#include "host_sim/target/modbus/setpoint_target.hpp"
+#include "host_sim/targets/target_table.hpp"
+
+namespace splinefeed::host {
+
+namespace {
+
+bool is_modbus(const std::string& target) {
+    return target == "modbus" || target.rfind("modbus-", 0) == 0;
+}
+
+void check_modbus(const std::string& target) {
+    if (target != "modbus") {
+        static_cast<void>(parse_target_address(target));
+    }
+}
+
+std::unique_ptr<RunTarget> make_modbus_target(const std::string& target, const MachineDescription& machine,
+                                              const RunWishes& wishes) {
+    if (wishes.probe) {
+        throw UsageError("--probe needs a probe: an input of a target gpio://");
+    }
+    DriveTable table = drive_table(target, machine);
+    if (table.interpolate) {
+        return std::make_unique<PvtTarget>(std::move(table), machine, wishes.home);
+    }
+    return std::make_unique<SetpointTarget>(std::move(table), machine, wishes.home);
+}
+
+std::string report(const std::string& target, const MachineDescription& machine, bool any_machine, double seconds) {
+    return modbus_report(target, machine, any_machine, seconds);
+}
+
+} // namespace
+
+const TargetKind modbus_kind{"modbus, modbus-tcp://, modbus-rtu:// (docs/modbus.md)", is_modbus, check_modbus,
+                             make_modbus_target, report};
+
+} // namespace splinefeed::host
