@@ -6,6 +6,7 @@
 #include "host_sim/drive/pvt_drive.hpp"
 #include "splinefeed/hal/modbus/modbus_link.hpp"
 #include "splinefeed/hal/modbus/modbus_port.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -9,7 +9,7 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr std::array requests{SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
+constexpr std::array taken_signals{SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
 constexpr int wake_up = SIGURG; // ends the thread; its default is to be ignored
 
 bool ignored(int signal) {
@@ -25,7 +25,7 @@ SignalWatch::SignalWatch(std::function<void()> at_once) : at_once_(std::move(at_
     interrupts_.store(0);
     sigemptyset(&taken_);
     sigaddset(&taken_, wake_up);
-    for (const int signal : requests) {
+    for (const int signal : taken_signals) {
         if (!ignored(signal)) {
             sigaddset(&taken_, signal);
         }

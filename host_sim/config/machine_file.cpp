@@ -19,7 +19,7 @@ namespace splinefeed::host {
 namespace {
 
 constexpr std::string_view axis_letters = "xyzabc";
-constexpr double most_counts = 2147483647.0;
+constexpr double counter_limit = 2147483647.0;
 
 /// A number that a key may hold.
 struct Range {
@@ -353,7 +353,7 @@ private:
             fail(node, fmt::format("travel_mm is [{}, {}]; the second number must be the larger one", travel.low,
                                    travel.high));
         }
-        if (std::fmax(-travel.low, travel.high) * steps_per_mm > most_counts) {
+        if (std::fmax(-travel.low, travel.high) * steps_per_mm > counter_limit) {
             fail(node, "travel_mm times steps_per_mm must stay within +-2147483647 counts");
         }
         return travel;

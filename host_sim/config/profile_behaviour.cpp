@@ -144,7 +144,7 @@ void read_motion(const TomlChecker& check, const toml::table& root, DriveProfile
         return;
     }
     constexpr double longest_period_ms = 1000.0;
-    constexpr std::int64_t most_counts = 0x7FFFFFFF;
+    constexpr std::int64_t most_window_counts = 0x7FFFFFFF;
     const toml::table& table = check.table(*node, "motion");
     check.require_known(table,
                         {"stream_mode", "homing_mode", "change_on_the_fly", "period_ms", "done", "homed",
@@ -165,7 +165,8 @@ void read_motion(const TomlChecker& check, const toml::table& root, DriveProfile
     profile.done = optional_test(check, table, "done", profile);
     profile.homed = optional_test(check, table, "homed", profile);
     if (const toml::node* window = table.get("following_error_window_counts")) {
-        profile.following_error_window_counts = check.whole(*window, "following_error_window_counts", {1, most_counts});
+        profile.following_error_window_counts =
+            check.whole(*window, "following_error_window_counts", {1, most_window_counts});
         const RegisterField* const field = profile.field_of(FieldRole::following_error_window);
         if (field == nullptr || !field->writable()) {
             check.fail(*window, "following_error_window_counts needs a field that is written, with role = "

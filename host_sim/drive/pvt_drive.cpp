@@ -21,7 +21,7 @@ namespace {
 
 constexpr double errors_per_count = 65536.0;
 
-std::int32_t saturated(double value) noexcept {
+std::int32_t in_register(double value) noexcept {
     constexpr double most = std::numeric_limits<std::int32_t>::max();
     return static_cast<std::int32_t>(std::clamp(std::nearbyint(value), -most, most));
 }
@@ -114,8 +114,8 @@ PvtStatus PvtDrive::status() const {
                      .following_error = {}};
     for (int k = 0; k < axes(); ++k) {
         const auto axis = static_cast<unsigned>(k);
-        status.position[axis] = saturated(machine_.shaft(k).position_counts());
-        status.following_error[axis] = saturated(machine_.shaft(k).following_error_counts() * errors_per_count);
+        status.position[axis] = in_register(machine_.shaft(k).position_counts());
+        status.following_error[axis] = in_register(machine_.shaft(k).following_error_counts() * errors_per_count);
     }
     return status;
 }

@@ -11,9 +11,9 @@ namespace pvt = hal::modbus::pvt;
 
 namespace {
 
-constexpr double units_per_count = std::int64_t{1} << PvtSegment::position_bits;
+constexpr double map_units_per_count = std::int64_t{1} << PvtSegment::position_bits;
 constexpr double velocity_units_per_unit = std::int64_t{1} << (PvtSegment::velocity_bits - PvtSegment::position_bits);
-constexpr double ticks_per_s = pvt::ticks_per_s;
+constexpr double map_ticks_per_s = pvt::ticks_per_s;
 
 bool fits(const PvtSegment& segment, int axes) noexcept {
     const auto moves = [](std::int64_t velocity) {
@@ -80,7 +80,7 @@ PvtRing::Left PvtRing::left_before(std::uint32_t sequence) const noexcept {
         ticks -= dropped.duration_ticks;
         rests -= dropped.rest ? 1U : 0U;
     }
-    return {kept, (static_cast<double>(ticks) - passed_ticks_) / ticks_per_s, rests > 0};
+    return {kept, (static_cast<double>(ticks) - passed_ticks_) / map_ticks_per_s, rests > 0};
 }
 
 void PvtRing::end_before(std::uint32_t sequence) noexcept {
@@ -94,15 +94,15 @@ void PvtRing::end_before(std::uint32_t sequence) noexcept {
 }
 
 double PvtRing::ahead_s() const noexcept {
-    return (static_cast<double>(ticks_) - passed_ticks_) / ticks_per_s;
+    return (static_cast<double>(ticks_) - passed_ticks_) / map_ticks_per_s;
 }
 
 double PvtRing::segment_ahead_s() const noexcept {
-    return (static_cast<double>(current().duration_ticks) - passed_ticks_) / ticks_per_s;
+    return (static_cast<double>(current().duration_ticks) - passed_ticks_) / map_ticks_per_s;
 }
 
 void PvtRing::pass(double way_s) noexcept {
-    passed_ticks_ = std::min(passed_ticks_ + way_s * ticks_per_s, static_cast<double>(current().duration_ticks));
+    passed_ticks_ = std::min(passed_ticks_ + way_s * map_ticks_per_s, static_cast<double>(current().duration_ticks));
 }
 
 void PvtRing::finish() noexcept {
@@ -116,7 +116,7 @@ void PvtRing::finish() noexcept {
 }
 
 double PvtRing::start(int axis) const noexcept {
-    return static_cast<double>(before_.end[static_cast<unsigned>(axis)]) / units_per_count;
+    return static_cast<double>(before_.end[static_cast<unsigned>(axis)]) / map_units_per_count;
 }
 
 PvtRing::Jet PvtRing::at(int axis) const noexcept {
@@ -132,10 +132,10 @@ PvtRing::Jet PvtRing::at(int axis) const noexcept {
     const double v1 = static_cast<double>(current().end_velocity[k]) / velocity_units_per_unit;
     const double square = 3.0 * way - 2.0 * v0 - v1;
     const double cube = v0 + v1 - 2.0 * way;
-    const double duration_s = ticks / ticks_per_s;
-    return {start(axis) + ((cube * u + square) * u + v0) * u / units_per_count,
-            ((3.0 * cube * u + 2.0 * square) * u + v0) / (units_per_count * duration_s),
-            (6.0 * cube * u + 2.0 * square) / (units_per_count * duration_s * duration_s)};
+    const double duration_s = ticks / map_ticks_per_s;
+    return {start(axis) + ((cube * u + square) * u + v0) * u / map_units_per_count,
+            ((3.0 * cube * u + 2.0 * square) * u + v0) / (map_units_per_count * duration_s),
+            (6.0 * cube * u + 2.0 * square) / (map_units_per_count * duration_s * duration_s)};
 }
 
 } // namespace splinefeed::host

@@ -9,7 +9,7 @@ namespace splinefeed::host {
 namespace {
 
 constexpr double us_per_s = 1e6;
-constexpr double units_per_count = std::int64_t{1} << hal::modbus::PvtSegment::position_bits;
+constexpr double map_units_per_count = std::int64_t{1} << hal::modbus::PvtSegment::position_bits;
 constexpr double one_place_s = 1e-9; // a hold on the curve to a joint stands at the joint, whatever is rounded
 constexpr double still = 1e-4;       // a rate below is rounding: its square is time of the ring
 
@@ -18,7 +18,7 @@ constexpr double still = 1e-4;       // a rate below is rounding: its square is 
 void RingMotion::begin(std::uint32_t first, const PvtReference& reference) noexcept {
     PerAxis<std::int64_t> here{};
     for (std::size_t k = 0; k < axes_; ++k) {
-        here[k] = std::llround(reference.counts[k] * units_per_count);
+        here[k] = std::llround(reference.counts[k] * map_units_per_count);
     }
     ring_.begin(first, here);
 }

@@ -34,9 +34,9 @@ AxisAllowance::AxisAllowance(const AxisSettings& settings, const std::optional<T
     brakes_differently = braking.limit != acceleration.limit;
     jerk = Allowance(settings.max_jerk_mm_s3, 8.0 * e);
     if (travel) {
-        const double slack = tolerance * (travel->high - travel->low) + e;
-        lowest = travel->low - slack;
-        highest = travel->high + slack;
+        const double play = tolerance * (travel->high - travel->low) + e;
+        lowest = travel->low - play;
+        highest = travel->high + play;
         end_velocity = Allowance(settings.travel_end_velocity_mm_s, e);
         open_low = travel->low + settings.travel_end_zone_mm;
         open_high = travel->high - settings.travel_end_zone_mm;

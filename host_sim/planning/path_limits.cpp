@@ -10,14 +10,14 @@ namespace splinefeed::host {
 namespace {
 
 constexpr double tolerance_mm = 1e-6;
-constexpr double most_counts = 2147483647.0;
+constexpr double counter_limit = 2147483647.0;
 constexpr double slack_mm = 1e-9; // rounding of points up to 2^20 mm
 
 } // namespace
 
 PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settings.axes) {
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
-        const double reach = most_counts / machine.settings.axis[k].steps_per_mm;
+        const double reach = counter_limit / machine.settings.axis[k].steps_per_mm;
         const Travel travel = machine.travel[k].value_or(Travel{-reach, reach});
         const char* const unit = machine.settings.axis[k].rotary ? "degrees" : "mm";
         axis_[k] = {machine.axis_name[k], unit, travel.low, travel.high, machine.travel[k].has_value()};

@@ -12,7 +12,7 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr int most_lines = 100000;
+constexpr int most_raster_lines = 100000;
 constexpr double most_waypoints = 1e8;
 constexpr double same_point_mm = 1e-4; // as the core merges waypoints
 
@@ -162,9 +162,9 @@ std::vector<double> line_parameters(const ToolSurface& surface) {
             }
         }
         lines.push_back(from + step);
-        if (lines.size() > most_lines) {
-            throw DescriptionError(
-                fmt::format("ridges of {:g} mm need more than {} lines; take a larger --scallop", highest, most_lines));
+        if (lines.size() > most_raster_lines) {
+            throw DescriptionError(fmt::format("ridges of {:g} mm need more than {} lines; take a larger --scallop",
+                                               highest, most_raster_lines));
         }
     }
     return lines;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a process without privileges is told, and waiting.
 #include "splinefeed/hal/gpio/real_time.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 

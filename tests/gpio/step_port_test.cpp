@@ -3,6 +3,7 @@
 #include "../pulse/random_segments.hpp"
 #include "recording_writer.hpp"
 #include "splinefeed/hal/gpio/step_port.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 #include "support/allocations.hpp"
 #include "support/catch.hpp"
 

@@ -4,6 +4,7 @@
 // allocated once the drives are prepared.
 #include "drive/drive_process.hpp"
 #include "splinefeed/hal/modbus/modbus_port.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 #include "support/allocations.hpp"
 #include "support/catch.hpp"
 

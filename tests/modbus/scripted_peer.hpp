@@ -4,6 +4,7 @@
 #pragma once
 
 #include "splinefeed/hal/modbus/modbus_link.hpp"
+#include "splinefeed/hal/rt/clock.hpp"
 
 #include <arpa/inet.h>
 #include <atomic>

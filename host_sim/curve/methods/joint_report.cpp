@@ -42,7 +42,7 @@ double size(const Vector& a) {
 }
 
 // The largest |coordinate|: what rounding of a control point is relative to.
-double magnitude(const BezierPiece<double>& piece) {
+double piece_size(const BezierPiece<double>& piece) {
     double most = 0.0;
     for (int i = 0; i <= piece.degree; ++i) {
         for (const double x : piece.point(i)) {
@@ -81,7 +81,7 @@ struct Rounding {
 };
 
 Rounding rounding_of(const BezierPiece<double>& piece, const Agreement& agreement) {
-    const double e = agreement.rounding * magnitude(piece);
+    const double e = agreement.rounding * piece_size(piece);
     return {e, 2.0 * piece.degree * e, 4.0 * piece.degree * std::max(piece.degree - 1, 1) * e};
 }
 
