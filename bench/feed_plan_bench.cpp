@@ -108,9 +108,9 @@ template <class Plan>
 Measured drain_plan(Plan& plan) {
     Measured out;
     const double start = thread_seconds();
-    while (plan.prepare(Starvation::waits) == Pull::item) {
-        benchmark::DoNotOptimize(plan.passage());
-        out.nodes += plan.passage().stretch.to == decltype(plan.passage().stretch.to)(1) ? 1 : 0;
+    while (plan.prepare(UnderrunPolicy::wait) == Pull::item) {
+        benchmark::DoNotOptimize(plan.profile_segment());
+        out.nodes += plan.profile_segment().stretch.to == decltype(plan.profile_segment().stretch.to)(1) ? 1 : 0;
         plan.advance();
         leave(plan);
     }
@@ -202,7 +202,7 @@ void straight_move(benchmark::State& state) {
         for (const MoveLimits& machine : machines) {
             for (double length : lengths) {
                 benchmark::DoNotOptimize(length);
-                const StraightMove move(length, machine);
+                const SCurveProfile move(length, machine);
                 benchmark::DoNotOptimize(move);
                 ++moves;
             }

@@ -56,7 +56,7 @@ void edges_late(benchmark::State& state) {
             }
         }
         state.counters["worst_us"] = static_cast<double>(port.late().most_ns()) * 1e-3;
-        state.counters["stretched_us"] = static_cast<double>(port.report().stretched_ns) * 1e-3;
+        state.counters["stretched_us"] = static_cast<double>(port.report().schedule_slip_ns) * 1e-3;
     }
 }
 

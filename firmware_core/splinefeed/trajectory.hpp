@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
-#include "splinefeed/s4_segment_stream/passage_sampler.hpp"
+#include "splinefeed/s4_segment_stream/profile_sampler.hpp"
 #include "splinefeed/s4_segment_stream/segment_stream.hpp"
 
 namespace splinefeed {
@@ -32,11 +32,11 @@ public:
     [[nodiscard]] Status status() const noexcept { return built_.ok() ? arc_length_.status() : built_; }
 
     /// Writes the next segment; false when there is none: see state().
-    /// @param starvation  goes_on: for a machine that moves and has no segment left, while the input is late. The
+    /// @param underrun  drain: for a machine that moves and has no segment left, while the input is late. The
     /// motion
     ///                    goes on with what is known, brakes to rest at its end, and starts again when more comes.
-    bool next(FeedSegment& out, Starvation starvation = Starvation::waits) noexcept {
-        state_ = built_.ok() ? stream_.next(out, starvation) : Pull::finished;
+    bool next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept {
+        state_ = built_.ok() ? stream_.next(out, underrun) : Pull::finished;
         return state_ == Pull::item;
     }
     /// Why the last next() answered as it did: `starved` (push waypoints or finish), `held` (stands until resume() or a
@@ -116,7 +116,7 @@ private:
     ArcLength<S> arc_length_;
     FeedPlan<S> feed_plan_;
     MotionPlan<S>* plan_;
-    PassageSampler<S> samples_;
+    ProfileSampler<S> samples_;
     Sampler<S>* sampler_;
     SegmentStream<S> stream_;
     Pull state_ = Pull::starved;

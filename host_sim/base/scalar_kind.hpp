@@ -4,6 +4,6 @@
 
 namespace splinefeed::host {
 
-enum class ScalarKind { fixed, single, dual };
+enum class ScalarKind { fixed, float32, float64 };
 
 } // namespace splinefeed::host

@@ -203,9 +203,9 @@ void take_scalar(Job& job, const std::string& scalar) {
     if (scalar == "fixed") {
         job.run.path.scalar = ScalarKind::fixed;
     } else if (scalar == "float") {
-        job.run.path.scalar = ScalarKind::single;
+        job.run.path.scalar = ScalarKind::float32;
     } else if (scalar == "double") {
-        job.run.path.scalar = ScalarKind::dual;
+        job.run.path.scalar = ScalarKind::float64;
     } else {
         refuse_value("--scalar", scalar, {"fixed", "float", "double"});
     }

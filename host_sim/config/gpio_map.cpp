@@ -195,7 +195,7 @@ private:
     void home(const toml::node& node, std::size_t k) {
         const std::string where = fmt::format("[home.{}]", axis_names_[k]);
         const toml::table& table = check_.table(node, fmt::format("home.{}", axis_names_[k]));
-        check_.require_known(table, {"towards", "fast_mm_s", "slow_mm_s", "back_off_mm", "position_mm"}, where);
+        check_.require_known(table, {"towards", "seek_mm_s", "latch_mm_s", "pull_off_mm", "position_mm"}, where);
         const bool has_switch = std::any_of(map_.inputs.begin(), map_.inputs.end(), [k](const MappedInput& input) {
             return input.role == InputRole::home && input.axis == static_cast<int>(k);
         });
@@ -213,9 +213,9 @@ private:
         HomeSearch home;
         home.towards_high =
             check_.choice(check_.required(table, "towards", where, "\"low\" or \"high\""), "towards", level_names) == 1;
-        home.fast_mm_s = required("fast_mm_s", {least_speed_mm_s, machine_.settings.axis[k].max_velocity_mm_s, "mm/s"});
-        home.slow_mm_s = required("slow_mm_s", {least_speed_mm_s, home.fast_mm_s, "mm/s"});
-        home.back_off_mm = required("back_off_mm", {least_speed_mm_s, most_back_off_mm, "mm"});
+        home.seek_mm_s = required("seek_mm_s", {least_speed_mm_s, machine_.settings.axis[k].max_velocity_mm_s, "mm/s"});
+        home.latch_mm_s = required("latch_mm_s", {least_speed_mm_s, home.seek_mm_s, "mm/s"});
+        home.pull_off_mm = required("pull_off_mm", {least_speed_mm_s, most_back_off_mm, "mm"});
         home.position_mm = required("position_mm", {-farthest_mm, farthest_mm, "mm"});
         map_.home[k] = home;
     }

@@ -156,10 +156,10 @@ private:
         if (table == nullptr) {
             fail(*node, "step must be a table: [step] and its keys below");
         }
-        require_known(
-            *table,
-            {"engine", "tick_us", "high_us", "low_us", "direction_setup_us", "direction_hold_us", "step_on_edge"},
-            " in [step]");
+        require_known(*table,
+                      {"engine", "tick_us", "step_length_us", "step_space_us", "direction_setup_us",
+                       "direction_hold_us", "step_on_edge"},
+                      " in [step]");
         const toml::node* engine = table->get("engine");
         const std::string kind = engine != nullptr ? text(*engine, "engine") : "intervals";
         if (kind != "intervals" && kind != "fixed-rate") {
@@ -181,8 +181,8 @@ private:
                 value = number(*given, key, {least_us, 1000.0, "us"});
             }
         };
-        time("high_us", 0.125, settings.high_us);
-        time("low_us", 0.125, settings.low_us);
+        time("step_length_us", 0.125, settings.step_length_us);
+        time("step_space_us", 0.125, settings.step_space_us);
         time("direction_setup_us", 0.0, settings.direction_setup_us);
         time("direction_hold_us", 0.0, settings.direction_hold_us);
         if (const toml::node* on_edge = table->get("step_on_edge")) {

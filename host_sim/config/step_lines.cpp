@@ -27,7 +27,8 @@ void check(const MachineDescription& machine, unsigned k, const StepTiming& timi
                          fmt::format("axis {} makes {:.0f} steps/s at {} mm/s, and its lines carry {:.0f}; lower the "
                                      "velocity or steps_per_mm, or shorten {} in [step]",
                                      name, demand.steps_per_s, velocity, timing.most_steps_per_s(),
-                                     timing.grid > 1 ? "tick_us, high_us and low_us" : "high_us and low_us"));
+                                     timing.grid > 1 ? "tick_us, step_length_us and step_space_us"
+                                                     : "step_length_us and step_space_us"));
     default:
         throw InputError(
             machine.file, 0,

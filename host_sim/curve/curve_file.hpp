@@ -44,7 +44,7 @@ struct CurveFile {
 
 /// The same for a text; `file` is its name in messages.
 [[nodiscard]] CurveFile parse_curve(std::string_view text, const std::string& file,
-                                    ScalarKind scalar = ScalarKind::dual);
+                                    ScalarKind scalar = ScalarKind::float64);
 
 /// Computes a description's curve. Throws InputError.
 [[nodiscard]] CurveFile compute_curve(std::string_view method, const nlohmann::json& input, ScalarKind scalar,

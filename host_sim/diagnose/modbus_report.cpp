@@ -122,7 +122,7 @@ std::string pvt_report(const DriveTable& table, const MachineDescription& machin
 
 /// Of drives that are told where to be.
 std::string target_report(const DriveTable& table, const MachineDescription& machine, double seconds) {
-    TargetPort port(target_wiring(table, machine), {});
+    SetpointPort port(target_wiring(table, machine), {});
     if (const std::string what = port.open(); !what.empty()) {
         throw TargetError(fmt::format("{}: {}", table.drives[port.trouble_with()].address.text, what));
     }

@@ -2,8 +2,8 @@
 // PositioningAxis: power stage, reference and shaft of one axis of a drive that is told by registers what to do.
 #pragma once
 
+#include "host_sim/drive/motor_axis.hpp"
 #include "host_sim/drive/position_generator.hpp"
-#include "host_sim/drive/shaft.hpp"
 
 #include <cstdint>
 
@@ -50,15 +50,15 @@ public:
     /// At rest, and no move is left to be finished, as after a halt.
     [[nodiscard]] bool arrived() const noexcept { return arrived_ && generator_.at_rest(); }
     [[nodiscard]] const PositionGenerator& reference() const noexcept { return generator_; }
-    [[nodiscard]] Shaft& shaft() noexcept { return shaft_; }
-    [[nodiscard]] const Shaft& shaft() const noexcept { return shaft_; }
+    [[nodiscard]] MotorAxis& shaft() noexcept { return shaft_; }
+    [[nodiscard]] const MotorAxis& shaft() const noexcept { return shaft_; }
 
 private:
     void drop() noexcept;
 
     PositioningAxisParameters parameters_;
     PositionGenerator generator_;
-    Shaft shaft_;
+    MotorAxis shaft_;
     AxisPower power_ = AxisPower::off;
     AxisFault fault_ = AxisFault::none;
     bool homing_ = false;

@@ -2,7 +2,7 @@
 // PvtAxis: what one axis of a drive can do, where the axes are to be, and what trips them.
 #pragma once
 
-#include "host_sim/drive/shaft.hpp"
+#include "host_sim/drive/motor_axis.hpp"
 #include "splinefeed/hal/modbus/pvt_map.hpp"
 
 namespace splinefeed::host {

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "host_sim/drive/axis_moves.hpp"
+#include "host_sim/drive/motor_axis.hpp"
 #include "host_sim/drive/pvt_axis.hpp"
 #include "host_sim/drive/pvt_schedule.hpp"
 #include "host_sim/drive/ring_motion.hpp"
-#include "host_sim/drive/shaft.hpp"
 
 #include <vector>
 
@@ -33,10 +33,10 @@ public:
     [[nodiscard]] const hal::modbus::PvtConfiguration& configuration() const noexcept { return configuration_; }
     /// Called with every segment at its end.
     void observe(std::function<void(const ExecutedSegment&)> observer) { path_.observe(std::move(observer)); }
-    [[nodiscard]] Shaft& shaft(int axis) noexcept { return shafts_[static_cast<unsigned>(axis)]; }
+    [[nodiscard]] MotorAxis& shaft(int axis) noexcept { return shafts_[static_cast<unsigned>(axis)]; }
 
     [[nodiscard]] int axes() const noexcept { return static_cast<int>(axes_.size()); }
-    [[nodiscard]] const Shaft& shaft(int axis) const noexcept { return shafts_[static_cast<unsigned>(axis)]; }
+    [[nodiscard]] const MotorAxis& shaft(int axis) const noexcept { return shafts_[static_cast<unsigned>(axis)]; }
     [[nodiscard]] hal::modbus::PvtState state() const noexcept { return state_; }
     [[nodiscard]] hal::modbus::PvtFault fault() const noexcept { return fault_; }
     [[nodiscard]] int fault_axis() const noexcept { return fault_axis_; }
@@ -75,7 +75,7 @@ private:
     void fail(hal::modbus::PvtFault fault, int axis);
 
     std::vector<PvtAxisParameters> axes_;
-    std::vector<Shaft> shafts_;
+    std::vector<MotorAxis> shafts_;
     RingMotion path_;
     AxisMoves moves_;
     PvtSchedule schedule_;

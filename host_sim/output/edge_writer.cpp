@@ -12,7 +12,7 @@ using Train = std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>>;
 Train train_for(const MachineDescription& machine) {
     const StepTiming timing = checked_step_timing(machine);
     const int axes = machine.settings.axes;
-    const LineDiscipline lines(axes, timing);
+    const StepDirSequencer lines(axes, timing);
     if (timing.grid > 1) {
         return PulseTrain<FixedRate>(FixedRate(axes, timing.grid), lines);
     }

@@ -24,11 +24,11 @@ nlohmann::ordered_json to_json(const GpioSummary& gpio) {
     }
     return {{"edges", gpio.edges},
             {"median_late_s", gpio.median_late_s},
-            {"percent_late_s", gpio.percent_late_s},
+            {"p99_late_s", gpio.p99_late_s},
             {"most_late_s", gpio.most_late_s},
             {"late", std::move(late)},
-            {"stretched_s", gpio.stretched_s},
-            {"slowdowns", gpio.slowdowns},
+            {"schedule_slip_s", gpio.schedule_slip_s},
+            {"buffer_underruns", gpio.buffer_underruns},
             {"began_monotonic_s", gpio.began_monotonic_s},
             {"missed", gpio.missed},
             {"changes_left_out", gpio.changes_left_out},
@@ -36,17 +36,16 @@ nlohmann::ordered_json to_json(const GpioSummary& gpio) {
 }
 
 std::string to_text(const GpioSummary& gpio) {
-    std::string text =
-        fmt::format("{} edges; half of them within {:.0f} us of their instant, 99 % within {:.0f} us, "
-                    "the latest {:.0f} us late\n",
-                    gpio.edges, gpio.median_late_s * 1e6, gpio.percent_late_s * 1e6, gpio.most_late_s * 1e6);
-    if (gpio.stretched_s > 0.0) {
-        text +=
-            fmt::format("The motion took {:.6f} s longer than planned, since edges came too late.\n", gpio.stretched_s);
+    std::string text = fmt::format("{} edges; half of them within {:.0f} us of their instant, 99 % within {:.0f} us, "
+                                   "the latest {:.0f} us late\n",
+                                   gpio.edges, gpio.median_late_s * 1e6, gpio.p99_late_s * 1e6, gpio.most_late_s * 1e6);
+    if (gpio.schedule_slip_s > 0.0) {
+        text += fmt::format("The motion took {:.6f} s longer than planned, since edges came too late.\n",
+                            gpio.schedule_slip_s);
     }
-    if (gpio.slowdowns > 0) {
-        text += fmt::format("All axes slowed down {} time{}, on the path: the plan was not ready.\n", gpio.slowdowns,
-                            gpio.slowdowns == 1 ? "" : "s");
+    if (gpio.buffer_underruns > 0) {
+        text += fmt::format("All axes slowed down {} time{}, on the path: the plan was not ready.\n",
+                            gpio.buffer_underruns, gpio.buffer_underruns == 1 ? "" : "s");
     }
     if (gpio.missed > 0) {
         text += fmt::format("{} edges of inputs were lost.\n", gpio.missed);

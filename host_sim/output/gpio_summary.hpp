@@ -25,19 +25,19 @@ struct GpioSummary {
     };
     std::uint64_t edges = 0;    ///< instants at which lines changed
     double median_late_s = 0.0; ///< ends of octaves: half of them, 99 of 100 came sooner
-    double percent_late_s = 0.0;
+    double p99_late_s = 0.0;
     double most_late_s = 0.0;
     /// So many edges came later than the one before says, and less than this late. [s]
     struct Octave {
         double below_s = 0.0;
         std::uint64_t edges = 0;
     };
-    std::vector<Octave> late;       ///< where there were any, in rising order
-    double stretched_s = 0.0;       ///< by so much the motion took longer than planned, for edges that came too late
-    std::uint64_t slowdowns = 0;    ///< the plan was not ready in time: all axes slowed down, and went on
-    double began_monotonic_s = 0.0; ///< when the run began, by CLOCK_MONOTONIC
-    std::uint64_t missed = 0;       ///< edges of inputs that the system lost
-    std::deque<Change> changes;     ///< the last ones
+    std::vector<Octave> late;     ///< where there were any, in rising order
+    double schedule_slip_s = 0.0; ///< by so much the motion took longer than planned, for edges that came too late
+    std::uint64_t buffer_underruns = 0; ///< the plan was not ready in time: all axes slowed down, and went on
+    double began_monotonic_s = 0.0;     ///< when the run began, by CLOCK_MONOTONIC
+    std::uint64_t missed = 0;           ///< edges of inputs that the system lost
+    std::deque<Change> changes;         ///< the last ones
     std::uint64_t changes_left_out = 0; ///< older ones
 
     static constexpr std::size_t most_changes = 4096; ///< an input that never rests must not fill the memory

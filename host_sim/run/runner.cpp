@@ -182,8 +182,8 @@ template <class Work>
 int with_scalar(ScalarKind scalar, const Work& work) {
     switch (scalar) {
     case ScalarKind::fixed: return work(Fixed{});
-    case ScalarKind::single: return work(float{});
-    case ScalarKind::dual: return work(double{});
+    case ScalarKind::float32: return work(float{});
+    case ScalarKind::float64: return work(double{});
     }
     return 1;
 }

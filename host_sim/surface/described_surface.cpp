@@ -162,8 +162,8 @@ DescribedSurface describe_grid(const json& input, ScalarKind scalar) {
     grid.kind.knots = choice_in(input, "knots", {"average", "uniform"}, 0) == 0 ? KnotRule::average : KnotRule::uniform;
     switch (scalar) {
     case ScalarKind::fixed: return grid_surface<Fixed>(grid);
-    case ScalarKind::single: return grid_surface<float>(grid);
-    case ScalarKind::dual: return grid_surface<double>(grid);
+    case ScalarKind::float32: return grid_surface<float>(grid);
+    case ScalarKind::float64: return grid_surface<double>(grid);
     }
     return {};
 }

@@ -36,7 +36,7 @@ struct DescribedSurface {
 [[nodiscard]] DescribedSurface describe_skin(const nlohmann::json& input, ScalarKind scalar);
 /// By the name of the method. Throws DescriptionError.
 [[nodiscard]] DescribedSurface describe_surface(std::string_view method, const nlohmann::json& input,
-                                                ScalarKind scalar = ScalarKind::dual);
+                                                ScalarKind scalar = ScalarKind::float64);
 
 /// {"degree_u", "degree_v", "params_u", "params_v", "knots_u", "knots_v", "net", "samples"}, then the method's own
 /// keys. params_u is null for a skin. `samples` holds S and its derivatives at nine places.

@@ -24,12 +24,13 @@ bool same(const Vector& a, const Vector& b) {
     return std::max({std::fabs(a[0] - b[0]), std::fabs(a[1] - b[1]), std::fabs(a[2] - b[2])}) < same_point_mm;
 }
 
-Vector at(const ToolSurface& surface, const Stretch& stretch, double t) {
-    return stretch.kind == Stretch::Kind::along ? surface.tool(t, stretch.constant) : surface.tool(stretch.constant, t);
+Vector at(const ToolSurface& surface, const CellInterval& stretch, double t) {
+    return stretch.kind == CellInterval::Kind::along ? surface.tool(t, stretch.constant)
+                                                     : surface.tool(stretch.constant, t);
 }
 
-SurfaceDirection direction(const ToolSurface& surface, const Stretch& stretch) {
-    return stretch.kind == Stretch::Kind::along ? surface.along() : surface.across();
+SurfaceDirection direction(const ToolSurface& surface, const CellInterval& stretch) {
+    return stretch.kind == CellInterval::Kind::along ? surface.along() : surface.across();
 }
 
 // Parameters along a stretch so that neighbours are at most step_mm apart; those of creases are among them.
@@ -38,7 +39,7 @@ struct Places {
     std::vector<bool> creases;
 };
 
-Places places_of(const ToolSurface& surface, const Stretch& stretch) {
+Places places_of(const ToolSurface& surface, const CellInterval& stretch) {
     const BSplineSurface<double>& view = surface.view();
     const SurfaceDirection along = direction(surface, stretch);
     const bool u = along == SurfaceDirection::u;
@@ -99,14 +100,14 @@ void require_fit(const ToolSurface& surface, double along, double across) {
 
 // In every knot span, as a hollow may be narrower than a step, and at every place the path will have.
 // Returns how many the latter are.
-std::size_t require_fit(const ToolSurface& surface, const Stretch& stretch) {
+std::size_t require_fit(const ToolSurface& surface, const CellInterval& stretch) {
     std::vector<double> looks = places_of(surface, stretch).parameters;
     const std::size_t count = looks.size();
     const auto [low, high] = std::minmax(stretch.from, stretch.to);
     const std::vector<double> within = span_places(surface.view(), direction(surface, stretch), low, high, 8, 48);
     looks.insert(looks.end(), within.begin(), within.end());
     for (const double t : looks) {
-        const bool along = stretch.kind == Stretch::Kind::along;
+        const bool along = stretch.kind == CellInterval::Kind::along;
         require_fit(surface, along ? t : stretch.constant, along ? stretch.constant : t);
     }
     return count;
@@ -170,13 +171,13 @@ std::vector<double> line_parameters(const ToolSurface& surface) {
     return lines;
 }
 
-std::vector<Stretch> raster(const ToolSurface& surface) {
-    using Kind = Stretch::Kind;
+std::vector<CellInterval> raster(const ToolSurface& surface) {
+    using Kind = CellInterval::Kind;
     const std::vector<double> lines = line_parameters(surface);
     const double first = surface.first_along();
     const double last = surface.last_along();
     const double way_back = surface.highest_mm() + surface.options().lift_mm;
-    std::vector<Stretch> path;
+    std::vector<CellInterval> path;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const bool back = surface.options().zigzag && i % 2 == 1;
         const double from = back ? last : first;
@@ -199,8 +200,8 @@ std::vector<Stretch> raster(const ToolSurface& surface) {
         path.push_back({Kind::straight, 0.0, 0.0, 0.0, over, next});
     }
     double count = 0.0;
-    for (const Stretch& stretch : path) {
-        if (surface.options().ball_radius_mm > 0.0 && stretch.kind != Stretch::Kind::straight) {
+    for (const CellInterval& stretch : path) {
+        if (surface.options().ball_radius_mm > 0.0 && stretch.kind != CellInterval::Kind::straight) {
             count += static_cast<double>(require_fit(surface, stretch));
             require_count(count);
         }
@@ -208,11 +209,11 @@ std::vector<Stretch> raster(const ToolSurface& surface) {
     return path;
 }
 
-std::vector<double> stretch_parameters(const ToolSurface& surface, const Stretch& stretch) {
+std::vector<double> stretch_parameters(const ToolSurface& surface, const CellInterval& stretch) {
     return places_of(surface, stretch).parameters;
 }
 
-std::vector<ToolPoint> waypoints(const ToolSurface& surface, const std::vector<Stretch>& path) {
+std::vector<ToolPoint> waypoints(const ToolSurface& surface, const std::vector<CellInterval>& path) {
     std::vector<ToolPoint> points;
     const auto add = [&points](const Vector& position, bool corner) {
         if (!points.empty() && same(points.back().position, position)) {
@@ -221,8 +222,8 @@ std::vector<ToolPoint> waypoints(const ToolSurface& surface, const std::vector<S
             points.push_back({position, corner});
         }
     };
-    for (const Stretch& stretch : path) {
-        if (stretch.kind == Stretch::Kind::straight) {
+    for (const CellInterval& stretch : path) {
+        if (stretch.kind == CellInterval::Kind::straight) {
             add(stretch.start, true);
             add(stretch.end, true);
             continue;

@@ -85,7 +85,7 @@ private:
 };
 
 /// A stretch of the path: with one parameter constant, or straight.
-struct Stretch {
+struct CellInterval {
     enum class Kind { along, across, straight };
     Kind kind = Kind::along;
     double constant = 0.0; ///< the parameter that does not change
@@ -100,13 +100,13 @@ struct Stretch {
 
 /// The whole path in order. Throws DescriptionError: the ball does not fit into a hollow of the surface, looked for at
 /// every waypoint and at 9 places in every knot span that the path runs through; more than 100 million waypoints.
-[[nodiscard]] std::vector<Stretch> raster(const ToolSurface& surface);
+[[nodiscard]] std::vector<CellInterval> raster(const ToolSurface& surface);
 
 /// Throws DescriptionError: so many waypoints are more than 100 million.
 void require_count(double count);
 
 /// Parameters of the waypoints of a stretch that is not straight, both ends included.
-[[nodiscard]] std::vector<double> stretch_parameters(const ToolSurface& surface, const Stretch& stretch);
+[[nodiscard]] std::vector<double> stretch_parameters(const ToolSurface& surface, const CellInterval& stretch);
 
 /// A point of the path; corner: where a stretch ends, the machine stops.
 struct ToolPoint {
@@ -114,11 +114,12 @@ struct ToolPoint {
     bool corner = false;
 };
 /// The path as waypoints, at most step_mm apart on the surface; points that coincide are one.
-[[nodiscard]] std::vector<ToolPoint> waypoints(const ToolSurface& surface, const std::vector<Stretch>& path);
+[[nodiscard]] std::vector<ToolPoint> waypoints(const ToolSurface& surface, const std::vector<CellInterval>& path);
 
 /// The path as Bezier pieces: without a ball the lines themselves, exactly (knot insertion); with one, cubics through
 /// the waypoints with the derivatives that the path has there (class C1 within a line). Pieces without length are left
 /// out.
-[[nodiscard]] std::vector<BezierPiece<double>> pieces(const ToolSurface& surface, const std::vector<Stretch>& path);
+[[nodiscard]] std::vector<BezierPiece<double>> pieces(const ToolSurface& surface,
+                                                      const std::vector<CellInterval>& path);
 
 } // namespace splinefeed::host

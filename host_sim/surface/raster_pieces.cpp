@@ -49,9 +49,9 @@ Piece reversed(const Piece& piece) {
 }
 
 // An iso-parametric line of the surface itself, from parameter `from` to `to`.
-std::vector<Piece> exact(const ToolSurface& surface, const Stretch& stretch) {
+std::vector<Piece> exact(const ToolSurface& surface, const CellInterval& stretch) {
     const BSplineSurface<double>& view = surface.view();
-    const bool u = (stretch.kind == Stretch::Kind::along) == (surface.options().along == SurfaceDirection::u);
+    const bool u = (stretch.kind == CellInterval::Kind::along) == (surface.options().along == SurfaceDirection::u);
     const std::span<const double> knots = u ? view.knots_u : view.knots_v;
     const int degree = u ? view.degree_u : view.degree_v;
     std::vector<Point<double>> controls(u ? view.count_u() : view.count_v());
@@ -78,13 +78,13 @@ std::vector<Piece> exact(const ToolSurface& surface, const Stretch& stretch) {
 }
 
 // Derivative of the tool's place by the parameter, from three places inside the stretch: error of second order.
-Point<double> slope(const ToolSurface& surface, const Stretch& stretch, double t) {
+Point<double> slope(const ToolSurface& surface, const CellInterval& stretch, double t) {
     const double low = std::min(stretch.from, stretch.to);
     const double high = std::max(stretch.from, stretch.to);
     const double h = 1e-5 * (high - low);
     const auto at = [&](double s) {
-        return stretch.kind == Stretch::Kind::along ? surface.tool(s, stretch.constant)
-                                                    : surface.tool(stretch.constant, s);
+        return stretch.kind == CellInterval::Kind::along ? surface.tool(s, stretch.constant)
+                                                         : surface.tool(stretch.constant, s);
     };
     const double side = t - h < low ? 1.0 : t + h > high ? -1.0 : 0.0;
     Point<double> out{};
@@ -99,7 +99,7 @@ Point<double> slope(const ToolSurface& surface, const Stretch& stretch, double t
 
 } // namespace
 
-std::vector<BezierPiece<double>> pieces(const ToolSurface& surface, const std::vector<Stretch>& path) {
+std::vector<BezierPiece<double>> pieces(const ToolSurface& surface, const std::vector<CellInterval>& path) {
     constexpr double no_length_mm = 1e-9;
     std::vector<Piece> out;
     const auto add = [&out](const Piece& piece) {
@@ -115,8 +115,8 @@ std::vector<BezierPiece<double>> pieces(const ToolSurface& surface, const std::v
             }
         }
     };
-    for (const Stretch& stretch : path) {
-        if (stretch.kind == Stretch::Kind::straight) {
+    for (const CellInterval& stretch : path) {
+        if (stretch.kind == CellInterval::Kind::straight) {
             Piece line;
             line.degree = 1;
             line.set_point(0, stretch.start);
@@ -129,7 +129,7 @@ std::vector<BezierPiece<double>> pieces(const ToolSurface& surface, const std::v
         } else {
             const std::vector<double> at = stretch_parameters(surface, stretch);
             for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-                const bool along = stretch.kind == Stretch::Kind::along;
+                const bool along = stretch.kind == CellInterval::Kind::along;
                 const Point<double> from =
                     along ? surface.tool(at[i], stretch.constant) : surface.tool(stretch.constant, at[i]);
                 const Point<double> to =

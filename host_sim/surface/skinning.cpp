@@ -239,8 +239,8 @@ DescribedSurface describe_skin(const json& input, ScalarKind scalar) {
     skin.axes = skin.sections.front().axes;
     switch (scalar) {
     case ScalarKind::fixed: return skin_surface<Fixed>(skin);
-    case ScalarKind::single: return skin_surface<float>(skin);
-    case ScalarKind::dual: return skin_surface<double>(skin);
+    case ScalarKind::float32: return skin_surface<float>(skin);
+    case ScalarKind::float64: return skin_surface<double>(skin);
     }
     return {};
 }

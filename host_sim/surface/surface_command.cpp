@@ -87,7 +87,7 @@ int run_surface(const std::string& input, const SurfaceArguments& arguments, Sca
         } else {
             require_places(surface.net);
             const ToolSurface tool(surface, *options);
-            const std::vector<Stretch> path = raster(tool);
+            const std::vector<CellInterval> path = raster(tool);
             const std::string suffix = ".json";
             const bool as_curve =
                 arguments.output.size() >= suffix.size() &&

@@ -19,7 +19,7 @@ struct TargetError : std::runtime_error {
 };
 
 /// What a run asks of its target besides moving.
-struct RunWishes {
+struct RunOptions {
     bool home = false;  ///< the axes find their references before they move
     bool probe = false; ///< it ends, held on the path, where the probe touches
 };

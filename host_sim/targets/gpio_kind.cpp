@@ -12,7 +12,8 @@ void check_gpio(const std::string& target) {
     static_cast<void>(parse_gpio_address(target));
 }
 
-std::unique_ptr<RunTarget> make(const std::string& target, const MachineDescription& machine, const RunWishes& wishes) {
+std::unique_ptr<RunTarget> make(const std::string& target, const MachineDescription& machine,
+                                const RunOptions& wishes) {
     return make_gpio_target(parse_gpio_address(target), machine, wishes);
 }
 

@@ -21,7 +21,7 @@ void check_modbus(const std::string& target) {
 }
 
 std::unique_ptr<RunTarget> make_modbus_target(const std::string& target, const MachineDescription& machine,
-                                              const RunWishes& wishes) {
+                                              const RunOptions& wishes) {
     if (wishes.probe) {
         throw UsageError("--probe needs a probe: an input of a target gpio://");
     }

@@ -203,7 +203,7 @@ TEMPLATE_TEST_CASE("cells keep to the longest length and the largest turn", "[ar
     }
 }
 
-TEMPLATE_TEST_CASE("starvation changes no cell", "[arc_length]", double, float, Fixed) {
+TEMPLATE_TEST_CASE("underrun changes no cell", "[arc_length]", double, float, Fixed) {
     Random random(25);
     BezierPath path;
     for (int i = 0; i < 12; ++i) {

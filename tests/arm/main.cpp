@@ -137,7 +137,7 @@ constexpr std::int64_t units(std::int32_t um) {
     write_value("bytes: arc length ", sizeof(ArcLength<Real>));
     write_value("bytes: feed plan  ", sizeof(FeedPlan<Real>));
     write_value("bytes: its window ", sizeof window);
-    write_value("bytes: stream     ", sizeof(SegmentStream<Real>) + sizeof(PassageSampler<Real>));
+    write_value("bytes: stream     ", sizeof(SegmentStream<Real>) + sizeof(ProfileSampler<Real>));
     if constexpr (jerk_limited) {
         auto& cells = cells_storage.build();
         auto& places = places_storage.build();

@@ -114,12 +114,12 @@ struct Cost {
 
 volatile std::uint32_t port;
 
-constinit TickParts parts(axes, tick_ticks);
+constinit DdaLoader parts(axes, tick_ticks);
 constinit TickDda<axes> dda;
 TickPart part;
 constinit StepIntervals intervals(axes);
 constexpr Result<StepTiming> timing = StepTiming::make({});
-constinit PulseTrain<StepIntervals> train(StepIntervals(axes), LineDiscipline(axes, *timing));
+constinit PulseTrain<StepIntervals> train(StepIntervals(axes), StepDirSequencer(axes, *timing));
 FeedSegment segment;
 Step step;
 Edge edge;

@@ -48,7 +48,7 @@ public:
     }
 
     DriveProfile profile;
-    TargetFrames frames;
+    SetpointFrames frames;
     CommandSequence sequence;
     StatusFrames status;
     ProfileDrive drive;
@@ -96,7 +96,7 @@ TEST_CASE("A client by the profile: enable, move, stop, fault, reset; each drive
 
 TEST_CASE("Command sequence: pulses last, edges have two frames, a quick stop goes ahead") {
     const DriveProfile oriental = find_profile("oriental-az");
-    TargetFrames frames(oriental);
+    SetpointFrames frames(oriental);
     CommandSequence sequence(oriental, frames);
     CHECK(sequence.finished());
     CHECK_FALSE(sequence.begin(DriveCommand::resume));
@@ -118,7 +118,7 @@ TEST_CASE("Command sequence: pulses last, edges have two frames, a quick stop go
     CHECK(sequence.finished());
 
     const DriveProfile lexium = find_profile("lexium32m");
-    TargetFrames group(lexium);
+    SetpointFrames group(lexium);
     CommandSequence edges(lexium, group);
     REQUIRE(edges.begin(DriveCommand::enable));
     CHECK(edges.next().count == 13);

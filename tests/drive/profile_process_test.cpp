@@ -2,8 +2,8 @@
 // `splinefeed drive` with other profiles than its own, over real Modbus: this library's client, mbpoll.
 #include "drive/drive_process.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
+#include "splinefeed/hal/modbus/setpoint_frames.hpp"
 #include "splinefeed/hal/modbus/status_frames.hpp"
-#include "splinefeed/hal/modbus/target_frames.hpp"
 #include "support/catch.hpp"
 
 #include <chrono>
@@ -61,7 +61,7 @@ TEST_CASE("drive: a block on a Leadshine, a block with function 23 on a Lexium",
         DriveProcess process(tool, "--listen tcp://127.0.0.1:0 --position 1000 --profile " + name + " --record t.csv");
         CHECK(process.line().find(", profile " + name + ", 1 axis") != std::string::npos);
         Connection drive(process.port());
-        TargetFrames frames(profile);
+        SetpointFrames frames(profile);
         StatusFrames status(profile);
         for (const CommandStep& step : profile.steps_of(DriveCommand::enable)) {
             for (const bool on : {false, true}) { // edges need both, levels do not mind

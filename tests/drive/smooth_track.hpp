@@ -2,7 +2,7 @@
 // A circle of two axes, from rest to rest, as feed segments of a millisecond; and where it is, in double.
 #pragma once
 
-#include "splinefeed/hal/modbus/segment_track.hpp"
+#include "splinefeed/hal/modbus/trajectory_buffer.hpp"
 
 #include <array>
 #include <cmath>
@@ -31,9 +31,9 @@ public:
         return std::hypot(along, speed_counts_s * speed_counts_s / radius_counts);
     }
 
-    [[nodiscard]] hal::modbus::SegmentTrack track() const {
+    [[nodiscard]] hal::modbus::TrajectoryBuffer track() const {
         const int count = static_cast<int>(std::ceil(duration_s() * 1000.0));
-        hal::modbus::SegmentTrack out(static_cast<std::size_t>(count));
+        hal::modbus::TrajectoryBuffer out(static_cast<std::size_t>(count));
         FeedSegment segment;
         segment.duration_ticks = 8000;
         for (int i = 0; i < count; ++i) {

@@ -111,13 +111,13 @@ void check_end(const std::array<std::unique_ptr<Axis>, 2>& axes) {
 
 TEST_CASE("Segment track: positions and velocities between and beyond its segments") {
     const Circle circle(wholes);
-    SegmentTrack track = circle.track();
+    TrajectoryBuffer track = circle.track();
     CHECK(track.room() == 0);
     CHECK(track.ends_at_rest(2));
     for (std::uint64_t time_us = 0; time_us < track.end_us(); time_us += 377) {
         const double time_s = static_cast<double>(time_us) / 1e6;
         for (const int k : {0, 1}) {
-            const TrackPoint point = track.at(k, time_us);
+            const TrajectoryPoint point = track.at(k, time_us);
             const auto expected = circle.at(time_s)[static_cast<std::size_t>(k)];
             REQUIRE(static_cast<double>(point.position_q16) / 65536.0 == Approx(expected).margin(1e-4));
             const double ahead = circle.at(time_s + 1e-5)[static_cast<std::size_t>(k)];
@@ -144,7 +144,7 @@ TEST_CASE("Segment track: positions and velocities between and beyond its segmen
 
 TEST_CASE("Cyclic targets: shafts stay within the chord of a period, though their frames come one after the other") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     for (const std::uint32_t period_us : {2000U, 4000U, 10000U}) {
         auto axes = axes_of("cia402-index", circle, period_us);
         const DriveProfile profile = host::find_profile("cia402-index");
@@ -166,7 +166,7 @@ TEST_CASE("Cyclic targets: shafts stay within the chord of a period, though thei
 
 TEST_CASE("Cyclic targets: more often than the drive's period, shafts stay within the chord of the interval") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     const DriveProfile profile = host::find_profile("cia402-index");
     constexpr std::uint32_t interval_us = 2500;
     auto axes = axes_of("cia402-index", circle, 10000);
@@ -186,7 +186,7 @@ TEST_CASE("Cyclic targets: more often than the drive's period, shafts stay withi
 
 TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands with its acceleration") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     const DriveProfile profile = host::find_profile("cia402-index");
     constexpr std::uint32_t interval_us = 2000;
     constexpr double acceleration = 1e5;
@@ -222,7 +222,7 @@ TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands w
 
 TEST_CASE("Blocks on the fly: what arrived late is known when the next one is made") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     // With the first two a block comes late where the axis turns: the drive runs past its target, and comes back.
     std::vector<unsigned> seeds{4204865798U, 3208929336U};
     const unsigned first = std::random_device{}();
@@ -257,7 +257,7 @@ TEST_CASE("Blocks on the fly: what arrived late is known when the next one is ma
 
 TEST_CASE("Blocks on the fly: each profile's shafts stay near the path, and end exactly at its end") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     for (const std::string name : {"cia402-kinco", "leadshine-pr", "oriental-az", "lexium32m"}) {
         for (const std::uint32_t period_us : {5000U, 10000U, 20000U}) {
             const DriveProfile profile = host::find_profile(name);
@@ -284,7 +284,7 @@ TEST_CASE("Blocks on the fly: each profile's shafts stay near the path, and end 
 
 TEST_CASE("Blocks on the fly: at each block the drive is on the path, ramps counted, and knows itself to be there") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     BlockAxis driven(circle);
     Axis& axis = driven.axis;
     BlockStream& stream = driven.stream;
@@ -301,7 +301,7 @@ TEST_CASE("Blocks on the fly: at each block the drive is on the path, ramps coun
 
 TEST_CASE("Blocks on the fly: a block that is late by the reserve finds the drive at its speed") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     BlockSettings late = every_10_ms;
     late.reserve_us = 15000;
     BlockAxis driven(circle, late);
@@ -322,7 +322,7 @@ TEST_CASE("Blocks on the fly: a block that is late by the reserve finds the driv
 
 TEST_CASE("Blocks on the fly: intervals that vary, as long as the drive hears when it is known to") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     const unsigned seed = std::random_device{}();
     INFO("seed " << seed);
     std::mt19937 random(seed);
@@ -340,7 +340,7 @@ TEST_CASE("Blocks on the fly: intervals that vary, as long as the drive hears wh
 
 TEST_CASE("Blocks on the fly: where the link dies the drive stops by itself, not far away") {
     const Circle circle(wholes);
-    const SegmentTrack track = circle.track();
+    const TrajectoryBuffer track = circle.track();
     BlockAxis driven(circle);
     Axis& axis = driven.axis;
     BlockStream& stream = driven.stream;
@@ -357,7 +357,7 @@ TEST_CASE("Blocks on the fly: where the link dies the drive stops by itself, not
 
 TEST_CASE("Target frames: one frame for a group, only what changed without, and a start once") {
     const DriveProfile kinco = host::find_profile("cia402-kinco");
-    TargetFrames frames(kinco);
+    SetpointFrames frames(kinco);
     frames.set(FieldRole::profile_velocity, std::int64_t{125} << 16);
     frames.set(FieldRole::target_position, std::int64_t{0x12345} << 16);
     std::span<const RegisterWrite> writes = frames.build();
@@ -375,7 +375,7 @@ TEST_CASE("Target frames: one frame for a group, only what changed without, and 
     CHECK(frames.build().size() == 3);
 
     const DriveProfile lexium = host::find_profile("lexium32m");
-    TargetFrames group(lexium);
+    SetpointFrames group(lexium);
     CHECK(group.build().size() == 1);
     writes = group.build();
     CHECK(writes[0].count == 13);

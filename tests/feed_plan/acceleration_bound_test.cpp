@@ -37,7 +37,7 @@ Real largest_entry(const std::vector<HalfPlane>& planes, Real at_most, Real cap)
 class SmallestExits {
 public:
     template <Scalar S>
-    SmallestExits(const Cell<S>& cell, const MotionLimits<S>& limits, const Stretch<S>& stretch, Real entry)
+    SmallestExits(const Cell<S>& cell, const MotionLimits<S>& limits, const CellInterval<S>& stretch, Real entry)
         : planes_(half_planes_of(cell, limits, exact(stretch.from), exact(stretch.to))), entry_(entry) {
         for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
             spread_.push_back(exact(cell.shape[k].spread) * std::ldexp(1.0L, -limits.refinement.shape_log2) *
@@ -130,7 +130,7 @@ TEMPLATE_TEST_CASE("the smallest exits of a cell and of parts of it, down to slo
         const MachineSettings machine = changed_machine<S>(random, axes, brake_differently);
         const MotionLimits<S> limits = MotionLimits<S>::make(machine).value();
         const Cell<S> cell = random_cell(random, limits);
-        Stretch<S> stretch;
+        CellInterval<S> stretch;
         if (random.chance(0.5)) {
             stretch.from = from_double<S>(random.between(0.0, 0.9));
             stretch.to = stretch.from + (stretch.to - stretch.from) * from_double<S>(random.between(0.1, 1.0));

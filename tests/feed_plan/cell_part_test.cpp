@@ -40,7 +40,7 @@ TEMPLATE_TEST_CASE("a part of a cell is the same curve", "[feed_plan][cell_part]
         for (const Cell<S>& cell : cells) {
             const double from = random.chance(0.3) ? 0.0 : random.between(0.0, 0.9);
             const double to = random.chance(0.3) ? 1.0 : random.between(from + 0.05, 1.0);
-            const Stretch<S> stretch{from_double<S>(from), from_double<S>(to)};
+            const CellInterval<S> stretch{from_double<S>(from), from_double<S>(to)};
             const Cell<S> part = part_of(cell, stretch);
             const Real coarse = std::same_as<S, float> ? 3e-6L : 1e-9L;
             CAPTURE(seed, run, from, to, static_cast<double>(exact(cell.length_mm)));
@@ -55,7 +55,7 @@ TEMPLATE_TEST_CASE("a part of a cell is the same curve", "[feed_plan][cell_part]
             REQUIRE(part.stop_before == (from == 0.0 && cell.stop_before));
             // Its end is where the next part starts, to the last digit of the polynomial
             if (to < 1.0) {
-                const Cell<S> next = part_of(cell, Stretch<S>{stretch.to, from_integer<S>(1)});
+                const Cell<S> next = part_of(cell, CellInterval<S>{stretch.to, from_integer<S>(1)});
                 for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
                     REQUIRE(std::fabs(exact_mm(next.origin[k]) - exact_mm(part.end[k])) <=
                             coarse * 4.0L * (exact(cell.length_mm) + 0.01L));
@@ -76,7 +76,7 @@ TEMPLATE_TEST_CASE("a part of a cell has the shape of the whole", "[feed_plan][c
         const auto limits = MotionLimits<S>::make(machine_of(3, 100.0, 1000.0, 100.0)).value();
         const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
         for (const Cell<S>& cell : cells_of<S>(source, limits.refinement)) {
-            const Stretch<S> stretch{from_double<S>(0.25), from_double<S>(0.75)};
+            const CellInterval<S> stretch{from_double<S>(0.25), from_double<S>(0.75)};
             const Cell<S> part = part_of(cell, stretch);
             for (unsigned k = 0; k < 3; ++k) {
                 const AxisShape<S>& a = cell.shape[k];

@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE("a window that is too short says so, and stays feasible", "[f
     CHECK(large.seconds() == Approx(18000.0 / 2000.0 + 2.0).epsilon(0.005));
 }
 
-TEMPLATE_TEST_CASE("starvation changes no plan", "[feed_plan]", double, float, Fixed) {
+TEMPLATE_TEST_CASE("underrun changes no plan", "[feed_plan]", double, float, Fixed) {
     Random random(seed + 3);
     const MachineSettings machine = random_machine(random, 2);
     const auto limits = MotionLimits<TestType>::make(machine).value();

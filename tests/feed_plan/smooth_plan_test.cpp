@@ -55,15 +55,15 @@ TEMPLATE_TEST_CASE("an acceleration changes its sign only after the time that is
         Real speed_sq = 0.0L;
         Real since = 0.0L;
         int sign = 0;
-        std::size_t passages = 0;
-        while (plan.prepare() == Pull::item && ++passages < 200'000) {
-            const Passage<S>& passage = plan.passage();
+        std::size_t profile_segments = 0;
+        while (plan.prepare() == Pull::item && ++profile_segments < 200'000) {
+            const ProfileSegment<S>& profile_segment = plan.profile_segment();
             const Real reach = static_cast<Real>((plan.smoothing_q8() + 255) / 256);
-            const Real entry = exact(passage.entry_sq);
-            const Real exit = exact(passage.exit_sq);
+            const Real entry = exact(profile_segment.entry_sq);
+            const Real exit = exact(profile_segment.exit_sq);
             REQUIRE(entry == speed_sq);
             REQUIRE(exit >= 0.0L);
-            REQUIRE(exact(passage.stretch.to) >= exact(passage.stretch.from));
+            REQUIRE(exact(profile_segment.stretch.to) >= exact(profile_segment.stretch.from));
             if (entry == 0.0L) {
                 sign = 0; // at rest for as long as it takes
             }
@@ -84,7 +84,7 @@ TEMPLATE_TEST_CASE("an acceleration changes its sign only after the time that is
         }
         REQUIRE(plan.prepare() == Pull::finished);
         REQUIRE(speed_sq == 0.0L);
-        CHECK(passages > 10);
+        CHECK(profile_segments > 10);
     }
 }
 
@@ -109,9 +109,9 @@ TEMPLATE_TEST_CASE("no cell of a motion to be averaged is passed faster than the
         Real least = 0.0L;
         FeedPlan<S>& feed = reference.feed_plan;
         while (feed.prepare() == Pull::item) {
-            const Passage<S>& passage = feed.passage();
-            const Real sum = std::sqrt(exact(passage.entry_sq)) + std::sqrt(exact(passage.exit_sq));
-            least += 2.0L * exact(feed.cell().length_mm) * exact(passage.stretch.length()) / sum;
+            const ProfileSegment<S>& profile_segment = feed.profile_segment();
+            const Real sum = std::sqrt(exact(profile_segment.entry_sq)) + std::sqrt(exact(profile_segment.exit_sq));
+            least += 2.0L * exact(feed.cell().length_mm) * exact(profile_segment.stretch.length()) / sum;
             feed.advance();
         }
         CHECK(seconds >= least * 0.999L);

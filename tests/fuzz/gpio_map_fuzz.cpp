@@ -40,7 +40,7 @@ void require_sound(const LineMap& map, const MachineDescription& machine) {
             output(map.axis[k].motor[m].step);
             output(map.axis[k].motor[m].direction);
         }
-        require(!map.home[k] || map.home[k]->slow_mm_s <= map.home[k]->fast_mm_s);
+        require(!map.home[k] || map.home[k]->latch_mm_s <= map.home[k]->seek_mm_s);
     }
     if (map.enable) {
         output(map.enable->line);

@@ -26,7 +26,7 @@ struct Bench {
         auto own_map = std::make_unique<hal::gpio::LineMap>(parse_gpio_map(braked_map, "m.toml", machine, "chip"));
         auto own_lines = std::make_unique<SimulatedLines>(*own_map, clock);
         lines = own_lines.get();
-        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, RunWishes{}, &clock);
+        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, RunOptions{}, &clock);
     }
     /// Until it is over, or `cause` happens at an instant. [ms]
     hal::PortPhase run(double at_ms, const std::function<void()>& cause) {

@@ -49,9 +49,9 @@ role = "drive-fault"
 line = 13
 [home.x]
 towards = "low"
-fast_mm_s = 20
-slow_mm_s = 2
-back_off_mm = 2
+seek_mm_s = 20
+latch_mm_s = 2
+pull_off_mm = 2
 position_mm = 0
 )";
 

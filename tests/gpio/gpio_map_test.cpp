@@ -103,9 +103,9 @@ bias = "pull-up"
 debounce_us = 100000
 [home.y]
 towards = "high"
-fast_mm_s = 100
-slow_mm_s = 0.5
-back_off_mm = 3
+seek_mm_s = 100
+latch_mm_s = 0.5
+pull_off_mm = 3
 position_mm = -2.5
 [thread]
 priority = 98
@@ -147,9 +147,9 @@ tolerated_late_us = 10000
     CHECK_FALSE(map.home[0].has_value());
     REQUIRE(map.home[1].has_value());
     CHECK(map.home[1]->towards_high);
-    CHECK(map.home[1]->fast_mm_s == 100.0);
-    CHECK(map.home[1]->slow_mm_s == 0.5);
-    CHECK(map.home[1]->back_off_mm == 3.0);
+    CHECK(map.home[1]->seek_mm_s == 100.0);
+    CHECK(map.home[1]->latch_mm_s == 0.5);
+    CHECK(map.home[1]->pull_off_mm == 3.0);
     CHECK(map.home[1]->position_mm == -2.5);
     CHECK(map.thread.priority == 98);
     CHECK(map.thread.cpu == 3U);

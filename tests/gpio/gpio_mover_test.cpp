@@ -61,7 +61,7 @@ TEST_CASE("homing", "[stopping]") {
             what = mover.home();
             homes = false;
             carriage->join();
-            CHECK(std::fabs(mover.position(0) - 2.0) < 1e-9); // back_off_mm clear of the edge, which is at 0
+            CHECK(std::fabs(mover.position(0) - 2.0) < 1e-9); // pull_off_mm clear of the edge, which is at 0
             CHECK(std::llabs(port.counts(0) - 560) <= 2);     // the edge, and 2 mm
             port.stop();
         }

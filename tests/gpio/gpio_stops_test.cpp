@@ -25,7 +25,7 @@ struct Bench {
         map = own_map.get();
         auto own_lines = std::make_unique<SimulatedLines>(*map, clock);
         lines = own_lines.get();
-        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, RunWishes{}, &clock);
+        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, RunOptions{}, &clock);
     }
 
     [[nodiscard]] double now_ms() const {

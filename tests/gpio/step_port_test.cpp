@@ -96,7 +96,7 @@ PortPhase run(StepPort& port, const std::vector<FeedSegment>& segments, F betwee
 
 /// When lines change, by the plan. [ns]
 std::vector<std::int64_t> planned_instants(const std::vector<FeedSegment>& segments, const StepTiming& timing) {
-    PulseTrain<StepIntervals> train(StepIntervals(axes), LineDiscipline(axes, timing));
+    PulseTrain<StepIntervals> train(StepIntervals(axes), StepDirSequencer(axes, timing));
     std::vector<std::int64_t> instants;
     const auto drain = [&] {
         Edge edge;
@@ -148,7 +148,7 @@ void check_rows(const std::vector<RecordingWriter::Row>& rows, const std::vector
         const std::vector<std::uint64_t>& steps = changes[2 * k];
         for (std::size_t i = 1; i < steps.size(); ++i) { // to high, to low, to high
             const double width_us = static_cast<double>(steps[i] - steps[i - 1]) * 1e-3;
-            REQUIRE(width_us >= (i % 2 == 1 ? step.high_us : step.low_us));
+            REQUIRE(width_us >= (i % 2 == 1 ? step.step_length_us : step.step_space_us));
         }
         for (const std::uint64_t turn : changes[2 * k + 1]) {
             for (const std::uint64_t edge : steps) {
@@ -184,8 +184,8 @@ TEST_CASE("segments that come too late make all axes slow down on the path, and 
     INFO(port.start());
     REQUIRE(run(port, segments, [](std::size_t i) { sleep_ms(i == 150 ? 300 : 0); }) == PortPhase::idle);
     check_rows(writer.rows(), segments, port, {});
-    CHECK(port.report().slowdowns >= 1);
-    CHECK(port.report().slowdowns < 10); // it goes on when there is enough, not hop by hop
+    CHECK(port.report().buffer_underruns >= 1);
+    CHECK(port.report().buffer_underruns < 10); // it goes on when there is enough, not hop by hop
 }
 
 TEST_CASE("a thread that stood still goes on where it was, and catches nothing up") {
@@ -213,7 +213,7 @@ TEST_CASE("a thread that stood still goes on where it was, and catches nothing u
     REQUIRE(pthread_sigmask(SIG_UNBLOCK, &signals, nullptr) == 0);
     const auto rows = writer.rows();
     check_rows(rows, segments, port, step);
-    CHECK(port.report().stretched_ns > 150'000'000);
+    CHECK(port.report().schedule_slip_ns > 150'000'000);
     // However late an edge was, none behind it is earlier against the plan by more than what is tolerated.
     const std::vector<std::int64_t> instants = planned_instants(segments, all.timing);
     REQUIRE(rows.size() == instants.size() + 1); // the first one switches the drives on

@@ -108,7 +108,7 @@ TEST_CASE("A machine whose lines cannot carry its limits is refused, with the ax
     CHECK(refusal(machine).find("axis b needs 87.000 us from a step to one back") != std::string::npos);
     machine = machine_of(200000.0);
     machine.settings.max_feed_mm_s = 5.0;
-    machine.step.high_us = machine.step.low_us = 0.25;
+    machine.step.step_length_us = machine.step.step_space_us = 0.25;
     machine.step.direction_setup_us = machine.step.direction_hold_us = 0.25;
     machine.settings.sample_period_us = 100000;
     CHECK(refusal(machine).find("axis x makes 100000 steps in a sample period") != std::string::npos);

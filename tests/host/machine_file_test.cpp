@@ -84,7 +84,7 @@ TEST_CASE("A machine file is read") {
 TEST_CASE("Step and direction lines are read") {
     const MachineDescription plain = parse_machine(good, "m.toml");
     CHECK(plain.step.tick_us == 0.0);
-    CHECK(plain.step.high_us == 2.0);
+    CHECK(plain.step.step_length_us == 2.0);
     CHECK(plain.motors[1].count == 1);
     CHECK_FALSE(plain.motors[1].invert_direction[0]);
     const MachineDescription machine =
@@ -92,8 +92,8 @@ TEST_CASE("Step and direction lines are read") {
                                      "direction_setup_us = 0\ndirection_hold_us = 7\nstep_on_edge = true\n[path]"),
                       "m.toml");
     CHECK(machine.step.tick_us == 12.5);
-    CHECK(machine.step.high_us == 3.0);
-    CHECK(machine.step.low_us == 4.5);
+    CHECK(machine.step.step_length_us == 3.0);
+    CHECK(machine.step.step_space_us == 4.5);
     CHECK(machine.step.direction_setup_us == 0.0);
     CHECK(machine.step.direction_hold_us == 7.0);
     CHECK(machine.step.step_on_edge);
@@ -160,7 +160,7 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("[path]", "[step]\nhigh_us = 0.1\n[path]"), "m.toml:4: ", "between 0.125 and 1000 us"},
         {with("[path]", "[step]\ndirection_hold_us = -1\n[path]"), "m.toml:4: ", "between 0 and 1000 us"},
         {with("[path]", "[step]\nstep_on_edge = 1\n[path]"), "m.toml:4: ", "true or false"},
-        {with("[path]", "[step]\nhihg_us = 1\n[path]"), "m.toml:4: ", "did you mean 'high_us'"},
+        {with("[path]", "[step]\nhihg_us = 1\n[path]"), "m.toml:4: ", "did you mean 'step_length_us'"},
         {"step = 3\n" + good, "m.toml:1: ", "[step]"},
         {with("= 12.5\n", "= 12.5\nmotors = 3\n"), "m.toml:19: ", "1 or 2"},
         {with("= 12.5\n", "= 12.5\nmotors = true\n"), "m.toml:19: ", "1 or 2"},

@@ -35,7 +35,7 @@ double bound_of(const nlohmann::json& golden, const DescribedCurve& curve, doubl
     return largest / number_in(golden, "scale");
 }
 
-std::string refusal(const nlohmann::json& input, ScalarKind scalar = ScalarKind::dual) {
+std::string refusal(const nlohmann::json& input, ScalarKind scalar = ScalarKind::float64) {
     try {
         static_cast<void>(describe_curve("beta_chain", input, scalar));
     } catch (const DescriptionError& error) {
@@ -57,8 +57,8 @@ TEST_CASE("beta_chain: float and Fixed keep their bound on the reference vectors
     for (const nlohmann::json& item : set["cases"]) {
         const std::string id = item["id"];
         CAPTURE(id);
-        const auto exact = describe_curve("beta_chain", item["input"], ScalarKind::dual);
-        const auto single = describe_curve("beta_chain", item["input"], ScalarKind::single);
+        const auto exact = describe_curve("beta_chain", item["input"], ScalarKind::float64);
+        const auto single = describe_curve("beta_chain", item["input"], ScalarKind::float32);
         const auto fixed = describe_curve("beta_chain", item["input"], ScalarKind::fixed);
         CHECK(control_error(item, single) <= bound_of(item, exact, 0x1p-24));
         CHECK(control_error(item, fixed) <= bound_of(item, exact, 0x1p-33));
@@ -110,14 +110,14 @@ TEST_CASE("beta_chain: a bad description is refused in a sentence", "[methods][b
     nlohmann::json wide = good_input();
     wide["betas"][0]["beta1"] = 9000;
     CHECK_THROWS_AS(describe_curve("beta_chain", wide, ScalarKind::fixed), DescriptionError);
-    CHECK_NOTHROW(describe_curve("beta_chain", wide, ScalarKind::dual));
+    CHECK_NOTHROW(describe_curve("beta_chain", wide, ScalarKind::float64));
 }
 
 // The second segment is 3e7 times as large as the first, which has a tangent all the same.
 TEST_CASE("beta_chain: a small segment beside a large one is regular in every scalar", "[methods][beta_chain]") {
     const auto input = nlohmann::json::parse(R"({"degree": 3, "first_polygon": [[0, 0], [1, 2], [3, 2], [4, 0]],
                                        "free_points": [[[9, 0]]], "betas": [{"beta1": 8000, "beta2": 0}]})");
-    for (const ScalarKind scalar : {ScalarKind::fixed, ScalarKind::single, ScalarKind::dual}) {
+    for (const ScalarKind scalar : {ScalarKind::fixed, ScalarKind::float32, ScalarKind::float64}) {
         const DescribedCurve curve = describe_curve("beta_chain", input, scalar);
         CHECK(curve.results["joints"][0]["class"] == "G2");
         CHECK(curve.results["joints"][0]["regular"] == true);

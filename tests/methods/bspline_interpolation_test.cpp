@@ -12,11 +12,11 @@ using nlohmann::json;
 
 namespace {
 
-DescribedCurve made(const json& input, ScalarKind scalar = ScalarKind::dual) {
+DescribedCurve made(const json& input, ScalarKind scalar = ScalarKind::float64) {
     return describe_curve("bspline_interpolation", input, scalar);
 }
 
-std::string refusal(const json& input, ScalarKind scalar = ScalarKind::dual) {
+std::string refusal(const json& input, ScalarKind scalar = ScalarKind::float64) {
     try {
         static_cast<void>(made(input, scalar));
     } catch (const DescriptionError& error) {
@@ -51,11 +51,11 @@ TEST_CASE("Reference vectors of interpolation in float and Fixed: condition time
             shortest = std::min(shortest,
                                 std::stod(params[i + 1].get<std::string>()) - std::stod(params[i].get<std::string>()));
         }
-        for (const ScalarKind scalar : {ScalarKind::single, ScalarKind::fixed}) {
-            const double u = scalar == ScalarKind::single ? 0x1p-24 : 0x1p-46;
+        for (const ScalarKind scalar : {ScalarKind::float32, ScalarKind::fixed}) {
+            const double u = scalar == ScalarKind::float32 ? 0x1p-24 : 0x1p-46;
             const double bound = condition * (k + 1.0) * 4.0 * u * (1.0 + domain / shortest);
             const DescribedCurve curve = made(item["input"], scalar);
-            CAPTURE(id, condition, scalar == ScalarKind::single, bound);
+            CAPTURE(id, condition, scalar == ScalarKind::float32, bound);
             REQUIRE(curve.pieces.size() == item["expected"]["segments"].size());
             REQUIRE(control_error(item, curve) <= bound);
             if (scalar == ScalarKind::fixed && condition < 1000.0) {

@@ -11,7 +11,7 @@ using nlohmann::json;
 namespace {
 
 DescribedCurve made(const json& points, const json& tension = 0.5, bool closed = false,
-                    ScalarKind scalar = ScalarKind::dual) {
+                    ScalarKind scalar = ScalarKind::float64) {
     return describe_curve("catmull_rom", {{"points", points}, {"tension", tension}, {"closed", closed}}, scalar);
 }
 
@@ -22,7 +22,7 @@ std::string class_of(const DescribedCurve& curve, std::size_t joint) {
 } // namespace
 
 TEST_CASE("catmull_rom: classes of degenerate joints", "[methods][catmull_rom]") {
-    for (const ScalarKind scalar : {ScalarKind::dual, ScalarKind::single, ScalarKind::fixed}) {
+    for (const ScalarKind scalar : {ScalarKind::float64, ScalarKind::float32, ScalarKind::fixed}) {
         const json reversal = {{0, 0}, {3, 1}, {0, 0}, {5, 5}};
         const DescribedCurve turn = made(reversal, 0.5, false, scalar);
         CHECK(class_of(turn, 0) == "C1+singular");

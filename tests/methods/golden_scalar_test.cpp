@@ -101,9 +101,9 @@ struct BelowRounding {
     ScalarKind scalar;
 };
 constexpr std::array below_rounding{
-    BelowRounding{"beta-p5", ScalarKind::single}, BelowRounding{"kk-p3", ScalarKind::fixed},
-    BelowRounding{"bsi-p5", ScalarKind::single},  BelowRounding{"cr-p6", ScalarKind::single},
-    BelowRounding{"cr-p6", ScalarKind::fixed},    BelowRounding{"crm-p5", ScalarKind::single}};
+    BelowRounding{"beta-p5", ScalarKind::float32}, BelowRounding{"kk-p3", ScalarKind::fixed},
+    BelowRounding{"bsi-p5", ScalarKind::float32},  BelowRounding{"cr-p6", ScalarKind::float32},
+    BelowRounding{"cr-p6", ScalarKind::fixed},     BelowRounding{"crm-p5", ScalarKind::float32}};
 
 bool is_below_rounding(const std::string& id, ScalarKind scalar) {
     return std::any_of(below_rounding.begin(), below_rounding.end(),
@@ -132,8 +132,8 @@ TEST_CASE("Reference vectors: float and Fixed within the bound of each method", 
         for (const json& item : set["cases"]) {
             const std::string id = item["id"];
             CAPTURE(file.name, id);
-            const DescribedCurve exact = curve_of(item, ScalarKind::dual);
-            const double in_float = control_error(item, curve_of(item, ScalarKind::single));
+            const DescribedCurve exact = curve_of(item, ScalarKind::float64);
+            const double in_float = control_error(item, curve_of(item, ScalarKind::float32));
             const double in_fixed = control_error(item, curve_of(item, ScalarKind::fixed));
             worst_double = std::max(worst_double, control_error(item, exact));
             worst_single = std::max(worst_single, in_float);
@@ -161,9 +161,9 @@ TEST_CASE("Reference vectors: float and Fixed give every result in its shape", "
     for (const File& file : files) {
         const json set = golden_set(file.name);
         for (const json& item : set["cases"]) {
-            for (const ScalarKind scalar : {ScalarKind::single, ScalarKind::fixed}) {
+            for (const ScalarKind scalar : {ScalarKind::float32, ScalarKind::fixed}) {
                 const std::string id = item["id"];
-                CAPTURE(file.name, id, scalar == ScalarKind::single);
+                CAPTURE(file.name, id, scalar == ScalarKind::float32);
                 std::vector<std::string> found = differences(item, curve_of(item, scalar), 1e30);
                 if (is_below_rounding(id, scalar)) {
                     CHECK_FALSE(found.empty()); // or the list above is too long

@@ -12,7 +12,7 @@ using namespace splinefeed_test;
 namespace {
 
 DescribedCurve curve_of(const nlohmann::json& item) {
-    return describe_curve(item["method"].get<std::string>(), item["input"], ScalarKind::dual);
+    return describe_curve(item["method"].get<std::string>(), item["input"], ScalarKind::float64);
 }
 
 } // namespace

@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array every_scalar{ScalarKind::fixed, ScalarKind::single, ScalarKind::dual};
+constexpr std::array every_scalar{ScalarKind::fixed, ScalarKind::float32, ScalarKind::float64};
 
 /// The sentence; empty where the curve is made.
 std::string refusal(const char* method, const json& input, ScalarKind scalar) {
@@ -42,7 +42,7 @@ TEST_CASE("Refusals: lambda and mu of Ferguson curves by their limits", "[method
             check_mentions(refusal("ferguson", {{"points", points}, {"mu", mu}}, scalar), "lambda must lie between");
         }
     }
-    CHECK(refusal("ferguson", {{"points", points}, {"lambda", 1e5}}, ScalarKind::dual).find("lie between") ==
+    CHECK(refusal("ferguson", {{"points", points}, {"lambda", 1e5}}, ScalarKind::float64).find("lie between") ==
           std::string::npos);
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("Refusals: automatic mu is not advised to whom it did not help", "[met
         }
     }
     const json singular{{"points", {{0, 0}, {1, 2}, {3, 2}}}, {"delta", -1}, {"mu", 0}};
-    check_mentions(refusal("ferguson", singular, ScalarKind::dual), "or \"mu\": \"auto\"");
+    check_mentions(refusal("ferguson", singular, ScalarKind::float64), "or \"mu\": \"auto\"");
 }
 
 TEST_CASE("Refusals: the factor of modified Catmull-Rom curves by its limits", "[methods][refusals]") {
@@ -80,15 +80,15 @@ TEST_CASE("Refusals: the factor of modified Catmull-Rom curves by its limits", "
     // A coordinate of 4 becomes 2^17 units, the limit is 2^20 of them.
     check_mentions(with("constant", 50.0, ScalarKind::fixed), "between 0 and 32 mm in fixed-point numbers");
     CHECK(with("constant", 32.0, ScalarKind::fixed).empty());
-    CHECK(with("constant", 50.0, ScalarKind::dual).empty());
+    CHECK(with("constant", 50.0, ScalarKind::float64).empty());
 }
 
 TEST_CASE("Refusals: a key that the method does not know, with the nearest one", "[methods][refusals]") {
     const json points = {{0, 0}, {1, 1}, {3, 4}, {4, 4}};
     const auto with = [](const char* method, json input, const char* key) {
-        CHECK(refusal(method, input, ScalarKind::dual).empty());
+        CHECK(refusal(method, input, ScalarKind::float64).empty());
         input[key] = 2;
-        return refusal(method, input, ScalarKind::dual);
+        return refusal(method, input, ScalarKind::float64);
     };
     CHECK(with("bspline_interpolation", {{"points", points}}, "degre") ==
           "\"input\" has an unknown key 'degre'; did you mean 'degree'?");
@@ -100,7 +100,7 @@ TEST_CASE("Refusals: a key that the method does not know, with the nearest one",
                                  "free_points": [[[5, 5]]], "betas": [{"beta1": 1}]})");
     check_mentions(with("beta_chain", chain, "ordre"), "did you mean 'order'?");
     chain["betas"][0]["beta3"] = 1;
-    check_mentions(refusal("beta_chain", chain, ScalarKind::dual), "\"betas\", joint 1 has an unknown key 'beta3'");
+    check_mentions(refusal("beta_chain", chain, ScalarKind::float64), "\"betas\", joint 1 has an unknown key 'beta3'");
 }
 
 TEST_CASE("Refusals: a key that a surface does not know, with the nearest one", "[methods][refusals]") {
@@ -147,8 +147,8 @@ TEST_CASE("Refusals: points that are too near, not only the same", "[methods][re
 TEST_CASE("Refusals: a bias that is 0 in the numbers of the scalar", "[methods][refusals]") {
     const json input = json::parse(R"({"degree": 3, "first_polygon": [[0, 0], [1, 2], [3, 2], [4, 0]],
                                        "free_points": [[[9, 0]]], "betas": [{"beta1": 1e-300}]})");
-    for (const ScalarKind scalar : {ScalarKind::fixed, ScalarKind::single}) {
+    for (const ScalarKind scalar : {ScalarKind::fixed, ScalarKind::float32}) {
         check_mentions(refusal("beta_chain", input, scalar), "joint 1: beta1 is 1e-300, which is 0 in these numbers");
     }
-    CHECK(refusal("beta_chain", input, ScalarKind::dual).find("must be greater") == std::string::npos);
+    CHECK(refusal("beta_chain", input, ScalarKind::float64).find("must be greater") == std::string::npos);
 }

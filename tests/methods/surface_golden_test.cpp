@@ -131,13 +131,13 @@ TEST_CASE("Reference vectors of surfaces: float and Fixed within their bound", "
         const auto made = [&](ScalarKind scalar) {
             return describe_surface(item["method"].get<std::string>(), item["input"], scalar);
         };
-        const DescribedSurface exact = made(ScalarKind::dual);
+        const DescribedSurface exact = made(ScalarKind::float64);
         const Growth u = along_u(item, exact);
         const Growth v = growth_of(exact.params_v, exact.knots_v, exact.degree_v);
         // Two interpolations after one another: docs/numbers.md, Interpolation by B-splines.
         const double bound = u.condition * v.condition * 4.0 * (exact.degree_u + exact.degree_v + 2) *
                              (1.0 + u.spans + v.spans) * size_of(exact);
-        const double in_float = net_error(made(ScalarKind::single), exact);
+        const double in_float = net_error(made(ScalarKind::float32), exact);
         const double in_fixed = net_error(made(ScalarKind::fixed), exact);
         CAPTURE(id, u.condition, v.condition, in_float / size_of(exact), in_fixed / size_of(exact),
                 bound / size_of(exact));

@@ -23,13 +23,13 @@ TEST_CASE("Warnings: nothing is said of what is in order", "[methods][warnings]"
     for (const char* method : {"ferguson", "bspline_interpolation", "catmull_rom", "catmull_rom_modified"}) {
         CHECK(warnings(method, {{"points", points}}).empty());
     }
-    CHECK(describe_curve("catmull_rom", {{"points", points}}, ScalarKind::dual).results.at("warnings").is_array());
+    CHECK(describe_curve("catmull_rom", {{"points", points}}, ScalarKind::float64).results.at("warnings").is_array());
 }
 
 TEST_CASE("Warnings: equal neighbours and turned curvature of Ferguson curves", "[methods][warnings]") {
     const json twice = {{0, 0}, {1, 2}, {3, 3}, {3, 3}, {5, 2}};
     const std::vector<std::string> loop{"points 3 and 4 are the same: the curve makes a small loop there"};
-    for (const ScalarKind scalar : {ScalarKind::fixed, ScalarKind::single, ScalarKind::dual}) {
+    for (const ScalarKind scalar : {ScalarKind::fixed, ScalarKind::float32, ScalarKind::float64}) {
         CHECK(warnings("ferguson", {{"points", twice}}, scalar) == loop);
     }
     // A closed curve may repeat its first point at the end, as often as it likes.

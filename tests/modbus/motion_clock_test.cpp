@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/motion_clock.hpp"
 
-#include "splinefeed/hal/modbus/target_bus.hpp"
+#include "splinefeed/hal/modbus/setpoint_bus.hpp"
 #include "support/catch.hpp"
 
 #include <random>
@@ -63,7 +63,7 @@ TEST_CASE("Motion clock: its rate changes by 1 within twice the reserve at most,
 }
 
 TEST_CASE("Target motion: where the track is about to end before the motion does, its clock stops on it") {
-    TargetMotion motion(100, 100'000);
+    SetpointMotion motion(100, 100'000);
     motion.ahead_us = 20'000;
     FeedSegment segment;
     segment.duration_ticks = 80'000; // 10 ms
@@ -79,7 +79,7 @@ TEST_CASE("Target motion: where the track is about to end before the motion does
     CHECK(motion.clock.stands(1'000'000));
     CHECK(last > 270'000); // not earlier than it must
 
-    TargetMotion whole(100, 100'000);
+    SetpointMotion whole(100, 100'000);
     REQUIRE(whole.track.push(segment));
     whole.complete = true;
     whole.clock.start(0);

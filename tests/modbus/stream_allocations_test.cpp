@@ -10,7 +10,7 @@ using namespace splinefeed::hal::modbus;
 using splinefeed::host::find_profile;
 
 TEST_CASE("Streams allocate when they are made, and never again") {
-    SegmentTrack track = splinefeed::test::Circle().track();
+    TrajectoryBuffer track = splinefeed::test::Circle().track();
     const DriveProfile kinco = find_profile("cia402-kinco");
     const DriveProfile lexium = find_profile("lexium32m");
     const DriveProfile index = find_profile("cia402-index");

@@ -14,7 +14,7 @@ constexpr int axes = 2;
 
 template <StepEngine E>
 std::vector<Edge> edges_of(const E& engine, const StepTiming& timing, const std::vector<FeedSegment>& segments) {
-    PulseTrain<E> train(engine, LineDiscipline(axes, timing));
+    PulseTrain<E> train(engine, StepDirSequencer(axes, timing));
     std::vector<Edge> edges;
     Edge edge;
     const auto drain = [&] {

@@ -57,7 +57,7 @@ struct Tally {
 template <StepEngine E>
 void require_train(const E& engine, const StepTiming& timing, const std::vector<FeedSegment>& segments, int axes,
                    Tally& tally) {
-    PulseTrain<E> train(engine, LineDiscipline(axes, timing));
+    PulseTrain<E> train(engine, StepDirSequencer(axes, timing));
     std::vector<EdgeChecker> drive(static_cast<std::size_t>(axes), EdgeChecker(timing));
     Edge edge;
     std::int64_t last = std::numeric_limits<std::int64_t>::min();
@@ -111,8 +111,8 @@ void require_train(const E& engine, const StepTiming& timing, const std::vector<
 StepSettings random_settings(RandomSegments& random, bool fixed_rate) {
     StepSettings settings;
     settings.tick_us = fixed_rate ? 0.25 * (1 + random.below(80)) : 0.0;
-    settings.high_us = random.decades(0.2, 20.0);
-    settings.low_us = random.decades(0.2, 20.0);
+    settings.step_length_us = random.decades(0.2, 20.0);
+    settings.step_space_us = random.decades(0.2, 20.0);
     settings.direction_setup_us = random.below(5) == 0 ? 0.0 : random.decades(0.2, 60.0);
     settings.direction_hold_us = random.below(5) == 0 ? 0.0 : random.decades(0.2, 60.0);
     settings.step_on_edge = random.below(3) == 0;

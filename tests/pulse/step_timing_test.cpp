@@ -16,8 +16,8 @@ Error refusal(const StepSettings& settings) {
 } // namespace
 
 TEST_CASE("Times of lines become ticks, never shorter than asked for") {
-    constexpr Result<StepTiming> timing =
-        StepTiming::make({.high_us = 1.9, .low_us = 2.5, .direction_setup_us = 0.65, .direction_hold_us = 0.0});
+    constexpr Result<StepTiming> timing = StepTiming::make(
+        {.step_length_us = 1.9, .step_space_us = 2.5, .direction_setup_us = 0.65, .direction_hold_us = 0.0});
     static_assert(timing.has_value());
     CHECK(timing->high == 16);
     CHECK(timing->low == 20);
@@ -26,7 +26,7 @@ TEST_CASE("Times of lines become ticks, never shorter than asked for") {
     CHECK(timing->step_gap() == 36);
     CHECK(timing->turn_gap() == 36); // longer than 16 + 0 + 6
 
-    const Result<StepTiming> fixed = StepTiming::make({.tick_us = 10.0, .high_us = 2.0, .low_us = 10.5});
+    const Result<StepTiming> fixed = StepTiming::make({.tick_us = 10.0, .step_length_us = 2.0, .step_space_us = 10.5});
     REQUIRE(fixed.has_value());
     CHECK(fixed->grid == 80);
     CHECK(fixed->high == 80);
@@ -34,7 +34,8 @@ TEST_CASE("Times of lines become ticks, never shorter than asked for") {
     CHECK(fixed->setup == 80);
     CHECK(fixed->turn_gap() == 240);
 
-    const Result<StepTiming> edges = StepTiming::make({.high_us = 3.0, .low_us = 2.0, .step_on_edge = true});
+    const Result<StepTiming> edges =
+        StepTiming::make({.step_length_us = 3.0, .step_space_us = 2.0, .step_on_edge = true});
     CHECK(edges->step_gap() == 24);
     CHECK(edges->turn_gap() == 80);
     // The DDA moves less than half a count a tick, whatever the line could do.
@@ -45,17 +46,17 @@ TEST_CASE("Times that no drive asks for are refused") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double bad : {-1.0, 1000.5, nan}) {
         CAPTURE(bad);
-        CHECK(refusal({.high_us = bad}) == Error::step_times_out_of_range);
-        CHECK(refusal({.low_us = bad}) == Error::step_times_out_of_range);
+        CHECK(refusal({.step_length_us = bad}) == Error::step_times_out_of_range);
+        CHECK(refusal({.step_space_us = bad}) == Error::step_times_out_of_range);
         CHECK(refusal({.direction_setup_us = bad}) == Error::step_times_out_of_range);
         CHECK(refusal({.direction_hold_us = bad}) == Error::step_times_out_of_range);
         CHECK(refusal({.tick_us = bad}) == Error::step_tick_out_of_range);
     }
-    CHECK(refusal({.high_us = 0.1}) == Error::step_times_out_of_range);
+    CHECK(refusal({.step_length_us = 0.1}) == Error::step_times_out_of_range);
     CHECK(refusal({.tick_us = 0.3}) == Error::step_tick_out_of_range);
     CHECK(refusal({.tick_us = 0.125}) == Error::step_tick_out_of_range);
     CHECK(refusal({.tick_us = 0.25}) == Error::none);
-    CHECK(refusal({.tick_us = 1000.0, .high_us = 1000.0}) == Error::none);
+    CHECK(refusal({.tick_us = 1000.0, .step_length_us = 1000.0}) == Error::none);
 }
 
 TEST_CASE("What a machine asks of its lines is allowed up to the rate and the change of direction that they carry") {
@@ -68,9 +69,10 @@ TEST_CASE("What a machine asks of its lines is allowed up to the rate and the ch
     CHECK(timing.most_left_out(8e8) == Approx(8e8 * 12.25e-6 * 12.25e-6 / 8.0));
     CHECK(timing.allows({1000.0, 8.2e8}).ok());
     CHECK(timing.allows({1000.0, 8.5e8}).error() == Error::direction_change_too_long);
-    // More than LineDiscipline holds.
-    CHECK(StepTiming::make({.high_us = 0.5, .low_us = 0.5, .direction_setup_us = 30.0})->allows({1.0, 1.0}).error() ==
-          Error::direction_change_too_long);
+    // More than StepDirSequencer holds.
+    CHECK(StepTiming::make({.step_length_us = 0.5, .step_space_us = 0.5, .direction_setup_us = 30.0})
+              ->allows({1.0, 1.0})
+              .error() == Error::direction_change_too_long);
     // The fixed rate: its instants are the nearest ticks.
     const StepTiming fixed = *StepTiming::make({.tick_us = 10.0});
     CHECK(fixed.allows({49600.0, 1e5}).ok());

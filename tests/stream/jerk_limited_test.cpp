@@ -76,7 +76,7 @@ TEST_CASE("a straight move takes the time of the S-curve", "[stream][jerk]") {
                 const Stream stream = stream_of<double>(path, machine, 256);
                 const double segment_s = stream.segments[0].duration_ticks / 8e6;
                 const double seconds = static_cast<double>(stream.segments.size()) * segment_s;
-                const double least = StraightMove(length, {100.0, 1000.0, jerk}).duration_s();
+                const double least = SCurveProfile(length, {100.0, 1000.0, jerk}).duration_s();
                 CAPTURE(length, jerk, seconds, least);
                 // A mean ends up to two segments after the motion that it is of
                 CHECK(seconds <=

@@ -6,7 +6,7 @@
 #include "support/random_steering.hpp"
 #include "support/rounds.hpp"
 
-#include "splinefeed/s3_feed_plan/straight_move.hpp"
+#include "splinefeed/s3_feed_plan/s_curve_profile.hpp"
 
 using namespace splinefeed_test;
 
@@ -80,7 +80,7 @@ TEMPLATE_TEST_CASE("a hold on a straight line takes the time of the ramps", "[st
         const AxisMotion m = motion_of(plain.segments[then], 0);
         const double scale = static_cast<double>(units_per_mm(machine.axis[0])) * segment_s;
         const MoveState state{0.0, static_cast<double>(m.v0) / scale, static_cast<double>(m.a0) / (scale * segment_s)};
-        const double needs = StraightMove::to_rest(state, {100.0, 1000.0, 2e4}).duration_s();
+        const double needs = SCurveProfile::to_rest(state, {100.0, 1000.0, 2e4}).duration_s();
         const SteeredRun run = run_steered<S>(path, machine, 256, {{at, Order::hold}, {at + 500, Order::resume}});
         require_limits(run, machine);
         const double took = static_cast<double>(rest_after(run, at) - at) * segment_s;

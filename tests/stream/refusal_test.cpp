@@ -59,8 +59,8 @@ void require_refused(Trajectory<S>& trajectory, CurveSource<S>& curve, Error err
     trajectory.hold();
     trajectory.resume();
     trajectory.override_feed(S{});
-    for (const Starvation starvation : {Starvation::waits, Starvation::goes_on}) {
-        CHECK_FALSE(trajectory.next(segment, starvation));
+    for (const UnderrunPolicy underrun : {UnderrunPolicy::wait, UnderrunPolicy::drain}) {
+        CHECK_FALSE(trajectory.next(segment, underrun));
         CHECK(trajectory.state() == Pull::finished);
     }
     CHECK(trajectory.activity() == Activity::running);

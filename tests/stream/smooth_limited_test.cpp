@@ -8,7 +8,7 @@
 #include "support/random_steering.hpp"
 #include "support/rounds.hpp"
 
-#include "splinefeed/s3_feed_plan/straight_move.hpp"
+#include "splinefeed/s3_feed_plan/s_curve_profile.hpp"
 
 #include <optional>
 
@@ -133,7 +133,7 @@ TEMPLATE_TEST_CASE("an averaged straight move takes the time of the S-curve", "[
                 const Stream stream = stream_of<TestType>(path, machine, 2048);
                 const double segment_s = stream.segments[0].duration_ticks / 8e6;
                 const double seconds = static_cast<double>(stream.segments.size()) * segment_s;
-                const double least = StraightMove(length, {100.0, 1000.0, jerk}).duration_s();
+                const double least = SCurveProfile(length, {100.0, 1000.0, jerk}).duration_s();
                 CAPTURE(period, length, jerk, seconds, least, segment_s);
                 require_limits(stream, machine);
                 CHECK(seconds <= 1.001 * least + 5.0 * segment_s);
@@ -203,7 +203,7 @@ TEMPLATE_TEST_CASE("an averaged motion that cannot wait for its input keeps ever
         AnyTrajectory<S> any(source, limits, 64);
         SteeredRun run;
         run_steered<S>(
-            any.trajectory(), {}, run, [] {}, Starvation::goes_on);
+            any.trajectory(), {}, run, [] {}, UnderrunPolicy::drain);
         require_limits(run, machine);
         REQUIRE(run.finished);
         for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {

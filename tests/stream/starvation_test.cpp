@@ -72,7 +72,7 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
             if (random.chance(std::min(1.0, pace))) {
                 source.release(static_cast<std::size_t>(random.integer(1, 3)));
             }
-            if (trajectory.next(segment, Starvation::goes_on)) {
+            if (trajectory.next(segment, UnderrunPolicy::drain)) {
                 stood = false;
             } else if (trajectory.state() == Pull::starved) {
                 if (!run.segments.empty()) {
@@ -126,7 +126,7 @@ TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known,
             FeedSegment segment;
             std::size_t rests = 0;
             const auto travel = [&] {
-                while (any.trajectory().next(segment, Starvation::goes_on)) {
+                while (any.trajectory().next(segment, UnderrunPolicy::drain)) {
                     const bool moved = segment.start != segment.end;
                     run.segments.push_back(segment);
                     rests += moved && ends_at_rest(segment, 2) ? 1U : 0U;
@@ -154,7 +154,7 @@ TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known,
             AnyTrajectory<S> other(in_time, limits, 512);
             SteeredRun smooth;
             std::size_t made = 0;
-            while (other.trajectory().next(segment, Starvation::goes_on)) {
+            while (other.trajectory().next(segment, UnderrunPolicy::drain)) {
                 smooth.segments.push_back(segment);
                 if (++made == least.segments.size() / 2) {
                     in_time.release(path.size());

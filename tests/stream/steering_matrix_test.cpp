@@ -30,7 +30,7 @@ struct Round {
     Program program;
     bool closed = false;
     std::size_t window = 64;
-    Starvation policy = Starvation::waits;
+    UnderrunPolicy policy = UnderrunPolicy::wait;
     double pace = 1.0; // waypoints a segment
     std::vector<Event> events;
 };
@@ -87,7 +87,7 @@ Round random_round(Random& random, Planner planner) {
     round.closed = random.chance(0.4);
     constexpr std::size_t windows[] = {16, 32, 64, 256};
     round.window = windows[random.integer(0, 3)];
-    round.policy = random.chance(0.5) ? Starvation::goes_on : Starvation::waits;
+    round.policy = random.chance(0.5) ? UnderrunPolicy::drain : UnderrunPolicy::wait;
     round.pace = random.decades(0.001, 0.3);
     round.events = random_orders(random);
     return round;
@@ -161,7 +161,7 @@ void emit(Trajectory<S>& trajectory, Curve& curve, const std::vector<Feed<S>>& f
             REQUIRE_FALSE(finished);
         }
         if (!item && trajectory.state() == Pull::starved &&
-            (round.policy == Starvation::waits || out.segments.empty())) {
+            (round.policy == UnderrunPolicy::wait || out.segments.empty())) {
             push();
         } else if (!item) {
             REQUIRE(trajectory.stand(segment));
@@ -266,7 +266,7 @@ Real require_path(const Emitted& run, std::size_t first, const Track<S>& track, 
 template <Scalar S>
 std::string text_of(const Round& round) {
     std::string text = std::to_string(round.machine.axes) + " axes, " + (round.closed ? "closed, " : "open, ") +
-                       (round.policy == Starvation::waits ? "waits, " : "goes on, ") + "window " +
+                       (round.policy == UnderrunPolicy::wait ? "waits, " : "goes on, ") + "window " +
                        std::to_string(round.window) + ", pace " + std::to_string(round.pace) + ":";
     for (const Event& e : round.events) {
         constexpr const char* names[] = {"hold", "resume", "abort", "override"};

@@ -41,14 +41,14 @@ void give(Trajectory<S>& trajectory, const Event& event) {
 /// come, segments of standing still pass the time. @param supply  called when the input is starved
 template <Scalar S>
 void run_steered(Trajectory<S>& trajectory, const std::vector<Event>& events, SteeredRun& run,
-                 const std::function<void()>& supply = {}, Starvation starvation = Starvation::waits) {
+                 const std::function<void()>& supply = {}, UnderrunPolicy underrun = UnderrunPolicy::wait) {
     FeedSegment segment;
     std::size_t next = 0;
     for (;;) {
         while (next < events.size() && events[next].segment <= run.segments.size()) {
             give(trajectory, events[next++]);
         }
-        if (trajectory.next(segment, starvation)) {
+        if (trajectory.next(segment, underrun)) {
             run.segments.push_back(segment);
         } else if (trajectory.state() == Pull::starved && supply) {
             supply();

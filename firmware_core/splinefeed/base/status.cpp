@@ -84,12 +84,14 @@ const char* describe(Error error) noexcept {
     case Error::tangent_vanishes: return "the tangent vanishes at a joint: its direction is undefined";
     case Error::result_out_of_range: return "the result is beyond the range of the numbers it is computed with";
     case Error::step_times_out_of_range:
-        return "high_us and low_us must lie between 0.125 and 1000, direction_setup_us and direction_hold_us between 0 "
+        return "step_length_us and step_space_us must lie between 0.125 and 1000, direction_setup_us and "
+               "direction_hold_us between 0 "
                "and "
                "1000";
     case Error::step_tick_out_of_range: return "tick_us must be a multiple of 0.25 from 0.25 to 1000";
     case Error::step_rate_too_high:
-        return "the axis steps faster than high_us and low_us allow; a lower velocity, fewer steps or shorter pulses";
+        return "the axis steps faster than step_length_us and step_space_us allow; a lower velocity, fewer steps or "
+               "shorter pulses";
     case Error::direction_change_too_long:
         return "a change of direction takes too long for this acceleration; shorter direction_setup_us and "
                "direction_hold_us, or a lower acceleration";

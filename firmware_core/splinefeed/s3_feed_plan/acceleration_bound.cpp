@@ -48,7 +48,7 @@ constexpr int least_step_log2 = std::same_as<S, double>  ? -50
 
 template <Scalar S>
 AccelerationBound<S>::AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits,
-                                        const Stretch<S>& stretch) noexcept
+                                        const CellInterval<S>& stretch) noexcept
     : cell_(&cell), stretch_(stretch) {
     const S length = stretch.whole() ? cell.length_mm : cell.length_mm * stretch.length();
     const S twice = length + length;

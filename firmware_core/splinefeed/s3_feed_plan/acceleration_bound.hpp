@@ -4,8 +4,8 @@
 #pragma once
 
 #include "splinefeed/s2_arc_length/cell.hpp"
+#include "splinefeed/s3_feed_plan/cell_interval.hpp"
 #include "splinefeed/s3_feed_plan/motion_limits.hpp"
-#include "splinefeed/s3_feed_plan/stretch.hpp"
 
 namespace splinefeed {
 
@@ -23,7 +23,7 @@ struct EndSpeeds {
 template <Scalar S>
 class AccelerationBound {
 public:
-    AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits, const Stretch<S>& stretch = {}) noexcept;
+    AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits, const CellInterval<S>& stretch = {}) noexcept;
 
     /// Largest exit_sq up to at_most. @pre some exit_sq up to at_most is allowed together with entry_sq
     [[nodiscard]] S largest_exit(S entry_sq, S at_most) const noexcept;
@@ -50,7 +50,7 @@ private:
     [[nodiscard]] S lifted(S entry_sq, S exit_sq, S at_most) const noexcept;
 
     const Cell<S>* cell_;
-    Stretch<S> stretch_;
+    CellInterval<S> stretch_;
     PerAxis<S> upwards_{};   // 2 L A of accelerations > 0
     PerAxis<S> downwards_{}; // and of those < 0
 };

@@ -25,7 +25,7 @@ void shift(std::span<S> power, S x0) noexcept {
 } // namespace
 
 template <Scalar S>
-Cell<S> part_of(const Cell<S>& cell, const Stretch<S>& stretch) noexcept {
+Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
     const S one = from_integer<S>(1);
     const S length = stretch.length();
     Cell<S> out = cell;
@@ -75,8 +75,8 @@ Cell<S> part_of(const Cell<S>& cell, const Stretch<S>& stretch) noexcept {
     return out;
 }
 
-template Cell<double> part_of(const Cell<double>&, const Stretch<double>&) noexcept;
-template Cell<float> part_of(const Cell<float>&, const Stretch<float>&) noexcept;
-template Cell<Fixed> part_of(const Cell<Fixed>&, const Stretch<Fixed>&) noexcept;
+template Cell<double> part_of(const Cell<double>&, const CellInterval<double>&) noexcept;
+template Cell<float> part_of(const Cell<float>&, const CellInterval<float>&) noexcept;
+template Cell<Fixed> part_of(const Cell<Fixed>&, const CellInterval<Fixed>&) noexcept;
 
 } // namespace splinefeed

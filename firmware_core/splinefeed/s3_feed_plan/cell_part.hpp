@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/s2_arc_length/cell.hpp"
-#include "splinefeed/s3_feed_plan/stretch.hpp"
+#include "splinefeed/s3_feed_plan/cell_interval.hpp"
 
 namespace splinefeed {
 
@@ -11,6 +11,6 @@ namespace splinefeed {
 /// one of the part that ends there; elsewhere `end` is where the part ends.
 /// @pre 0 <= stretch.from < stretch.to <= 1. Cost: about 20 + 10 products an axis for a cubic.
 template <Scalar S>
-[[nodiscard]] Cell<S> part_of(const Cell<S>& cell, const Stretch<S>& stretch) noexcept;
+[[nodiscard]] Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept;
 
 } // namespace splinefeed

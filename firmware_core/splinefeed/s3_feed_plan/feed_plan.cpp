@@ -19,8 +19,8 @@
 // before; so a change of the wish can always be followed within the limits. Forward, one cell at a time as the machine
 // enters it: the wish's K, clamped to the exits that P allows for the entry and the machine's K at the exit. A machine
 // that is not faster than the wish needs no clamp from below, which is the plan without steering. A change computes the
-// wish's K again, drops what was committed beyond final nodes, and chooses a new passage from where the machine is
-// (passage.cpp).
+// wish's K again, drops what was committed beyond final nodes, and chooses a new profile segment from where the machine
+// is (profile_segment.cpp).
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
 
 #include "splinefeed/s3_feed_plan/axis_velocity.hpp"
@@ -191,26 +191,26 @@ void FeedPlan<S>::choose(S known_sq) noexcept {
     }
     if (hopping_) {
         hopping_ = false;
-        passage_ = {{at_}, speed_sq_, {}, here.cell.stop_at_end};
+        profile_segment_ = {{at_}, speed_sq_, {}, here.cell.stop_at_end};
     } else if (steered_ || at_ > S{}) {
         choose_steered(known_sq);
     } else {
         const S exit = AccelerationBound<S>(here.cell, limits_).largest_exit(speed_sq_, wanted_exit_);
-        passage_ = {{}, speed_sq_, larger(exit, smaller(known_sq, wanted_exit_)), false};
+        profile_segment_ = {{}, speed_sq_, larger(exit, smaller(known_sq, wanted_exit_)), false};
     }
-    Stretch<S>& stretch = passage_.stretch;
+    CellInterval<S>& stretch = profile_segment_.stretch;
     const bool to_end = stretch.to == one;
-    here.exit_sq = to_end ? passage_.exit_sq : wanted_exit_;
-    if (to_end && !(passage_.entry_sq + passage_.exit_sq > S{}) && !passage_.stops) {
+    here.exit_sq = to_end ? profile_segment_.exit_sq : wanted_exit_;
+    if (to_end && !(profile_segment_.entry_sq + profile_segment_.exit_sq > S{}) && !profile_segment_.stops) {
         // From rest to rest (a crumb between cusps, as a rule): accelerated over half of the length and braked over the
         // other. From rest the whole length would reach v^2 = reach, half of it reach / 2; half of that is used, since
         // a crumb's length has few digits in Fixed.
         const S reach = smaller(here.reach_from_rest, wanted_sq(here));
-        passage_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
+        profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
         hopping_ = true;
-    } else if (to_end && !(passage_.exit_sq > S{})) {
-        passage_.stops = passage_.stops || here.cell.stop_at_end || size_ == 1;
+    } else if (to_end && !(profile_segment_.exit_sq > S{})) {
+        profile_segment_.stops = profile_segment_.stops || here.cell.stop_at_end || size_ == 1;
     }
 }
 
@@ -218,15 +218,16 @@ template <Scalar S>
 void FeedPlan<S>::choose_steered(S known_sq) noexcept {
     const PlannedCell<S>& here = at(0);
     const S reachable = reachable_exit();
-    passage_ = steered_passage(here.cell, limits_,
-                               Aim<S>{.from = at_,
-                                      .entry_sq = speed_sq_,
-                                      .level_sq = wanted_sq(here),
-                                      .exit_sq = wanted_exit_,
-                                      .most_sq = reachable,
-                                      .known_sq = known_sq < S{} ? known_sq : smaller(known_sq, reachable),
-                                      .rest = steering_.stops()});
-    steered_ = steering_.stops() || !(passage_.exit_sq == wanted_exit_);
+    profile_segment_ =
+        steered_segment(here.cell, limits_,
+                        SteeringTarget<S>{.from = at_,
+                                          .entry_sq = speed_sq_,
+                                          .level_sq = wanted_sq(here),
+                                          .exit_sq = wanted_exit_,
+                                          .most_sq = reachable,
+                                          .known_sq = known_sq < S{} ? known_sq : smaller(known_sq, reachable),
+                                          .rest = steering_.stops()});
+    steered_ = steering_.stops() || !(profile_segment_.exit_sq == wanted_exit_);
 }
 
 // P is convex: what is reached from the largest entry tells what is reached from less. Where an axis has next to no
@@ -280,7 +281,7 @@ void FeedPlan<S>::lead() noexcept {
 }
 
 template <Scalar S>
-Pull FeedPlan<S>::prepare(Starvation starvation) noexcept {
+Pull FeedPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
     if (chosen_) {
         return Pull::item;
     }
@@ -297,7 +298,7 @@ Pull FeedPlan<S>::prepare(Starvation starvation) noexcept {
         if (size_ == 0) {
             return pull;
         }
-        if (pull == Pull::starved && starvation == Starvation::waits && !steering_.stops()) {
+        if (pull == Pull::starved && underrun == UnderrunPolicy::wait && !steering_.stops()) {
             return pull;
         }
         if (pull == Pull::starved) {
@@ -326,8 +327,8 @@ Pull FeedPlan<S>::prepare(Starvation starvation) noexcept {
 
 template <Scalar S>
 bool FeedPlan<S>::steer(const Place<S>& place) noexcept {
-    const bool whole_path = passage_.stretch.to == from_integer<S>(1);
-    const S known = whole_path ? passage_.exit_sq : from_integer<S>(-1);
+    const bool whole_path = profile_segment_.stretch.to == from_integer<S>(1);
+    const S known = whole_path ? profile_segment_.exit_sq : from_integer<S>(-1);
     at_ = place.fraction;
     speed_sq_ = place.speed_sq;
     hopping_ = chosen_ = false;
@@ -340,12 +341,12 @@ bool FeedPlan<S>::steer(const Place<S>& place) noexcept {
 
 template <Scalar S>
 void FeedPlan<S>::advance() noexcept {
-    if (passage_.stretch.to == from_integer<S>(1)) {
+    if (profile_segment_.stretch.to == from_integer<S>(1)) {
         pop();
         return;
     }
-    at_ = passage_.stretch.to;
-    speed_sq_ = passage_.exit_sq;
+    at_ = profile_segment_.stretch.to;
+    speed_sq_ = profile_segment_.exit_sq;
     chosen_ = false;
 }
 

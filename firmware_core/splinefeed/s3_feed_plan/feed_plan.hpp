@@ -13,7 +13,7 @@
 
 #include "splinefeed/base/ring_index.hpp"
 #include "splinefeed/s2_arc_length/arc_length.hpp"
-#include "splinefeed/s3_feed_plan/passage.hpp"
+#include "splinefeed/s3_feed_plan/profile_segment.hpp"
 #include "splinefeed/s3_feed_plan/steering.hpp"
 #include "splinefeed/s3_feed_plan/turning.hpp"
 
@@ -46,7 +46,7 @@ public:
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept;
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
 
-    Pull prepare(Starvation starvation = Starvation::waits) noexcept override;
+    Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
     [[nodiscard]] const PlannedCell<S>& front() const noexcept { return at(0); }
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return at(0).cell; }
     /// Largest v^2 in the front cell, whatever is programmed and comes before and after it.
@@ -95,16 +95,16 @@ private:
     ArcLength<S>* source_;
     const MotionLimits<S>& limits_;
     std::span<PlannedCell<S>> window_;
-    using MotionPlan<S>::passage_;
+    using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
     Turning<S> turning_;
     std::size_t head_ = 0;
     std::size_t size_ = 0;
     std::size_t committed_ = 0;
-    S at_{};          // where the next passage starts in the front cell
+    S at_{};          // where the next profile segment starts in the front cell
     S speed_sq_{};    // v^2 there
-    S wanted_exit_{}; // at the end of the front cell, once a passage is chosen
+    S wanted_exit_{}; // at the end of the front cell, once a profile segment is chosen
     std::uint64_t window_limited_ = 0;
     bool planned_ = false; // the window, as it is
     bool open_ = false;    // with a free speed at its end: a motion that follows need not rest there

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
+#include "splinefeed/s3_feed_plan/s_curve_profile.hpp"
 #include "splinefeed/s3_feed_plan/state_polygon.hpp"
-#include "splinefeed/s3_feed_plan/straight_move.hpp"
 
 namespace splinefeed {
 

@@ -182,7 +182,7 @@ bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
         const double at_end = window_->node(i + 1).at_most_sq;
         const bool before = at_mm < cuts.change_mm - least;
         JerkNode& node = nodes[n++];
-        node.cell = jerk_cell_of(part_of(window_->cell(i), Stretch<S>{from_double<S>(from), from_double<S>(to)}),
+        node.cell = jerk_cell_of(part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)}),
                                  *limits_, before ? whole.cell.cap_sq : whole.wanted_sq);
         const double fastest = whole.at_most_sq + from * (at_end - whole.at_most_sq);
         node.at_most_sq = to_rest ? smaller(fastest, roomy * peak_sq_) : fastest;
@@ -230,7 +230,7 @@ void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
             start.take(window_->node(i + more));
             at_end = window_->node(i + more + 1).at_most_sq;
         }
-        window_->cell(n) = part_of(whole, Stretch<S>{from_double<S>(from), from_double<S>(to)});
+        window_->cell(n) = part_of(whole, CellInterval<S>{from_double<S>(from), from_double<S>(to)});
         JerkNode& node = window_->node(n);
         node.take(start);
         const bool before = at_mm < cuts.change_mm - least;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Backward from the end the sets of states from which it can be reached (jerk_reach.cpp), then forward from the start
-// the largest u that leads into the next set: that keeps every limit, and it is the fastest start, but it enters bends
-// as late and as hard as can be and is slow behind them. The same against the direction of travel gives the motion that
-// is fast behind bends and slow before. Both are solutions of the same linear inequalities, so their mean is one, too;
-// and time is a convex function of b: the mean is faster than either, as a rule by several per cent.
+// Backward from the end the sets of states from which it can be reached (controllable_set.cpp), then forward from the
+// start the largest u that leads into the next set: that keeps every limit, and it is the fastest start, but it enters
+// bends as late and as hard as can be and is slow behind them. The same against the direction of travel gives the
+// motion that is fast behind bends and slow before. Both are solutions of the same linear inequalities, so their mean
+// is one, too; and time is a convex function of b: the mean is faster than either, as a rule by several per cent.
 //
 //       early:  steep up, late and hard down, slow behind the bend
 //     b |  .--.        .--.
@@ -12,8 +12,8 @@
 //       |/       '..'      |   late: the mirror image; the mean of both is symmetric where the path is
 //       +--------------------> s
 //
-// The limit J / sqrt(b) is replaced by its tangent at the expected b (jerk_reach.cpp). What a pass comes to is the next
-// one's expectation; every pass keeps the limits.
+// The limit J / sqrt(b) is replaced by its tangent at the expected b (controllable_set.cpp). What a pass comes to is
+// the next one's expectation; every pass keeps the limits.
 #include "splinefeed/s3_feed_plan/jerk_leg.hpp"
 
 #include "splinefeed/number/scalar.hpp"
@@ -88,8 +88,8 @@ bool JerkLeg::sweep(bool backward) noexcept {
         }
         turned_states.simplify();
         const JerkCell& first = nodes_[0].cell;
-        const CurvatureRange range =
-            JerkReach({&first, false}, {nodes_[0].expected_sq, nodes_[1].expected_sq}).range(*start_, turned_states);
+        const CurvatureRange range = ControllableSet({&first, false}, {nodes_[0].expected_sq, nodes_[1].expected_sq})
+                                         .range(*start_, turned_states);
         // Two corners that all but coincide are no line: its sides would be of any direction.
         const double u =
             absolute(range.high) + (absolute(start_->slope) + start_->b / first.length_mm) / first.length_mm;
@@ -120,7 +120,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
     for (std::size_t i = n - 1; i-- > 1;) {
         after = before;
         before = cell(i - 1);
-        const JerkReach reach(after, expected(i));
+        const ControllableSet reach(after, expected(i));
         const StatePolygon exits = states;
         states = reach.from(exits);
         cut_to_node(states, before, after, node(i).at_most_sq);
@@ -174,7 +174,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
     }
     for (; i + 1 < n; ++i) {
         const CellPassage here = cell(i);
-        const CurvatureRange range = JerkReach(here, expected(i)).range(state, kept(i + 1));
+        const CurvatureRange range = ControllableSet(here, expected(i)).range(state, kept(i + 1));
         if (!possible(range, state, here.cell->length_mm)) {
             return false;
         }

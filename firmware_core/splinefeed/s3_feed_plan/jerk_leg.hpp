@@ -2,7 +2,7 @@
 // JerkLeg: the jerk-limited motion from a state or from rest to the next rest. Derivation: jerk_leg.cpp.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk_reach.hpp"
+#include "splinefeed/s3_feed_plan/controllable_set.hpp"
 #include "splinefeed/s3_feed_plan/motion_limits.hpp"
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 // at the end of what is committed (that can happen, since the sets of states are made smaller to have few corners) the
 // old one is travelled to its end, which is at rest.
 //
-// A straight leg is one move in closed form (straight_move.cpp).
+// A straight leg is one move in closed form (s_curve_profile.cpp).
 #include "splinefeed/s3_feed_plan/jerk_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
@@ -34,29 +34,29 @@ double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcep
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::take(Starvation starvation) noexcept {
-    Pull pull = source_->prepare(starvation);
+Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
+    Pull pull = source_->prepare(underrun);
     if (pull != Pull::item) {
         return pull;
     }
     const Cell<S> cell = source_->cell();
     const double most_sq = to_double(source_->cap_sq());
-    while (!(source_->passage().stretch.to == from_integer<S>(1))) { // the first half of a crumb
+    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a crumb
         source_->advance();
-        pull = source_->prepare(starvation);
+        pull = source_->prepare(underrun);
         SPLINEFEED_ASSERT(pull == Pull::item);
     }
-    window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(source_->passage().exit_sq));
+    window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(source_->profile_segment().exit_sq));
     planned_all_ = false;
     source_->advance();
     return Pull::item;
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::fill(Starvation starvation) noexcept {
+Pull JerkPlan<S>::fill(UnderrunPolicy underrun) noexcept {
     Pull pull = Pull::item;
     while (!window_.full() && pull == Pull::item) {
-        pull = take(starvation);
+        pull = take(underrun);
     }
     return pull;
 }
@@ -130,7 +130,7 @@ void JerkPlan<S>::plan(bool ended) noexcept {
     planned_all_ = true;
 }
 
-// The next passage of a straight move, as far as it lies in the front cell.
+// The next profile segment of a straight move, as far as it lies in the front cell.
 template <Scalar S>
 void JerkPlan<S>::choose_on_line() noexcept {
     const double length = window_.node(0).cell.length_mm;
@@ -138,22 +138,22 @@ void JerkPlan<S>::choose_on_line() noexcept {
     const JerkNode& node = window_.node(0);
     const bool last = node.travel == Travel::hop || cell().stop_at_end; // the move ends in this cell
     const LinePiece piece = last ? line_.next() : line_.next(length - on_line_mm_);
-    const S from = passage_.stretch.from;
+    const S from = profile_segment_.stretch.from;
     on_line_mm_ = smaller(on_line_mm_ + piece.length_mm, length);
     const S one = from_integer<S>(1);
     const S reached = from_double<S>(on_line_mm_ * per_length);
     const bool to_end = last ? line_.done() : !(on_line_mm_ < length && reached < one);
     // The last phase of a move may be shorter than the last digit of a cell: that one is kept for it.
     const S before_end = one - scale2(one, last_digit_log2<S>);
-    passage_ = {};
-    passage_.stretch = {from, to_end ? one : smaller(reached, before_end)};
-    passage_.entry_sq = from_double<S>(piece.entry_mm_s * piece.entry_mm_s);
-    passage_.exit_sq = from_double<S>(piece.exit_mm_s * piece.exit_mm_s);
-    passage_.shape = SpeedShape::cubic;
-    passage_.duration_ms = from_double<S>(1e3 * piece.duration_s);
-    passage_.linear = from_double<S>(piece.linear);
-    passage_.quadratic = from_double<S>(piece.quadratic);
-    passage_.stops = to_end && line_.done();
+    profile_segment_ = {};
+    profile_segment_.stretch = {from, to_end ? one : smaller(reached, before_end)};
+    profile_segment_.entry_sq = from_double<S>(piece.entry_mm_s * piece.entry_mm_s);
+    profile_segment_.exit_sq = from_double<S>(piece.exit_mm_s * piece.exit_mm_s);
+    profile_segment_.shape = SpeedShape::cubic;
+    profile_segment_.duration_ms = from_double<S>(1e3 * piece.duration_s);
+    profile_segment_.linear = from_double<S>(piece.linear);
+    profile_segment_.quadratic = from_double<S>(piece.quadratic);
+    profile_segment_.stops = to_end && line_.done();
 }
 
 template <Scalar S>
@@ -164,7 +164,7 @@ void JerkPlan<S>::choose() noexcept {
         choose_on_line();
         return;
     }
-    passage_ = {};
+    profile_segment_ = {};
     on_line_mm_ = 0.0;
     if (from.travel != Travel::curve) {
         line_ = LineTravel(StraightLeg<S>(window_).from_rest());
@@ -174,19 +174,20 @@ void JerkPlan<S>::choose() noexcept {
     const auto scalar = [](double x) {
         return from_double<S>(x);
     };
-    passage_.entry_sq = scalar(from.state.b);
-    passage_.exit_sq = scalar(to.state.b);
-    const bool starts = !(passage_.entry_sq > S{});
-    const bool stops = !(passage_.exit_sq > S{});
-    passage_.stops = stops;
+    profile_segment_.entry_sq = scalar(from.state.b);
+    profile_segment_.exit_sq = scalar(to.state.b);
+    const bool starts = !(profile_segment_.entry_sq > S{});
+    const bool stops = !(profile_segment_.exit_sq > S{});
+    profile_segment_.stops = stops;
     if (starts || stops) { // constant jerk, t = 3 L / v
-        passage_.shape = SpeedShape::cubic;
-        passage_.duration_ms = scalar(3e3 * from.cell.length_mm / square_root(starts ? to.state.b : from.state.b));
-        passage_.linear = from_integer<S>(starts ? 0 : 3);
-        passage_.quadratic = from_integer<S>(starts ? 0 : -3);
+        profile_segment_.shape = SpeedShape::cubic;
+        profile_segment_.duration_ms =
+            scalar(3e3 * from.cell.length_mm / square_root(starts ? to.state.b : from.state.b));
+        profile_segment_.linear = from_integer<S>(starts ? 0 : 3);
+        profile_segment_.quadratic = from_integer<S>(starts ? 0 : -3);
     } else {
-        passage_.shape = SpeedShape::parabola;
-        passage_.middle_sq = scalar(from.state.b + 0.5 * from.state.slope * from.cell.length_mm);
+        profile_segment_.shape = SpeedShape::parabola;
+        profile_segment_.middle_sq = scalar(from.state.b + 0.5 * from.state.slope * from.cell.length_mm);
     }
 }
 
@@ -223,7 +224,7 @@ bool JerkPlan<S>::change_curve(double from, const SpeedState& state) noexcept {
 }
 
 // A change of the steering while the machine moves. Where no other motion is found the plan stays as it is until there
-// is one from where a later passage starts; that of a stop is travelled to its end, at rest.
+// is one from where a later profile segment starts; that of a stop is travelled to its end, at rest.
 template <Scalar S>
 bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     if (state.b < JerkWindow<S>::slowest_sq) {
@@ -248,7 +249,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     }
     // What is left of the front cell is a cell of its own, but on a straight move.
     on_line_mm_ = on_line ? travelled_mm : 0.0;
-    passage_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).cell.length_mm);
+    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).cell.length_mm);
     halt_ = 0;
     if (stops) {
         committed_ = planned_;
@@ -267,16 +268,16 @@ bool JerkPlan<S>::steer(const Place<S>& place) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
     if (line_.done() && (left < least_part || left * window_.node(0).cell.length_mm < JerkWindow<S>::shortest_mm)) {
-        return false; // with the next passage
+        return false; // with the next profile segment
     }
-    if (!answer(from, state_on(passage_, window_.node(0).cell.length_mm, from, to_double(place.time_share)))) {
+    if (!answer(from, state_on(profile_segment_, window_.node(0).cell.length_mm, from, to_double(place.time_share)))) {
         return false;
     }
     chosen_ = false;
     return true;
 }
 
-// Before a passage is chosen.
+// Before a profile segment is chosen.
 template <Scalar S>
 void JerkPlan<S>::follow_steering() noexcept {
     if (standing()) {
@@ -294,13 +295,13 @@ void JerkPlan<S>::follow_steering() noexcept {
         static_cast<void>(answer(0.0, state));
     } else {
         const MoveState& state = line_.reached();
-        static_cast<void>(answer(to_double(passage_.stretch.from),
+        static_cast<void>(answer(to_double(profile_segment_.stretch.from),
                                  {state.speed_mm_s * state.speed_mm_s, 2.0 * state.acceleration_mm_s2}));
     }
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::prepare(Starvation starvation) noexcept {
+Pull JerkPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
     if (chosen_) {
         return Pull::item;
     }
@@ -308,7 +309,7 @@ Pull JerkPlan<S>::prepare(Starvation starvation) noexcept {
         if (steering_.aborts()) {
             return Pull::finished;
         }
-        const Pull pull = window_.size() == 0 ? fill(starvation) : Pull::item;
+        const Pull pull = window_.size() == 0 ? fill(underrun) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
     if (steering_.news() || unanswered_) {
@@ -319,8 +320,8 @@ Pull JerkPlan<S>::prepare(Starvation starvation) noexcept {
     }
     if (committed_ == 0) {
         expect_again();
-        const Pull pull = fill(starvation);
-        if (window_.size() == 0 || (pull == Pull::starved && starvation == Starvation::waits)) {
+        const Pull pull = fill(underrun);
+        if (window_.size() == 0 || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
             return pull;
         }
         if (planned_all_ && planned_ > 0) {
@@ -341,11 +342,11 @@ template <Scalar S>
 void JerkPlan<S>::advance() noexcept {
     SPLINEFEED_ASSERT(chosen_);
     chosen_ = false;
-    if (!(passage_.stretch.to == from_integer<S>(1))) {
-        passage_.stretch.from = passage_.stretch.to;
+    if (!(profile_segment_.stretch.to == from_integer<S>(1))) {
+        profile_segment_.stretch.from = profile_segment_.stretch.to;
         return;
     }
-    passage_.stretch.from = S{};
+    profile_segment_.stretch.from = S{};
     on_line_mm_ = 0.0;
     window_.pop();
     --committed_;
@@ -371,7 +372,7 @@ void JerkPlan<S>::clear() noexcept {
     committed_ = planned_ = halt_ = 0;
     hops_ = 1;
     on_line_mm_ = 0.0;
-    passage_ = {};
+    profile_segment_ = {};
     planned_all_ = unanswered_ = false;
     steering_.start();
 }

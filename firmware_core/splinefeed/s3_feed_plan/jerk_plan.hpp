@@ -11,7 +11,7 @@
 
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
 #include "splinefeed/s3_feed_plan/jerk_change.hpp"
-#include "splinefeed/s3_feed_plan/passage_state.hpp"
+#include "splinefeed/s3_feed_plan/profile_state.hpp"
 #include "splinefeed/s3_feed_plan/straight_leg.hpp"
 
 namespace splinefeed {
@@ -26,7 +26,7 @@ public:
     /// Less storage than smallest_window and nodes_for() it is a broken precondition of all that follows.
     JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
-    Pull prepare(Starvation starvation = Starvation::waits) noexcept override;
+    Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.cell(0); }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
@@ -38,11 +38,11 @@ public:
     [[nodiscard]] std::uint64_t slow_legs() const noexcept { return slow_legs_; }
 
 private:
-    using MotionPlan<S>::passage_;
+    using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
-    Pull fill(Starvation starvation) noexcept;
-    Pull take(Starvation starvation) noexcept;
+    Pull fill(UnderrunPolicy underrun) noexcept;
+    Pull take(UnderrunPolicy underrun) noexcept;
     [[nodiscard]] double wanted_sq(const Cell<S>& cell, double most_sq) const noexcept;
     void want() noexcept;
     bool answer(double from, const SpeedState& state) noexcept;

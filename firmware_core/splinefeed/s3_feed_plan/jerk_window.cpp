@@ -122,8 +122,8 @@ void JerkWindow<S>::split(std::size_t i, double fraction) noexcept {
     open(i, 1);
     const S cut = from_double<S>(fraction);
     const Cell<S> whole = cell(i + 1);
-    cell(i) = part_of(whole, Stretch<S>{S{}, cut});
-    cell(i + 1) = part_of(whole, Stretch<S>{cut, from_integer<S>(1)});
+    cell(i) = part_of(whole, CellInterval<S>{S{}, cut});
+    cell(i + 1) = part_of(whole, CellInterval<S>{cut, from_integer<S>(1)});
     JerkNode& before = node(i);
     JerkNode& after = node(i + 1);
     before.take(after);

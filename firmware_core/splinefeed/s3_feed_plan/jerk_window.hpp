@@ -7,8 +7,8 @@
 #pragma once
 
 #include "splinefeed/base/ring_index.hpp"
+#include "splinefeed/s3_feed_plan/cell_interval.hpp"
 #include "splinefeed/s3_feed_plan/jerk_leg.hpp"
-#include "splinefeed/s3_feed_plan/stretch.hpp"
 
 namespace splinefeed {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The limits of the jerk are exact where a motion is as fast as expected, and hardly leave room for one that is far
-// slower (jerk_reach.cpp). Next to rest b is far below what the accelerations allow: with constant jerk it grows with
-// s^(4/3). That is expected first, and then half as much, until there is a motion.
+// slower (controllable_set.cpp). Next to rest b is far below what the accelerations allow: with constant jerk it grows
+// with s^(4/3). That is expected first, and then half as much, until there is a motion.
 #include "splinefeed/s3_feed_plan/leg_attempts.hpp"
 
 #include "splinefeed/number/scalar.hpp"

@@ -33,7 +33,7 @@ double LineTravel::time_to(double length_mm, double longest_s, double jerk_mm_s3
 }
 
 LinePiece LineTravel::next(double at_most_mm) noexcept {
-    while (phase_ + 1 < StraightMove::phases && move_.phase(phase_).duration_s - in_phase_s_ <= nothing_s) {
+    while (phase_ + 1 < SCurveProfile::phases && move_.phase(phase_).duration_s - in_phase_s_ <= nothing_s) {
         ++phase_;
         in_phase_s_ = 0.0;
     }

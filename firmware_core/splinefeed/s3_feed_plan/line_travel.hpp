@@ -2,7 +2,7 @@
 // LineTravel: a straight move, passed piece by piece: each ends where a phase of constant jerk or a cell does.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/straight_move.hpp"
+#include "splinefeed/s3_feed_plan/s_curve_profile.hpp"
 
 namespace splinefeed {
 
@@ -19,10 +19,10 @@ struct LinePiece {
 class LineTravel {
 public:
     LineTravel() noexcept = default;
-    explicit LineTravel(const StraightMove& move) noexcept
+    explicit LineTravel(const SCurveProfile& move) noexcept
         : move_(move), state_{0.0, move.start().speed_mm_s, move.start().acceleration_mm_s2}, phase_(0) {}
 
-    [[nodiscard]] bool done() const noexcept { return phase_ >= StraightMove::phases; }
+    [[nodiscard]] bool done() const noexcept { return phase_ >= SCurveProfile::phases; }
     /// The motion at the end of the last piece.
     [[nodiscard]] const MoveState& reached() const noexcept { return state_; }
     /// The next piece, at most as long as told. @pre not done. Cost: a division, and where it does not end with a phase
@@ -34,9 +34,9 @@ public:
 private:
     [[nodiscard]] double time_to(double length_mm, double longest_s, double jerk_mm_s3) const noexcept;
 
-    StraightMove move_{};
+    SCurveProfile move_{};
     MoveState state_{}; // position from the start of the piece: always 0
-    std::size_t phase_ = StraightMove::phases;
+    std::size_t phase_ = SCurveProfile::phases;
     double in_phase_s_ = 0.0;
 };
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// MotionPlan: what the segment stream follows: a plan that says, passage by passage, how the path is travelled.
+// MotionPlan: what the segment stream follows: a plan that says, profile segment by profile segment, how the path is
+// travelled.
 #pragma once
 
 #include "splinefeed/s1_curve/curve_source.hpp"
 #include "splinefeed/s2_arc_length/cell.hpp"
+#include "splinefeed/s3_feed_plan/cell_interval.hpp"
 #include "splinefeed/s3_feed_plan/steering.hpp"
-#include "splinefeed/s3_feed_plan/stretch.hpp"
 
 namespace splinefeed {
 
-/// How the speed changes along a passage.
+/// How the speed changes along a profile segment.
 enum class SpeedShape : std::uint8_t {
     line,     ///< v^2 is linear in s: constant acceleration along the path
     parabola, ///< v^2 is a parabola of s with the Bezier points entry_sq, middle_sq, exit_sq
@@ -18,8 +19,8 @@ enum class SpeedShape : std::uint8_t {
 
 /// How the machine passes a cell or a part of it. Speeds are v^2 [mm^2/s^2].
 template <Scalar S>
-struct Passage {
-    Stretch<S> stretch{};
+struct ProfileSegment {
+    CellInterval<S> stretch{};
     S entry_sq{};
     S exit_sq{};
     bool stops = false; ///< the machine comes to rest at its end and dwells
@@ -30,18 +31,18 @@ struct Passage {
     S quadratic{};
 };
 
-/// Where the machine is on its passage.
+/// Where the machine is on its profile segment.
 template <Scalar S>
 struct Place {
     S fraction{};   ///< of the cell's length
     S speed_sq{};   ///< v^2, or what a hold may take it for (SegmentStream)
-    S time_share{}; ///< fraction of the passage's time
+    S time_share{}; ///< fraction of the profile segment's time
 };
 
 /// What the plan does where the input is starved.
-enum class Starvation : std::uint8_t {
-    waits,  ///< it asks for more: what is planned does not depend on when the input comes
-    goes_on ///< it goes on with what is known, and to rest at its end: for a machine that cannot wait
+enum class UnderrunPolicy : std::uint8_t {
+    wait, ///< it asks for more: what is planned does not depend on when the input comes
+    drain ///< it goes on with what is known, and to rest at its end: for a machine that cannot wait
 };
 
 template <Scalar S>
@@ -50,23 +51,23 @@ public:
     MotionPlan(const MotionPlan&) = delete;
     MotionPlan& operator=(const MotionPlan&) = delete;
 
-    /// Makes sure that there is a passage(), through cell(). `starved`: the window is not full and nothing is committed
-    /// (Starvation::goes_on: there is nothing at all). `held`: the machine stands and is to stand.
-    virtual Pull prepare(Starvation starvation) noexcept = 0;
+    /// Makes sure that there is a profile_segment(), through cell(). `starved`: the window is not full and nothing is
+    /// committed (UnderrunPolicy::drain: there is nothing at all). `held`: the machine stands and is to stand.
+    virtual Pull prepare(UnderrunPolicy underrun) noexcept = 0;
     /// @pre the last prepare() answered item, as for the next three
     [[nodiscard]] virtual const Cell<S>& cell() const noexcept = 0;
-    [[nodiscard]] const Passage<S>& passage() const noexcept { return passage_; }
-    /// The passage is done.
+    [[nodiscard]] const ProfileSegment<S>& profile_segment() const noexcept { return profile_segment_; }
+    /// The profile segment is done.
     virtual void advance() noexcept = 0;
-    /// The machine stopped there, on its last passage.
+    /// The machine stopped there, on its last profile segment.
     virtual void rest_at(S fraction) noexcept = 0;
 
     [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
     [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
-    /// Takes a change of the steering into account at once, from where the machine is on its passage. Without the call
-    /// it is taken into account with the next passage. false: the passage stays as it is.
+    /// Takes a change of the steering into account at once, from where the machine is on its profile segment. Without
+    /// the call it is taken into account with the next profile segment. false: the profile segment stays as it is.
     virtual bool steer(const Place<S>& place) noexcept = 0;
-    /// The machine stands where its last passage ended.
+    /// The machine stands where its last profile segment ended.
     [[nodiscard]] virtual bool standing() const noexcept = 0;
     /// Forgets every cell: for a new program. @pre standing()
     virtual void clear() noexcept = 0;
@@ -75,7 +76,7 @@ protected:
     MotionPlan() noexcept = default;
     ~MotionPlan() = default;
 
-    Passage<S> passage_;
+    ProfileSegment<S> profile_segment_;
     Steering<S> steering_;
 };
 

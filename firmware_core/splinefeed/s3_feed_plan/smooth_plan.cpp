@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// b = v^2 is linear in s along a passage, a cell or a part of one: the acceleration is constant. What a cell allows
-// (JerkBound) is monotone, so
+// b = v^2 is linear in s along a profile segment, a cell or a part of one: the acceleration is constant. What a cell
+// allows (FilteredLimits) is monotone, so
 //
 // - backward: K_i, the largest b at node i from which there is a way to rest at the end of what is known: the largest
 //   entry with an exit K_i+1, no larger than what may be kept up beside the node. Whatever is below will do, too. A
 //   longer window only raises K.
 // - forward: never above K. The average keeps its jerk where the acceleration changes its sign only after a time T
-//   without (jerk_bound.cpp). Braking may begin only T after the end of acceleration: so it is accelerated only to a
-//   speed that can be kept up for T below K. And it is accelerated only T after the end of braking, which asks for
+//   without (filtered_limits.cpp). Braking may begin only T after the end of acceleration: so it is accelerated only to
+//   a speed that can be kept up for T below K. And it is accelerated only T after the end of braking, which asks for
 //   nothing: a machine that coasts below K may brake at once if it braked last. Steering can bring K of what is wanted
 //   down in that time: then the motion goes on above it, never above K of the machine, until it may brake.
 //
@@ -26,15 +26,15 @@ namespace splinefeed {
 namespace {
 
 constexpr double slowest_sq = 1e-6;    // as FeedPlan's
-constexpr double crumb = 1.0 / 1024.0; // of a cell: a part this short is left to the passage before it
-constexpr double gain = 1.0 / 2048.0;  // of v^2, which is not worth a passage
+constexpr double crumb = 1.0 / 1024.0; // of a cell: a part this short is left to the profile segment before it
+constexpr double gain = 1.0 / 2048.0;  // of v^2, which is not worth a profile segment
 constexpr int bisections = 12;
 constexpr int from_rest = 12; // more of them where it starts
 constexpr double spare_time = 1.0 / 16.0;
 constexpr double above = 0x1p-20;   // K, by rounding: of v^2
 constexpr double nothing_mm = 1e-6; // a way from rest to rest that may be too short for a motion
 
-// A passage is no shorter than this part of a cell.
+// A profile segment is no shorter than this part of a cell.
 template <Scalar S>
 constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
                               : std::same_as<S, double> ? 0x1p-40
@@ -49,43 +49,43 @@ SmoothPlan<S>::SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, st
 }
 
 template <Scalar S>
-Pull SmoothPlan<S>::take(Starvation starvation) noexcept {
-    Pull pull = source_->prepare(starvation);
+Pull SmoothPlan<S>::take(UnderrunPolicy underrun) noexcept {
+    Pull pull = source_->prepare(underrun);
     if (pull != Pull::item) {
         return pull;
     }
     const Cell<S>& cell = source_->cell(); // of both halves of a crumb
     const S cap_sq = source_->cap_sq();
-    while (!(source_->passage().stretch.to == from_integer<S>(1))) { // the first half of a crumb
+    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a crumb
         source_->advance();
-        pull = source_->prepare(starvation);
+        pull = source_->prepare(underrun);
         SPLINEFEED_ASSERT(pull == Pull::item);
     }
-    window_.append(cell, cap_sq, source_->programmed_sq(cell), source_->passage().exit_sq);
+    window_.append(cell, cap_sq, source_->programmed_sq(cell), source_->profile_segment().exit_sq);
     source_->advance();
     return Pull::item;
 }
 
 // As much as there is room for. A motion that is to stop does not wait for more.
 template <Scalar S>
-Pull SmoothPlan<S>::refill(Starvation starvation) noexcept {
+Pull SmoothPlan<S>::refill(UnderrunPolicy underrun) noexcept {
     Pull pull = Pull::item;
     while (window_.has_room() && pull == Pull::item) {
-        pull = take(starvation);
+        pull = take(underrun);
     }
     starved_ = pull == Pull::starved;
-    if (starved_ && starvation == Starvation::waits && !steering_.stops()) {
+    if (starved_ && underrun == UnderrunPolicy::wait && !steering_.stops()) {
         return pull;
     }
     if (pull == Pull::finished) {
         window_.end_here();
     }
     window_.prepare(!window_.has_room());
-    if (known() == 0 && starved_ && starvation == Starvation::goes_on) { // nothing to go on with
+    if (known() == 0 && starved_ && underrun == UnderrunPolicy::drain) { // nothing to go on with
         window_.end_here();
         window_.prepare(false);
     }
-    taken_ = starved_ ? window_.capacity() : 0; // then it is asked again with every passage
+    taken_ = starved_ ? window_.capacity() : 0; // then it is asked again with every profile segment
     look_back(false);
     return pull;
 }
@@ -94,7 +94,7 @@ Pull SmoothPlan<S>::refill(Starvation starvation) noexcept {
 // may go beyond them. If that end is to be a rest, they are known as well.
 template <Scalar S>
 bool SmoothPlan<S>::ends_here() noexcept {
-    if (!(passage_.exit_sq < passage_.entry_sq) || window_.prepared() == window_.size()) {
+    if (!(profile_segment_.exit_sq < profile_segment_.entry_sq) || window_.prepared() == window_.size()) {
         return false;
     }
     window_.end_here();
@@ -115,7 +115,7 @@ template <Scalar S>
 void SmoothPlan<S>::look_back(bool all) noexcept {
     for (std::size_t i = known(); i-- > 0;) {
         SmoothCell<S>& here = ahead(i);
-        const JerkBound<S> bound = bound_of(here);
+        const FilteredLimits<S> bound = bound_of(here);
         const S hard_beyond = hard_exit(i);
         const S soft_beyond = soft_exit(i);
         const S wanted = wanted_sq(here);
@@ -166,13 +166,13 @@ bool SmoothPlan<S>::coasts(S from, S speed_sq, S speed) const noexcept {
 }
 
 template <Scalar S>
-void SmoothPlan<S>::passage_to(S to, S exit_sq) noexcept {
-    passage_ = {{at_, to}, speed_sq_, exit_sq, !(exit_sq > S{})};
+void SmoothPlan<S>::profile_segment_to(S to, S exit_sq) noexcept {
+    profile_segment_ = {{at_, to}, speed_sq_, exit_sq, !(exit_sq > S{})};
     exit_speed_ = exit_sq == speed_sq_ ? speed_ : square_root(exit_sq);
-    const S way = length() * passage_.stretch.length();
+    const S way = length() * profile_segment_.stretch.length();
     const S sum = speed_ + exit_speed_;
     ticks_ = quotient_or_max((way + way) * limits_->segments_per_s, sum);
-    passage_.linear = quotient_or_max(speed_ + speed_, sum);
+    profile_segment_.linear = quotient_or_max(speed_ + speed_, sum);
 }
 
 // At constant speed, to the end of the cell or until the sign may change. false: so slow that the way does not resolve.
@@ -187,7 +187,7 @@ bool SmoothPlan<S>::coast() noexcept {
     }
     const S part = larger(quotient_or_max(way, length()), literal<S>(least_part<S>));
     const bool whole = !(left > S{}) || !(at_ + part < one - literal<S>(crumb));
-    passage_to(whole ? one : at_ + part, speed_sq_);
+    profile_segment_to(whole ? one : at_ + part, speed_sq_);
     return true;
 }
 
@@ -202,11 +202,11 @@ void SmoothPlan<S>::brake(S goal_sq) noexcept {
     if (possible > needed) {
         const S to = at_ + (one - at_) * (needed / possible);
         if (to < one - literal<S>(crumb)) {
-            passage_to(larger(to, at_ + literal<S>(least_part<S>)), goal_sq);
+            profile_segment_to(larger(to, at_ + literal<S>(least_part<S>)), goal_sq);
             return;
         }
     }
-    passage_to(one, smaller(larger(speed_sq_ - possible, goal_sq), hard_exit(0)));
+    profile_segment_to(one, smaller(larger(speed_sq_ - possible, goal_sq), hard_exit(0)));
 }
 
 // Below K: on at this speed, and along K where that comes down to it.
@@ -217,16 +217,16 @@ void SmoothPlan<S>::follow() noexcept {
     const bool may_brake = sign_.last() != AccelerationSign::accelerating || rested();
     const S tolerated = may_brake ? S{} : speed_sq_ * literal<S>(above);
     if (!(speed_sq_ > exit + tolerated)) {
-        passage_to(one, speed_sq_);
+        profile_segment_to(one, speed_sq_);
         return;
     }
     const S top = ahead(0).soft_reach;
     const S meets = top > speed_sq_ ? (top - speed_sq_) / (top - exit) : S{};
     const S least = may_brake ? literal<S>(crumb) : literal<S>(0x1p-20);
     if (meets > at_ + least && (!may_brake || meets < one - least)) {
-        passage_to(smaller(meets, one), speed_sq_);
+        profile_segment_to(smaller(meets, one), speed_sq_);
     } else if (may_brake) {
-        passage_to(one, exit);
+        profile_segment_to(one, exit);
     } else { // K of what is wanted came down since it accelerated; that of the machine did not
         coast();
     }
@@ -245,7 +245,7 @@ bool SmoothPlan<S>::accelerate() noexcept {
     if (speed_sq_ > S{} && !coasts(at_, speed_sq_, speed_)) {
         return false;
     }
-    const JerkBound<S> bound = bound_of(here);
+    const FilteredLimits<S> bound = bound_of(here);
     const S way = length() * (one - at_);
     const S most = bound.largest_exit(speed_sq_, top, way, here.steepest);
     const S change = larger(most - speed_sq_, S{});
@@ -275,7 +275,7 @@ bool SmoothPlan<S>::accelerate() noexcept {
     if (!(speed_sq > speed_sq_ + worth) || !(place > at_)) {
         return false;
     }
-    passage_to(place, speed_sq);
+    profile_segment_to(place, speed_sq);
     return true;
 }
 
@@ -285,8 +285,8 @@ void SmoothPlan<S>::crawl() noexcept {
     const S one = from_integer<S>(1);
     const S way = length() * (one - at_);
     SPLINEFEED_ASSERT(way < literal<S>(nothing_mm));
-    passage_to(one, S{});
-    passage_.linear = one;
+    profile_segment_to(one, S{});
+    profile_segment_.linear = one;
     ticks_ = crawling_ticks(way, *limits_);
 }
 
@@ -311,17 +311,18 @@ void SmoothPlan<S>::choose() noexcept {
         follow();
         const S left = sign_.left(smoothing_.ticks());
         // It may accelerate before the end of the cell
-        if (sign_.last() == AccelerationSign::braking && left > S{} && passage_.exit_sq == speed_sq_ && ticks_ > left) {
-            const S part = passage_.stretch.length() * (left / ticks_);
-            if (part > literal<S>(crumb) && part < passage_.stretch.length() - literal<S>(crumb)) {
-                passage_to(at_ + part, speed_sq_);
+        if (sign_.last() == AccelerationSign::braking && left > S{} && profile_segment_.exit_sq == speed_sq_ &&
+            ticks_ > left) {
+            const S part = profile_segment_.stretch.length() * (left / ticks_);
+            if (part > literal<S>(crumb) && part < profile_segment_.stretch.length() - literal<S>(crumb)) {
+                profile_segment_to(at_ + part, speed_sq_);
             }
         }
     }
 }
 
 template <Scalar S>
-Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
+Pull SmoothPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
     if (chosen_) {
         return Pull::item;
     }
@@ -330,8 +331,8 @@ Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
         return Pull::finished;
     }
     if (known() == 0 || 4 * taken_ >= window_.capacity()) {
-        const Pull pull = refill(starvation);
-        if (known() == 0 || (starved_ && starvation == Starvation::waits && !steering_.stops())) {
+        const Pull pull = refill(underrun);
+        if (known() == 0 || (starved_ && underrun == UnderrunPolicy::wait && !steering_.stops())) {
             return pull;
         }
     }
@@ -346,7 +347,7 @@ Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
         sign_ = {};
     }
     choose();
-    if (starved_ && starvation == Starvation::goes_on && !steering_.stops() && ends_here()) {
+    if (starved_ && underrun == UnderrunPolicy::drain && !steering_.stops() && ends_here()) {
         choose();
     }
     return Pull::item;
@@ -354,10 +355,10 @@ Pull SmoothPlan<S>::prepare(Starvation starvation) noexcept {
 
 template <Scalar S>
 void SmoothPlan<S>::advance() noexcept {
-    sign_.pass(passage_.entry_sq, passage_.exit_sq, ticks_);
-    speed_sq_ = passage_.exit_sq;
+    sign_.pass(profile_segment_.entry_sq, profile_segment_.exit_sq, ticks_);
+    speed_sq_ = profile_segment_.exit_sq;
     speed_ = exit_speed_;
-    at_ = passage_.stretch.to;
+    at_ = profile_segment_.stretch.to;
     chosen_ = false;
     if (at_ == from_integer<S>(1)) {
         at_ = S{};
@@ -370,7 +371,7 @@ void SmoothPlan<S>::advance() noexcept {
 template <Scalar S>
 bool SmoothPlan<S>::steer(const Place<S>& place) noexcept {
     if (place.time_share > S{}) {
-        sign_.pass(passage_.entry_sq, passage_.exit_sq, ticks_ * place.time_share);
+        sign_.pass(profile_segment_.entry_sq, profile_segment_.exit_sq, ticks_ * place.time_share);
     }
     at_ = place.fraction;
     speed_sq_ = place.speed_sq;

@@ -8,7 +8,7 @@
 //        |___/        \___
 //        +----------------> s
 //
-// Derivation: smooth_plan.cpp, jerk_bound.cpp.
+// Derivation: smooth_plan.cpp, filtered_limits.cpp.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/feed_plan.hpp"
@@ -18,7 +18,7 @@
 namespace splinefeed {
 
 /// Stage 3b of bounded cost. The motion that it plans is to be averaged (SmoothSampler); the machine follows the mean,
-/// and cells are kept until that has passed them. Cost: amortised at most four visits a cell of JerkBound.
+/// and cells are kept until that has passed them. Cost: amortised at most four visits a cell of FilteredLimits.
 template <Scalar S>
 class SmoothPlan final : public MotionPlan<S> {
 public:
@@ -27,12 +27,12 @@ public:
     /// Fewer cells than smallest_window are a broken precondition of all that follows.
     SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept;
 
-    Pull prepare(Starvation starvation = Starvation::waits) noexcept override;
-    /// Of the passage.
+    Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
+    /// Of the profile segment.
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.at(window_.front()).cell; }
-    /// What the passage takes, in ticks.
+    /// What the profile segment takes, in ticks.
     [[nodiscard]] S ticks() const noexcept { return ticks_; }
-    /// Path length at the start of the passage's cell.
+    /// Path length at the start of the profile segment's cell.
     [[nodiscard]] PathPosition cell_start() const noexcept { return window_.at(window_.front()).start; }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override {
@@ -55,7 +55,7 @@ public:
     [[nodiscard]] bool empty() const noexcept { return window_.size() == 0; }
 
 private:
-    using MotionPlan<S>::passage_;
+    using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
     [[nodiscard]] SmoothCell<S>& ahead(std::size_t i) noexcept { return window_.at(window_.front() + i); }
@@ -67,17 +67,17 @@ private:
     [[nodiscard]] S soft_exit(std::size_t i) const noexcept { return ends(i) ? S{} : ahead(i + 1).soft_sq; }
     [[nodiscard]] S hard_exit(std::size_t i) const noexcept { return ends(i) ? S{} : ahead(i + 1).hard_sq; }
 
-    Pull take(Starvation starvation) noexcept;
-    Pull refill(Starvation starvation) noexcept;
+    Pull take(UnderrunPolicy underrun) noexcept;
+    Pull refill(UnderrunPolicy underrun) noexcept;
     [[nodiscard]] S wanted_sq(const SmoothCell<S>& cell) const noexcept;
     bool ends_here() noexcept;
     void look_back(bool all) noexcept;
     [[nodiscard]] S length() const noexcept { return ahead(0).cell.length_mm; }
-    [[nodiscard]] JerkBound<S> bound_of(const SmoothCell<S>& cell) noexcept {
+    [[nodiscard]] FilteredLimits<S> bound_of(const SmoothCell<S>& cell) noexcept {
         if (cell.smoothing_q8 != smoothing_.duration_q8) {
             smoothing_ = Smoothing<S>(cell.smoothing_q8, limits_->segments_per_s);
         }
-        return JerkBound<S>(cell.demand, *limits_, smoothing_);
+        return FilteredLimits<S>(cell.demand, *limits_, smoothing_);
     }
     [[nodiscard]] bool coasts(S from, S speed_sq, S speed) const noexcept;
     void choose() noexcept;
@@ -88,7 +88,7 @@ private:
     void crawl() noexcept;
     /// Long enough at constant speed for a change of sign.
     [[nodiscard]] bool rested() const noexcept { return sign_.rested(smoothing_.ticks()); }
-    void passage_to(S to, S exit_sq) noexcept;
+    void profile_segment_to(S to, S exit_sq) noexcept;
 
     FeedPlan<S>* source_;
     const MotionLimits<S>* limits_;
@@ -96,11 +96,11 @@ private:
     Smoothing<S> smoothing_{}; // of the cell that was looked at last
     std::size_t taken_ = 0;    // cells that were left since the window was filled
     std::size_t looked_ = 0;   // cells from the front on when it was looked back last
-    S at_{};                   // where the next passage starts in the front cell
+    S at_{};                   // where the next profile segment starts in the front cell
     S speed_sq_{};             // v^2 there
     S speed_{};                // v there
-    S exit_speed_{};           // v at the end of the passage
-    S ticks_{};                // of the passage
+    S exit_speed_{};           // v at the end of the profile segment
+    S ticks_{};                // of the profile segment
     SignMemory<S> sign_{};     // of the acceleration before
     bool chosen_ = false;
     bool starved_ = false; // when it was filled last

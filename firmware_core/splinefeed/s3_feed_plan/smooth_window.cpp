@@ -63,11 +63,11 @@ void SmoothWindow<S>::split_last() noexcept {
     SmoothCell<S>& second = at(size_);
     const S half = literal<S>(0.5);
     second = first;
-    second.cell = part_of(first.cell, Stretch<S>{half, from_integer<S>(1)});
-    first.cell = part_of(first.cell, Stretch<S>{S{}, half});
+    second.cell = part_of(first.cell, CellInterval<S>{half, from_integer<S>(1)});
+    first.cell = part_of(first.cell, CellInterval<S>{S{}, half});
     second.bound_sq = first.own.cap_sq;
-    first.own = PathDemand<S>::of(first.cell, *limits_, first.own.cap_sq, first.own.programmed_sq);
-    second.own = PathDemand<S>::of(second.cell, *limits_, second.own.cap_sq, second.own.programmed_sq);
+    first.own = PathDerivativeBounds<S>::of(first.cell, *limits_, first.own.cap_sq, first.own.programmed_sq);
+    second.own = PathDerivativeBounds<S>::of(second.cell, *limits_, second.own.cap_sq, second.own.programmed_sq);
     second.start = displaced(first.start, first.cell.length_mm, 0);
     ++size_;
     end_ = displaced(second.start, second.cell.length_mm, 0);
@@ -90,7 +90,7 @@ void SmoothWindow<S>::append(const Cell<S>& cell, S cap_sq, S programmed_sq, S e
     SmoothCell<S>& added = at(size_);
     added.cell = cell;
     added.bound_sq = end_bound_sq_;
-    added.own = PathDemand<S>::of(cell, *limits_, cap_sq, programmed_sq);
+    added.own = PathDerivativeBounds<S>::of(cell, *limits_, cap_sq, programmed_sq);
     added.start = end_;
     end_ = displaced(end_, cell.length_mm, 0);
     end_bound_sq_ = cell.stop_at_end ? S{} : exit_bound_sq;
@@ -143,7 +143,7 @@ template <Scalar S>
 std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first) const noexcept {
     S length{};
     S ticks{};
-    PathDemand<S> all;
+    PathDerivativeBounds<S> all;
     bool ends = false;
     for (std::size_t i = first; i < size_ && !ends; ++i) {
         const SmoothCell<S>& here = at(i);
@@ -283,7 +283,7 @@ void SmoothWindow<S>::slow_down(std::size_t first) noexcept {
 
 // Both ends only move on: a queue of two stacks, amortised two joins a cell.
 template <Scalar S>
-PathDemand<S> SmoothWindow<S>::demand_of(std::size_t first, std::size_t last) noexcept {
+PathDerivativeBounds<S> SmoothWindow<S>::demand_of(std::size_t first, std::size_t last) noexcept {
     const int axes = limits_->axes;
     for (; high_ <= last; ++high_) {
         joined_.join(at(high_).own, axes);
@@ -296,7 +296,7 @@ PathDemand<S> SmoothWindow<S>::demand_of(std::size_t first, std::size_t last) no
         middle_ = high_;
         joined_ = {};
     }
-    PathDemand<S> out = at(low_).own;
+    PathDerivativeBounds<S> out = at(low_).own;
     out.join(joined_, axes);
     return out;
 }
@@ -319,7 +319,7 @@ void SmoothWindow<S>::tighten(std::size_t first) noexcept {
     for (;; ++end) {
         if (end >= bounded_) {
             const SmoothCell<S>& here = at(end);
-            const JerkBound<S> bound(here.own, *limits_, smoothing_);
+            const FilteredLimits<S> bound(here.own, *limits_, smoothing_);
             S& exit = exit_bound(end);
             exit = larger(bound.largest_exit(here.bound_sq, exit, here.cell.length_mm, bound.steepest()),
                           smaller(exit, literal<S>(crawl_sq)));
@@ -334,9 +334,10 @@ void SmoothWindow<S>::tighten(std::size_t first) noexcept {
         if (i > first) {
             const S exit = exit_bound(i);
             // What was joined before is not the cell's own any more.
-            const PathDemand<S> own =
-                i < high_ ? PathDemand<S>::of(here.cell, *limits_, here.own.cap_sq, here.own.programmed_sq) : here.own;
-            const JerkBound<S> bound(own, *limits_, smoothing_);
+            const PathDerivativeBounds<S> own =
+                i < high_ ? PathDerivativeBounds<S>::of(here.cell, *limits_, here.own.cap_sq, here.own.programmed_sq)
+                          : here.own;
+            const FilteredLimits<S> bound(own, *limits_, smoothing_);
             here.bound_sq = larger(bound.largest_entry(exit, here.bound_sq, here.cell.length_mm, bound.steepest()),
                                    smaller(here.bound_sq, literal<S>(crawl_sq)));
         }
@@ -370,7 +371,7 @@ void SmoothWindow<S>::prepare(bool force) noexcept {
         }
         here.demand = demand_of(first_reached(i, smoothing_), last);
         here.smoothing_q8 = smoothing_.duration_q8;
-        const JerkBound<S> bound(here.demand, *limits_, smoothing_);
+        const FilteredLimits<S> bound(here.demand, *limits_, smoothing_);
         here.steepest = bound.steepest();
         const S fastest_sq = smaller(larger(here.bound_sq, bound_behind(i)), here.demand.cap_sq);
         here.level_sq = bound.level(here.demand.beyond ? smaller(fastest_sq, literal<S>(crawl_sq)) : fastest_sq);

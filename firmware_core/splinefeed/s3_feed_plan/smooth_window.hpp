@@ -8,7 +8,7 @@
 
 #include "splinefeed/base/ring_index.hpp"
 #include "splinefeed/number/path_position.hpp"
-#include "splinefeed/s3_feed_plan/jerk_bound.hpp"
+#include "splinefeed/s3_feed_plan/filtered_limits.hpp"
 
 #include <span>
 
@@ -21,10 +21,10 @@ struct SmoothCell {
     PathPosition start{}; ///< where it starts on the path
     S bound_sq{};         ///< at its start: no motion is faster, whatever the steering
     S bound_ticks{};      ///< least time in it
-    PathDemand<S> own{};
-    PathDemand<S> demand{}; ///< of all places where the average can be while the motion is in the cell
+    PathDerivativeBounds<S> own{};
+    PathDerivativeBounds<S> demand{}; ///< of all places where the average can be while the motion is in the cell
     std::uint32_t smoothing_q8 = 0;
-    S steepest{};   ///< JerkBound::steepest
+    S steepest{};   ///< FilteredLimits::steepest
     S level_sq{};   ///< largest that may be kept up in it
     S hard_sq{};    ///< largest at its start from which the end of what is known can be reached at rest
     S soft_sq{};    ///< the same with what the steering wants
@@ -77,7 +77,7 @@ private:
     void slow_down(std::size_t first) noexcept;
     void measure(std::size_t i) noexcept;
     void tighten(std::size_t first) noexcept;
-    [[nodiscard]] PathDemand<S> demand_of(std::size_t first, std::size_t last) noexcept;
+    [[nodiscard]] PathDerivativeBounds<S> demand_of(std::size_t first, std::size_t last) noexcept;
 
     const MotionLimits<S>* limits_;
     std::span<SmoothCell<S>> storage_;
@@ -94,7 +94,7 @@ private:
     std::size_t low_ = 0;
     std::size_t middle_ = 0;
     std::size_t high_ = 0;
-    PathDemand<S> joined_{};
+    PathDerivativeBounds<S> joined_{};
 };
 
 } // namespace splinefeed

@@ -65,13 +65,13 @@ double StraightLeg<S>::length_mm() const noexcept {
 }
 
 template <Scalar S>
-StraightMove StraightLeg<S>::from_rest() const noexcept {
-    return StraightMove(length_mm(), limits_);
+SCurveProfile StraightLeg<S>::from_rest() const noexcept {
+    return SCurveProfile(length_mm(), limits_);
 }
 
 template <Scalar S>
 bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
-    move_ = StraightMove::to_rest(state_of(state), limits_);
+    move_ = SCurveProfile::to_rest(state_of(state), limits_);
     double left = from * window_->node(0).cell.length_mm + move_.length_mm();
     std::size_t i = 0;
     while (i < cells_ && left > window_->node(i).cell.length_mm) {
@@ -90,7 +90,7 @@ bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
         return false;
     }
     if (more > 0.0) {
-        move_ = StraightMove::to_length(state_of(state), move_.length_mm() + more, limits_);
+        move_ = SCurveProfile::to_length(state_of(state), move_.length_mm() + more, limits_);
     }
     if (!whole) {
         window_->split(i, (left + more) / length);
@@ -107,7 +107,7 @@ bool StraightLeg<S>::to_end(double from, const SpeedState& state) noexcept {
         wanted_sq = smaller(wanted_sq, window_->node(i).wanted_sq);
     }
     limits_.speed_mm_s = square_root(wanted_sq);
-    move_ = StraightMove::to_length(state_of(state), left, limits_);
+    move_ = SCurveProfile::to_length(state_of(state), left, limits_);
     if (!(move_.length_mm() <= left * (1.0 + end))) {
         return false;
     }

@@ -17,7 +17,7 @@ public:
     /// @pre the front node's travel is not Travel::curve
     explicit StraightLeg(JerkWindow<S>& window) noexcept;
 
-    [[nodiscard]] StraightMove from_rest() const noexcept;
+    [[nodiscard]] SCurveProfile from_rest() const noexcept;
     /// To the nearest rest, from where the machine is in the front cell: a cell is cut there, the last of cells().
     /// false: that is the leg's end anyway, or there is no room. @pre window.forget_travelled()
     bool to_rest(double from, const SpeedState& state) noexcept;
@@ -25,7 +25,7 @@ public:
     bool to_end(double from, const SpeedState& state) noexcept;
 
     /// What to_rest() and to_end() found.
-    [[nodiscard]] const StraightMove& move() const noexcept { return move_; }
+    [[nodiscard]] const SCurveProfile& move() const noexcept { return move_; }
     [[nodiscard]] std::size_t cells() const noexcept { return cells_; }
 
 private:
@@ -34,7 +34,7 @@ private:
     JerkWindow<S>* window_;
     std::size_t cells_ = 1;
     MoveLimits limits_;
-    StraightMove move_{};
+    SCurveProfile move_{};
 };
 
 } // namespace splinefeed

@@ -17,7 +17,7 @@ public:
     Sampler& operator=(const Sampler&) = delete;
 
     /// Takes the next sample. `starved`, `held` and `finished`: there is none, and nothing was lost.
-    virtual Pull next(Starvation starvation) noexcept = 0;
+    virtual Pull next(UnderrunPolicy underrun) noexcept = 0;
     /// The sample is the last of a motion.
     [[nodiscard]] virtual bool at_rest() const noexcept = 0;
     /// The path before is done with: for a new program. @pre at_rest()

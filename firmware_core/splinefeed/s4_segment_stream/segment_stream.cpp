@@ -47,8 +47,8 @@ void SegmentStream<S>::push_control(const PerAxis<Position>& position) noexcept 
 }
 
 template <Scalar S>
-Pull SegmentStream<S>::next(FeedSegment& out, Starvation starvation) noexcept {
-    const Pull pull = sampler_->next(starvation);
+Pull SegmentStream<S>::next(FeedSegment& out, UnderrunPolicy underrun) noexcept {
+    const Pull pull = sampler_->next(underrun);
     if (!started_ && (pull == Pull::item || pull == Pull::held)) {
         for (int i = 0; i < 3; ++i) {
             push_control(sampler_->origin());

@@ -24,7 +24,7 @@ public:
     void follow(Sampler<S>& sampler) noexcept { sampler_ = &sampler; }
 
     /// Writes the next feed segment. `starved`: the plan has none yet; nothing was lost. `held`: the machine stands.
-    Pull next(FeedSegment& out, Starvation starvation = Starvation::waits) noexcept;
+    Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept;
     /// Writes a segment in which the machine stands where it is. false: it moves, or nothing is known of where it is,
     /// since no motion has begun.
     [[nodiscard]] bool stand(FeedSegment& out) noexcept;

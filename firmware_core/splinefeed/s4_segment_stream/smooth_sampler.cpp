@@ -2,9 +2,9 @@
 //
 // The samples are q(s_f(k T)), T a tick, the duration of a segment: with jerk-limited s_f their differences keep every
 // limit (segment_stream.cpp). s_f is the mean of the motion s(t) over a number of ticks, so the mean of the means over
-// each of them. In a passage of length l and duration d, with u the fraction of time, s = l u (c + (1 - c) u), c =
-// passage().linear; the mean of a parabola over a part w of the passage's time is that of its ends less a twelfth of
-// the second difference, (1 - c) l (w / d)^2 / 6.
+// each of them. In a profile segment of length l and duration d, with u the fraction of time, s = l u (c + (1 - c) u),
+// c = profile_segment().linear; the mean of a parabola over a part w of the profile segment's time is that of its ends
+// less a twelfth of the second difference, (1 - c) l (w / d)^2 / 6.
 //
 // Where the motion comes to rest the mean does T later, exactly: all its positions are the same. Two ticks more make
 // three samples. Then the next motion may begin, and be averaged over another time.
@@ -12,44 +12,48 @@
 
 namespace splinefeed {
 
-// The passage from where the motion is at the end of the last tick.
+// The profile segment from where the motion is at the end of the last tick.
 template <Scalar S>
 void SmoothSampler<S>::follow_steering() noexcept {
-    const Passage<S>& passage = plan_->passage();
+    const ProfileSegment<S>& profile_segment = plan_->profile_segment();
     const S one = from_integer<S>(1);
     const S ticks = plan_->ticks();
     const S share = smaller(elapsed_ / ticks, one);
     const S x =
-        passage.stretch.from + passage.stretch.length() * (share * (passage.linear + (one - passage.linear) * share));
-    const S v0 = square_root(passage.entry_sq);
-    const S v1 = square_root(passage.exit_sq);
+        profile_segment.stretch.from +
+        profile_segment.stretch.length() * (share * (profile_segment.linear + (one - profile_segment.linear) * share));
+    const S v0 = square_root(profile_segment.entry_sq);
+    const S v1 = square_root(profile_segment.exit_sq);
     const S speed = v0 + (v1 - v0) * share;
-    plan_->steer({.fraction = smaller(x, one),
-                  .speed_sq = passage.entry_sq == passage.exit_sq ? passage.entry_sq : speed * speed,
-                  .time_share = share});
-    in_passage_ = false;
+    plan_->steer(
+        {.fraction = smaller(x, one),
+         .speed_sq = profile_segment.entry_sq == profile_segment.exit_sq ? profile_segment.entry_sq : speed * speed,
+         .time_share = share});
+    in_segment_ = false;
 }
 
-// Of the passage, as much as there is time for in this tick.
+// Of the profile segment, as much as there is time for in this tick.
 template <Scalar S>
 void SmoothSampler<S>::travel() noexcept {
-    const Passage<S>& passage = plan_->passage();
+    const ProfileSegment<S>& profile_segment = plan_->profile_segment();
     const S one = from_integer<S>(1);
     const S ticks = plan_->ticks();
     const S length = scale2(plan_->cell().length_mm, fine);
     const bool ends = !(ticks - elapsed_ > left_);
     const S time = ends ? ticks - elapsed_ : left_;
-    S x = passage.stretch.to;
+    S x = profile_segment.stretch.to;
     if (!ends) {
         const S share = (elapsed_ + time) / ticks;
-        x = passage.stretch.from +
-            passage.stretch.length() * (share * (passage.linear + (one - passage.linear) * share));
+        x = profile_segment.stretch.from +
+            profile_segment.stretch.length() *
+                (share * (profile_segment.linear + (one - profile_segment.linear) * share));
     }
     const PathPosition there = displaced(plan_->cell_start(), x == one ? length : length * x, -fine);
     const S before = distance<S>(tick_start_, place_, -fine);
     const S way = distance<S>(place_, there, -fine);
     const S part = ticks > S{} ? quotient_or_max(time, ticks) : S{};
-    const S bow = (one - passage.linear) * (length * passage.stretch.length()) * part * part * literal<S>(1.0 / 6.0);
+    const S bow = (one - profile_segment.linear) * (length * profile_segment.stretch.length()) * part * part *
+                  literal<S>(1.0 / 6.0);
     sum_ = sum_ + time * (before + scale2(way, -1) - bow);
     left_ = left_ - time;
     elapsed_ = elapsed_ + time;
@@ -59,10 +63,10 @@ void SmoothSampler<S>::travel() noexcept {
     }
 }
 
-// At the end of a passage.
+// At the end of a profile segment.
 template <Scalar S>
 void SmoothSampler<S>::arrive() noexcept {
-    in_passage_ = false;
+    in_segment_ = false;
     plan_->advance();
     if (plan_->standing()) {
         sum_ = sum_ + left_ * distance<S>(tick_start_, place_, -fine);
@@ -85,19 +89,19 @@ void SmoothSampler<S>::begin() noexcept {
     }
     rests_ = false;
     elapsed_ = S{};
-    in_passage_ = true;
+    in_segment_ = true;
 }
 
 // One tick of the motion.
 template <Scalar S>
-Pull SmoothSampler<S>::tick(Starvation starvation) noexcept {
+Pull SmoothSampler<S>::tick(UnderrunPolicy underrun) noexcept {
     if (rests_ && rested_ < dwell_) {
         ++rested_;
         mean_.push(place_);
         return Pull::item;
     }
     if (rests_) {
-        const Pull pull = plan_->prepare(starvation);
+        const Pull pull = plan_->prepare(underrun);
         if (!begun_ && (pull == Pull::item || pull == Pull::held) && !plan_->empty()) {
             plan_->cell().position_at(S{}, origin_);
             position_ = origin_;
@@ -108,7 +112,7 @@ Pull SmoothSampler<S>::tick(Starvation starvation) noexcept {
         begin();
     }
     if (!in_tick_) {
-        if (in_passage_ && plan_->steering().news()) {
+        if (in_segment_ && plan_->steering().news()) {
             follow_steering();
         }
         tick_start_ = place_;
@@ -117,13 +121,13 @@ Pull SmoothSampler<S>::tick(Starvation starvation) noexcept {
         in_tick_ = true;
     }
     while (left_ > S{}) {
-        if (!in_passage_) {
-            const Pull pull = plan_->prepare(starvation);
+        if (!in_segment_) {
+            const Pull pull = plan_->prepare(underrun);
             if (pull != Pull::item) {
                 return pull;
             }
             elapsed_ = S{};
-            in_passage_ = true;
+            in_segment_ = true;
         }
         travel();
     }
@@ -155,8 +159,8 @@ void SmoothSampler<S>::locate(PathPosition mean) noexcept {
 }
 
 template <Scalar S>
-Pull SmoothSampler<S>::next(Starvation starvation) noexcept {
-    const Pull pull = tick(starvation);
+Pull SmoothSampler<S>::next(UnderrunPolicy underrun) noexcept {
+    const Pull pull = tick(underrun);
     if (pull == Pull::item) {
         locate(mean_.value());
     }

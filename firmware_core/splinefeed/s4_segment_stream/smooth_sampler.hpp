@@ -4,7 +4,7 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/smooth_plan.hpp"
-#include "splinefeed/s4_segment_stream/moving_mean.hpp"
+#include "splinefeed/s4_segment_stream/moving_average.hpp"
 #include "splinefeed/s4_segment_stream/sampler.hpp"
 
 namespace splinefeed {
@@ -18,17 +18,17 @@ public:
     SmoothSampler(SmoothPlan<S>& plan, std::span<PathPosition> places) noexcept : plan_(&plan), mean_(places) {}
 
     [[nodiscard]] static constexpr std::size_t places_for(const MotionLimits<S>& limits) noexcept {
-        return MovingMean::places_for(larger(limits.smoothing_q8, limits.most_smoothing_q8));
+        return MovingAverage::places_for(larger(limits.smoothing_q8, limits.most_smoothing_q8));
     }
 
-    Pull next(Starvation starvation) noexcept override;
+    Pull next(UnderrunPolicy underrun) noexcept override;
     [[nodiscard]] bool at_rest() const noexcept override { return rests_ && rested_ >= dwell_; }
     void clear() noexcept override { begun_ = false; }
 
 private:
     static constexpr int fine = 12; // lengths in units of 2^-12 mm
 
-    Pull tick(Starvation starvation) noexcept;
+    Pull tick(UnderrunPolicy underrun) noexcept;
     void begin() noexcept;
     void travel() noexcept;
     void follow_steering() noexcept;
@@ -40,16 +40,16 @@ private:
     using Sampler<S>::waypoint_;
 
     SmoothPlan<S>* plan_;
-    MovingMean mean_;
+    MovingAverage mean_;
     PathPosition place_{};      // of the motion
     PathPosition tick_start_{}; // and at the start of the tick
     S sum_{};                   // mean over the part of the tick that has passed, times that part, from tick_start_
     S left_{};                  // part of the tick that is still to come
-    S elapsed_{};               // time since the start of the passage [ticks]
+    S elapsed_{};               // time since the start of the profile segment [ticks]
     std::uint32_t rested_ = 0;  // ticks since the motion came to rest
     std::uint32_t dwell_ = 0;   // until the mean has come to rest, and twice more
     bool rests_ = true;
-    bool in_passage_ = false;
+    bool in_segment_ = false;
     bool in_tick_ = false;
     bool begun_ = false;
 };

@@ -2,19 +2,19 @@
 // FixedRate: the engine for a timer's interrupt at a fixed rate, on a virtual clock.
 #pragma once
 
+#include "splinefeed/s5_pulse_train/dda_loader.hpp"
 #include "splinefeed/s5_pulse_train/step.hpp"
 #include "splinefeed/s5_pulse_train/tick_dda.hpp"
-#include "splinefeed/s5_pulse_train/tick_parts.hpp"
 
 #include <bit>
 
 namespace splinefeed {
 
-/// A StepEngine of TickParts and TickDda. Every step at the tick nearest to its crossing. A microcontroller uses the
+/// A StepEngine of DdaLoader and TickDda. Every step at the tick nearest to its crossing. A microcontroller uses the
 /// two without it: the parts in its main loop, the DDA in the interrupt.
 class FixedRate {
 public:
-    /// As TickParts and TickDda.
+    /// As DdaLoader and TickDda.
     constexpr FixedRate(int axes, std::uint32_t tick_ticks) noexcept
         : parts_(axes, tick_ticks), tick_ticks_(tick_ticks) {}
 
@@ -58,7 +58,7 @@ public:
 private:
     friend struct CounterSeam;
 
-    TickParts parts_;
+    DdaLoader parts_;
     TickDda<static_cast<unsigned>(max_axes)> dda_{};
     StepBits steps_{};        // of the tick passed last, not delivered yet
     std::int64_t passed_ = 0; // ticks; the first one is at the start of the motion

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/s5_pulse_train/fixed_rate.hpp"
-#include "splinefeed/s5_pulse_train/line_discipline.hpp"
+#include "splinefeed/s5_pulse_train/step_dir_sequencer.hpp"
 #include "splinefeed/s5_pulse_train/step_intervals.hpp"
 
 #include <limits>
@@ -16,8 +16,9 @@ namespace splinefeed {
 template <StepEngine Engine>
 class PulseTrain {
 public:
-    /// @pre as Engine and LineDiscipline
-    constexpr PulseTrain(const Engine& engine, const LineDiscipline& lines) noexcept : engine_(engine), lines_(lines) {}
+    /// @pre as Engine and StepDirSequencer
+    constexpr PulseTrain(const Engine& engine, const StepDirSequencer& lines) noexcept
+        : engine_(engine), lines_(lines) {}
 
     /// @pre next() has said false
     void take(const FeedSegment& segment) noexcept {
@@ -48,11 +49,11 @@ public:
         }
     }
 
-    [[nodiscard]] const LineDiscipline& lines() const noexcept { return lines_; }
+    [[nodiscard]] const StepDirSequencer& lines() const noexcept { return lines_; }
 
 private:
     Engine engine_;
-    LineDiscipline lines_;
+    StepDirSequencer lines_;
     std::int64_t known_ = 0;
     bool finished_ = false;
 };

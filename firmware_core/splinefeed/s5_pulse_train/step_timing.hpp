@@ -17,13 +17,13 @@ struct StepDemand {
 /// As a machine file states it [us].
 struct StepSettings {
     double tick_us = 0.0;            ///< of the fixed-rate engine; 0: the engine is StepIntervals
-    double high_us = 2.0;            ///< a pulse is at least as long
-    double low_us = 2.0;             ///< and so is the time between two
+    double step_length_us = 2.0;     ///< a pulse is at least as long
+    double step_space_us = 2.0;      ///< and so is the time between two
     double direction_setup_us = 5.0; ///< from a change of direction to the step that needs it
     double direction_hold_us =
         5.0; ///< from the end of a pulse, or with step_on_edge from its edge, to a change of direction
     bool step_on_edge =
-        false; ///< each edge of the line is a step; each level lasts for the longer of high_us and low_us
+        false; ///< each edge of the line is a step; each level lasts for the longer of step_length_us and step_space_us
 };
 
 /// In ticks of 1/8 us, rounded up; with the fixed-rate engine to multiples of its tick, since all edges come with one.
@@ -65,7 +65,7 @@ struct StepTiming {
     }
 
     /// Whether a plan can be stepped without moving any step: the rate, and at most 1/64 of a step that a reversal
-    /// leaves out, and direction times of at most 24 steps (what LineDiscipline holds).
+    /// leaves out, and direction times of at most 24 steps (what StepDirSequencer holds).
     [[nodiscard]] constexpr Status allows(const StepDemand& demand) const noexcept {
         if (!(demand.steps_per_s <= most_steps_per_s())) {
             return Error::step_rate_too_high;
@@ -83,7 +83,7 @@ constexpr Result<StepTiming> StepTiming::make(const StepSettings& settings) noex
     constexpr auto in_range = [](double us, double least_us) {
         return us >= least_us && us <= longest_us;
     };
-    if (!in_range(settings.high_us, 0.125) || !in_range(settings.low_us, 0.125) ||
+    if (!in_range(settings.step_length_us, 0.125) || !in_range(settings.step_space_us, 0.125) ||
         !in_range(settings.direction_setup_us, 0.0) || !in_range(settings.direction_hold_us, 0.0)) {
         return Error::step_times_out_of_range;
     }
@@ -103,8 +103,8 @@ constexpr Result<StepTiming> StepTiming::make(const StepSettings& settings) noex
         const auto whole = static_cast<std::uint32_t>(grids);
         return (whole + (whole < grids ? 1U : 0U)) * timing.grid;
     };
-    timing.high = rounded_up(settings.high_us);
-    timing.low = rounded_up(settings.low_us);
+    timing.high = rounded_up(settings.step_length_us);
+    timing.low = rounded_up(settings.step_space_us);
     timing.setup = rounded_up(settings.direction_setup_us);
     timing.hold = rounded_up(settings.direction_hold_us);
     timing.step_on_edge = settings.step_on_edge;

@@ -23,7 +23,7 @@ struct StepBits {
     [[nodiscard]] constexpr bool up(unsigned axis) const noexcept { return ((bits >> (2 * axis)) & 3U) == 1; }
 };
 
-/// Needs a part that is ready when left() is zero; it is made elsewhere, meanwhile (TickParts). No branch depends on
+/// Needs a part that is ready when left() is zero; it is made elsewhere, meanwhile (DdaLoader). No branch depends on
 /// the motion. Cost: docs/pulse_train.md.
 /// @tparam Axes  those that are computed
 template <unsigned Axes>

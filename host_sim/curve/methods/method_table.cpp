@@ -71,13 +71,13 @@ DescribedCurve describe_curve(std::string_view method, const nlohmann::json& inp
         throw DescriptionError(
             fmt::format("\"method\" {} is not available{}", in_quotes(method), suggestion(method, names)));
     }
-    DescribedCurve curve = scalar == ScalarKind::fixed    ? row->fixed(input)
-                           : scalar == ScalarKind::single ? row->single(input)
-                                                          : row->dual(input);
+    DescribedCurve curve = scalar == ScalarKind::fixed     ? row->fixed(input)
+                           : scalar == ScalarKind::float32 ? row->single(input)
+                                                           : row->dual(input);
     if (!curve.results.contains("joints")) {
-        curve.results["joints"] = joint_report(curve, scalar == ScalarKind::fixed    ? agreement_of<Fixed>
-                                                      : scalar == ScalarKind::single ? agreement_of<float>
-                                                                                     : agreement_of<double>);
+        curve.results["joints"] = joint_report(curve, scalar == ScalarKind::fixed     ? agreement_of<Fixed>
+                                                      : scalar == ScalarKind::float32 ? agreement_of<float>
+                                                                                      : agreement_of<double>);
     }
     curve.results["warnings"] = curve.warnings;
     return curve;

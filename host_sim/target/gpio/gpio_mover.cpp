@@ -168,32 +168,32 @@ std::string GpioMover::home(int axis) {
     const double towards = search.towards_high ? 1.0 : -1.0;
     Moved moved;
     if (inputs_->active(input)) { // it stands on its switch
-        moved = move_by(axis, -towards * span, search.slow_mm_s, Way::off, Until{input, false});
+        moved = move_by(axis, -towards * span, search.latch_mm_s, Way::off, Until{input, false});
         if (moved.trouble.empty() && !moved.came) {
             moved.trouble =
                 fmt::format("the {} acts all along {} mm; look at its wire and `active`", inputs_->name(input), span);
         }
         if (moved.trouble.empty()) {
-            moved = move_by(axis, -towards * search.back_off_mm, search.slow_mm_s, Way::off);
+            moved = move_by(axis, -towards * search.pull_off_mm, search.latch_mm_s, Way::off);
         }
         if (!moved.trouble.empty()) {
             return moved.trouble;
         }
     }
-    moved = move_by(axis, towards * span, search.fast_mm_s, Way::on, Until{input, true});
+    moved = move_by(axis, towards * span, search.seek_mm_s, Way::on, Until{input, true});
     if (!moved.trouble.empty() || !moved.came) {
         return !moved.trouble.empty() ? moved.trouble
                                       : fmt::format("the {} does not act within {} mm; look at `towards` and its wire",
                                                     inputs_->name(input), span);
     }
     const double over = moved.counts_at ? std::fabs(position(axis) - position_at(axis, (*moved.counts_at)[k])) : 0.0;
-    moved = move_by(axis, -towards * (over + search.back_off_mm), search.fast_mm_s, Way::off);
+    moved = move_by(axis, -towards * (over + search.pull_off_mm), search.seek_mm_s, Way::off);
     if (!moved.trouble.empty() || inputs_->active(input)) {
         return !moved.trouble.empty() ? moved.trouble
-                                      : fmt::format("the {} still acts {} mm off its edge; raise back_off_mm",
-                                                    inputs_->name(input), search.back_off_mm);
+                                      : fmt::format("the {} still acts {} mm off its edge; raise pull_off_mm",
+                                                    inputs_->name(input), search.pull_off_mm);
     }
-    moved = move_by(axis, 2.0 * towards * search.back_off_mm, search.slow_mm_s, Way::on, Until{input, true});
+    moved = move_by(axis, 2.0 * towards * search.pull_off_mm, search.latch_mm_s, Way::on, Until{input, true});
     if (!moved.trouble.empty() || !moved.counts_at) {
         return !moved.trouble.empty() ? moved.trouble
                : moved.came           ? "the instant of its switch's edge was lost"
@@ -201,8 +201,8 @@ std::string GpioMover::home(int axis) {
     }
     const double steps_per_mm = machine_->settings.axis[k].steps_per_mm;
     origin_[k] = std::llround(search.position_mm * steps_per_mm) - (*moved.counts_at)[k];
-    const double clear = search.position_mm - towards * search.back_off_mm;
-    return move_by(axis, clear - position(axis), search.fast_mm_s, Way::off).trouble;
+    const double clear = search.position_mm - towards * search.pull_off_mm;
+    return move_by(axis, clear - position(axis), search.seek_mm_s, Way::off).trouble;
 }
 
 std::string GpioMover::go_to(const PerAxis<double>& mm) {

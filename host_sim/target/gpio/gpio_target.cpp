@@ -95,7 +95,7 @@ hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, con
 }
 
 GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
-                       const MachineDescription& machine, const RunWishes& wishes, hal::Clock* clock)
+                       const MachineDescription& machine, const RunOptions& wishes, hal::Clock* clock)
     : machine_(&machine), wishes_(wishes), time_(clock != nullptr ? clock : &hal::system_clock()), map_(std::move(map)),
       chips_(std::move(lines)), port_(chips_->outputs(), port_settings(machine, *map_, clock)),
       // Above the thread that makes edges, which may spin: an e-stop must not wait for it.
@@ -131,7 +131,7 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
 }
 
 std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const MachineDescription& machine,
-                                             const RunWishes& wishes) {
+                                             const RunOptions& wishes) {
     auto map = std::make_unique<hal::gpio::LineMap>(read_gpio_map(address.map, machine, address.chip));
     std::unique_ptr<GpioLines> lines;
     try {
@@ -314,11 +314,11 @@ void GpioTarget::describe(Summary& summary) const {
     const hal::gpio::StepPortReport report = port_.report();
     summary.gpio = GpioSummary{.edges = report.edges,
                                .median_late_s = static_cast<double>(late.below_us(0.5)) / us_per_s,
-                               .percent_late_s = static_cast<double>(late.below_us(0.99)) / us_per_s,
+                               .p99_late_s = static_cast<double>(late.below_us(0.99)) / us_per_s,
                                .most_late_s = static_cast<double>(late.most_ns()) / ns_per_s,
                                .late = octaves(late),
-                               .stretched_s = static_cast<double>(report.stretched_ns) / ns_per_s,
-                               .slowdowns = report.slowdowns,
+                               .schedule_slip_s = static_cast<double>(report.schedule_slip_ns) / ns_per_s,
+                               .buffer_underruns = report.buffer_underruns,
                                .began_monotonic_s = static_cast<double>(began_ns_) / ns_per_s,
                                .missed = inputs_.missed(),
                                .changes = seen_.changes,

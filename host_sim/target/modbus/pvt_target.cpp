@@ -136,8 +136,8 @@ void PvtTarget::describe(Summary& summary) const {
     double worst_us = 0.0;
     for (std::size_t i = 0; i < port_.drives(); ++i) {
         link.drives.push_back({table_.drives[i].address.text, port_.report(i).counts});
-        link.clocks_s = std::max(link.clocks_s, (worst_us + port_.unsure_us(i)) * 1e-6);
-        worst_us = std::max(worst_us, port_.unsure_us(i));
+        link.clocks_s = std::max(link.clocks_s, (worst_us + port_.clock_uncertainty_us(i)) * 1e-6);
+        worst_us = std::max(worst_us, port_.clock_uncertainty_us(i));
     }
     link.resumes = port_.resumes();
     link.bus_s = static_cast<double>(port_.busy_us()) * 1e-6;

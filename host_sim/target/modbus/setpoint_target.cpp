@@ -32,8 +32,8 @@ double most_planned_mm_s2(const DriveTable::Drive& drive, const AxisSettings& ax
 
 } // namespace
 
-std::vector<TargetWiring> target_wiring(const DriveTable& table, const MachineDescription& machine) {
-    std::vector<TargetWiring> wiring;
+std::vector<SetpointWiring> target_wiring(const DriveTable& table, const MachineDescription& machine) {
+    std::vector<SetpointWiring> wiring;
     for (const DriveTable::Drive& drive : table.drives) {
         const int axis = drive.machine_axis.front(); // they have one
         const AxisSettings& settings = machine.settings.axis[static_cast<unsigned>(axis)];
@@ -199,7 +199,7 @@ void SetpointTarget::describe(Summary& summary) const {
     LinkSummary& link = summary.link.emplace();
     double sum_sq = 0.0;
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
-        const TargetReport report = port_.report(i);
+        const SetpointReport report = port_.report(i);
         link.drives.push_back({table_.drives[i].address.text, report.counts});
         link.late_us = std::max(link.late_us, report.late_us);
         const double off = port_.deviation_counts(i) / machine_->settings.axis[axis_of(i)].steps_per_mm;

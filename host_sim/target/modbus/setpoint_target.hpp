@@ -6,13 +6,13 @@
 #include "host_sim/target/run_target.hpp"
 #include "host_sim/target/stop_sentence.hpp"
 
-#include "splinefeed/hal/modbus/target_port.hpp"
+#include "splinefeed/hal/modbus/setpoint_port.hpp"
 
 namespace splinefeed::host {
 
 /// The drives of a table in the port's form. @pre they do not interpolate; the table must outlive what it is given to
-[[nodiscard]] std::vector<hal::modbus::TargetWiring> target_wiring(const DriveTable& table,
-                                                                   const MachineDescription& machine);
+[[nodiscard]] std::vector<hal::modbus::SetpointWiring> target_wiring(const DriveTable& table,
+                                                                     const MachineDescription& machine);
 
 /// Lowers the accelerations of axes whose drives are told blocks to a quarter of the drive's ramp, which is that of
 /// `ramp=` or else the machine file's own acceleration (BlockSettings::acceleration). Returns what it lowered, in a
@@ -56,7 +56,7 @@ private:
 
     const MachineDescription* machine_;
     DriveTable table_;
-    hal::modbus::TargetPort port_;
+    hal::modbus::SetpointPort port_;
 };
 
 } // namespace splinefeed::host

@@ -116,7 +116,7 @@ class Run:
     def distances(self):
         for axis in AXES:
             seen = follow([edge for edge in self.edges if edge.axis == axis], axis)
-            for what, most in (("high_us", HIGH_US), ("low_us", LOW_US), ("setup_us", SETUP_US), ("hold_us", HOLD_US)):
+            for what, most in (("step_length_us", HIGH_US), ("step_space_us", LOW_US), ("setup_us", SETUP_US), ("hold_us", HOLD_US)):
                 value = getattr(seen, what)
                 # Whole microseconds: a distance may be off by one. The last direction is that of the lines' safe levels.
                 self.check(value is None or value >= most - 1, f"{axis}: {what} {value}")
@@ -125,7 +125,7 @@ class Run:
         return [follow([edge for edge in self.edges if edge.axis == axis], axis).count for axis in AXES]
 
     def stretched_us(self):
-        return 1e6 * self.summary["gpio"]["stretched_s"]
+        return 1e6 * self.summary["gpio"]["schedule_slip_s"]
 
     def catches_nothing_up(self):
         """However late an edge was, none behind it is earlier, but for what is no delay yet."""
@@ -189,7 +189,7 @@ def judge(out):
     stalled.ended(1, "no step was made for longer than 40 ms", "is not known")
     stalled.safe()
     still = whole(run("stands_still"))
-    still.check(still.summary["gpio"]["stretched_s"] > 0.15, f"stretched by {still.summary['gpio']['stretched_s']} s")
+    still.check(still.summary["gpio"]["schedule_slip_s"] > 0.15, f"stretched by {still.summary['gpio']['schedule_slip_s']} s")
     changes = [change for change in still.summary["gpio"]["changes"] if change["role"] == "probe"]
     still.check(changes and changes[-1]["active"], "the last level of the probe was not noticed")
     steering = whole(run("steering"))
@@ -232,7 +232,7 @@ def main():
     runs = judge(sys.argv[1])
     for name, run in runs.items():
         gpio = run.summary.get("gpio", {})
-        late = f", 99 % within {1e6 * gpio['percent_late_s']:.0f} us, latest {1e6 * gpio['most_late_s']:.0f} us" if gpio else ""
+        late = f", 99 % within {1e6 * gpio['p99_late_s']:.0f} us, latest {1e6 * gpio['most_late_s']:.0f} us" if gpio else ""
         print(f"{name}: status {run.status}, {len(run.edges)} edges{late} {run.errors[:110]}")
     failed = [f"{name}: {problem}" for name, run in runs.items() for problem in run.problems]
     print("\n".join(failed))

@@ -70,7 +70,7 @@ out, meant = sys.argv[1], int(sys.argv[2])
 sys.path.insert(0, sys.argv[3])
 from trace_edges import follow, line_edges, read_lines, read_trace
 edges = line_edges(read_trace(out + "/trace.txt"), read_lines(out + "/lines.csv"))
-print(f"{len(edges)} of {meant} edges seen; high {follow(edges, 'x').high_us} us and low {follow(edges, 'x').low_us} us at least")
+print(f"{len(edges)} of {meant} edges seen; high {follow(edges, 'x').step_length_us} us and low {follow(edges, 'x').step_space_us} us at least")
 sys.exit(len(edges) != meant or {edge[1:3] for edge in edges} != {("x", "step")} or follow(edges, "x").up + follow(edges, "x").down != meant // 2)
 PYTHON
 

@@ -49,8 +49,8 @@ class Axis(NamedTuple):
     setup_us: float | None
     hold_us: float | None
     hold_from_step_us: float | None
-    high_us: float | None
-    low_us: float | None
+    step_length_us: float | None
+    step_space_us: float | None
 
     @property
     def count(self):
@@ -215,7 +215,7 @@ def main():
     wirings = {axis: Wiring(axis in options.invert_step, axis in options.invert_dir, options.step_on_edge)
                for axis in axes_of(edges + plan)}
     axes = {axis: follow(edges, axis, wirings[axis]) for axis in wirings}
-    print("axis,count,up,down,setup_us,hold_us,hold_from_step_us,high_us,low_us")
+    print("axis,count,up,down,setup_us,hold_us,hold_from_step_us,step_length_us,step_space_us")
     for name, axis in axes.items():
         print(name, axis.count, axis.up, axis.down, *axis[3:], sep=",")
     if options.edges:

@@ -92,13 +92,13 @@ std::uint64_t EdgeClock::due_ns(std::int64_t motion_ns) const noexcept {
     return std::max(planned, last_ns_ + std::min(gap, settings_.guard_ns));
 }
 
-std::uint64_t EdgeClock::wait_for(std::int64_t motion_ns, std::uint64_t now_ns) noexcept {
+std::uint64_t EdgeClock::absorb_delay(std::int64_t motion_ns, std::uint64_t now_ns) noexcept {
     const std::uint64_t planned = planned_ns(motion_ns);
     if (planned == never || now_ns <= planned + settings_.tolerated_ns) {
         return 0;
     }
     base_ns_ += now_ns - planned;
-    stretched_ns_ += now_ns - planned;
+    schedule_slip_ns_ += now_ns - planned;
     return now_ns - planned;
 }
 
@@ -113,7 +113,7 @@ std::uint64_t EdgeClock::made(std::int64_t motion_ns, std::uint64_t at_ns) noexc
     last_motion_ns_ = motion_ns;
     if (late > settings_.tolerated_ns) {
         base_ns_ += late;
-        stretched_ns_ += late;
+        schedule_slip_ns_ += late;
     }
     return late;
 }

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::uint64_t due_ns(std::int64_t motion_ns) const noexcept;
     /// Nothing before that time of the motion is left to be made. Where it is overdue by more than is tolerated, the
     /// whole motion moves, so that it is due now. Returns by how much. To be called before stop().
-    std::uint64_t wait_for(std::int64_t motion_ns, std::uint64_t now_ns) noexcept;
+    std::uint64_t absorb_delay(std::int64_t motion_ns, std::uint64_t now_ns) noexcept;
     /// How late edges at this time of the motion are, if they are made at that instant. @pre due_ns() was not never
     [[nodiscard]] std::uint64_t late_ns(std::int64_t motion_ns, std::uint64_t at_ns) const noexcept;
     /// Whether edges were made since start(), and the motion's time of the last ones.
@@ -48,7 +48,7 @@ public:
     std::uint64_t made(std::int64_t motion_ns, std::uint64_t at_ns) noexcept;
 
     /// By how much the motion was moved, all in all.
-    [[nodiscard]] std::uint64_t stretched_ns() const noexcept { return stretched_ns_; }
+    [[nodiscard]] std::uint64_t schedule_slip_ns() const noexcept { return schedule_slip_ns_; }
 
 private:
     enum class Mode : std::uint8_t { running, falling, rising };
@@ -64,7 +64,7 @@ private:
     std::int64_t base_motion_ns_ = 0;
     std::uint64_t last_ns_ = 0; // the last edges were made
     std::int64_t last_motion_ns_ = INT64_MIN;
-    std::uint64_t stretched_ns_ = 0;
+    std::uint64_t schedule_slip_ns_ = 0;
 };
 
 } // namespace splinefeed::hal::gpio

@@ -68,9 +68,9 @@ struct MappedInput {
 /// How an axis finds its switch. Its home input is in LineMap::inputs.
 struct HomeSearch {
     bool towards_high = false;
-    double fast_mm_s = 0.0;
-    double slow_mm_s = 0.0; ///< at most fast_mm_s
-    double back_off_mm = 0.0;
+    double seek_mm_s = 0.0;
+    double latch_mm_s = 0.0; ///< at most seek_mm_s
+    double pull_off_mm = 0.0;
     double position_mm = 0.0; ///< of the switch's edge
 };
 

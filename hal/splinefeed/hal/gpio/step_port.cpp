@@ -33,7 +33,7 @@ std::uint64_t guard_of(const StepTiming& timing) noexcept {
 } // namespace
 
 StepPort::Train StepPort::train_for(const StepPortSettings& settings) {
-    const LineDiscipline lines(settings.axes, settings.timing);
+    const StepDirSequencer lines(settings.axes, settings.timing);
     if (settings.timing.grid > 1) {
         return PulseTrain<FixedRate>(FixedRate(settings.axes, settings.timing.grid), lines);
     }
@@ -123,7 +123,7 @@ void StepPort::reset() noexcept {
 }
 
 StepPortReport StepPort::report() const noexcept {
-    return {edges_.load(), slowdowns_.load(), stretched_ns_.load()};
+    return {edges_.load(), buffer_underruns_.load(), schedule_slip_ns_.load()};
 }
 
 std::string StepPort::trouble() const {
@@ -161,13 +161,13 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
     const std::int64_t to_be_made =
         gathered_ ? gathered_tick_ * ns_per_tick
                   : static_cast<std::int64_t>(submitted_ticks_.load(std::memory_order_relaxed)) * ns_per_tick;
-    if (const std::uint64_t late = clock_.wait_for(to_be_made, now_ns); late > 0) {
+    if (const std::uint64_t late = clock_.absorb_delay(to_be_made, now_ns); late > 0) {
         if (stalled(late)) {
             fail(stall_error);
             return;
         }
         overdue_ns_ += late;
-        stretched_ns_.store(clock_.stretched_ns(), std::memory_order_relaxed);
+        schedule_slip_ns_.store(clock_.schedule_slip_ns(), std::memory_order_relaxed);
     }
     const auto motion = static_cast<std::uint64_t>(std::max<std::int64_t>(clock_.motion_ns(now_ns), 0));
     motion_ns_.store(motion, std::memory_order_relaxed);
@@ -183,7 +183,7 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
     const std::uint64_t reserve = settings_.buffer_ms * ns_per_ms * 2 / 5 + slice_ns;
     if (!complete_.load(std::memory_order_acquire) && end < motion + reserve) {
         clock_.stop(now_ns);
-        slowdowns_.fetch_add(at_rest_.load(std::memory_order_relaxed) ? 0 : 1, std::memory_order_relaxed);
+        buffer_underruns_.fetch_add(at_rest_.load(std::memory_order_relaxed) ? 0 : 1, std::memory_order_relaxed);
     }
 }
 
@@ -262,7 +262,7 @@ void StepPort::make() noexcept {
     gathered_ = false;
     overdue_ns_ = 0;
     edges_.fetch_add(1, std::memory_order_relaxed);
-    stretched_ns_.store(clock_.stretched_ns(), std::memory_order_relaxed);
+    schedule_slip_ns_.store(clock_.schedule_slip_ns(), std::memory_order_relaxed);
     if (late_for_good) {
         fail(stall_error);
     }

@@ -37,8 +37,8 @@ struct StepPortSettings {
 /// How the edges of a motion came.
 struct StepPortReport {
     std::uint64_t edges = 0;
-    std::uint64_t slowdowns = 0; ///< the next segment was not there in time: all axes slowed down, on the path
-    std::uint64_t stretched_ns = 0;
+    std::uint64_t buffer_underruns = 0; ///< the next segment was not there in time: all axes slowed down, on the path
+    std::uint64_t schedule_slip_ns = 0;
 };
 
 /// One motion, then reset() and the next one. Its thread waits for instants, and neither allocates, nor locks, nor
@@ -135,8 +135,8 @@ private:
     std::atomic<std::uint64_t> motion_ns_{0}; // of the last edge, or what has passed
     std::atomic<std::uint64_t> taken_{0};
     std::atomic<std::uint64_t> edges_{0};
-    std::atomic<std::uint64_t> slowdowns_{0};
-    std::atomic<std::uint64_t> stretched_ns_{0};
+    std::atomic<std::uint64_t> buffer_underruns_{0};
+    std::atomic<std::uint64_t> schedule_slip_ns_{0};
     std::atomic<State> state_{State::idle};
     std::atomic<int> error_{0};
     std::atomic<bool> at_rest_{true}; // at the end of what was submitted

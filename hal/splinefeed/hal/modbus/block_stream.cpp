@@ -131,7 +131,8 @@ double BlockStream::beyond(double speed) const noexcept {
     return speed * settings_.reserve_us / us_per_s + speed * speed / (2.0 * ramp_);
 }
 
-std::span<const RegisterWrite> BlockStream::block(const SegmentTrack& track, const MotionInstant& instant) noexcept {
+std::span<const RegisterWrite> BlockStream::block(const TrajectoryBuffer& track,
+                                                  const MotionInstant& instant) noexcept {
     commit();
     told_us_ = std::max(instant.arrival_us, begun_us_);
     here_ = move_;

@@ -2,8 +2,8 @@
 // BlockStream: one axis of a motion as positioning blocks that replace each other on the fly.
 #pragma once
 
-#include "splinefeed/hal/modbus/segment_track.hpp"
-#include "splinefeed/hal/modbus/target_frames.hpp"
+#include "splinefeed/hal/modbus/setpoint_frames.hpp"
+#include "splinefeed/hal/modbus/trajectory_buffer.hpp"
 
 #include <optional>
 
@@ -38,10 +38,11 @@ public:
     void begin(double position_counts) noexcept;
     /// The frames of the block whose last one arrives at this instant. @pre the track is not empty, and the instant not
     /// before the last one
-    [[nodiscard]] std::span<const RegisterWrite> block(const SegmentTrack& track,
+    [[nodiscard]] std::span<const RegisterWrite> block(const TrajectoryBuffer& track,
                                                        const MotionInstant& instant) noexcept;
     /// The same while the motion runs at its full rate.
-    [[nodiscard]] std::span<const RegisterWrite> block(const SegmentTrack& track, std::uint64_t arrival_us) noexcept {
+    [[nodiscard]] std::span<const RegisterWrite> block(const TrajectoryBuffer& track,
+                                                       std::uint64_t arrival_us) noexcept {
         return block(track, {arrival_us, arrival_us, arrival_us + settings_.period_us});
     }
     /// The frames that set all that will not change, and have it stand where it stands: before the motion, so that its
@@ -63,7 +64,7 @@ public:
     /// Where the drive is at the instant of the last block, as far as its blocks tell.
     [[nodiscard]] double position_counts() const noexcept { return here_.position; }
     [[nodiscard]] double velocity_counts_s() const noexcept { return here_.velocity; }
-    [[nodiscard]] TargetFrames& frames() noexcept { return frames_; }
+    [[nodiscard]] SetpointFrames& frames() noexcept { return frames_; }
 
 private:
     /// What the drive was told, and what it makes of it.
@@ -89,7 +90,7 @@ private:
     void tell(double target, double speed) noexcept;
 
     BlockSettings settings_;
-    TargetFrames frames_;
+    SetpointFrames frames_;
     double ramp_;          // as the register has it [counts/s^2]
     double slowest_ = 0.0; // the register's unit [counts/s]
     Move move_;            // at begun_us_, as the block before the last one has it

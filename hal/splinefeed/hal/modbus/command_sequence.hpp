@@ -2,7 +2,7 @@
 // CommandSequence: a command of a drive profile as frames and pauses, one after the other.
 #pragma once
 
-#include "splinefeed/hal/modbus/target_frames.hpp"
+#include "splinefeed/hal/modbus/setpoint_frames.hpp"
 
 #include <optional>
 
@@ -15,7 +15,8 @@ namespace splinefeed::hal::modbus {
 class CommandSequence {
 public:
     /// Both must outlive it; the frames hold what each field was told last.
-    CommandSequence(const DriveProfile& profile, TargetFrames& frames) noexcept : profile_(profile), frames_(frames) {}
+    CommandSequence(const DriveProfile& profile, SetpointFrames& frames) noexcept
+        : profile_(profile), frames_(frames) {}
 
     /// From its first step, whatever was under way: a quick stop goes ahead of everything. False: the profile has no
     /// such command.
@@ -32,7 +33,7 @@ private:
     [[nodiscard]] bool two_frames() const noexcept;
 
     const DriveProfile& profile_;
-    TargetFrames& frames_;
+    SetpointFrames& frames_;
     const std::vector<CommandStep>* steps_ = nullptr; // nullptr: finished
     std::size_t step_ = 0;
     bool second_ = false; // the second frame of an edge or a pulse

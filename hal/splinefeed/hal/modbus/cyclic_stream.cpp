@@ -20,7 +20,7 @@ CyclicStream::CyclicStream(const DriveProfile& profile, const CyclicSettings& se
 
 // Peak acceleration of 3 u^2 - 2 u^3 over T: 6 / T^2. A path that moves meanwhile is joined at its speed at once, as it
 // was left: to catch up by the axis's acceleration would take it far off.
-void CyclicStream::stood(const SegmentTrack& track, const MotionInstant& instant) noexcept {
+void CyclicStream::stood(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
     off_q16_ = static_cast<double>(target_q16_ - track.at(settings_.axis, instant.motion_us).position_q16);
     fading_us_ = us_per_s * std::sqrt(6.0 * std::fabs(off_q16_) / (settings_.acceleration * (1 << physical_bits)));
     elapsed_us_ = 0.0;
@@ -34,7 +34,8 @@ double CyclicStream::off_q16(double elapsed_us) const noexcept {
     return off_q16_ * (1.0 - u * u * (3.0 - 2.0 * u));
 }
 
-std::span<const RegisterWrite> CyclicStream::frame(const SegmentTrack& track, const MotionInstant& instant) noexcept {
+std::span<const RegisterWrite> CyclicStream::frame(const TrajectoryBuffer& track,
+                                                   const MotionInstant& instant) noexcept {
     std::int64_t here = track.at(settings_.axis, instant.motion_us).position_q16;
     std::int64_t then = track.at(settings_.axis, instant.next_us).position_q16;
     if (fading_us_ > 0.0) {

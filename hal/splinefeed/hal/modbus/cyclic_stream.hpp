@@ -2,8 +2,8 @@
 // CyclicStream: one axis of a motion as cyclic target positions.
 #pragma once
 
-#include "splinefeed/hal/modbus/segment_track.hpp"
-#include "splinefeed/hal/modbus/target_frames.hpp"
+#include "splinefeed/hal/modbus/setpoint_frames.hpp"
+#include "splinefeed/hal/modbus/trajectory_buffer.hpp"
 
 namespace splinefeed::hal::modbus {
 
@@ -28,29 +28,30 @@ public:
     CyclicStream(const DriveProfile& profile, const CyclicSettings& settings);
 
     /// The frame that arrives at this instant. @pre the track is not empty
-    [[nodiscard]] std::span<const RegisterWrite> frame(const SegmentTrack& track,
+    [[nodiscard]] std::span<const RegisterWrite> frame(const TrajectoryBuffer& track,
                                                        const MotionInstant& instant) noexcept;
     /// The same while the motion runs at its full rate.
-    [[nodiscard]] std::span<const RegisterWrite> frame(const SegmentTrack& track, std::uint64_t arrival_us) noexcept {
+    [[nodiscard]] std::span<const RegisterWrite> frame(const TrajectoryBuffer& track,
+                                                       std::uint64_t arrival_us) noexcept {
         return frame(track, {arrival_us, arrival_us, arrival_us + settings_.interval_us});
     }
     /// Its frames were lost for longer than the period: it stands where it was told to be last. From the next frame on
     /// it comes back to the path, smoothly.
-    void stood(const SegmentTrack& track, const MotionInstant& instant) noexcept;
+    void stood(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
     /// A register could not hold a target: it was clamped.
     [[nodiscard]] bool clamped() const noexcept { return clamped_; }
     /// At that time of the motion the drive has been told where it ends.
-    [[nodiscard]] bool told_end(const SegmentTrack& track, std::uint64_t motion_us) const noexcept {
+    [[nodiscard]] bool told_end(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
         return fading_us_ == 0.0 && motion_us + settings_.interval_us >= track.end_us() &&
                (settings_.interval_us == settings_.period_us || motion_us >= track.end_us());
     }
-    [[nodiscard]] TargetFrames& frames() noexcept { return frames_; }
+    [[nodiscard]] SetpointFrames& frames() noexcept { return frames_; }
 
 private:
     [[nodiscard]] double off_q16(double elapsed_us) const noexcept;
 
     CyclicSettings settings_;
-    TargetFrames frames_;
+    SetpointFrames frames_;
     std::int64_t target_q16_ = 0; // the last one
     double off_q16_ = 0.0;        // from the path, when it came back
     double fading_us_ = 0.0;      // for how long it fades

@@ -72,7 +72,9 @@ public:
     [[nodiscard]] DriveReport report(std::size_t drive) const noexcept { return drives_[drive].client().report(); }
     /// Within what a drive's clock was known when all were started, at the worst: so far it may be ahead or behind.
     /// [us]
-    [[nodiscard]] double unsure_us(std::size_t drive) const noexcept { return drives_[drive].unsure_us(); }
+    [[nodiscard]] double clock_uncertainty_us(std::size_t drive) const noexcept {
+        return drives_[drive].clock_uncertainty_us();
+    }
     /// How often all drives stopped for one that was away or late, and went on again.
     [[nodiscard]] std::uint32_t resumes() const noexcept { return resumes_; }
     /// Processor time of the threads of all buses. [us]

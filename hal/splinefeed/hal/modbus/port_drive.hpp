@@ -3,7 +3,7 @@
 // told.
 #pragma once
 
-#include "splinefeed/hal/modbus/duration_trim.hpp"
+#include "splinefeed/hal/modbus/clock_drift_compensation.hpp"
 #include "splinefeed/hal/modbus/port_times.hpp"
 #include "splinefeed/hal/modbus/pvt_client.hpp"
 
@@ -62,7 +62,7 @@ public:
     static constexpr double lag_limit_us = 300.0; ///< a drive that is behind by more is out of step
 
     /// Within what its clock was known when it was started, at the worst. [us]
-    [[nodiscard]] double unsure_us() const noexcept { return most_unsure_us_; }
+    [[nodiscard]] double clock_uncertainty_us() const noexcept { return most_unsure_us_; }
 
     /// Gives a command, once until forget() and if none is pending.
     void tell(PvtCommand command, std::uint32_t argument) noexcept;
@@ -88,7 +88,7 @@ private:
     DriveWiring wiring_;
     PvtClient* client_;
     PvtSegment last_;
-    DurationTrim trim_;
+    ClockDriftCompensation trim_;
     DriveReport seen_;
     std::uint64_t age_us_ = 0;
     double start_us_ = 0.0;       // of our clock: it was to begin then

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// SCurveProfile: to rest along a straight line in the least time, with limited speed, acceleration and jerk.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace splinefeed {
+
+struct MoveLimits {
+    double speed_mm_s = 0.0;
+    double acceleration_mm_s2 = 0.0;
+    double jerk_mm_s3 = 0.0;
+};
+
+/// A part of the move with constant jerk.
+struct JerkPhase {
+    double duration_s = 0.0;
+    double jerk_mm_s3 = 0.0;
+};
+
+/// State along the line.
+struct MoveState {
+    double position_mm = 0.0;
+    double speed_mm_s = 0.0;
+    double acceleration_mm_s2 = 0.0;
+
+    [[nodiscard]] MoveState after(double time_s, double jerk_mm_s3) const noexcept;
+};
+
+/// Seven phases, some of them empty: the acceleration rises to its limit, stays there and falls, the speed stays, and
+/// all that backward.
+class SCurveProfile {
+public:
+    SCurveProfile() noexcept = default;
+    /// From rest. Cost: up to two roots and a handful of divisions. @pre all positive
+    SCurveProfile(double length_mm, const MoveLimits& limits) noexcept;
+    /// To the nearest rest. @pre start.speed_mm_s >= 0; its acceleration can be taken back before the speed is 0
+    [[nodiscard]] static SCurveProfile to_rest(const MoveState& start, const MoveLimits& limits) noexcept;
+    /// To rest at a distance; length_mm() is that of the nearest rest where it is too short. A speed above the limit is
+    /// taken back first. Cost: about fifty times that of to_rest(), unless the speed limit is reached.
+    [[nodiscard]] static SCurveProfile to_length(const MoveState& start, double length_mm,
+                                                 const MoveLimits& limits) noexcept;
+
+    [[nodiscard]] const MoveState& start() const noexcept { return start_; }
+    /// What the phases add up to.
+    [[nodiscard]] double length_mm() const noexcept;
+
+    static constexpr std::size_t phases = 7;
+    [[nodiscard]] const JerkPhase& phase(std::size_t i) const noexcept { return phase_[i]; }
+    [[nodiscard]] double duration_s() const noexcept;
+
+private:
+    void ramp(std::size_t first, const MoveState& from, double to_mm_s, const MoveLimits& limits) noexcept;
+    void pass(const MoveState& start, double peak_mm_s, const MoveLimits& limits) noexcept;
+
+    MoveState start_{};
+    std::array<JerkPhase, phases> phase_{};
+};
+
+/// x^(2/3) for x > 0.
+[[nodiscard]] double power_two_thirds(double x) noexcept;
+
+} // namespace splinefeed

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// ProfileMotion: how far along its profile segment the machine is after a part of the time that the profile segment
+// takes. Derivation: profile_motion.cpp.
+#pragma once
+
+#include "splinefeed/s3_feed_plan/motion_plan.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+class ProfileMotion {
+public:
+    ProfileMotion() noexcept = default;
+    /// @param per_s  the unit of duration() is 1 / per_s
+    ProfileMotion(const ProfileSegment<S>& profile_segment, S cell_length_mm, S per_s) noexcept;
+
+    [[nodiscard]] S duration() const noexcept { return duration_; }
+    /// Fraction of the profile segment's length after the fraction y of its time, both 0 to 1. Cost: 2 products; of a
+    /// parabola with a rounded top or bottom 50.
+    [[nodiscard]] S at(S y) const noexcept;
+
+private:
+    [[nodiscard]] S travelled(S time) const noexcept;
+
+    SpeedShape shape_ = SpeedShape::line;
+    S duration_{};
+    S linear_{};    // as in ProfileSegment; of a parabola the entry speed
+    S quadratic_{}; // of a parabola the acceleration at the entry
+    S curvature_{}; // of a parabola half of the curvature of v^2
+    S time_{};      // of a parabola the duration, in its own units
+};
+
+} // namespace splinefeed

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+//
+// A change of the steering acts on the motion behind the last control point, which is T ahead of the start of the next
+// segment: where that point is, the plan chooses another profile segment. Differences of samples across that point
+// average accelerations of both plans, which keep the limits. So a hold would take a whole segment to brake fully: the
+// second difference at that point is
+//
+//   (h_old + h_new) T^2 / 2 - q' d T
+//
+// with h the accelerations averaged over the segment before and after, and d a jump of the speed from the old plan to
+// the new. Since |h_new| <= A, it stays within A T^2 where |q'| d <= T (A + h_old) / 2, h_old counted along the motion:
+// the new plan starts with a speed that much lower, and stops half a segment earlier. h_old T^2 / 2 = q' v T less the
+// last difference.
+//
+// A stop that is not bound to a place (of a hold) may be made up to T / 2 early, on the sample itself: on the way to
+// rest at t, |q'| <= A (t - time), so that the last difference is below A T (T / 2 + T / 2).
+#include "splinefeed/s4_segment_stream/profile_sampler.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+// Arriving up to this fraction of a segment early counts as arriving: an exact multiple of the segment duration must
+// not be decided by rounding. The control point moves by A (T/1024)^2 / 2, a 2e-6 part of a second difference.
+constexpr double arrival = 1.0 / 1024.0;
+
+// An A T^2 / 2 below this, in 2^-12 mm, has too few digits to brake with; what is left of it otherwise.
+constexpr double least_change = 1.0 / 256.0;
+constexpr double kept_for_rounding = 0.98;
+
+} // namespace
+
+template <Scalar S>
+ProfileSampler<S>::ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept
+    : plan_(&plan), segments_per_s_(limits.segments_per_s), axes_(limits.axes) {
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        braking_mm_s2_[k] = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
+    }
+}
+
+// Looks up the time that the plan's next profile segment takes.
+template <Scalar S>
+Pull ProfileSampler<S>::enter_segment(UnderrunPolicy underrun) noexcept {
+    const Pull pull = plan_->prepare(underrun);
+    if (pull != Pull::item) {
+        return pull;
+    }
+    motion_ = ProfileMotion<S>(plan_->profile_segment(), plan_->cell().length_mm, segments_per_s_);
+    waypoint_ = plan_->cell().waypoint;
+    in_segment_ = true;
+    return Pull::item;
+}
+
+// Fraction of the cell's length where the machine is.
+template <Scalar S>
+S ProfileSampler<S>::fraction() const noexcept {
+    const S x = motion_.at(elapsed_ / motion_.duration());
+    const CellInterval<S>& stretch = plan_->profile_segment().stretch;
+    return stretch.whole() ? x : stretch.from + stretch.length() * x;
+}
+
+// The speed from which a stop may start at the last control point.
+template <Scalar S>
+S ProfileSampler<S>::braked(S x, S speed) const noexcept {
+    constexpr int fine = 12; // lengths in units of 2^-12 mm
+    PerAxis<S> direction{};
+    plan_->cell().direction_at(x, direction);
+    const S way = scale2(speed, fine) / segments_per_s_;
+    S less = way;
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        const S half = scale2(braking_mm_s2_[k] / segments_per_s_, fine - 1) / segments_per_s_;
+        const bool forward = direction[k] > S{};
+        const S along = absolute(direction[k]);
+        const S last = distance<S>(previous_[k], position_[k], -fine);
+        const S room = half + along * way - (forward ? last : -last);
+        if (half < literal<S>(least_change) || !(room > S{}) || !(way > S{})) {
+            return speed;
+        }
+        less = smaller(less, quotient_or_max(room * literal<S>(kept_for_rounding), along));
+    }
+    return speed * ((way - less) / way);
+}
+
+// The profile segment from where the last control point is.
+template <Scalar S>
+void ProfileSampler<S>::follow_steering() noexcept {
+    const S v0 = square_root(plan_->profile_segment().entry_sq);
+    const S v1 = square_root(plan_->profile_segment().exit_sq);
+    const S share = elapsed_ / motion_.duration();
+    const S x = fraction();
+    S speed = v0 + (v1 - v0) * share;
+    // Without a jump of the acceleration there is nothing that takes a segment to begin.
+    if (plan_->steering().stops() && plan_->profile_segment().shape == SpeedShape::line) {
+        speed = braked(x, speed);
+    }
+    if (!plan_->steer({.fraction = x, .speed_sq = speed * speed, .time_share = share})) {
+        return;
+    }
+    elapsed_ = S{};
+    in_segment_ = false;
+    if (plan_->standing()) {
+        repeats_ = 2; // so slow that the last control point is the stop
+    }
+}
+
+// The control point of a stop, if the machine comes to one before the next sample.
+template <Scalar S>
+bool ProfileSampler<S>::arrive() noexcept {
+    const ProfileSegment<S>& profile_segment = plan_->profile_segment();
+    if (!profile_segment.stops) {
+        return false;
+    }
+    const Cell<S>& cell = plan_->cell();
+    // With a limited jerk the last of the way to rest is no longer than rounding.
+    const bool bound_to_place = !plan_->steering().stops() || profile_segment.shape != SpeedShape::line;
+    const S early = bound_to_place ? literal<S>(arrival) : literal<S>(0.5);
+    if (elapsed_ + early < motion_.duration()) {
+        return false;
+    }
+    if (!bound_to_place && elapsed_ < motion_.duration()) {
+        const S x = fraction();
+        cell.position_at(x, position_);
+        plan_->rest_at(x);
+    } else {
+        if (cell.stop_at_end && profile_segment.stretch.to == from_integer<S>(1)) {
+            position_ = cell.end;
+        } else {
+            cell.position_at(profile_segment.stretch.to, position_);
+        }
+        plan_->advance();
+    }
+    repeats_ = 2;
+    elapsed_ = S{};
+    advanced_ = in_segment_ = false;
+    return true;
+}
+
+// It can be interrupted by underrun anywhere and goes on where it was.
+template <Scalar S>
+Pull ProfileSampler<S>::next(UnderrunPolicy underrun) noexcept {
+    if (in_segment_ && !advanced_ && plan_->steering().news()) {
+        follow_steering();
+    }
+    if (repeats_ > 0) {
+        --repeats_;
+        return Pull::item;
+    }
+    const Pull entered = in_segment_ ? Pull::item : enter_segment(underrun);
+    if (!started_ && (entered == Pull::item || entered == Pull::held)) {
+        plan_->cell().position_at(S{}, origin_);
+        position_ = origin_;
+        started_ = true;
+    }
+    if (entered != Pull::item) {
+        return entered;
+    }
+    if (!advanced_) {
+        previous_ = position_;
+        elapsed_ += from_integer<S>(1);
+        advanced_ = true;
+    }
+    for (;;) {
+        if (arrive()) {
+            return Pull::item;
+        }
+        if (elapsed_ < motion_.duration()) {
+            break;
+        }
+        elapsed_ -= motion_.duration();
+        plan_->advance();
+        in_segment_ = false;
+        const Pull pull = enter_segment(underrun);
+        if (pull != Pull::item) {
+            return pull;
+        }
+    }
+    plan_->cell().position_at(fraction(), position_);
+    advanced_ = false;
+    return Pull::item;
+}
+
+template class ProfileSampler<double>;
+template class ProfileSampler<float>;
+template class ProfileSampler<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// ProfileSampler: samples of a motion that is planned as it is travelled, profile segment by profile segment.
+// Derivation: profile_sampler.cpp.
+#pragma once
+
+#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s4_segment_stream/profile_motion.hpp"
+#include "splinefeed/s4_segment_stream/sampler.hpp"
+
+namespace splinefeed {
+
+/// Memory: constant. Cost of next(): one evaluation of the curve, plus one division per cell that is passed: amortised
+/// constant, at most the cells of the window; and after a change of the steering a visit to every cell of the window.
+template <Scalar S>
+class ProfileSampler final : public Sampler<S> {
+public:
+    ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept;
+
+    /// Another plan to follow. @pre nothing was asked of it yet
+    void follow(MotionPlan<S>& plan) noexcept { plan_ = &plan; }
+
+    Pull next(UnderrunPolicy underrun) noexcept override;
+    [[nodiscard]] bool at_rest() const noexcept override { return !in_segment_ && repeats_ == 0 && !advanced_; }
+    void clear() noexcept override {}
+
+private:
+    Pull enter_segment(UnderrunPolicy underrun) noexcept;
+    void follow_steering() noexcept;
+    [[nodiscard]] S braked(S x, S speed) const noexcept;
+    bool arrive() noexcept;
+    [[nodiscard]] S fraction() const noexcept;
+
+    using Sampler<S>::position_;
+    using Sampler<S>::origin_;
+    using Sampler<S>::waypoint_;
+
+    MotionPlan<S>* plan_;
+    PerAxis<S> braking_mm_s2_{};
+    S segments_per_s_{};
+    S elapsed_{}; // time since the start of the profile segment [segment durations]
+    ProfileMotion<S> motion_;
+    PerAxis<Position> previous_{}; // the sample before
+    int axes_ = 0;
+    int repeats_ = 0; // samples still to repeat at a stop
+    bool started_ = false;
+    bool in_segment_ = false;
+    bool advanced_ = false; // elapsed_ already holds the next sample's time
+};
+
+} // namespace splinefeed

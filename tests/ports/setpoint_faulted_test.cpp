@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// Random runs of drives that are told where to be, with everything that goes wrong, on a virtual clock. Every run is
+// one of its seed alone.
+#include "ports/run_plant.hpp"
+#include "ports/setpoint_plant.hpp"
+#include "support/catch.hpp"
+#include "support/rounds.hpp"
+
+#include <map>
+
+using namespace splinefeed::hal;
+using namespace splinefeed::hal::modbus;
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr std::array profiles{"cia402-index", "lexium32m", "leadshine-pr", "oriental-az", "cia402-kinco"};
+constexpr std::uint64_t away_us = 1'500'000;
+constexpr double way_counts = 8000.0; // of the first axis, there and back
+// Of the first axis: each axis stands within 2 counts of the path and what its registers round, up to 3; that of the
+// axis which goes a quarter of the way counts four times.
+constexpr double most_held_counts = (1.0 + 4.0) * (2.0 + 3.0);
+
+/// What a run is like, by its seed.
+struct Scenario {
+    std::mt19937_64 random;
+    SetpointPlantParameters parameters;
+    Asked asked;
+    std::string text;    ///< what goes wrong
+    bool fatal = false;  ///< it ends in fault, unless it ends before
+    bool outage = false; ///< a drive does not answer for a while
+
+    explicit Scenario(std::uint64_t seed) : random(seed) {
+        parameters.profile = profiles[dice(profiles.size())];
+        parameters.drives = 1 + static_cast<int>(dice(3));
+        parameters.one_wire = dice(2) == 0;
+        parameters.seed = seed;
+    }
+    /// 0 to n - 1
+    std::uint64_t dice(std::uint64_t n) { return random() % n; }
+
+    /// Times are those of the run.
+    void spoil(SetpointPlant& plant, std::uint64_t length_us) {
+        if (dice(3) != 0) {
+            spoil_line(*plant.wires[dice(plant.wires.size())]);
+        }
+        if (dice(2) == 0) {
+            spoil_drive(plant, length_us);
+        }
+        if (dice(4) == 0) {
+            asked.starved_from_us = dice(length_us);
+            asked.starved_to_us = asked.starved_from_us + 20'000 + dice(800'000);
+            text += " starved " + std::to_string(asked.starved_from_us) + " to " + std::to_string(asked.starved_to_us);
+        }
+        const std::uint64_t stops = dice(6);
+        if (stops >= 3) {
+            asked.hold_us = dice(2) == 0 ? dice(120'000) : dice(length_us);
+            text += " hold " + std::to_string(asked.hold_us);
+        }
+        if (stops == 5) {
+            asked.quick_us = asked.hold_us + dice(300'000);
+            text += " quick stop " + std::to_string(asked.quick_us);
+        }
+    }
+    void spoil_line(SimulatedWire& wire) {
+        const auto share = [&] {
+            return dice(2) == 0 ? 0.0 : 1e-4 * static_cast<double>(dice(50));
+        };
+        wire.faults = {.lost_request = share(),
+                       .lost_answer = share(),
+                       .corrupt = 0.0, // tcp: no checksum of its own would notice
+                       .exception = share(),
+                       .repeated = 0.0, // a block that takes effect twice is a relative move too many
+                       .stale = 0.0,
+                       .late = share(),
+                       .late_us = 1 + dice(30'000)};
+        text += " bad line";
+    }
+    void spoil_drive(SetpointPlant& plant, std::uint64_t length_us) {
+        const std::size_t i = dice(plant.drives.size());
+        const std::uint64_t from_us = plant.began_us + dice(length_us);
+        const std::uint64_t long_us = dice(4) == 0 ? 3'000'000 : 20'000 + dice(900'000);
+        const Span span{from_us, from_us + long_us};
+        const auto kind = dice(5);
+        constexpr std::array names{"unplugged", "mute", "frozen", "dead", "stops by itself"};
+        text += " drive " + std::to_string(i) + " " + names[kind] + " at " + std::to_string(from_us - plant.began_us) +
+                " for " + std::to_string(long_us);
+        outage = kind < 4;
+        const std::uint64_t watchdog_us = 1000ULL * plant.profile.watchdog_timeout_ms;
+        fatal = kind >= 3 || long_us > (watchdog_us > 0 ? std::min(away_us, watchdog_us) : away_us) / 2;
+        switch (kind) {
+        case 0: plant.wires[plant.wires.size() == 1 ? 0 : i]->unplugged.push_back(span); break;
+        case 1: plant.stations[i]->mute.push_back(span); break;
+        case 2: plant.stations[i]->frozen.push_back(span); break;
+        case 3: plant.stations[i]->mute.push_back({from_us, UINT64_MAX}); break;
+        default: plant.events.emplace_back(from_us, [&plant, i] { plant.drives[i]->stop_by_itself(); }); break;
+        }
+    }
+};
+
+struct Tally {
+    std::map<std::string, int> endings;
+    double most_off_counts = 0.0; ///< off the path where it was held
+};
+
+void judge(SetpointPlant& plant, const Scenario& scenario, const SmoothMotion& motion, PortPhase phase, Tally& tally) {
+    SetpointPort& port = *plant.port;
+    INFO("trouble: " << port.trouble() << ", " << port.poll().executed << " segments executed, " << port.resumes()
+                     << " resumes");
+    CHECK(phase != PortPhase::running);
+    // A drive that is not told what comes next goes on for a period, and brakes; who catches up goes no further.
+    const double beyond_counts = 1.2 * motion.fastest_counts_s * 1e-6 * port.period_us() + 0.05 * way_counts;
+    CHECK(plant.lowest_counts > -beyond_counts);
+    CHECK(plant.highest_counts < way_counts + beyond_counts);
+    CHECK((phase != PortPhase::halted || scenario.asked.hold_us != UINT64_MAX));
+    CHECK((phase != PortPhase::fault || scenario.fatal));
+    if (phase == PortPhase::idle) {
+        ++tally.endings["done"];
+        for (const double position : plant.positions) {
+            CHECK(std::fabs(position) < 1.5); // back where it began
+        }
+        return;
+    }
+    bool all_held = true;
+    bool all_confirmed = true;
+    const std::uint64_t ended_us = plant.clock.now_us();
+    std::vector<bool> confirmed;
+    for (std::size_t i = 0; i < plant.drives.size(); ++i) {
+        const StopReport report = port.stop_report(i);
+        const bool sure = report.state == StopState::confirmed;
+        CHECK((sure || report.state == StopState::unconfirmed));
+        CHECK((sure || scenario.outage)); // who answers confirms
+        all_held = all_held && report.held();
+        all_confirmed = all_confirmed && sure;
+        confirmed.push_back(sure);
+    }
+    ++tally.endings[all_held ? "held" : all_confirmed ? "stopped" : "unconfirmed"];
+    if (all_held) {
+        CHECK(plant.now_off_counts < most_held_counts);
+        tally.most_off_counts = std::max(tally.most_off_counts, plant.now_off_counts);
+    }
+    plant.port.reset();
+    plant.events.clear();
+    plant.clock.sleep_us(800'000);
+    for (std::size_t k = 0; k < confirmed.size(); ++k) {
+        CHECK((!confirmed[k] || plant.moved_us[k] <= ended_us));
+    }
+}
+
+void run_seed(std::uint64_t seed, Tally& tally) {
+    Scenario scenario(seed);
+    SetpointPlant plant(scenario.parameters);
+    plant.make({.away_us = away_us});
+    plant.look();
+    REQUIRE(plant.port->open() == "");
+    const SmoothMotion motion = smooth_motion(way_counts, 2, 60 + static_cast<int>(scenario.dice(80)), 4000);
+    REQUIRE(plant.port->prepare(motion.segments.front()) == "");
+    plant.began_us = plant.clock.now_us();
+    scenario.spoil(plant, 4000 * motion.segments.size());
+    INFO("seed " << seed << ": " << scenario.parameters.profile << "," << scenario.text << "; " << plant.drives.size()
+                 << " drives, one wire " << scenario.parameters.one_wire);
+    const PortPhase phase = run(plant, motion, scenario.asked);
+    judge(plant, scenario, motion, phase, tally);
+}
+
+} // namespace
+
+TEST_CASE("Set-point port, virtual: random faulted runs end at the end or stop, and say of it what is true",
+          "[ports][random]") {
+    const char* const only = std::getenv("SPLINEFEED_SEED");
+    const std::uint64_t first = only != nullptr ? std::strtoull(only, nullptr, 10) : 1;
+    const int runs = only != nullptr ? 1 : rounds(100, 5000);
+    Tally tally;
+    for (int run = 0; run < runs; ++run) {
+        run_seed(first + static_cast<std::uint64_t>(run), tally);
+    }
+    std::string text;
+    for (const auto& [ending, count] : tally.endings) {
+        text += ending + " " + std::to_string(count) + ", ";
+    }
+    WARN(runs << " runs from seed " << first << ": " << text << "off the path when held " << tally.most_off_counts
+              << " counts");
+    CHECK((only != nullptr || tally.endings.size() == 4));
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Drives that are told where to be find their references one after the other, and the others are heard meanwhile.
+#include "ports/setpoint_plant.hpp"
+#include "support/catch.hpp"
+
+using namespace splinefeed::hal;
+using namespace splinefeed::hal::modbus;
+using namespace splinefeed_test;
+
+namespace {
+
+const SmoothMotion motion = smooth_motion(8000.0, 2, 100, 4000);
+
+/// With a communication watchdog of 150 ms that is a fault: shorter than any drive takes to find its reference.
+void watch(DriveProfile& profile) {
+    RegisterField field;
+    field.name = "watchdog";
+    field.role = FieldRole::watchdog;
+    field.address = 0x7000;
+    field.unit = PhysicalUnit::ms;
+    profile.fields.push_back(field);
+    profile.watchdog_timeout_ms = 150;
+    profile.watchdog_reaction = WatchdogReaction::fault;
+}
+
+} // namespace
+
+TEST_CASE("Set-point port, virtual: no watchdog runs out while other drives are enabled and homed", "[ports]") {
+    SetpointPlant plant({.change = watch});
+    plant.make({.home = true});
+    plant.look();
+    REQUIRE(plant.port->open() == "");
+    const std::uint64_t begun_us = plant.clock.now_us();
+    CHECK(plant.port->prepare(motion.segments.front()) == "");
+    CHECK(plant.clock.now_us() - begun_us > 3 * 200'000U); // each took longer than the watchdog's time
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(plant.port->report(i).reading.state != DriveState::fault);
+    }
+}
