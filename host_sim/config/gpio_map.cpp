@@ -209,13 +209,13 @@ private:
             return check_.number(given, key, range);
         };
         constexpr double farthest_mm = 1048576.0;
-        constexpr double most_back_off_mm = 1000.0;
+        constexpr double most_pull_off_mm = 1000.0;
         HomeSearch home;
         home.towards_high =
             check_.choice(check_.required(table, "towards", where, "\"low\" or \"high\""), "towards", level_names) == 1;
         home.seek_mm_s = required("seek_mm_s", {least_speed_mm_s, machine_.settings.axis[k].max_velocity_mm_s, "mm/s"});
         home.latch_mm_s = required("latch_mm_s", {least_speed_mm_s, home.seek_mm_s, "mm/s"});
-        home.pull_off_mm = required("pull_off_mm", {least_speed_mm_s, most_back_off_mm, "mm"});
+        home.pull_off_mm = required("pull_off_mm", {least_speed_mm_s, most_pull_off_mm, "mm"});
         home.position_mm = required("position_mm", {-farthest_mm, farthest_mm, "mm"});
         map_.home[k] = home;
     }

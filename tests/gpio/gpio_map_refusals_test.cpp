@@ -44,7 +44,7 @@ void check(const Wrong& wrong, int x_motors = 1) {
 
 TEST_CASE("GPIO map: what it starts from is right") {
     CHECK(refusal(axes) == "accepted");
-    CHECK(refusal(home + "towards = \"low\"\nfast_mm_s = 20\nslow_mm_s = 2\nback_off_mm = 2\nposition_mm = 0\n") ==
+    CHECK(refusal(home + "towards = \"low\"\nseek_mm_s = 20\nlatch_mm_s = 2\npull_off_mm = 2\nposition_mm = 0\n") ==
           "accepted");
 }
 
@@ -153,11 +153,11 @@ TEST_CASE("GPIO map: wrong homing and threads") {
         {home, 11, "[home.x] has no towards; it must be \"low\" or \"high\""},
         {home + "towards = \"left\"\n", 12, "towards is 'left'"},
         {home + "towards = \"low\"\n", 11, "[home.x] has no seek_mm_s; it must be a number from 0.001 to 100 mm/s"},
-        {home + "towards = \"low\"\nfast_mm_s = 101\n", 13, "seek_mm_s must be a number from 0.001 to 100 mm/s"},
-        {home + "towards = \"low\"\nfast_mm_s = 20\nslow_mm_s = 21\n", 14,
+        {home + "towards = \"low\"\nseek_mm_s = 101\n", 13, "seek_mm_s must be a number from 0.001 to 100 mm/s"},
+        {home + "towards = \"low\"\nseek_mm_s = 20\nlatch_mm_s = 21\n", 14,
          "latch_mm_s must be a number from 0.001 to 20"},
-        {home + "towards = \"low\"\nfast_mm_s = 20\nslow_mm_s = 2\nback_off_mm = 0\n", 15, "pull_off_mm must be"},
-        {home + "towards = \"low\"\nfast_mm_s = 20\nslow_mm_s = 2\nback_off_mm = 1\nposition_mm = nan\n", 16,
+        {home + "towards = \"low\"\nseek_mm_s = 20\nlatch_mm_s = 2\npull_off_mm = 0\n", 15, "pull_off_mm must be"},
+        {home + "towards = \"low\"\nseek_mm_s = 20\nlatch_mm_s = 2\npull_off_mm = 1\nposition_mm = nan\n", 16,
          "position_mm must be a number"},
         {home + "speed = 1\n", 12, "unknown key 'speed' in [home.x]"},
         {axes + "[thread]\npriority = 99\n", 8, "priority must be a whole number from 1 to 98"},

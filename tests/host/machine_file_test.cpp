@@ -87,10 +87,10 @@ TEST_CASE("Step and direction lines are read") {
     CHECK(plain.step.step_length_us == 2.0);
     CHECK(plain.motors[1].count == 1);
     CHECK_FALSE(plain.motors[1].invert_direction[0]);
-    const MachineDescription machine =
-        parse_machine(with("[path]", "[step]\nengine = 'fixed-rate'\ntick_us = 12.5\nhigh_us = 3\nlow_us = 4.5\n"
-                                     "direction_setup_us = 0\ndirection_hold_us = 7\nstep_on_edge = true\n[path]"),
-                      "m.toml");
+    const MachineDescription machine = parse_machine(
+        with("[path]", "[step]\nengine = 'fixed-rate'\ntick_us = 12.5\nstep_length_us = 3\nstep_space_us = 4.5\n"
+                       "direction_setup_us = 0\ndirection_hold_us = 7\nstep_on_edge = true\n[path]"),
+        "m.toml");
     CHECK(machine.step.tick_us == 12.5);
     CHECK(machine.step.step_length_us == 3.0);
     CHECK(machine.step.step_space_us == 4.5);
@@ -157,10 +157,10 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("[path]", "[step]\ntick_us = 5\n[path]"), "m.toml:4: ", "of engine = 'fixed-rate'"},
         {with("[path]", "[step]\nengine = 'fixed-rate'\ntick_us = 0.3\n[path]"), "m.toml:5: ", "multiple of 0.25"},
         {with("[path]", "[step]\nengine = 'fixed-rate'\ntick_us = 0\n[path]"), "m.toml:5: ", "multiple of 0.25"},
-        {with("[path]", "[step]\nhigh_us = 0.1\n[path]"), "m.toml:4: ", "between 0.125 and 1000 us"},
+        {with("[path]", "[step]\nstep_length_us = 0.1\n[path]"), "m.toml:4: ", "between 0.125 and 1000 us"},
         {with("[path]", "[step]\ndirection_hold_us = -1\n[path]"), "m.toml:4: ", "between 0 and 1000 us"},
         {with("[path]", "[step]\nstep_on_edge = 1\n[path]"), "m.toml:4: ", "true or false"},
-        {with("[path]", "[step]\nhihg_us = 1\n[path]"), "m.toml:4: ", "did you mean 'step_length_us'"},
+        {with("[path]", "[step]\nstep_lenght_us = 1\n[path]"), "m.toml:4: ", "did you mean 'step_length_us'"},
         {"step = 3\n" + good, "m.toml:1: ", "[step]"},
         {with("= 12.5\n", "= 12.5\nmotors = 3\n"), "m.toml:19: ", "1 or 2"},
         {with("= 12.5\n", "= 12.5\nmotors = true\n"), "m.toml:19: ", "1 or 2"},

@@ -36,9 +36,10 @@ TEST_CASE("Edges hold as many steps as the way has counts, from run and from pla
 TEST_CASE("Lines that are too slow for the machine are refused, and nothing is written") {
     const Tool tool;
     tool.write("line.csv", line);
-    tool.write("m.toml",
-               "[step]\nhigh_us = 40\n[path]\nmax_feed_mm_s = 100\n[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\n"
-               "max_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n");
+    tool.write(
+        "m.toml",
+        "[step]\nstep_length_us = 40\n[path]\nmax_feed_mm_s = 100\n[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\n"
+        "max_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n");
     tool.write("line1.csv", "x\n0\n1\n");
     const Call call = tool("run line1.csv -m m.toml --edges e.csv --trace t.csv");
     CHECK(call.status == 2);
