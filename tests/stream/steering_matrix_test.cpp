@@ -9,6 +9,9 @@
 #include "support/random_steering.hpp"
 #include "support/rounds.hpp"
 
+#include <cstdlib>
+#include <initializer_list>
+
 using namespace splinefeed_test;
 
 namespace {
@@ -278,11 +281,7 @@ std::string text_of(const Round& round) {
 
 /// What the rounds have come across.
 struct Tally {
-    int judged = 0;
-    int endless = 0;
-    int stopped = 0;
-    int starved = 0;
-    int restarted = 0;
+    int judged = 0, endless = 0, stopped = 0, starved = 0, restarted = 0;
 };
 
 template <Scalar S, class Curve>
@@ -351,10 +350,11 @@ void run_round(const Round& round, Random& random, Tally& tally) {
     }
 }
 
+/// @param found  rounds beyond them in which something was wrong once
 template <Scalar S>
-void run_rounds(Planner planner, int rounds, std::uint64_t first) {
+void run_rounds(Planner planner, int rounds, std::uint64_t first, std::initializer_list<int> found = {}) {
     Tally tally;
-    for (int number = 0; number < rounds; ++number) {
+    const auto one = [&](int number) {
         Random random(first + static_cast<std::uint64_t>(number));
         const Round round = random_round<S>(random, planner);
         CAPTURE(first, number, text_of<S>(round));
@@ -363,12 +363,22 @@ void run_rounds(Planner planner, int rounds, std::uint64_t first) {
         } else {
             run_round<S, G2Spline<S>>(round, random, tally);
         }
+    };
+    if (const char* const only = std::getenv("SPLINEFEED_ROUND")) { // to look at it
+        one(std::atoi(only));
+        return;
+    }
+    for (int number = 0; number < rounds; ++number) {
+        one(number);
     }
     CAPTURE(tally.judged, tally.endless, tally.stopped, tally.starved, tally.restarted);
     CHECK(10 * tally.judged >= 8 * rounds);
     CHECK(2 * tally.stopped >= rounds);
     CHECK(16 * tally.starved >= rounds);
     CHECK(6 * tally.restarted >= rounds);
+    for (const int number : found) {
+        one(number);
+    }
 }
 
 } // namespace
@@ -380,7 +390,8 @@ TEMPLATE_TEST_CASE("whatever is asked of an acceleration-limited motion", "[stre
 
 TEMPLATE_TEST_CASE("whatever is asked of an optimal jerk-limited motion", "[stream][steering][matrix][jerk]", double,
                    Fixed) {
-    run_rounds<TestType>(Planner::optimal, rounds(64, 2900), seed + 1'000'000);
+    // 350: a hold ended inside a straight move that had been planned as a curve before, whose speed was kept there
+    run_rounds<TestType>(Planner::optimal, rounds(64, 2900), seed + 1'000'000, {350});
 }
 
 TEMPLATE_TEST_CASE("whatever is asked of an averaged motion", "[stream][steering][matrix][jerk][smooth]", double,

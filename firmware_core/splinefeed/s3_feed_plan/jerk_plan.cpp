@@ -208,6 +208,7 @@ bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
     }
     line_ = LineTravel(leg.move());
     planned_ = committed_ = leg.cells();
+    window_.node(planned_).state = {0.0, 0.0}; // where it ends inside the leg an earlier plan may have moved
     return true;
 }
 
