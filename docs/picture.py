@@ -17,7 +17,11 @@ COLOURS = ["#d1495b", "#2a7f9e", "#66a182", "#8d6a9f", "#b08d57", "#444444"]
 def read(path):
     with open(path, newline="") as f:
         rows = [r for r in csv.reader(f) if r and not r[0].startswith("#")]
-    return [h.strip() for h in rows[0]], [[float(x) for x in r] for r in rows[1:]]
+    names = [h.strip() for h in rows[0]]
+    if names[0].lstrip("+-").replace(".", "", 1).isdigit():  # waypoints without a header are x, y, z, ...
+        rows.insert(0, [])
+        names = list("xyzabc")[:len(names)]
+    return names, [[float(x or 0) for x in r] for r in rows[1:]]
 
 
 def shade(fraction):
@@ -84,7 +88,8 @@ def main():
     if args.waypoints:
         names, points = read(args.waypoints)
         for p in points:
-            cx, cy = xy.at(p[names.index(axes[0])], p[names.index(axes[1])]).split(",")
+            place = [p[names.index(axis)] if axis in names else 0.0 for axis in axes[:2]]
+            cx, cy = xy.at(*place).split(",")
             out.append(f'<circle cx="{cx}" cy="{cy}" r="2" fill="#222"/>')
     speed = Plot(490, 36, 450, 130, t, [0, feed * 1.08])
     out += frame(speed, "0", f"{feed * 1.08:.0f}", "mm/s", "speed along the path, limit dashed")
