@@ -23,8 +23,11 @@ if grep -E 'malloc|^_Zn[wa]|^__cxa_|[uU]nwind|df[23x]$|^__aeabi_(c?d[^i]|[fiul]+
     exit 1
 fi
 # 64 bit divisions say where an axis stands before the first segment; none is on the way of a step or an edge.
-for source in crossing monotone_parts line_discipline; do
-    undefined=$(arm-none-eabi-nm -u "$build"/firmware_core/CMakeFiles/splinefeed_core.dir/splinefeed/s5_pulse_train/$source.cpp.obj)
+pulse_train=splinefeed/s5_pulse_train
+for source in crossing monotone_parts step_dir_sequencer; do
+    # A tree that was built before may keep the object of a source that is gone.
+    test -f firmware_core/$pulse_train/$source.cpp
+    undefined=$(arm-none-eabi-nm -u "$build/firmware_core/CMakeFiles/splinefeed_core.dir/$pulse_train/$source.cpp.obj")
     if grep ldivmod <<<"$undefined"; then
         echo "$source divides numbers of 64 bits"
         exit 1
