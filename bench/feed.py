@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Cycle times with limited jerk, as the tables of docs/feed.md: of a curve, or of random splines, against the least time
+"""Cycle times with limited jerk, as the tables of docs/explanation/feed.md: of a curve, or of random splines, against the least time
 that tests/judge finds for the same curve and limits (needs python3-numpy, python3-scipy)."""
 import argparse
 import json

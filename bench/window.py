@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """What the look-ahead of the plan is worth: cycle times of a program over windows, as a Markdown table.
 
-    docs/window.py --tool build/release/bin/splinefeed --jerk 30000 examples/path61.csv
-    docs/window.py --feed 250 --acceleration 2000 --jerk 20000 --axes xy examples/butterfly.json
+    bench/window.py --tool build/release/bin/splinefeed --jerk 30000 examples/path61.csv
+    bench/window.py --feed 250 --acceleration 2000 --jerk 20000 --axes xy examples/butterfly.json
 
 The acceleration-limited machine, and with --jerk the same with a jerk limit. The lines below say what is reached in --memory
 KiB, with the largest window (a multiple of 4 cells) that needs no more. The memory is what the tool says of the plan, the stage of

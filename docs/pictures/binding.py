@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Draws speed, acceleration and jerk along the path over time, coloured by the limit that binds, as SVG.
 
-    docs/binding.py --tool build/release/bin/splinefeed --machine examples/jerk_limited.toml examples/butterfly.json > out.svg
+    docs/pictures/binding.py --tool build/release/bin/splinefeed --machine examples/jerk_limited.toml examples/butterfly.json > out.svg
 
 One column for each jerk_plan, bounded and optimal. All is taken from the feed segments of the runs: in the middle of each the
 limit with the largest use binds, where that is 95 % at least. Acceleration and jerk are shown as what of them points in the

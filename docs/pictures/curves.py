@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Draws every curve method on the same points, with curvature combs, as SVG.
 
-    docs/curves.py build/release/bin/splinefeed > docs/curves.svg
-    docs/curves.py build/release/bin/splinefeed --table build/release/bin > table.md      (with the benchmarks built)
+    docs/pictures/curves.py build/release/bin/splinefeed > docs/pictures/curves.svg
+    docs/pictures/curves.py build/release/bin/splinefeed --table build/release/bin > table.md      (with the benchmarks built)
 
 A tooth of the comb is normal to the curve and as long as the curvature there: a step in the comb is a step in the
 curvature, which a machine feels as a jerk. Python's standard library only.

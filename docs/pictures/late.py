@@ -3,7 +3,7 @@
 """Draws how late edges came, as SVG, from what step_port_bench measured.
 
     build/release/bin/step_port_bench --benchmark_format=json > late.json
-    docs/late.py late.json > docs/late.svg
+    docs/pictures/late.py late.json > docs/pictures/late.svg
 
 One row of bars a rate and time of spinning; a bar is the share of the edges that were late by less than the time under it (and by
 more than the one to its left), on a logarithmic scale, so that one of a hundred thousand is seen. Python's standard library only."""

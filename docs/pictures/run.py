@@ -3,7 +3,7 @@
 """Draws a run as SVG: the path coloured by speed over the waypoints, and speed and accelerations over time.
 
     splinefeed run PART.csv -m MACHINE.toml --trace trace.csv
-    docs/picture.py --trace trace.csv --machine MACHINE.toml --waypoints PART.csv > run.svg
+    docs/pictures/run.py --trace trace.csv --machine MACHINE.toml --waypoints PART.csv > run.svg
 
 Python's standard library only (3.11 or later).
 """

@@ -57,7 +57,7 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     };
     option("--curve", curve.method,
            "g2, g2-bezier, catmull-rom, catmull-rom-modified, bspline, bspline-interpolation, ferguson, beta-chain or "
-           "polyline (default g2); docs/curves.md compares them");
+           "polyline (default g2); docs/explanation/curves.md compares them");
     app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
         ->group(group)
         ->disable_flag_override();
@@ -116,7 +116,7 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_option("--trace", job.run.outputs.trace, "T.csv: positions and speed at every sample period")->group(group);
     app.add_option("--segments", job.run.outputs.segments, "S.csv: the feed segments, in integers")->group(group);
     app.add_option("--edges", job.run.outputs.edges,
-                   "E.csv: what the step and direction lines do, on a virtual clock; docs/pulse_train.md")
+                   "E.csv: what the step and direction lines do, on a virtual clock; docs/explanation/pulse_train.md")
         ->group(group);
     app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
