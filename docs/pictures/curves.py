@@ -90,10 +90,10 @@ METHODS = [
      "local, unevenly spaced points"),
     ("bspline", "", "C2", "C2 (degree 2: C1)", "bspline", "the points are a control polygon; stays in its hull"),
     ("bspline-interpolation", "--degree 3", "G2", "C^(k-1) in t", "interpolate_bspline<3>/1000", "any degree 1 to 9; all points known"),
-    ("bspline-interpolation", "--degree 5", "G2", "C^(k-1) in t", "interpolate_bspline<5>/1000", "cams and whatever is differentiated twice"),
+    ("bspline-interpolation", "--degree 5", "G2", "C^(k-1) in t", "interpolate_bspline<5>/1000", "cams and motions that are differentiated twice"),
     ("ferguson", "", "G2", "C2 at lambda 1, mu 0; else G2", "ferguson_curve", "tangent length and tension of single joints; evenly spaced points"),
     ("ferguson", "--curvature-sign -1 --mu 8", "G1+|k|", "G1, only the modulus of the curvature", "ferguson_curve", "hardly ever: the curvature flips at every point"),
-    ("beta-chain", "--degree 5 --beta2 4", "G2", "G2 (order 1: G1)", "beta_chain_curve", "shapes drawn by hand, bias and tension a joint"),
+    ("beta-chain", "--degree 5 --beta2 4", "G2", "G2 (order 1: G1)", "beta_chain_curve", "shapes drawn by hand; bias and tension for each joint"),
     ("polyline", "", "C0", "C0, a stop at each corner", "polyline", "straight lines"),
 ]
 RANK = ["C0", "G1", "G1+|k|", "G2", "C2"]
@@ -165,7 +165,7 @@ def costs(folder):
 def table(tool, folder):
     cost = costs(folder)
     points = [(2.5 * i + 0.3 * math.sin(2.0 * i), 10 * math.sin(0.35 * i) + 2 * math.sin(1.3 * i)) for i in range(39)]
-    print("| method | continuity | measured at least | passes the points within | moving one point by 1 mm moves | "
+    print("| method | continuity | measured at least | passes the points within | moving one point by 1 mm changes | "
           "ns a waypoint | when to use |")
     print("|---|---|---|---|---|---|---|")
     for name, options, expected, proved, bench, use in METHODS:

@@ -24,7 +24,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LANGUAGES = {"sh", "text", "toml", "csv", "json", "cpp", "cmake"}
 COPIED = ("docs", "examples", "bench")  # a page may write there
-LIMIT_S = 60
+LIMIT_S, WAIT_S = 60, 10  # of a page; until a drive answers
 COMMAND = re.compile(r"^ {4}(\$ |\./|splinefeed |build/|docs/\S*\.py|bench/|cmake |ctest |sudo |apt|printf |echo |socat )", re.MULTILINE)
 
 
@@ -98,9 +98,9 @@ def with_ports(text, ports):
 def waits_for(text):
     """Shell lines that wait until what a block left running can be reached."""
     for port in re.findall(r"--listen '?tcp://127\.0\.0\.1:(\d+)", text):
-        yield f"until (exec 3<>/dev/tcp/127.0.0.1/{port}) 2>/dev/null; do sleep 0.02; done"
+        yield f"for i in {{1..{10 * WAIT_S}}}; do (exec 3<>/dev/tcp/127.0.0.1/{port}) 2>/dev/null && break; sleep 0.1; done; [ $i -lt {10 * WAIT_S} ]"
     for path in re.findall(r"link=([^\s,]+)", text):
-        yield f"until [ -e {path} ]; do sleep 0.02; done"
+        yield f"for i in {{1..{10 * WAIT_S}}}; do [ -e {path} ] && break; sleep 0.1; done; [ -e {path} ]"
 
 
 def script_of(blocks, ports, folder):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Whether every relative link and every #anchor of the Markdown pages resolves, and every `docs/...` that any file names exists."""
+"""Whether every relative link and #anchor of the Markdown pages resolves, every `docs/...` that any file names exists, a page
+links to each page, and the program has the messages that docs/troubleshooting.md explains."""
 import pathlib
 import re
 import subprocess
@@ -64,12 +65,27 @@ def unreachable(pages):
     return [f"{page}: no page links to it" for page in pages if page.startswith("docs/") and (ROOT / page) not in linked]
 
 
+def unknown_messages(page):
+    """Messages in the first column of the troubleshooting page that no source has; ... stands for what varies."""
+    sources = "\n".join(p.read_text() for tree in ("host_sim", "hal", "firmware_core") for p in sorted((ROOT / tree).rglob("*.cpp")))
+    said = re.sub(r'"\s*\n\s*"', "", sources).replace('\\"', '"')
+    for number, line in enumerate((ROOT / page).read_text().split("\n"), 1):
+        first = line.split(" | ")[0]
+        for message in re.findall(r"`([^`]+ [^`]+)`", first) if line.startswith("| ") else []:
+            if "command not found" in message or "=" in message:
+                continue  # the shell's; a key
+            for part in filter(None, (part.strip(" ;") for part in message.split("..."))):
+                if part not in said:
+                    yield f"{page}:{number}: no source says '{part}'"
+
+
 def main():
     listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True,
                             capture_output=True, text=True).stdout.split("\n")
     files = [name for name in listed if (ROOT / name).is_file()]
     pages = [name for name in files if name.endswith(".md")]
     bad = [line for page in pages for line in bad_links(page)] + list(bad_names(files)) + unreachable(pages)
+    bad += unknown_messages("docs/troubleshooting.md")
     print("\n".join(bad) if bad else f"{len(pages)} pages: all links resolve")
     return 1 if bad else 0
 
