@@ -17,10 +17,12 @@ import subprocess
 import tempfile
 import tomllib
 
+from drawing import BLUE, ORANGE, VERMILLION, Frame, document, legend, line, text, thinned
+
 TIERS = ["bounded", "optimal"]
 BINDS = 0.95
-COLOURS = {"feed or velocity": "#2a7f9e", "acceleration of an axis": "#66a182", "jerk of an axis": "#d1495b", "none": "#999999"}
-LEFT, WIDTH, GAP, TOP, HEIGHT, STEP = 62, 420, 50, 62, 120, 152
+COLOURS = {"feed or velocity": BLUE, "acceleration of an axis": ORANGE, "jerk of an axis": VERMILLION, "none": "#8c8c8c"}
+LEFT, WIDTH, GAP, TOP, HEIGHT, STEP = 66, 400, 74, 74, 124, 164
 
 
 def segments_of(tool, program, options, machine_text, tier):
@@ -65,37 +67,15 @@ def samples_of(text, machine):
     return out
 
 
-def text(x, y, content, anchor="start", colour="#333", size=12):
-    return f'<text x="{x}" y="{y}" text-anchor="{anchor}" fill="{colour}" font-size="{size}">{content}</text>'
-
-
-def line(points, colour):
-    """A polyline, without the points that are on the line between their neighbours to a fifth of a pixel."""
-    kept = points[:1]
-    for point, after in zip(points[1:], points[2:]):
-        (x0, y0), (x, y), (x1, y1) = kept[-1], point, after
-        if abs((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)) > 0.2 * math.hypot(x1 - x0, y1 - y0) or x - x0 > 4:
-            kept.append(point)
-    kept += points[-1:]
-    return f'<polyline points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in kept)}" stroke="{colour}"/>'
-
-
-def panel(samples, which, left, top, width, span, low, high):
-    def at(sample):
-        y = top + HEIGHT * (high - sample[1][which]) / (high - low)
-        return left + width * (sample[0] - span[0]) / (span[1] - span[0]), y
-
-    out = [f'<rect x="{left}" y="{top}" width="{width}" height="{HEIGHT}" stroke="#bbb" stroke-width="1"/>']
-    if low < 0:
-        zero = top + HEIGHT * high / (high - low)
-        out.append(f'<path d="M{left} {zero:.1f}h{width}" stroke="#ddd" stroke-width="1"/>')
-    run = [at(samples[0])]
+def panel(samples, which, frame):
+    """The curve in pieces of one colour, each by what binds."""
+    out, run = [], [frame.at(samples[0][0], samples[0][1][which])]
     for before, sample in zip(samples, samples[1:]):
-        run.append(at(sample))
+        run.append(frame.at(sample[0], sample[1][which]))
         if sample[2] != before[2]:
-            out.append(line(run, COLOURS[before[2]]))
-            run = [at(sample)]
-    return out + [line(run, COLOURS[samples[-1][2]])]
+            out.append(line(thinned(run), COLOURS[before[2]], 1.6))
+            run = run[-1:]
+    return out + [line(thinned(run), COLOURS[samples[-1][2]], 1.6)]
 
 
 def main():
@@ -113,28 +93,25 @@ def main():
         samples = samples_of(segments_of(arguments.tool, arguments.program, options, machine_text, tier), machine)
         runs.append((samples, [s for s in samples if arguments.start <= s[0] <= arguments.end]))
     span = (min(shown[0][0] for _, shown in runs), max(shown[-1][0] for _, shown in runs))
-    size = (LEFT + len(TIERS) * (WIDTH + GAP), TOP + 3 * STEP + 4)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size[0]} {size[1]}" font-family="sans-serif">',
-           '<rect width="100%" height="100%" fill="white"/>']
-    for i, (name, colour) in enumerate(COLOURS.items()):
-        out.append(f'<rect x="{LEFT + 200 * i}" y="10" width="18" height="4" fill="{colour}"/>')
-        out.append(text(LEFT + 24 + 200 * i, 16, name))
-    out.append('<g fill="none" stroke-width="1.3" stroke-linejoin="round">')
-    words = []
+    out = [text(LEFT, 20, "What binds (95 % of a limit is used):")]
+    out += legend(LEFT + 240, 20, [(name, colour, "") for name, colour in COLOURS.items()], 175)
+    path = machine["path"]["max_feed_mm_s"]
+    limits = [path, max(a["max_acceleration_mm_s2"] for a in machine["axis"]), max(a["max_jerk_mm_s3"] for a in machine["axis"])]
     titles = ["speed [mm/s]", "acceleration along the path [mm/s^2]", "jerk along the path [mm/s^3]"]
-    for which, title in enumerate(titles):
-        top = TOP + STEP * which
+    for which, (title, limit) in enumerate(zip(titles, limits)):
         values = [s[1][which] for _, shown in runs for s in shown]
-        low, high = 1.05 * min(0.0, *values), 1.05 * max(values)
-        words += [text(LEFT - 5, top + 10, f"{high:.0f}", "end", "#777", 10), text(LEFT - 5, top + HEIGHT, f"{low:.0f}", "end", "#777", 10)]
+        high = 1.1 * max(limit, *values)
+        low = min(0.0, 1.1 * min(values)) if which == 0 else 1.1 * min(-limit, *values)
         for column, (samples, shown) in enumerate(runs):
-            left = LEFT + column * (WIDTH + GAP)
-            words.append(text(left, top - 6, title if which else f"<tspan font-weight=\"bold\">{TIERS[column]}</tspan>, {title}"))
-            out += panel(shown, which, left, top, WIDTH, span, low, high)
-            if which == 2:
-                words += [text(left, top + HEIGHT + 13, f"{span[0]:.2f} s", "start", "#777", 10),
-                          text(left + WIDTH, top + HEIGHT + 13, f"{span[1]:.2f} s of {len(samples) * (samples[1][0] - samples[0][0]):.3f} s", "end", "#777", 10)]
-    print("\n".join(out + ["</g>"] + words + ["</svg>"]))
+            left, top = LEFT + column * (WIDTH + GAP), TOP + STEP * which
+            frame = Frame((left, top, WIDTH, HEIGHT), span, (low, high))
+            out += frame.drawn(title, "time [s]" if which == 2 else "", 5)
+            out += frame.limit(limit, "feed limit" if which == 0 else "limit of an axis") + (frame.limit(-limit) if which else [])
+            out += panel(shown, which, frame)
+            if which == 0:
+                whole = len(samples) * (samples[1][0] - samples[0][0])
+                out.append(text(left, top - 24, f'jerk_plan = "{TIERS[column]}", cycle time {whole:.3f} s', bold=True))
+    print(document(LEFT + len(TIERS) * (WIDTH + GAP) - GAP + 20, TOP + 3 * STEP, out))
 
 
 if __name__ == "__main__":

@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 
+from drawing import BLACK, BLUE, FRAME, ORANGE, VERMILLION, document, legend, line, text, thinned
+
 POINTS = [(0, 0), (8, 20), (26, 26), (36, 14), (41, 11), (47, 14), (60, 30), (78, 26), (84, 2), (100, 8)]
 PANELS = [  # title, options, what is measured at the joints
     ("g2", "--corner-angle 180"),
@@ -28,9 +30,10 @@ PANELS = [  # title, options, what is measured at the joints
     ("beta-chain, degree 5, control points", "--curve beta-chain --degree 5"),
     ("polyline", "--curve polyline"),
 ]
-WIDTH, HEIGHT, COLUMNS = 320, 210, 3
-SCALE, TOOTH = 2.6, 60.0  # pixels a mm, mm of tooth for a curvature of 1/mm
-PER_SEGMENT = 36
+WIDTH, HEIGHT, COLUMNS, TOP = 330, 214, 3, 44
+SCALE, TOOTH = 2.2, 44.0  # pixels a mm, mm of tooth for a curvature of 1/mm
+SHARPEST = 0.5            # per mm: longer teeth would leave the frame, and are cut
+PER_SEGMENT = 60
 
 
 def jet(points, u):
@@ -53,7 +56,7 @@ def panel(tool, csv, title, options, left, top):
                           check=True).stdout
 
     def at(p):
-        return f"{left + 30 + SCALE * p[0]:.1f},{top + 140 - SCALE * p[1]:.1f}"
+        return left + 52 + SCALE * p[0], top + 136 - SCALE * p[1]
 
     curve, teeth, tips = [], [], []
     for segment in json.loads(made)["segments"]:
@@ -65,19 +68,20 @@ def panel(tool, csv, title, options, left, top):
             speed = math.hypot(*d)
             if speed > 1e-9:
                 kappa = (d[0] * dd[1] - d[1] * dd[0]) / speed**3
-                kappa = max(-0.5, min(0.5, kappa))  # a cusp would fill the page
+                kappa = max(-SHARPEST, min(SHARPEST, kappa))
                 tip = (p[0] + TOOTH * kappa * d[1] / speed, p[1] - TOOTH * kappa * d[0] / speed)
                 tips[-1].append(at(tip))
-                if i % 3 == 0:
-                    teeth.append(f"M{at(p)}L{at(tip)}")
-    out = [f'<text x="{left + 12}" y="{top + 18}" font-size="13">{title}</text>',
-           f'<path d="{"".join(teeth)}" stroke="#e0a458" stroke-width="0.6" fill="none"/>']
-    for run in tips:
-        out.append(f'<polyline points="{" ".join(run)}" fill="none" stroke="#d1495b" stroke-width="0.9"/>')
-    out.append(f'<polyline points="{" ".join(curve)}" fill="none" stroke="#2a4d6e" stroke-width="1.8"/>')
-    out += [f'<circle cx="{c.split(",")[0]}" cy="{c.split(",")[1]}" r="2.6" fill="#222"/>' for c in map(at, POINTS)]
-    return out
-
+                if i % 5 == 0:
+                    teeth.append("M{:.1f},{:.1f}L{:.1f},{:.1f}".format(*at(p), *at(tip)))
+    for x, y in curve + [tip for run in tips for tip in run]:
+        if not (left < x < left + WIDTH - 10 and top < y < top + HEIGHT - 10):
+            sys.exit(f"{title}: the drawing leaves its frame at {x - left:.0f}, {y - top:.0f}")
+    out = [f'<rect x="{left}" y="{top}" width="{WIDTH - 10}" height="{HEIGHT - 10}" fill="none" stroke="{FRAME}"/>',
+           text(left + 8, top + 17, title, size=13),
+           f'<path d="{"".join(teeth)}" stroke="{ORANGE}" stroke-width="0.6" fill="none"/>']
+    out += [line(thinned(run), VERMILLION, 1) for run in tips if run]
+    out.append(line(thinned(curve), BLUE, 2))
+    return out + [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2.6" fill="{BLACK}"/>' for x, y in map(at, POINTS)]
 
 
 # method, what is proved of a joint, benchmark of its cost, when to use it
@@ -191,22 +195,21 @@ def main():
         return
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    rows = -(-len(PANELS) // COLUMNS)
-    size = f"{WIDTH * COLUMNS} {HEIGHT * rows}"
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" font-family="sans-serif">',
-           '<rect width="100%" height="100%" fill="white"/>']
+    tooth = TOOTH * SCALE
+    out = legend(10, 24, [("curve", BLUE, ""), ("ends of the teeth", VERMILLION, "")], 80)
+    out += [f'<circle cx="250" cy="20" r="2.6" fill="{BLACK}"/>', text(258, 24, "waypoint"),
+            line([(340, 20), (340 + 0.1 * tooth, 20)], ORANGE, 2), text(346 + 0.1 * tooth, 24, "tooth of curvature 0.1/mm"),
+            text(525, 24, f"(cut at {SHARPEST:g}/mm)"),
+            line([(660, 20), (660 + 10 * SCALE, 20)], BLACK, 2), text(666 + 10 * SCALE, 24, "10 mm")]
     with tempfile.NamedTemporaryFile("w", suffix=".csv") as csv, tempfile.NamedTemporaryFile("w", suffix=".csv") as nine:
         for file, points in ((csv, POINTS), (nine, POINTS[:9])):
             file.write("\n".join(f"{x},{y}" for x, y in points) + "\n")
             file.flush()
         for i, (title, options) in enumerate(PANELS):
-            left, top = WIDTH * (i % COLUMNS), HEIGHT * (i // COLUMNS)
-            out.append(f'<clipPath id="c{i}"><rect x="{left}" y="{top}" width="{WIDTH}" height="{HEIGHT}"/></clipPath>'
-                       f'<g clip-path="url(#c{i})">')
+            left, top = 10 + WIDTH * (i % COLUMNS), TOP + HEIGHT * (i // COLUMNS)
             # A chain of degree 5 takes 6 points and 3 for each further polygon: 9.
             out += panel(sys.argv[1], nine.name if "beta-chain" in options else csv.name, title, options, left, top)
-            out.append("</g>")
-    print("\n".join(out + ["</svg>"]))
+    print(document(WIDTH * COLUMNS + 10, TOP + HEIGHT * -(-len(PANELS) // COLUMNS), out))
 
 
 if __name__ == "__main__":

@@ -11,11 +11,15 @@ import argparse
 import csv
 import tomllib
 
-COLOURS = ["#d1495b", "#2a7f9e", "#66a182", "#8d6a9f", "#b08d57", "#444444"]
+from drawing import AXES, BLACK, GREY, RAMP, Frame, document, legend, line, shade, text
+
+WIDTH, HEIGHT = 960, 440
+PATH_BOX = (58, 36, 350, 330)
+STEPS = 400  # pieces of one colour that the path is drawn in
 
 
 def read(path):
-    with open(path, newline="") as f:
+    with open(path, newline="", encoding="utf-8") as f:
         rows = [r for r in csv.reader(f) if r and not r[0].startswith("#")]
     names = [h.strip() for h in rows[0]]
     if names[0].lstrip("+-").replace(".", "", 1).isdigit():  # waypoints without a header are x, y, z, ...
@@ -24,46 +28,37 @@ def read(path):
     return names, [[float(x or 0) for x in r] for r in rows[1:]]
 
 
-def shade(fraction):
-    """Blue (slow) over green to red (full speed)."""
-    return f"hsl({240 - 240 * min(1.0, max(0.0, fraction)):.0f},65%,48%)"
+def path_of(rows, axes, feed, waypoints):
+    """The path in the plane of the first two axes, with equal scales, and the colours of its speed."""
+    left, top, width, height = PATH_BOX
+    second = 2 if len(axes) > 1 else 1
+    spans = [(min(r[k] for r in rows), max(r[k] for r in rows)) for k in (1, second)]
+    if second == 1:
+        spans[1] = (0.0, 0.0)
+    scale = min(w / ((b - a) or 1e-9) for w, (a, b) in zip((0.94 * width, 0.94 * height), spans))
+    ranges = [((a + b - w / scale) / 2, (a + b + w / scale) / 2) for w, (a, b) in zip((width, height), spans)]
+    frame = Frame(PATH_BOX, *ranges)
+    out = frame.drawn(f"path: {axes[0]} and {axes[1] if len(axes) > 1 else ''} [mm]; dots: waypoints", " ", 6, 6)
+    pieces = rows[::-(-len(rows) // STEPS)] + rows[-1:]
+    for a, b in zip(pieces, pieces[1:]):
+        ends = [frame.at(r[1], r[2] if second == 2 else 0.0) for r in (a, b)]
+        out.append(line(ends, shade(max(a[-1], b[-1]) / feed), 3.5))
+    if waypoints:
+        names, points = read(waypoints)
+        for p in points:
+            x, y = frame.at(*[p[names.index(axis)] if axis in names else 0.0 for axis in (list(axes[:2]) + ["-"])[:2]])
+            out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2.4" fill="white" stroke="{BLACK}" stroke-width="1"/>')
+    bar = 240 / len(RAMP)
+    for i, colour in enumerate(RAMP):
+        out.append(f'<rect x="{left + 60 + i * bar:.1f}" y="{top + height + 36}" width="{bar:.1f}" height="10" fill="{colour}"/>')
+    return out + [text(left, top + height + 45, "speed"), text(left + 60, top + height + 61, "0", "middle", GREY, 11),
+                  text(left + 300, top + height + 61, f"{feed:g} mm/s (feed)", "middle", GREY, 11)]
 
 
-class Plot:
-    """A rectangle of the picture with its own scales."""
-
-    def __init__(self, x, y, width, height, xs, ys, square=False):
-        self.box = (x, y, width, height)
-        self.x0, self.x1, self.y0, self.y1 = min(xs), max(xs), min(ys), max(ys)
-        self.sx = width / ((self.x1 - self.x0) or 1)
-        self.sy = height / ((self.y1 - self.y0) or 1)
-        if square:
-            self.sx = self.sy = min(self.sx, self.sy)
-
-    def at(self, x, y):
-        left, top, _, height = self.box
-        return f"{left + (x - self.x0) * self.sx:.1f},{top + height - (y - self.y0) * self.sy:.1f}"
-
-
-def thin(points, count=700):
-    return points[:: max(1, len(points) // count)] + points[-1:]
-
-
-def line(plot, points, colour, width=1.4, dash=""):
-    path = " ".join(plot.at(x, y) for x, y in points)
-    style = f' stroke-dasharray="{dash}"' if dash else ""
-    return f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="{width}"{style}/>'
-
-
-def text(x, y, content, anchor="start", colour="#333", size=12):
-    return f'<text x="{x}" y="{y}" text-anchor="{anchor}" fill="{colour}" font-size="{size}">{content}</text>'
-
-
-def frame(plot, low, high, unit, title):
-    x, y, width, height = plot.box
-    return [f'<rect x="{x}" y="{y}" width="{width}" height="{height}" fill="none" stroke="#bbb"/>',
-            text(x, y - 6, title), text(x - 5, y + 10, high, "end", "#777", 10),
-            text(x - 5, y + height, low, "end", "#777", 10), text(x + width, y - 6, unit, "end", "#777", 10)]
+def accelerations(rows, k):
+    h = rows[1][0] - rows[0][0]
+    q = [r[k + 1] for r in rows]
+    return [(rows[i][0], (q[i + 1] - 2 * q[i] + q[i - 1]) / h**2) for i in range(1, len(q) - 2)]  # the last sample may be earlier
 
 
 def main():
@@ -75,42 +70,27 @@ def main():
     with open(args.machine, "rb") as f:
         machine = tomllib.load(f)
     head, rows = read(args.trace)
-    axes = head[1:-1]
-    feed = machine["path"]["max_feed_mm_s"]
-    t = [r[0] for r in rows]
-    out = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 960 400" font-family="sans-serif">',
-           '<rect width="960" height="400" fill="white"/>']
-    xy = Plot(20, 36, 400, 336, [r[1] for r in rows], [r[2] for r in rows], square=True)
-    out.append(text(20, 22, "path, blue slow to red at full feed; dots: waypoints"))
-    steps = thin(rows, 500)
-    for a, b in zip(steps, steps[1:]):
-        out.append(line(xy, [(a[1], a[2]), (b[1], b[2])], shade(b[-1] / feed), 3))
-    if args.waypoints:
-        names, points = read(args.waypoints)
-        for p in points:
-            place = [p[names.index(axis)] if axis in names else 0.0 for axis in axes[:2]]
-            cx, cy = xy.at(*place).split(",")
-            out.append(f'<circle cx="{cx}" cy="{cy}" r="2" fill="#222"/>')
-    speed = Plot(490, 36, 450, 130, t, [0, feed * 1.08])
-    out += frame(speed, "0", f"{feed * 1.08:.0f}", "mm/s", "speed along the path, limit dashed")
-    out.append(line(speed, [(t[0], feed), (t[-1], feed)], "#999", 1, "5 4"))
-    out.append(line(speed, thin([(r[0], r[-1]) for r in rows]), "#222"))
-    limit = max(a["max_acceleration_mm_s2"] for a in machine["axis"])
-    accel = Plot(490, 206, 450, 150, t, [-limit * 1.08, limit * 1.08])
-    out += frame(accel, f"{-limit * 1.08:.0f}", f"{limit * 1.08:.0f}", "mm/s^2", "acceleration of each axis, limits dashed")
-    for bound in {a["max_acceleration_mm_s2"] for a in machine["axis"]}:
-        for sign in (-1, 1):
-            out.append(line(accel, [(t[0], sign * bound), (t[-1], sign * bound)], "#999", 1, "5 4"))
-    h = t[1] - t[0]
+    axes, feed = head[1:-1], machine["path"]["max_feed_mm_s"]
+    out = path_of(rows, axes, feed, args.waypoints)
+    end = rows[-1][0]
+    speed = Frame((510, 36, 430, 120), (0.0, end), (0.0, 1.15 * feed))
+    out += speed.drawn("speed along the path [mm/s]") + speed.limit(feed, "feed limit")
+    out.append(speed.curve([(r[0], r[-1]) for r in rows], BLACK))
+    limits = [a["max_acceleration_mm_s2"] for a in machine["axis"][:len(axes)]]
+    largest = 1.15 * max(limits)
+    frame = Frame((510, 206, 430, 160), (0.0, end), (-largest, largest))
+    out += frame.drawn("acceleration of each axis [mm/s^2]", "time [s]")
+    for number, limit in enumerate(sorted(set(limits))):
+        out += frame.limit(limit, "limit" if number == 0 else "") + frame.limit(-limit)
+    moving = []
     for k, axis in enumerate(axes):
-        q = [r[k + 1] for r in rows]
-        points = [(t[i], (q[i + 1] - 2 * q[i] + q[i - 1]) / h**2) for i in range(1, len(q) - 2)]
+        points = accelerations(rows, k)
         if max(abs(a) for _, a in points) > 1e-6:
-            out.append(line(accel, points[:: max(1, len(points) // 900)], COLOURS[k], 1.1))
-            out.append(text(490 + 40 * k, 374, axis, colour=COLOURS[k]))
-    out.append(text(940, 374, f"{t[-1]:.3f} s", "end", "#777", 10))
-    out.append("</svg>")
-    print("\n".join(out))
+            moving.append((axis, AXES[axis], ""))
+            out.append(frame.curve(points, AXES[axis]))
+    out += legend(510, 426, moving, 70)
+    out.append(text(940, 426, f"cycle time {end:.3f} s", "end"))
+    print(document(WIDTH, HEIGHT, out))
 
 
 if __name__ == "__main__":
