@@ -183,7 +183,7 @@ def main():
         print(f"{build}/bin/splinefeed is not built")
         return 1
     pages = sys.argv[2:] or ["README.md", *sorted(str(p.relative_to(ROOT)) for p in (ROOT / "docs").rglob("*.md"))]
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
         results = list(pool.map(lambda page: run(page, build), pages))
     complaints = [line for bad, _, _ in results for line in bad]
     reasons = [reason for _, _, some in results for reason in some]
