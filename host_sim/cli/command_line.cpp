@@ -108,8 +108,9 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
                      "end the run where the probe touches (gpio://); exit status 1 if it never does")
             ->disable_flag_override();
     }
-    app.add_option("--window", typed.window,
-                   "look-ahead of the feed plan in cells, 16 to 1000000 (default 1024); a jerk-limited plan uses a quarter");
+    app.add_option(
+        "--window", typed.window,
+        "look-ahead of the feed plan in cells, 16 to 1000000 (default 1024); a jerk-limited plan uses a quarter");
     app.add_option("--events", job.run.motion.events,
                    "E.csv: what an operator does during the run, rows t,hold|resume|abort or t,override,0 to 2");
     const std::string group = "Outputs (- is standard output)";
@@ -283,9 +284,9 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
                     exit_statuses);
     CLI::App* const drive = app.add_subcommand("drive", "Simulate a Modbus drive until it is interrupted");
     add_drive_options(*drive, job.drive);
-    drive->footer(
-        "Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
-        "It prints one line when it listens. After SIGINT (Ctrl-C) or SIGTERM it completes its records and exits with 0.");
+    drive->footer("Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
+                  "It prints one line when it listens. After SIGINT (Ctrl-C) or SIGTERM it completes its records and "
+                  "exits with 0.");
     CLI::App* const link = app.add_subcommand("link", "Test the link to drives: who answers, how fast, how reliably");
     add_link_options(*link, job.link);
     link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
