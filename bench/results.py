@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Makes docs/results.md: every example run in the simulated machine and judged from its files alone.
+"""Makes docs/reference/results.md: every example run in the simulated machine and judged from its files alone.
 
-    /usr/bin/python3 bench/results.py > docs/results.md
+    /usr/bin/python3 bench/results.py > docs/reference/results.md
 
 The judge is tests/judge. Needs python3-numpy, python3-scipy and a release build.
 """
@@ -75,7 +75,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--tool", default=os.path.join(ROOT, "build/release/bin/splinefeed"))
     args = parser.parse_args()
-    print("# Results\n\nMade by `bench/results.py > docs/results.md`; every figure is judged from the files of a run"
+    print("# Results\n\nMade by `bench/results.py > docs/reference/results.md`; every figure is judged from the files of a run"
           " (trace,\ncurve, machine) by tests/judge, by finite differences of the trace at 1 ms. `over optimum` is the cycle time over the"
           " least time that is\npossible on the same curve under the same velocity, acceleration and feed limits, at rest at"
           " every corner of the curve\n(TOPP-RA on a fine grid). 1 in a `use` column is the limit.")

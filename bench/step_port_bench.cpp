@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How late edges are on this host: StepPort in real time, its lines going nowhere. Counters: octave N counts edges that
-// were below 2^N us late and not in an octave before; `stretched_us` what the motion was stretched by. docs/late.py
-// draws them.
+// were below 2^N us late and not in an octave before; `stretched_us` what the motion was stretched by.
+// docs/pictures/late.py draws them.
 #include "splinefeed/hal/gpio/step_port.hpp"
 
 #include <benchmark/benchmark.h>

@@ -21,8 +21,8 @@ namespace {
 #endif
 
 constexpr const char* exit_statuses =
-    "Exit status: 0 done; 1 the machine did not finish, and where it stands, or a drive cannot be used; 2 bad input or "
-    "usage, told in one line.";
+    "Exit status: 0 done; 1 the machine did not finish (the message says where it stands), or a drive cannot be used; "
+    "2 bad input or usage (the message is one line).";
 
 /// What was typed, before it is checked.
 struct Typed {
@@ -46,7 +46,7 @@ void add_input(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("FILE", job.run.path.input, "waypoints (.csv) or a curve (.json); - reads standard input")
         ->required();
     app.add_option("--format", typed.format,
-                   "csv or json: what the input is (default: what its name says; of standard input csv)");
+                   "csv or json: format of the input (default: by its name; of standard input csv)");
 }
 
 void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
@@ -57,7 +57,7 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     };
     option("--curve", curve.method,
            "g2, g2-bezier, catmull-rom, catmull-rom-modified, bspline, bspline-interpolation, ferguson, beta-chain or "
-           "polyline (default g2); docs/curves.md compares them");
+           "polyline (default g2); docs/explanation/curves.md compares them");
     app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
         ->group(group)
         ->disable_flag_override();
@@ -85,15 +85,15 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     option("--curvature-sign", curve.curvature_sign,
            "of ferguson: 1, -1 (flips the curvature at every point) or auto (-1 at inflections; default 1)");
     option("--corner-angle", curve.corner_angle,
-           "a sharper turn, in degrees, is a corner: the machine stops there (default 60, of "
-           "bspline 180: none is)");
+           "a turn sharper than this, in degrees, is a corner: the machine stops there (default 60; bspline 180, "
+           "no corners)");
     option("--start-tangent", curve.start_tangent,
            "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
            "derivative)");
     option("--end-tangent", curve.end_tangent, "X,Y,Z: the same at the end");
     app.add_option("--scalar", typed.scalar,
-                   "fixed, float or double: what it is computed in (default fixed, as on a microcontroller); float not "
-                   "with a jerk limit")
+                   "fixed, float or double: number type of the computation (default fixed, as on a microcontroller); "
+                   "float not with a jerk limit")
         ->group(group);
 }
 
@@ -102,21 +102,22 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     if (executes) {
         app.add_option("--target", job.run.target,
                        std::string("sim: the simulated machine in this process (default); ") + target_text);
-        app.add_flag("--home", job.run.wishes.home, "the axes find their references first; then the program begins")
+        app.add_flag("--home", job.run.wishes.home, "find the references of the axes before the program begins")
             ->disable_flag_override();
         app.add_flag("--probe", job.run.wishes.probe,
-                     "it ends where the probe touches (gpio://); 1 where it never does")
+                     "end the run where the probe touches (gpio://); exit status 1 if it never does")
             ->disable_flag_override();
     }
-    app.add_option("--window", typed.window,
-                   "cells that the feed plan looks ahead, 16 to 1000000 (default 1024); a jerk-limited plan a quarter");
+    app.add_option(
+        "--window", typed.window,
+        "look-ahead of the feed plan in cells, 16 to 1000000 (default 1024); a jerk-limited plan uses a quarter");
     app.add_option("--events", job.run.motion.events,
-                   "E.csv: what an operator does while it runs, rows t,hold|resume|abort or t,override,0 to 2");
+                   "E.csv: what an operator does during the run, rows t,hold|resume|abort or t,override,0 to 2");
     const std::string group = "Outputs (- is standard output)";
     app.add_option("--trace", job.run.outputs.trace, "T.csv: positions and speed at every sample period")->group(group);
     app.add_option("--segments", job.run.outputs.segments, "S.csv: the feed segments, in integers")->group(group);
     app.add_option("--edges", job.run.outputs.edges,
-                   "E.csv: what the step and direction lines do, on a virtual clock; docs/pulse_train.md")
+                   "E.csv: edges of the step and direction lines, on a virtual clock; docs/reference/files.md")
         ->group(group);
     app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
@@ -260,7 +261,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_machine_options(*run, job, typed, true);
     add_curve_options(*run, job, typed);
     run->footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
-    CLI::App* const plan = app.add_subcommand("plan", "Plan a path, execute nothing");
+    CLI::App* const plan = app.add_subcommand("plan", "Plan a path without executing it");
     add_input(*plan, job, typed);
     add_machine_options(*plan, job, typed, false);
     add_curve_options(*plan, job, typed);
@@ -273,21 +274,20 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     curve->footer(std::string("Example: splinefeed curve part.csv --closed -o part.json\n") + exit_statuses);
     CLI::App* const surface = app.add_subcommand("surface", "Print a surface, or a tool path on it");
     surface->add_option("FILE", job.run.path.input, "a grid or sections (.json); - reads standard input")->required();
-    surface->add_option("--format", typed.format, "json: what the input is, whatever its name");
+    surface->add_option("--format", typed.format, "json: format of the input, whatever its name is");
     add_surface_options(*surface, job.surface);
     surface->add_flag("--quiet", job.run.motion.quiet, "no warnings on standard error")->disable_flag_override();
     surface->add_option("--scalar", typed.scalar,
-                        "fixed, float or double: what parameters, knots and control points are computed in (default "
-                        "double)");
+                        "fixed, float or double: number type of parameters, knots and control points (default double)");
     surface->footer(std::string("Example: splinefeed surface dome.json --along u --scallop 0.01 --ball-radius 6 -o "
                                 "path.csv\n") +
                     exit_statuses);
-    CLI::App* const drive = app.add_subcommand("drive", "Play a Modbus drive, until it is interrupted");
+    CLI::App* const drive = app.add_subcommand("drive", "Simulate a Modbus drive until it is interrupted");
     add_drive_options(*drive, job.drive);
-    drive->footer(
-        "Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
-        "It prints one line when it listens, and exits with 0 after SIGINT (Ctrl-C) or SIGTERM, its records complete.");
-    CLI::App* const link = app.add_subcommand("link", "Test the link to drives: who answers, how fast, how surely");
+    drive->footer("Example: splinefeed drive --listen tcp://127.0.0.1:1502 --axes 3 --record shafts.csv\n"
+                  "It prints one line when it listens. After SIGINT (Ctrl-C) or SIGTERM it completes its records and "
+                  "exits with 0.");
+    CLI::App* const link = app.add_subcommand("link", "Test the link to drives: who answers, how fast, how reliably");
     add_link_options(*link, job.link);
     link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
                  exit_statuses);
@@ -296,7 +296,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
             option->type_name(""); // the descriptions say what a value may be
         }
         command->allow_extras();
-        command->set_help_flag("-h,--help", "print this");
+        command->set_help_flag("-h,--help", "print this help");
     }
 }
 
@@ -307,7 +307,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     Job job;
     Typed typed;
     CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
-    app.set_help_flag("-h,--help", "print this, or what a command takes: splinefeed run --help");
+    app.set_help_flag("-h,--help", "print this help; options of a command: splinefeed run --help");
     app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
     app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
     app.require_subcommand(0, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// gpio_map: reads a map file, which says what the lines of GPIO chips are for (docs/gpio.md).
+// gpio_map: reads a map file, which says what the lines of GPIO chips are for (docs/reference/gpio.md).
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"

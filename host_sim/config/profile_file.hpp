@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// profile_file: reads a drive profile .toml; docs/profiles.md says what each key means.
+// profile_file: reads a drive profile .toml; docs/reference/profiles.md says what each key means.
 #pragma once
 
 #include "splinefeed/hal/modbus/drive_profile.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// command_states: in which states a drive takes a command, the table of docs/pvt_map.md.
+// command_states: in which states a drive takes a command, the table of docs/reference/pvt_map.md.
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt_map.hpp"

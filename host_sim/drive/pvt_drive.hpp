@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PvtDrive: a drive with the register map splinefeed-pvt (docs/pvt_map.md), written from the document.
+// PvtDrive: a drive with the register map splinefeed-pvt (docs/reference/pvt_map.md), written from the document.
 #pragma once
 
 #include "host_sim/drive/drive_model.hpp"

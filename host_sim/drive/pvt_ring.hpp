@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PvtRing: the segments that a drive holds, and where on them it is (docs/pvt_map.md).
+// PvtRing: the segments that a drive holds, and where on them it is (docs/reference/pvt_map.md).
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt_map.hpp"
@@ -30,7 +30,7 @@ public:
 
     /// Empty; the next segment is `first` and starts here, at rest. [1/2^16 count]
     void begin(std::uint32_t first, const PerAxis<std::int64_t>& position) noexcept;
-    /// Takes those that are new, or none and says why: docs/pvt_map.md. Cost: a copy of each.
+    /// Takes those that are new, or none and says why: docs/reference/pvt_map.md. Cost: a copy of each.
     [[nodiscard]] hal::modbus::PvtRefusal take(std::uint32_t first,
                                                std::span<const hal::modbus::PvtSegment> segments) noexcept;
     /// What would be left if the segments from this one on were dropped, but never the one that is being executed.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TimeRate: how fast a ring of segments is executed, sigma of docs/pvt_map.md: it falls to 0 at the ring's end.
+// TimeRate: how fast a ring of segments is executed, sigma of docs/reference/pvt_map.md: it falls to 0 at the ring's
+// end.
 #pragma once
 
 namespace splinefeed::host {

@@ -23,6 +23,6 @@ std::string report(const std::string& target, const MachineDescription& machine,
 
 } // namespace
 
-const TargetKind gpio_kind{"gpio:// (docs/gpio.md)", is_gpio_address, check_gpio, make, report};
+const TargetKind gpio_kind{"gpio:// (docs/reference/gpio.md)", is_gpio_address, check_gpio, make, report};
 
 } // namespace splinefeed::host

@@ -38,7 +38,7 @@ std::string report(const std::string& target, const MachineDescription& machine,
 
 } // namespace
 
-const TargetKind modbus_kind{"modbus, modbus-tcp://, modbus-rtu:// (docs/modbus.md)", is_modbus, check_modbus,
+const TargetKind modbus_kind{"modbus, modbus-tcp://, modbus-rtu:// (docs/reference/modbus.md)", is_modbus, check_modbus,
                              make_modbus_target, report};
 
 } // namespace splinefeed::host

@@ -29,6 +29,6 @@ std::string report(const std::string& /*target*/, const MachineDescription& /*ma
 
 } // namespace
 
-const TargetKind gpio_kind{"gpio:// (docs/gpio.md)", is_gpio_address, check, make, report};
+const TargetKind gpio_kind{"gpio:// (docs/reference/gpio.md)", is_gpio_address, check, make, report};
 
 } // namespace splinefeed::host

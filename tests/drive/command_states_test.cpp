@@ -11,8 +11,8 @@ using namespace splinefeed::host;
 using splinefeed::hal::modbus::PvtCommand;
 using splinefeed::hal::modbus::PvtState;
 
-TEST_CASE("command states: as the table of docs/pvt_map.md has them", "[drive][command_states]") {
-    std::ifstream document(splinefeed::test::source_folder() + "/docs/pvt_map.md");
+TEST_CASE("command states: as the table of docs/reference/pvt_map.md has them", "[drive][command_states]") {
+    std::ifstream document(splinefeed::test::source_folder() + "/docs/reference/pvt_map.md");
     REQUIRE(document);
     std::string line;
     while (std::getline(document, line) && line != "## Commands") {

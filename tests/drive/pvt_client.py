@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A client of the register map splinefeed-pvt, written from docs/pvt_map.md alone: pvt_client.py PORT.
+"""A client of the register map splinefeed-pvt, written from docs/reference/pvt_map.md alone: pvt_client.py PORT.
 
 Enables, begins, sends a few segments, starts, and prints where the axes end; exits with 0 if that is where the segments end.
 """

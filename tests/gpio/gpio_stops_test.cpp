@@ -168,7 +168,7 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
         const char* name;
         Cause cause;
         bool blocked;
-        double standstill_ms; // stated in docs/stopping.md
+        double standstill_ms; // stated in docs/explanation/stopping.md
         hal::PortPhase phase;
         const char* why;
     };

@@ -4,7 +4,7 @@
 
     gates.py TOOL PROGRAM            PROGRAM: a path in examples/, or `uneven`: points 0.02 to 20 mm apart
 
-With SPLINEFEED_LONG=1 on finer grids, and with all limits that docs/feed.md has figures of."""
+With SPLINEFEED_LONG=1 on finer grids, and with all limits that docs/explanation/feed.md has figures of."""
 import argparse
 import os
 import subprocess
@@ -50,7 +50,7 @@ def problems(tool, program, axes, limits, folder):
     over_least = UNEVEN_OVER_LEAST if uneven and jerk else OVER_LEAST[kind]
     jump = "curvature_jump_1_mm" if uneven else "curvature_jump"
     period_s = 1e-3
-    smoothing_mm = period_s**2 * acceleration * len(axes) ** 0.5 / 6.0  # docs/feed.md, step 7 of the proof
+    smoothing_mm = period_s**2 * acceleration * len(axes) ** 0.5 / 6.0  # docs/explanation/feed.md, step 7 of the proof
     gates = [
         ("cycle time over the least", found["over_least"], over_least),
         ("limits used on the samples", use, LIMIT_USE),

@@ -14,7 +14,7 @@ using namespace splinefeed_test;
 
 namespace {
 
-// docs/numbers.md, "Beta joints": e' = f (e + 12 u M), relative to the scale of the case.
+// docs/explanation/numbers.md, "Beta joints": e' = f (e + 12 u M), relative to the scale of the case.
 double bound_of(const nlohmann::json& golden, const DescribedCurve& curve, double u) {
     const nlohmann::json& betas = golden["input"]["betas"];
     const int order = golden["input"]["order"];

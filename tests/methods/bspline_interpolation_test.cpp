@@ -36,8 +36,8 @@ const json plain = {{"points", {{0, 0}, {1, 2}, {3, 3}, {5, 2}, {6, 0}, {8, 1}}}
 } // namespace
 
 TEST_CASE("Reference vectors of interpolation in float and Fixed: condition times rounding", "[golden]") {
-    // docs/numbers.md: condition (k + 1) (4 u of solving + 4 u of the parameters, which the knots follow), and what the
-    // spacing makes of the rounding of a parameter: u times the number of spans over the shortest.
+    // docs/explanation/numbers.md: condition (k + 1) (4 u of solving + 4 u of the parameters, which the knots follow),
+    // and what the spacing makes of the rounding of a parameter: u times the number of spans over the shortest.
     const json set = golden_set("002_bspline_curve.json");
     REQUIRE_FALSE(set["cases"].empty());
     for (const json& item : set["cases"]) {

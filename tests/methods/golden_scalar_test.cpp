@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Every case of the reference vectors of curves in float and in Fixed: control points within the bounds of
-// docs/numbers.md, everything else there and of the right shape. The bounds of 000 and 002 have their own tests:
-// beta_chain_test, bspline_interpolation_test.
+// docs/explanation/numbers.md, everything else there and of the right shape. The bounds of 000 and 002 have their own
+// tests: beta_chain_test, bspline_interpolation_test.
 #include "support/golden.hpp"
 
 #include "support/catch.hpp"
@@ -150,7 +150,7 @@ TEST_CASE("Reference vectors: float and Fixed within the bound of each method", 
                 bound_fixed = std::max(bound_fixed, allowed_fixed);
             }
         }
-        if (std::getenv("SPLINEFEED_FIGURES") != nullptr) { // the table of docs/numbers.md
+        if (std::getenv("SPLINEFEED_FIGURES") != nullptr) { // the table of docs/explanation/numbers.md
             WARN(file.name << ": double " << worst_double << ", float " << worst_single << " of " << bound_single
                            << ", Fixed " << worst_fixed << " of " << bound_fixed);
         }

@@ -134,7 +134,7 @@ TEST_CASE("Reference vectors of surfaces: float and Fixed within their bound", "
         const DescribedSurface exact = made(ScalarKind::float64);
         const Growth u = along_u(item, exact);
         const Growth v = growth_of(exact.params_v, exact.knots_v, exact.degree_v);
-        // Two interpolations after one another: docs/numbers.md, Interpolation by B-splines.
+        // Two interpolations after one another: docs/explanation/numbers.md, Interpolation by B-splines.
         const double bound = u.condition * v.condition * 4.0 * (exact.degree_u + exact.degree_v + 2) *
                              (1.0 + u.spans + v.spans) * size_of(exact);
         const double in_float = net_error(made(ScalarKind::float32), exact);
@@ -149,7 +149,7 @@ TEST_CASE("Reference vectors of surfaces: float and Fixed within their bound", "
         worst_single = std::max(worst_single, in_float / real(item["scale"]));
         worst_fixed = std::max(worst_fixed, in_fixed / real(item["scale"]));
     }
-    if (std::getenv("SPLINEFEED_FIGURES") != nullptr) { // the table of docs/numbers.md
+    if (std::getenv("SPLINEFEED_FIGURES") != nullptr) { // the table of docs/explanation/numbers.md
         WARN(file << ": double " << worst_double << ", float " << worst_single << ", Fixed " << worst_fixed);
     }
 }

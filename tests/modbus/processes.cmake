@@ -28,7 +28,7 @@ set(raster3d ${PROJECT_SOURCE_DIR}/examples/raster3d.csv ${PROJECT_SOURCE_DIR}/e
 # Ramps of four times the machine file's acceleration: the path may use all of it.
 set(ramp "--address-keys" "&ramp=1.28e6")
 set(away ${ramp} --faults disconnect@2.5:900)
-# docs/modbus.md states 0.1 um over TCP; the chords of a record each millisecond are 0.13 um off at 1000 mm/s^2 besides, and clocks that are
+# docs/reference/modbus.md states 0.1 um over TCP; the chords of a record each millisecond are 0.13 um off at 1000 mm/s^2 besides, and clocks that are
 # known to 1 us are 0.1 um. On a paced line: 1 um, and clocks that differ by 200 us at 100 mm/s.
 set(slow)
 set(leadshine_mm 0.14)
@@ -37,7 +37,7 @@ if(SPLINEFEED_FUZZERS) # a sanitizer keeps the tool from keeping time
     set(leadshine_mm 12.4)
 endif()
 process_test(modbus_three_drives_rtu three_drives.py ${path61} --wire rtu --tolerance-mm 0.021 ${slow})
-# How near a drive that does not interpolate stays to the path, as docs/modbus.md states it. Where one is away for 0.9 s it leaves the
+# How near a drive that does not interpolate stays to the path, as docs/reference/modbus.md states it. Where one is away for 0.9 s it leaves the
 # path by what the others move meanwhile. The bound grows with the square of the time between two targets: 0.36 mm at 57600 baud.
 process_test(modbus_profile_away profile_run.py ${path61} lexium32m --tolerance-mm 12.4 ${slow} ${away})
 process_test(modbus_profile_leadshine_pr profile_run.py ${path61} leadshine-pr --wire rtu --tolerance-mm ${leadshine_mm} ${slow} ${ramp})
@@ -62,7 +62,7 @@ process_test(modbus_netem pulled_cable.py ${path61} --netem "delay 2ms 1ms 25% l
 process_test(modbus_raster3d_tcp three_drives.py ${raster3d} --wire tcp --tolerance-mm 0.0004 --if-long)
 process_test(modbus_raster3d_rtu three_drives.py ${raster3d} --wire rtu --tolerance-mm 0.021 --if-long)
 set_tests_properties(modbus_raster3d_tcp modbus_raster3d_rtu PROPERTIES RUN_SERIAL TRUE)
-# Drives that know nothing of ours but docs/pvt_map.md: their shafts follow exactly. One drive has one clock, so what is left is
+# Drives that know nothing of ours but docs/reference/pvt_map.md: their shafts follow exactly. One drive has one clock, so what is left is
 # rounding; three are off by what is not known of their clocks, as above.
 process_test(modbus_pymodbus_drive pymodbus_drives.py ${path61} --drives 1 --tolerance-mm 0.0005)
 process_test(modbus_pymodbus_three_drives pymodbus_drives.py ${path61} --drives 3 --tolerance-mm 0.003)

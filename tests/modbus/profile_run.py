@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """A program through three simulated drives that do not interpolate, one an axis, each a process of its own: the recorded
-shafts, put together by the machine's clock, stay as near to the plan as docs/modbus.md says.
+shafts, put together by the machine's clock, stay as near to the plan as docs/reference/modbus.md says.
 
 profile_run.py TOOL PROGRAM MACHINE PROFILE --tolerance-mm T [--wire tcp|rtu] [--baud N] [--address-keys "&ramp=1e6"] [--faults LIST]
 

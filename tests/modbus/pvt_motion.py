@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The motion of a drive with the register map splinefeed-pvt, written from docs/pvt_map.md alone: ring, rate, instants.
+"""The motion of a drive with the register map splinefeed-pvt, written from docs/reference/pvt_map.md alone: ring, rate, instants.
 
 Time is the drive's own, in s. It is not stepped: between two events (a row of the record, the end of a segment, an instant that
 was asked for, the watchdog) the rate sigma is one of four laws in closed form. So it does not matter when `advance` is called."""

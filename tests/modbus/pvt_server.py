@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A drive with the register map splinefeed-pvt on pymodbus, written from docs/pvt_map.md alone.
+"""A drive with the register map splinefeed-pvt on pymodbus, written from docs/reference/pvt_map.md alone.
 
 pvt_server.py [--axes N] [--ring N] [--clock-us START] [--record TRACE.csv] [--record-segments SEGMENTS.csv] [--spoil WHAT]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A program through drives that were made from docs/pvt_map.md alone, on pymodbus (pvt_server.py): `splinefeed link`, then
+"""A program through drives that were made from docs/reference/pvt_map.md alone, on pymodbus (pvt_server.py): `splinefeed link`, then
 `splinefeed run`, judged by what those drives recorded. And with drives that make a mistake, which has to be found.
 
 pymodbus_drives.py TOOL PROGRAM MACHINE [--drives 1|3] [--tolerance-mm T]

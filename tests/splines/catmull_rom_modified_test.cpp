@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE("modified catmull-rom: parabolas through three points", "[spl
     }
 }
 
-// Figures of docs/methods: the printed weights give (4.77, 2.24) here and something else after a shift.
+// The printed weights give (4.77, 2.24) here and something else after a shift.
 TEST_CASE("modified catmull-rom: the right difference is a derivative", "[splines][catmull_rom_modified]") {
     for (const double shift : {0.0, 100.0}) {
         const auto made = make<double>({{1 + shift, 3 + shift}, {5 + shift, 4 + shift}, {7 + shift, shift}}, false);

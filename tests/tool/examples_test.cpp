@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The worked examples, as docs/curves.md tells to run them.
+// The worked examples, as docs/explanation/curves.md tells to run them.
 #include "support/catch.hpp"
 #include "support/places.hpp"
 #include "tool.hpp"

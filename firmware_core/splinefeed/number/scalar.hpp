@@ -175,7 +175,7 @@ template <Scalar S>
     }
 }
 
-/// The number of S nearest to a constant, computed by the compiler: literal<S>(0.25).
+/// The number of S nearest to a constant, computed by the compiler: `literal<S>(0.25)`.
 template <Scalar S>
 [[nodiscard]] consteval S literal(double value) noexcept {
     return from_double<S>(value);

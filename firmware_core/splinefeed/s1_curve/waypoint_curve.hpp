@@ -17,7 +17,7 @@ struct CurveOptions {
     Parameterization parameterization = Parameterization::chordal;
     S corner_cosine = literal<S>(0.5); ///< cos(corner angle): a sharper turn breaks the curve; default 60 degrees
     /// Longest move that push takes, at most 65536. Motion along a longer one would feel float's 24 bits in the
-    /// acceleration (docs/numbers.md); who wants the geometry alone may raise it.
+    /// acceleration (docs/explanation/numbers.md); who wants the geometry alone may raise it.
     std::int32_t longest_move_mm = std::same_as<S, float> ? 512 : 65536;
     /// Whether the last segment of the lead-in and the first of the lead-out are delivered, too: what Seam::repeated
     /// takes.

@@ -11,8 +11,8 @@
 
 namespace splinefeed {
 
-/// How an axis moves along a cell of length L, all times 2^Refinement::shape_log2: dq/ds, a cubic known by its ends and
-/// their slopes, and 2 L d2q/ds2, a parabola.
+/// How an axis moves along a cell of length L, all times 2^k, k being `Refinement::shape_log2`: dq/ds, a cubic known by
+/// its ends and their slopes, and 2 L d2q/ds2, a parabola.
 template <Scalar S>
 struct AxisShape {
     std::array<S, 2> tangent{}; ///< dq/ds at both ends

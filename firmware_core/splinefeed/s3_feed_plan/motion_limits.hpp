@@ -85,7 +85,7 @@ inline constexpr double corner_share = 2e-5;
 inline constexpr int most_smoothing = 1024;
 
 /// Time to average over, for the time A / J of the axis that takes longest to its acceleration: shorter, it leaves
-/// acceleration unused, longer, bends are smoothed away (docs/feed.md).
+/// acceleration unused, longer, bends are smoothed away (docs/explanation/feed.md).
 constexpr double smoothing_s(double rise_s) noexcept {
     const double most = 0.7 * rise_s < 0.0175 ? 0.7 * rise_s : 0.0175;
     return most > 0.35 * rise_s ? most : 0.35 * rise_s;

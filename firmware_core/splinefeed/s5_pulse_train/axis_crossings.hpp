@@ -12,7 +12,7 @@ namespace splinefeed {
 
 /// Each instant is within a tick of the crossing: of the plan's, or of a plan that lies 2^-29 count beside it (which
 /// matters below 0.02 counts/s only). The number of steps is exact. Memory: constant, about 200 bytes. Cost of a step:
-/// see docs/pulse_train.md.
+/// see docs/explanation/pulse_train.md.
 class AxisCrossings {
 public:
     static constexpr std::uint32_t none = 0xffffffffU;

@@ -24,7 +24,7 @@ struct StepBits {
 };
 
 /// Needs a part that is ready when left() is zero; it is made elsewhere, meanwhile (DdaLoader). No branch depends on
-/// the motion. Cost: docs/pulse_train.md.
+/// the motion. Cost: docs/explanation/pulse_train.md.
 /// @tparam Axes  those that are computed
 template <unsigned Axes>
 class TickDda {

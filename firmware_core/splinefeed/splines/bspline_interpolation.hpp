@@ -49,7 +49,8 @@ struct EndDerivatives {
 /// curves: cyclic, with pivoting. Cost: prepare points * k^2, solve points * k per axis.
 ///
 /// Error of the control points: condition * 4 (k + 1) u * largest coordinate, u = 2^-53, 2^-24, in Fixed 2^-46, and
-/// there 4 (k + 1) ulp * condition more from rounding values; condition is that of the system (docs/numbers.md).
+/// there 4 (k + 1) ulp * condition more from rounding values; condition is that of the system
+/// (docs/explanation/numbers.md).
 template <Scalar S>
 class BsplineInterpolation {
 public:

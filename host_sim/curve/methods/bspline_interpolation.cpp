@@ -16,7 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int warned_degree = 8; ///< condition for 25 points, docs/numbers.md: 5 in degree 3, 445 in degree 9
+constexpr int warned_degree =
+    8; ///< condition for 25 points, docs/explanation/numbers.md: 5 in degree 3, 445 in degree 9
 
 /// What the description asks for.
 struct Request {

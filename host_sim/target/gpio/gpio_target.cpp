@@ -148,8 +148,9 @@ GpioTarget::~GpioTarget() {
 }
 
 std::string GpioTarget::note() const {
-    return missing_.empty() ? missing_
-                            : "edges may come late: " + missing_.substr(0, missing_.size() - 2) + " (docs/gpio.md)";
+    return missing_.empty()
+               ? missing_
+               : "edges may come late: " + missing_.substr(0, missing_.size() - 2) + " (docs/reference/gpio.md)";
 }
 
 std::string GpioTarget::prepare(const FeedSegment& first) {

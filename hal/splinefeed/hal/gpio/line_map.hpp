@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LineMap: which line of which chip does what on a machine; a map file in memory (docs/gpio.md).
+// LineMap: which line of which chip does what on a machine; a map file in memory (docs/reference/gpio.md).
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"

@@ -9,9 +9,10 @@
 namespace splinefeed::hal::modbus {
 
 /// Use: begin(command); until finished(): if (due() <= now) { write next(); told(now); }
-/// The frames of the steps: a level is one, an edge, a pulse and a toggle as docs/profiles.md has them. A field of the
-/// target group goes out with the whole group. A write that was not answered is simply written again: next() stays the
-/// same until told(). But a toggle: whoever does not know whether it arrived must look. It does not allocate.
+/// The frames of the steps: a level is one, an edge, a pulse and a toggle as docs/reference/profiles.md has them. A
+/// field of the target group goes out with the whole group. A write that was not answered is simply written again:
+/// next() stays the same until told(). But a toggle: whoever does not know whether it arrived must look. It does not
+/// allocate.
 class CommandSequence {
 public:
     /// Both must outlive it; the frames hold what each field was told last.

@@ -30,7 +30,7 @@ const char* describe(DriveProblem problem) noexcept {
     case DriveProblem::silent: return "it does not answer; check power, unit number, baud rate and parity";
     case DriveProblem::damaged:
         return "it answers, and the checksum of its status never holds; check the cable, and the drive's own checksum "
-               "(docs/pvt_map.md)";
+               "(docs/reference/pvt_map.md)";
     case DriveProblem::not_pvt: return "it has not the map splinefeed-pvt; give the profile that it has";
     case DriveProblem::words_swapped:
         return "its 32-bit numbers have the low word first; splinefeed-pvt has the high word first: set the drive or "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // DriveProfile: what a Modbus drive is like, as data: its link, its registers, how it is commanded and moved. Filled
-// once, before anything moves; docs/profiles.md says what every member means in a profile file.
+// once, before anything moves; docs/reference/profiles.md says what every member means in a profile file.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace splinefeed::hal::modbus {
 
 /// How a drive is kept moving.
 enum class StreamWay : std::uint8_t {
-    pvt,    ///< it takes segments ahead and interpolates: docs/pvt_map.md
+    pvt,    ///< it takes segments ahead and interpolates: docs/reference/pvt_map.md
     cyclic, ///< a target position per period, at which it arrives a period later
     blocks, ///< positioning blocks that replace each other on the fly
 };

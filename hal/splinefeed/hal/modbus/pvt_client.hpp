@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PvtClient: our side of one drive with the map splinefeed-pvt (docs/pvt_map.md): every segment arrives, and each once.
+// PvtClient: our side of one drive with the map splinefeed-pvt (docs/reference/pvt_map.md): every segment arrives, and
+// each once.
 #pragma once
 
 #include "splinefeed/hal/modbus/clock_estimate.hpp"

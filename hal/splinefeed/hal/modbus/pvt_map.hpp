@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // PvtMap: the register map splinefeed-pvt as numbers, and its blocks to and from registers. The map itself, and what a
-// drive does with it: docs/pvt_map.md.
+// drive does with it: docs/reference/pvt_map.md.
 #pragma once
 
 #include "splinefeed/hal/modbus/registers.hpp"

@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Cycle times with limited jerk, as the tables of docs/explanation/feed.md: of a curve, or of random splines, against the least time
+that tests/judge finds for the same curve and limits (needs python3-numpy, python3-scipy)."""
+import argparse
+import json
+import math
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests" / "judge"))
+
+from judge import judged_files  # noqa: E402
+
+CASES = [(40, 500, 20000), (50, 1000, 50000), (100, 3000, 60000), (200, 3000, 60000), (250, 2000, 20000), (300, 2500, 50000)]
+TIERS = ("optimal", "bounded")
+
+
+def machine(axes, feed, limits, tier):
+    """limits: of each axis, velocity, acceleration and jerk"""
+    text = f'name = "feed.py"\n[path]\nmax_feed_mm_s = {feed}\njerk_plan = "{tier}"\n'
+    for axis, (velocity, acceleration, jerk) in zip(axes, limits):
+        text += f'[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = {velocity}\nmax_acceleration_mm_s2 = {acceleration}\n'
+        text += f"max_jerk_mm_s3 = {jerk}\nsteps_per_mm = 1000\n"
+    return text
+
+
+def seconds(tool, program, machine_text, folder, *options):
+    file = folder / "machine.toml"
+    file.write_text(machine_text)
+    command = [tool, "run", str(program), "-m", str(file), "--quiet", "--summary", "json", *options]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["cycle_time_s"]
+
+
+def files(folder):
+    return ["--trace", str(folder / "trace.csv"), "--curve-out", str(folder / "curve.json")]
+
+
+def least_time(folder):
+    """Of the run whose files these are; and the largest use of a jerk limit."""
+    found = judged_files(folder / "machine.toml", folder / "curve.json", folder / "trace.csv", kind="jerk")
+    return found["least_time_s"], max(found["use"]["jerk"].values())
+
+
+def curve_table(tool, curve, folder):
+    for feed, acceleration, jerk in CASES:
+        limits = [(feed, acceleration, jerk)] * 2
+        times = [seconds(tool, curve, machine("xy", feed, limits, tier), folder, *files(folder)) for tier in TIERS]
+        print("| {:g} / {:g} / {:g} | {:.3f} | {:.3f} | {:.3f} |".format(feed, acceleration, jerk, *times, least_time(folder)[0]))
+
+
+def random_points(numbers):
+    """6 to 25 chords in space, 0.2 to 25 mm long, that turn smoothly."""
+    size = 10 ** numbers.uniform(-0.3, 1.0)
+    direction = [numbers.gauss(0, 1) for _ in range(3)]
+    point = [0.0, 0.0, 0.0]
+    points = [point]
+    for _ in range(numbers.randint(6, 25)):
+        direction = [0.7 * d + 0.7 * numbers.gauss(0, 1) for d in direction]
+        chord = size * numbers.uniform(0.4, 2.5) / math.hypot(*direction)
+        point = [p + chord * d for p, d in zip(point, direction)]
+        points.append(point)
+    return points
+
+
+def random_limits(numbers):
+    """30 to 300 mm/s, 400 to 5000 mm/s^2, 5 to 100 ms to the full acceleration; every other machine has unequal axes."""
+    feed, acceleration = 10 ** numbers.uniform(1.5, 2.5), 10 ** numbers.uniform(2.6, 3.7)
+    jerk = acceleration / 10 ** numbers.uniform(-2.3, -1.0)
+    share = (lambda low: numbers.uniform(low, 1.0)) if numbers.random() < 0.5 else (lambda low: 1.0)
+    return feed, [(feed * share(0.4), acceleration * share(0.3), jerk * share(0.3)) for _ in "xyz"]
+
+
+def random_table(tool, count, folder):
+    ratios = {tier: [] for tier in TIERS}
+    print("| spline | least | optimal | bounded | A / J of the first axis | jerk use of optimal |\n|---|---|---|---|---|---|")
+    for seed in range(1, count + 1):
+        numbers = random.Random(seed)
+        program = folder / "points.csv"
+        rows = ["{:.5f},{:.5f},{:.5f}\n".format(*point) for point in random_points(numbers)]
+        program.write_text("x,y,z\n" + "".join(rows))
+        feed, limits = random_limits(numbers)
+        least, use = 0.0, 0.0
+        for tier in TIERS:
+            wanted = [] if least else files(folder)
+            time = seconds(tool, program, machine("xyz", feed, limits, tier), folder, "--corner-angle", "180", *wanted)
+            if not least:
+                least, use = least_time(folder)
+            ratios[tier].append(time / least)
+        print("| {} | {:.4f} s | {:.4f} | {:.4f} | {:.0f} ms | {:.4f} |".format(
+            seed, least, *(ratios[tier][-1] for tier in TIERS), 1e3 * limits[0][1] / limits[0][2], use), flush=True)
+    for tier in TIERS:
+        ordered = sorted(ratios[tier])
+        print(f"{tier}: median {ordered[count // 2]:.4f}, largest {ordered[-1]:.4f}, "
+              f"{sum(r <= 1.04 for r in ordered)} of {count} at most 1.04")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--tool", default="build/release/bin/splinefeed")
+    parser.add_argument("--curve", help="a curve .json in two dimensions")
+    parser.add_argument("--random", type=int, default=0, metavar="COUNT", help="so many random splines")
+    arguments = parser.parse_args()
+    if not arguments.curve and arguments.random <= 0:
+        parser.error("what is to be run? --curve FILE or --random COUNT")
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        if arguments.curve:
+            curve_table(arguments.tool, arguments.curve, folder)
+        if arguments.random:
+            random_table(arguments.tool, arguments.random, folder)
+
+
+if __name__ == "__main__":
+    main()
