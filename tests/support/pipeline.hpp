@@ -119,6 +119,10 @@ public:
     [[nodiscard]] Trajectory<S>& trajectory() {
         return plain_ ? *plain_ : smooth_ ? static_cast<Trajectory<S>&>(*smooth_) : *jerk_limited_;
     }
+    /// Of the leg that the machine is on, in 1/256 of a tick; 0: it is not averaged.
+    [[nodiscard]] std::uint32_t smoothing_q8() const {
+        return smooth_ && !smooth_->smooth_plan().empty() ? smooth_->smooth_plan().oldest().smoothing_q8 : 0;
+    }
     [[nodiscard]] std::uint64_t slow_legs() const { return jerk_limited_ ? jerk_limited_->jerk_plan().slow_legs() : 0; }
 
 private:

@@ -180,6 +180,15 @@ max_jerk_mm_s3 = 879.853
     CHECK(run.seconds < 14.0); // 10.9 in double
 }
 
+TEST_CASE("a bend that Fixed has few digits for is passed as fast as in double", "[wild]") {
+    // It was a stop in each of its 340 cells of a nanometre
+    const TemporaryFolder folder;
+    const RunArguments arguments = write_wild(wild_round(seed + 501), WildPlan::bounded, 0.0, folder.file(""));
+    const WildRun wanted = checked<double>(arguments);
+    REQUIRE(wanted.ended);
+    CHECK(ratio<Fixed>(arguments, wanted) < 1.05);
+}
+
 TEST_CASE("float arrives at the ends of long moves without a step", "[wild][float]") {
     // Rounding is 2^-24 of the move, 1 um, and the axis that is soft moves along it
     const TemporaryFolder folder;

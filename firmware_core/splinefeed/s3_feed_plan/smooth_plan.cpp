@@ -34,6 +34,10 @@ constexpr double spare_time = 1.0 / 16.0;
 constexpr double above = 0x1p-20;   // K, by rounding: of v^2
 constexpr double nothing_mm = 1e-6; // a way from rest to rest that may be too short for a motion
 
+// A way of which the time is known well enough [mm].
+template <Scalar S>
+constexpr double least_way_mm = std::same_as<S, double> ? 0x1p-40 : 0x1p-22;
+
 // A profile segment is no shorter than this part of a cell.
 template <Scalar S>
 constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
@@ -182,12 +186,14 @@ bool SmoothPlan<S>::coast() noexcept {
     const S one = from_integer<S>(1);
     const S left = sign_.left(smoothing_.ticks());
     const S way = speed_ * (left / limits_->segments_per_s);
-    if (!(way > S{})) {
+    if (!(way > literal<S>(least_way_mm<S>))) {
         return false;
     }
-    const S part = larger(quotient_or_max(way, length()), literal<S>(least_part<S>));
-    const bool whole = !(left > S{}) || !(at_ + part < one - literal<S>(crumb));
-    profile_segment_to(whole ? one : at_ + part, speed_sq_);
+    const S to = at_ + larger(quotient_or_max(way, length()), literal<S>(least_part<S>));
+    // A part in which it has to brake is not left out, however short it is.
+    const bool braked = speed_sq_ > hard_exit(0);
+    const bool whole = !(to < one) || !(braked || to < one - literal<S>(crumb));
+    profile_segment_to(whole ? one : to, speed_sq_);
     return true;
 }
 
@@ -313,9 +319,9 @@ void SmoothPlan<S>::choose() noexcept {
         // It may accelerate before the end of the cell
         if (sign_.last() == AccelerationSign::braking && left > S{} && profile_segment_.exit_sq == speed_sq_ &&
             ticks_ > left) {
-            const S part = profile_segment_.stretch.length() * (left / ticks_);
-            if (part > literal<S>(crumb) && part < profile_segment_.stretch.length() - literal<S>(crumb)) {
-                profile_segment_to(at_ + part, speed_sq_);
+            const S end = profile_segment_.stretch.to;
+            if (coast() && profile_segment_.stretch.to > end) {
+                profile_segment_to(end, speed_sq_);
             }
         }
     }
@@ -370,12 +376,17 @@ void SmoothPlan<S>::advance() noexcept {
 
 template <Scalar S>
 bool SmoothPlan<S>::steer(const Place<S>& place) noexcept {
+    const S speed = square_root(place.speed_sq);
+    // It all but stands: first it comes to rest or gets under way, lest it be taken to rest where its average does not.
+    if (!(speed * (from_integer<S>(smoothing_.ticks()) / limits_->segments_per_s) > literal<S>(least_way_mm<S>))) {
+        return false;
+    }
     if (place.time_share > S{}) {
         sign_.pass(profile_segment_.entry_sq, profile_segment_.exit_sq, ticks_ * place.time_share);
     }
     at_ = place.fraction;
     speed_sq_ = place.speed_sq;
-    speed_ = square_root(speed_sq_);
+    speed_ = speed;
     chosen_ = false;
     return true;
 }

@@ -39,15 +39,18 @@ bool SmoothWindow<S>::bend_jumps(const Cell<S>& before, const Cell<S>& after, S 
     const S per_s = literal<S>(0.75) * limits_->segments_per_s;
     const S noise = quotient_or_max(literal<S>(bend_noise<S>), smaller(before.length_mm, after.length_mm));
     const int down = -limits_->refinement.shape_log2 - 1;
+    const auto second = [down](S bend, S length) { // |q''|; where it is large it is divided with fewer digits
+        const S all = quotient_or_max(absolute(bend), length);
+        return all < largest<S>() ? scale2(all, down) : quotient_or_max(scale2(absolute(bend), down), length);
+    };
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
-        const S second_before = quotient_or_max(absolute(before.shape[k].bend[2]), before.length_mm);
-        const S second_after = quotient_or_max(absolute(after.shape[k].bend[0]), after.length_mm);
-        if (!(larger(second_before, second_after) < largest<S>())) {
+        const S second_before = second(before.shape[k].bend[2], before.length_mm);
+        const S second_after = second(after.shape[k].bend[0], after.length_mm);
+        if (!(larger(second_before, second_after) < scale2(largest<S>(), -1))) { // their sum is to have its place
             return true;
         }
         const bool turns = (before.shape[k].bend[2] < S{}) != (after.shape[k].bend[0] < S{});
-        const S least = scale2(turns ? -second_before : second_before, down);
-        const S jump = absolute(scale2(second_after, down) - least) - noise;
+        const S jump = absolute(second_after - (turns ? -second_before : second_before)) - noise;
         const S reserve = literal<S>(detail::jerk_reserve) * limits_->jerk_mm_s3[k] / per_s;
         if (jump > S{} && quotient_or_max(reserve, jump) < speed_sq) {
             return true;
@@ -138,9 +141,9 @@ void SmoothWindow<S>::clear() noexcept {
 
 // The largest T that a bisection finds, in 2^-8 ticks. Of a leg that is longer than what is known, a straight one is
 // taken for as long as it takes; and T is no more than a third of the time that the known cells take at least, lest
-// there be too little of the path in view.
+// there be too little of the path in view. @param in_view  whether T is as long as the limits allow, in spite of that
 template <Scalar S>
-std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first) const noexcept {
+std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first, bool& in_view) const noexcept {
     S length{};
     S ticks{};
     PathDerivativeBounds<S> all;
@@ -165,26 +168,30 @@ std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first) const noexcep
         bends = bends || quotient_or_max(limit * literal<S>(straight), axis.second) < all.cap_sq;
     }
     const S segment = from_integer<S>(1) / scale2(limits_->segments_per_s, Smoothing<S>::fraction_bits);
+    const auto seen = [&](std::uint32_t q8) {
+        const S duration = from_integer<S>(static_cast<std::int32_t>(q8));
+        return ends || literal<S>(3.0) * scale2(duration, -Smoothing<S>::fraction_bits) <= ticks;
+    };
     const auto allowed = [&](std::uint32_t q8) {
         const S duration = from_integer<S>(static_cast<std::int32_t>(q8));
         const S t = segment * duration;
         // No acceleration or speed of a path is above 1e7; T is up to 100 s.
         const S a = smaller(jerk, quotient_or_max(literal<S>(1e7), t)) * t;
         const S v = smaller(a * t, literal<S>(1e7));
-        const bool known = ends ? v * t <= scale2(length, -1)
-                                : literal<S>(3.0) * scale2(duration, -Smoothing<S>::fraction_bits) <= ticks;
-        return known && a <= acceleration &&
+        return seen(q8) && (!ends || v * t <= scale2(length, -1)) && a <= acceleration &&
                (bends || smaller(v, literal<S>(4e4)) * smaller(v, literal<S>(4e4)) <= all.cap_sq);
     };
     std::uint32_t low = 1U << Smoothing<S>::fraction_bits;
     std::uint32_t high = bends ? limits_->smoothing_q8 : limits_->most_smoothing_q8;
     if (allowed(high)) {
+        in_view = true;
         return high;
     }
     while (low + 1 < high) {
         const std::uint32_t middle = (low + high) / 2;
         (allowed(middle) ? low : high) = middle;
     }
+    in_view = seen(low + 1);
     return low;
 }
 
@@ -355,7 +362,12 @@ void SmoothWindow<S>::prepare(bool force) noexcept {
         const std::size_t i = prepared_;
         SmoothCell<S>& here = at(i);
         if (starts_leg(i)) {
-            smoothing_ = Smoothing<S>(smoothing_of_leg(i), limits_->segments_per_s);
+            bool in_view = false;
+            smoothing_ = Smoothing<S>(smoothing_of_leg(i, in_view), limits_->segments_per_s);
+            // T stays for all of the leg. The motion rests there before; by then more of the leg is known.
+            if (!in_view && !(force && i == front_)) {
+                break;
+            }
             bounded_ = i;
             tighten(i);
         }

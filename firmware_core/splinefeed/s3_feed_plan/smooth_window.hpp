@@ -55,8 +55,8 @@ public:
     void append(const Cell<S>& cell, S cap_sq, S programmed_sq, S exit_bound_sq) noexcept;
     /// The motion is at rest at the end of what is known, whatever comes behind it.
     void end_here() noexcept;
-    /// Prepares the cells of which enough is known behind them. @param force  at least half of them: what there is no
-    /// room to know is not needed by a motion that is slow enough
+    /// Prepares the cells of which enough is known behind them. @param force  at least half of them, up to the next
+    /// leg: what there is no room to know is not needed by a motion that is slow enough
     void prepare(bool force) noexcept;
     /// The motion that is averaged leaves the front cell.
     void pass_front() noexcept { ++front_; }
@@ -71,7 +71,7 @@ private:
     [[nodiscard]] bool bend_jumps(const Cell<S>& before, const Cell<S>& after, S speed_sq) const noexcept;
     void split_last() noexcept;
     [[nodiscard]] bool starts_leg(std::size_t i) const noexcept { return !(at(i).bound_sq > S{}); }
-    [[nodiscard]] std::uint32_t smoothing_of_leg(std::size_t first) const noexcept;
+    [[nodiscard]] std::uint32_t smoothing_of_leg(std::size_t first, bool& in_view) const noexcept;
     [[nodiscard]] bool last_reached(std::size_t i, const Smoothing<S>& smoothing, std::size_t& last) const noexcept;
     [[nodiscard]] std::size_t first_reached(std::size_t i, const Smoothing<S>& smoothing) const noexcept;
     void slow_down(std::size_t first) noexcept;

@@ -12,7 +12,8 @@
 
 namespace splinefeed {
 
-// The profile segment from where the motion is at the end of the last tick.
+// The profile segment from where the motion is at the end of the last tick. One that cannot be steered there is asked
+// again with the next tick.
 template <Scalar S>
 void SmoothSampler<S>::follow_steering() noexcept {
     const ProfileSegment<S>& profile_segment = plan_->profile_segment();
@@ -25,11 +26,10 @@ void SmoothSampler<S>::follow_steering() noexcept {
     const S v0 = square_root(profile_segment.entry_sq);
     const S v1 = square_root(profile_segment.exit_sq);
     const S speed = v0 + (v1 - v0) * share;
-    plan_->steer(
+    in_segment_ = !plan_->steer(
         {.fraction = smaller(x, one),
          .speed_sq = profile_segment.entry_sq == profile_segment.exit_sq ? profile_segment.entry_sq : speed * speed,
          .time_share = share});
-    in_segment_ = false;
 }
 
 // Of the profile segment, as much as there is time for in this tick.
