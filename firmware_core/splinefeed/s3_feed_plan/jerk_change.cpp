@@ -32,7 +32,8 @@ template <Scalar S>
 JerkChange<S>::JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, double from, const SpeedState& state,
                           std::size_t planned) noexcept
     : window_(&window), limits_(&limits), from_(from), state_(state), old_planned_(planned),
-      along_(window.node(0).cell.move_limits(larger(state.b, window.node(0).wanted_sq))) {
+      along_(window.node(0).cell.move_limits(
+          smaller(window.node(0).cell.cap_sq, larger(state.b, window.node(0).wanted_sq)))) {
     if (state.slope > 0.0) {
         start_mm_ = 4.0 / 3.0 * state.b / state.slope;
     }
