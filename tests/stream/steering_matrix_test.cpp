@@ -365,7 +365,8 @@ void run_rounds(Planner planner, int rounds, std::uint64_t first, std::initializ
 TEMPLATE_TEST_CASE("whatever is asked of an acceleration-limited motion", "[stream][steering][matrix]", double, float,
                    Fixed) {
     // 1643: with float a long move is braked with four fifths of its acceleration
-    run_rounds<TestType>(Planner::acceleration, rounds(64, 2900), seed, {1643});
+    // 3156: a hold ends one digit of a float before the end of all that is known
+    run_rounds<TestType>(Planner::acceleration, rounds(64, 2900), seed, {1643, 3156});
 }
 
 TEMPLATE_TEST_CASE("whatever is asked of an optimal jerk-limited motion", "[stream][steering][matrix][jerk]", double,
