@@ -91,7 +91,8 @@ double JerkChange<S>::braking_sq(double distance_mm) const noexcept {
 // Graded towards a rest and from it, behind what is cut finely up to cells that are long.
 template <Scalar S>
 double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
-    const double part = at_mm < cuts.end_mm ? (cuts.end_mm - at_mm) * part_before : (at_mm - cuts.end_mm) * cuts.part_behind;
+    const double part =
+        at_mm < cuts.end_mm ? (cuts.end_mm - at_mm) * part_before : (at_mm - cuts.end_mm) * cuts.part_behind;
     if (at_mm < cuts.fine_mm - least_mm(cuts)) {
         return larger(cuts.finest_mm, smaller(cuts.coarsest_mm, part));
     }
