@@ -60,4 +60,31 @@ inline std::vector<Event> random_events_and_abort(Random& random, std::size_t se
     return events;
 }
 
+/// One to six holds and overrides, 0 and 2 among them, close together or far apart; every other time ended by an abort
+/// or by a hold.
+inline std::vector<Event> random_orders(Random& random) {
+    std::vector<Event> events;
+    std::size_t at = 0;
+    const int count = random.integer(1, 6);
+    for (int i = 0; i < count; ++i) {
+        at += static_cast<std::size_t>(random.decades(1.0, 600.0));
+        const auto pause = static_cast<std::size_t>(random.decades(1.0, 400.0));
+        switch (random.integer(0, 4)) {
+        case 0: events.push_back({at, Order::override_feed, random.between(0.2, 2.0)}); break;
+        case 1: events.push_back({at, Order::override_feed, 2.0}); break;
+        case 2:
+            events.push_back({at, Order::override_feed, 0.0});
+            events.push_back({at += pause, Order::override_feed, random.between(0.3, 2.0)});
+            break;
+        default: events.push_back({at, Order::hold}); events.push_back({at += pause, Order::resume});
+        }
+    }
+    if (random.chance(0.25)) {
+        events.push_back({at + static_cast<std::size_t>(random.decades(1.0, 300.0)), Order::abort});
+    } else if (random.chance(0.25)) {
+        events.push_back({at + static_cast<std::size_t>(random.decades(1.0, 300.0)), Order::hold}); // for good
+    }
+    return events;
+}
+
 } // namespace splinefeed_test

@@ -108,7 +108,8 @@ public:
 
     Track(const BezierPath& path, const MachineSettings& machine)
         : Track(ListSource<S>(path), MotionLimits<S>::make(machine).value(), machine) {}
-    Track(ListSource<S> source, const MotionLimits<S>& limits, const MachineSettings& machine) : machine_(&machine) {
+    Track(ListSource<S> source, const MotionLimits<S>& limits, const MachineSettings& machine)
+        : machine_(&machine), limits_(limits) {
         cells_ = cells_of<S>(source, limits.refinement);
         Real s = 0.0L;
         for (const Cell<S>& cell : cells_) {
@@ -146,7 +147,9 @@ public:
         return best;
     }
 
-    /// Least time to rest from a speed: braking as hard as the axes allow, in steps of time.
+    /// Least time to rest from a speed: braking as hard as the axes may be planned to, in steps of time. That is less
+    /// than their limits by what MotionLimits::make keeps for rounding and joints, 2 % with float; and by what a float
+    /// does not know of a bend.
     [[nodiscard]] Real braking_s(const Place& place, Real speed, Real step = 2e-6L) const {
         Real s = s_of(place);
         Real t = 0.0L;
@@ -209,7 +212,7 @@ private:
         const Direction d = direction_at(cells_[i], inverse_at(cells_[i], x, unused));
         Real least = -1e30L;
         for (unsigned k = 0; k < static_cast<unsigned>(machine_->axes); ++k) {
-            const Real limit = real(machine_->axis[k].max_acceleration_mm_s2);
+            const Real limit = exact(limits_.acceleration_mm_s2[k]) - unsure_bend(cells_[i], k) * b;
             if (std::fabs(d.tangent[k]) > 1e-12L) {
                 const Real sign = d.tangent[k] > 0.0L ? 1.0L : -1.0L;
                 least = std::max(least, (-limit - sign * d.curvature[k] * b) / std::fabs(d.tangent[k]));
@@ -218,7 +221,18 @@ private:
         return least;
     }
 
+    /// By how much the second derivative may be larger or smaller than the cell says. With float that is up to 2^-23 of
+    /// a long move over the cell's length: no plan may use it. With the other scalars it is left out, and the bound is
+    /// stricter.
+    [[nodiscard]] Real unsure_bend(const Cell<S>& cell, unsigned k) const {
+        if constexpr (std::same_as<S, float>) {
+            return std::ldexp(exact(cell.shape[k].spread), -limits_.refinement.shape_log2) / exact(cell.length_mm);
+        }
+        return 0.0L;
+    }
+
     const MachineSettings* machine_;
+    MotionLimits<S> limits_;
     std::vector<Cell<S>> cells_;
     std::vector<Real> start_;
     Real length_ = 0.0L;

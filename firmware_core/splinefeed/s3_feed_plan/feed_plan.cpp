@@ -208,7 +208,8 @@ void FeedPlan<S>::choose(S known_sq) noexcept {
         const S reach = smaller(here.reach_from_rest, wanted_sq(here));
         profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
-        hopping_ = true;
+        hopping_ = stretch.to < one; // a last digit has no half
+        profile_segment_.stops = !hopping_;
     } else if (to_end && !(profile_segment_.exit_sq > S{})) {
         profile_segment_.stops = profile_segment_.stops || here.cell.stop_at_end || size_ == 1;
     }

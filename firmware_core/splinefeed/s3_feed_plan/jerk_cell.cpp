@@ -84,7 +84,7 @@ double JerkCell::largest_from_rest(unsigned moving) const noexcept {
 
 // |q'| a + |q''| v^2 <= A and |q'| j + 3 |q''| v a + |q'''| v^3 <= J: bends get at most half of A and two thirds of J.
 MoveLimits JerkCell::move_limits(double most_sq) const noexcept {
-    double v_sq = smaller(cap_sq, most_sq);
+    double v_sq = most_sq;
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         const Steepness s = steepness(*this, k);
         v_sq = smaller(v_sq, quotient_or_max(0.5 * least_acceleration(*this, k), s.second));
@@ -108,16 +108,15 @@ MoveLimits JerkCell::move_limits(double most_sq) const noexcept {
 }
 
 bool JerkCell::straight(double most_sq) const noexcept {
-    const double v_sq = smaller(cap_sq, most_sq);
-    const double v = square_root(v_sq);
+    const double v = square_root(most_sq);
     auto a = largest<double>(); // along the path
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         a = smaller(a, quotient_or_max(least_acceleration(*this, k), steepness(*this, k).first));
     }
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         const Steepness s = steepness(*this, k);
-        if (s.second * v_sq > nothing * least_acceleration(*this, k) ||
-            (3.0 * s.second * a + s.third * v_sq) * v > nothing * jerk_mm_s3[k]) {
+        if (s.second * most_sq > nothing * least_acceleration(*this, k) ||
+            (3.0 * s.second * a + s.third * most_sq) * v > nothing * jerk_mm_s3[k]) {
             return false;
         }
     }

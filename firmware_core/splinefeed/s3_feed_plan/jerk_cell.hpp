@@ -36,7 +36,8 @@ struct JerkCell {
     /// Largest b at the moving end of a cell that begins or ends at rest with constant jerk along the path.
     /// @param moving  1: begins at rest, 0: ends at rest
     [[nodiscard]] double largest_from_rest(unsigned moving) const noexcept;
-    /// Limits of the motion along the path that keep those of the axes whatever that motion is, up to a v^2.
+    /// Limits of the motion along the path that keep those of the axes whatever that motion is, up to a v^2; the cell's
+    /// cap is not among them.
     [[nodiscard]] MoveLimits move_limits(double most_sq) const noexcept;
     /// It bends by next to nothing: up to this v^2 move_limits() give nothing away.
     [[nodiscard]] bool straight(double most_sq) const noexcept;

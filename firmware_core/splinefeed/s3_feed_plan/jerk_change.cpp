@@ -18,13 +18,14 @@ namespace {
 constexpr double pieces = 8.0;              // of the braking distance, at least
 constexpr double next_to_rest = 1.0 / 48.0; // of the longest piece
 constexpr double part_before = 0.4;         // of the distance to the rest: the longest piece there
-constexpr double part_behind = 0.6;         // and behind it
+constexpr double part_from_start = 0.6;     // of the distance from a start
 constexpr double sliver = 1e-3;             // of a piece: less is not cut off
 constexpr double longer = 1.25;             // pieces, where there is no room for all of them
+constexpr double coarsest_behind = 10.0;    // part_behind, before those that are stopped in become longer
 constexpr double close = 0.004;             // relative error of a distance that is close enough
 constexpr double farther = 1.4;             // than a guess that was too near
 constexpr double roomy = 1.5;               // of what braking takes, where it need not be the least
-constexpr int most_steps = 40;
+constexpr int most_steps = 56;
 
 } // namespace
 
@@ -32,7 +33,8 @@ template <Scalar S>
 JerkChange<S>::JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, double from, const SpeedState& state,
                           std::size_t planned) noexcept
     : window_(&window), limits_(&limits), from_(from), state_(state), old_planned_(planned),
-      along_(window.node(0).cell.move_limits(larger(state.b, window.node(0).wanted_sq))) {
+      along_(window.node(0).cell.move_limits(
+          smaller(window.node(0).cell.cap_sq, larger(state.b, window.node(0).wanted_sq)))) {
     if (state.slope > 0.0) {
         start_mm_ = 4.0 / 3.0 * state.b / state.slope;
     }
@@ -89,7 +91,8 @@ double JerkChange<S>::braking_sq(double distance_mm) const noexcept {
 // Graded towards a rest and from it, behind what is cut finely up to cells that are long.
 template <Scalar S>
 double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
-    const double part = at_mm < cuts.end_mm ? (cuts.end_mm - at_mm) * part_before : (at_mm - cuts.end_mm) * part_behind;
+    const double part =
+        at_mm < cuts.end_mm ? (cuts.end_mm - at_mm) * part_before : (at_mm - cuts.end_mm) * cuts.part_behind;
     if (at_mm < cuts.fine_mm - least_mm(cuts)) {
         return larger(cuts.finest_mm, smaller(cuts.coarsest_mm, part));
     }
@@ -100,7 +103,7 @@ double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
 template <Scalar S>
 bool JerkChange<S>::concerns(const Cuts& cuts, double at_mm, double length_mm) noexcept {
     return at_mm < larger(cuts.end_mm, cuts.fine_mm) - least_mm(cuts) ||
-           (cuts.graded() && part_behind * (at_mm - cuts.end_mm) < length_mm);
+           (cuts.graded() && cuts.part_behind * (at_mm - cuts.end_mm) < length_mm);
 }
 
 // What is too short to be cut off.
@@ -126,7 +129,7 @@ void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visi
             const double left = (1.0 - from) * length;
             // Next to a start, too, the speed changes over distances as short as the way so far.
             const double longest =
-                larger(cuts.finest_mm, smaller(longest_piece(cuts, at_mm), part_behind * (start_mm_ + at_mm)));
+                larger(cuts.finest_mm, smaller(longest_piece(cuts, at_mm), part_from_start * (start_mm_ + at_mm)));
             double piece = left <= longest ? left : left < 2.0 * longest ? 0.5 * left : longest;
             for (const double mark : {cuts.change_mm, cuts.end_mm}) {
                 if (at_mm < mark - least && at_mm + 1.5 * piece > mark) { // nor is a short one left before it
@@ -144,7 +147,8 @@ void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visi
     }
 }
 
-// Longer pieces where the window has too little room for all of them.
+// Longer pieces where the window has too little room for all of them; first those behind the rest, which is where the
+// machine starts again, but only after it has stopped.
 template <Scalar S>
 bool JerkChange<S>::fit(Cuts& cuts) noexcept {
     for (int step = 0; step < most_steps; ++step) {
@@ -158,8 +162,12 @@ bool JerkChange<S>::fit(Cuts& cuts) noexcept {
         if (pieces_ <= cells_ + window_->room() && pieces_ < window_->scratch().size()) {
             return true;
         }
-        cuts.coarsest_mm *= longer;
-        cuts.finest_mm *= longer;
+        if (cuts.part_behind < coarsest_behind) {
+            cuts.part_behind *= longer;
+        } else {
+            cuts.coarsest_mm *= longer;
+            cuts.finest_mm *= longer;
+        }
     }
     return false;
 }

@@ -43,6 +43,7 @@ private:
         double fine_mm = 0.0;     ///< up to here no piece is longer than
         double coarsest_mm = 0.0; ///< this
         double finest_mm = 0.0;   ///< and next to the rest than this; coarsest_mm: they are not graded
+        double part_behind = 0.6; ///< of the distance from the rest: the longest piece behind it
 
         [[nodiscard]] bool graded() const noexcept { return finest_mm < coarsest_mm; }
     };

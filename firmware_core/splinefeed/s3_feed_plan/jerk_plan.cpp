@@ -167,7 +167,9 @@ void JerkPlan<S>::choose() noexcept {
     profile_segment_ = {};
     on_line_mm_ = 0.0;
     if (from.travel != Travel::curve) {
-        line_ = LineTravel(StraightLeg<S>(window_).from_rest());
+        const StraightLeg<S> leg(window_);
+        line_ = LineTravel(leg.from_rest());
+        line_limits_ = leg.limits();
         choose_on_line();
         return;
     }
@@ -202,7 +204,7 @@ void JerkPlan<S>::want() noexcept {
 
 template <Scalar S>
 bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
-    StraightLeg<S> leg(window_);
+    StraightLeg<S> leg(window_, line_limits_);
     if (!(steering_.stops() ? leg.to_rest(from, state) : leg.to_end(from, state))) {
         return false;
     }

@@ -59,6 +59,7 @@ private:
     const MotionLimits<S>* limits_;
     JerkWindow<S> window_;
     LineTravel line_{};         // while a straight leg is travelled
+    MoveLimits line_limits_{};  // of it
     std::size_t committed_ = 0; // cells from the front on
     std::size_t planned_ = 0;   // cells from the front on that have a plan, at rest at its end
     std::size_t halt_ = 0;      // cells from the front on to the stop that a hold made; 0: none

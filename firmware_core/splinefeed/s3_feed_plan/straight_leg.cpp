@@ -8,14 +8,14 @@ namespace {
 constexpr double same_cap = 1e-9;
 constexpr double end = 1e-6; // of a cell, in which a move ends with the cell
 
-/// The fastest that the acceleration-limited plan is in the cell behind a node.
+/// The fastest that the acceleration-limited plan is in the cell behind a node, with the largest override.
 double fastest_sq(const JerkNode& node, const JerkNode& next) noexcept {
-    return larger(node.at_most_sq, next.at_most_sq);
+    return smaller(node.most_sq, larger(node.at_most_sq, next.at_most_sq));
 }
 
 /// What keeps the limits of all cells of a straight leg.
 MoveLimits limits_of(std::span<const JerkNode> nodes) noexcept {
-    MoveLimits least{square_root(nodes.front().cell.cap_sq), largest<double>(), largest<double>()};
+    MoveLimits least{square_root(nodes.front().most_sq), largest<double>(), largest<double>()};
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
         const MoveLimits limits = nodes[i].cell.move_limits(fastest_sq(nodes[i], nodes[i + 1]));
         least.acceleration_mm_s2 = smaller(least.acceleration_mm_s2, limits.acceleration_mm_s2);
@@ -44,15 +44,32 @@ bool StraightLeg<S>::is_straight(std::span<const JerkNode> nodes) noexcept {
 
 template <Scalar S>
 StraightLeg<S>::StraightLeg(JerkWindow<S>& window) noexcept : window_(&window) {
+    find_cells();
     const JerkNode& front = window.node(0);
-    if (front.travel == Travel::hop) {
-        limits_ = front.cell.move_limits(front.cell.cap_sq);
-        return;
-    }
-    while (!window.cell(cells_ - 1).stop_at_end) {
+    limits_ = front.travel == Travel::hop ? front.cell.move_limits(front.most_sq) : limits_of(window.nodes(0, cells_));
+}
+
+template <Scalar S>
+StraightLeg<S>::StraightLeg(JerkWindow<S>& window, const MoveLimits& limits) noexcept
+    : window_(&window), limits_(limits) {
+    find_cells();
+}
+
+template <Scalar S>
+void StraightLeg<S>::find_cells() noexcept {
+    while (window_->node(0).travel != Travel::hop && !window_->cell(cells_ - 1).stop_at_end) {
         ++cells_;
     }
-    limits_ = limits_of(window.nodes(0, cells_));
+}
+
+// The limits, with the caps of the cells.
+template <Scalar S>
+MoveLimits StraightLeg<S>::capped() const noexcept {
+    MoveLimits limits = limits_;
+    for (std::size_t i = 0; i < cells_; ++i) {
+        limits.speed_mm_s = smaller(limits.speed_mm_s, square_root(window_->node(i).cell.cap_sq));
+    }
+    return limits;
 }
 
 template <Scalar S>
@@ -66,7 +83,7 @@ double StraightLeg<S>::length_mm() const noexcept {
 
 template <Scalar S>
 SCurveProfile StraightLeg<S>::from_rest() const noexcept {
-    return SCurveProfile(length_mm(), limits_);
+    return SCurveProfile(length_mm(), capped());
 }
 
 template <Scalar S>
@@ -102,12 +119,11 @@ bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
 template <Scalar S>
 bool StraightLeg<S>::to_end(double from, const SpeedState& state) noexcept {
     const double left = length_mm() - from * window_->node(0).cell.length_mm;
-    auto wanted_sq = largest<double>();
+    MoveLimits wanted = limits_;
     for (std::size_t i = 0; i < cells_; ++i) {
-        wanted_sq = smaller(wanted_sq, window_->node(i).wanted_sq);
+        wanted.speed_mm_s = smaller(wanted.speed_mm_s, square_root(window_->node(i).wanted_sq));
     }
-    limits_.speed_mm_s = square_root(wanted_sq);
-    move_ = SCurveProfile::to_length(state_of(state), left, limits_);
+    move_ = SCurveProfile::to_length(state_of(state), left, wanted);
     if (!(move_.length_mm() <= left * (1.0 + end))) {
         return false;
     }

@@ -11,12 +11,17 @@ namespace splinefeed {
 template <Scalar S>
 class StraightLeg {
 public:
-    /// One move can take them: no bend, and one cap.
+    /// One move can take them: no bend up to the largest override, and one cap.
     [[nodiscard]] static bool is_straight(std::span<const JerkNode> nodes) noexcept;
 
-    /// @pre the front node's travel is not Travel::curve
+    /// From rest. @pre the front node's travel is not Travel::curve
     explicit StraightLeg(JerkWindow<S>& window) noexcept;
+    /// In motion. @param limits  those that the move began with
+    StraightLeg(JerkWindow<S>& window, const MoveLimits& limits) noexcept;
 
+    /// Whatever is steered, no limit of an axis is exceeded within them; a motion that keeps them has to be changed
+    /// within the same ones: with less jerk, what is accelerated up to the largest speed would be carried beyond it.
+    [[nodiscard]] const MoveLimits& limits() const noexcept { return limits_; }
     [[nodiscard]] SCurveProfile from_rest() const noexcept;
     /// To the nearest rest, from where the machine is in the front cell: a cell is cut there, the last of cells().
     /// false: that is the leg's end anyway, or there is no room. @pre window.forget_travelled()
@@ -30,6 +35,8 @@ public:
 
 private:
     [[nodiscard]] double length_mm() const noexcept;
+    [[nodiscard]] MoveLimits capped() const noexcept;
+    void find_cells() noexcept;
 
     JerkWindow<S>* window_;
     std::size_t cells_ = 1;
