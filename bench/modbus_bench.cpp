@@ -4,8 +4,8 @@
 #include "host_sim/diagnose/round_trips.hpp"
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/pvt_drive.hpp"
-#include "splinefeed/hal/modbus/modbus_link.hpp"
-#include "splinefeed/hal/modbus/modbus_port.hpp"
+#include "splinefeed/hal/modbus/link/modbus_link.hpp"
+#include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <benchmark/benchmark.h>

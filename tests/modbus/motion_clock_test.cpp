@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/motion_clock.hpp"
+#include "splinefeed/hal/modbus/setpoint/motion_clock.hpp"
 
-#include "splinefeed/hal/modbus/setpoint_bus.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_bus.hpp"
 #include "support/catch.hpp"
 
 #include <random>

@@ -4,7 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/signal_watch.hpp"
 
-#include "splinefeed/hal/modbus/stream_cost.hpp"
+#include "splinefeed/hal/modbus/setpoint/stream_cost.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "host_sim/target/run_target.hpp"
 #include "host_sim/target/stop_sentence.hpp"
 
-#include "splinefeed/hal/modbus/setpoint_port.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
 namespace splinefeed::host {
 
