@@ -47,7 +47,7 @@ std::string inputs_text(const hal::gpio::LineMap& map, GpioChips& chips) {
 }
 
 /// How late a thread of the map's settings is woken, a thousand times a second.
-RoundTrips wake_ups(const hal::gpio::RealTimeSettings& settings, double seconds, std::string& missing) {
+RoundTrips wake_ups(const hal::RealTimeSettings& settings, double seconds, std::string& missing) {
     RoundTrips late;
     std::thread([&] {
         missing = claim_real_time(settings);
@@ -56,7 +56,7 @@ RoundTrips wake_ups(const hal::gpio::RealTimeSettings& settings, double seconds,
         const auto rounds = static_cast<std::uint64_t>(seconds * 1e3);
         for (std::uint64_t i = 1; i <= rounds; ++i) {
             const std::uint64_t due = begin + i * period_ns;
-            const std::uint64_t woken = hal::gpio::wait_until_ns(due, settings.spin_ns);
+            const std::uint64_t woken = hal::wait_until_ns(due, settings.spin_ns);
             late.add(woken > due ? (woken - due) / ns_per_us : 0);
         }
     }).join();
@@ -69,7 +69,7 @@ std::string gpio_report(const GpioAddress& address, const MachineDescription& ma
     const hal::gpio::LineMap map = read_gpio_map(address.map, machine, address.chip);
     const hal::gpio::StepPortSettings settings = port_settings(machine, map);
     std::string text = lines_text(map);
-    const hal::gpio::AwakeHost awake;
+    const hal::AwakeHost awake;
     std::string missing;
     std::vector<std::uint64_t> times;
     try {

@@ -51,7 +51,7 @@ std::vector<GpioSummary::Octave> octaves(const hal::gpio::LateHistogram& late) {
 }
 
 /// What the thread of a port will lack.
-std::string lacking(const hal::gpio::RealTimeSettings& settings) {
+std::string lacking(const hal::RealTimeSettings& settings) {
     std::string missing;
     std::thread([&] { missing = claim_real_time(settings); }).join();
     return missing;

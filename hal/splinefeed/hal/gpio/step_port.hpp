@@ -5,10 +5,10 @@
 #include "splinefeed/hal/gpio/edge_clock.hpp"
 #include "splinefeed/hal/gpio/late_histogram.hpp"
 #include "splinefeed/hal/gpio/line_changes.hpp"
-#include "splinefeed/hal/gpio/real_time.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
+#include "splinefeed/hal/rt/real_time.hpp"
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
 #include "splinefeed/s5_pulse_train/pulse_train.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace splinefeed::hal::gpio {
+namespace splinefeed::hal {
 
 struct RealTimeSettings {
     int priority = 80;              ///< of SCHED_FIFO, 1 to 99; 0: as it is
@@ -38,4 +38,4 @@ private:
 /// For the thread that calls it: priority and processor. Returns what could not be had, as above.
 [[nodiscard]] std::string claim_real_time(const RealTimeSettings& settings);
 
-} // namespace splinefeed::hal::gpio
+} // namespace splinefeed::hal

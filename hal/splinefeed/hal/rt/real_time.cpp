@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/gpio/real_time.hpp"
+#include "splinefeed/hal/rt/real_time.hpp"
 
 #include "splinefeed/hal/rt/clock.hpp"
 
@@ -12,7 +12,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-namespace splinefeed::hal::gpio {
+namespace splinefeed::hal {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::string claim_real_time(const RealTimeSettings& settings) {
     return missing;
 }
 
-} // namespace splinefeed::hal::gpio
+} // namespace splinefeed::hal

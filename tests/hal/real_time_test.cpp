@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a process without privileges is told, and waiting.
-#include "splinefeed/hal/gpio/real_time.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
+#include "splinefeed/hal/rt/real_time.hpp"
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 
@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-using namespace splinefeed::hal::gpio;
+using namespace splinefeed::hal;
 
 TEST_CASE("a process without privileges is told what it lacks and how to grant it") {
     const pid_t child = fork();
