@@ -40,11 +40,11 @@ hal::StopTimes stop_times(const MachineDescription& machine) {
             .settle_us = 2000};
 }
 
-std::vector<GpioSummary::Octave> octaves(const hal::gpio::LateHistogram& late) {
+std::vector<GpioSummary::Octave> octaves(const hal::TimeHistogram& late) {
     std::vector<GpioSummary::Octave> some;
-    for (std::size_t i = 0; i < hal::gpio::LateHistogram::octaves; ++i) {
-        if (late.count(i) > 0) {
-            some.push_back({static_cast<double>(std::uint64_t{1} << i) / us_per_s, late.count(i)});
+    for (std::size_t i = 0; i < hal::TimeHistogram::octaves; ++i) {
+        if (late.in_octave(i) > 0) {
+            some.push_back({static_cast<double>(std::uint64_t{1} << i) / us_per_s, late.in_octave(i)});
         }
     }
     return some;
@@ -311,11 +311,11 @@ std::string GpioTarget::where() const {
 }
 
 void GpioTarget::describe(Summary& summary) const {
-    const hal::gpio::LateHistogram& late = port_.late();
+    const hal::TimeHistogram& late = port_.late();
     const hal::gpio::StepPortReport report = port_.report();
     summary.gpio = GpioSummary{.edges = report.edges,
-                               .median_late_s = static_cast<double>(late.below_us(0.5)) / us_per_s,
-                               .p99_late_s = static_cast<double>(late.below_us(0.99)) / us_per_s,
+                               .median_late_s = late.below_us(0.5) / us_per_s,
+                               .p99_late_s = late.below_us(0.99) / us_per_s,
                                .most_late_s = static_cast<double>(late.most_ns()) / ns_per_s,
                                .late = octaves(late),
                                .schedule_slip_s = static_cast<double>(report.schedule_slip_ns) / ns_per_s,

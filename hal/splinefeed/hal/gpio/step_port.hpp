@@ -3,12 +3,12 @@
 #pragma once
 
 #include "splinefeed/hal/gpio/edge_clock.hpp"
-#include "splinefeed/hal/gpio/late_histogram.hpp"
 #include "splinefeed/hal/gpio/line_changes.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 #include "splinefeed/hal/rt/real_time.hpp"
+#include "splinefeed/hal/rt/time_histogram.hpp"
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
 #include "splinefeed/s5_pulse_train/pulse_train.hpp"
 
@@ -90,7 +90,7 @@ public:
     [[nodiscard]] bool place_known() const noexcept { return !was_cut() && state_.load() != State::failed; }
     /// Where all axes stood at an instant.
     [[nodiscard]] const StepLog& log() const noexcept { return log_; }
-    [[nodiscard]] const LateHistogram& late() const noexcept { return late_; }
+    [[nodiscard]] const TimeHistogram& late() const noexcept { return late_; }
     [[nodiscard]] StepPortReport report() const noexcept;
     /// Why it is in fault.
     [[nodiscard]] std::string trouble() const;
@@ -129,7 +129,7 @@ private:
     std::vector<FeedSegment> segments_; // the ring's
     SegmentRing ring_;
     StepLog log_;
-    LateHistogram late_;
+    TimeHistogram late_;
     PerAxis<std::atomic<std::int64_t>> counts_{};
     std::atomic<std::uint64_t> submitted_ticks_{0};
     std::atomic<std::uint64_t> motion_ns_{0}; // of the last edge, or what has passed
