@@ -17,7 +17,7 @@ constexpr std::uint32_t slack_us = 1000;    // and of a line's rate
 } // namespace
 
 std::uint64_t SetpointMotion::time_us(std::uint64_t now_us) noexcept {
-    const std::uint64_t time = clock.time_us(now_us);
+    const std::uint64_t time = clock.time(now_us);
     if (!complete && time > 0 && !clock.stopping() && time + ahead_us + reserve > track.end_us()) {
         clock.stop(now_us);
     }

@@ -3,9 +3,9 @@
 // period.
 #pragma once
 
-#include "splinefeed/hal/modbus/setpoint/motion_clock.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_drive.hpp"
 #include "splinefeed/hal/modbus/setpoint/stream_cost.hpp"
+#include "splinefeed/hal/rt/motion_clock.hpp"
 #include "splinefeed/hal/standstill.hpp"
 
 #include <atomic>

@@ -187,7 +187,7 @@ int SetpointPort::do_room() const noexcept {
         return 0;
     }
     const std::lock_guard lock(motion_.mutex);
-    const std::uint64_t now = motion_.clock.time_us(settings_.clock->now_us());
+    const std::uint64_t now = motion_.clock.time(settings_.clock->now_us());
     const std::uint64_t held = motion_.track.end_us() - std::min(now, motion_.track.end_us());
     const std::uint64_t most = settings_.buffer_us + period_us_;
     const std::uint64_t room = held < most ? (most - held) / segment_us_ + 1 : 0;
@@ -293,7 +293,7 @@ bool SetpointPort::arrived() noexcept {
 // As far as the clock tells.
 std::uint64_t SetpointPort::executed() const noexcept {
     const std::lock_guard lock(motion_.mutex);
-    return std::min(motion_.clock.time_us(settings_.clock->now_us()) / segment_us_, submitted_);
+    return std::min(motion_.clock.time(settings_.clock->now_us()) / segment_us_, submitted_);
 }
 
 // Any bus may have stopped the clock, for all.

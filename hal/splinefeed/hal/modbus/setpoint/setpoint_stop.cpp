@@ -41,7 +41,7 @@ StopFacts stop_facts(const SetpointReport& seen, SetpointMotion& motion, std::ui
     }
     const std::lock_guard lock(motion.mutex);
     const bool began = motion.clock.stopping();
-    const std::uint64_t stands_us = began ? motion.clock.standing_from_us() : began_us;
+    const std::uint64_t stands_us = began ? motion.clock.standing_from() : began_us;
     if (!began || seen.told_us >= stands_us) {
         facts.executed = StopRequest::hold;
         facts.executed_us = stands_us;
@@ -57,7 +57,7 @@ bool stands_on_path(const SetpointReport& seen, SetpointMotion& motion, int axis
     if (motion.track.empty() || !motion.clock.stopping()) {
         return true; // it never began to move
     }
-    const std::uint64_t stands_us = motion.clock.time_us(motion.clock.standing_from_us());
+    const std::uint64_t stands_us = motion.clock.time(motion.clock.standing_from());
     const std::int64_t off_q16 = seen.reading.position_q16 - motion.track.at(axis, stands_us).position_q16;
     return std::fabs(static_cast<double>(off_q16)) / (1 << physical_bits) <= tolerance_counts;
 }
