@@ -7,6 +7,7 @@
 // they drop; it is sent again.
 #include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 
+#include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/pvt/bus_rate.hpp"
 #include "splinefeed/hal/modbus/pvt/pvt_setup.hpp"
 
@@ -27,21 +28,21 @@ constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before 
 
 ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortSettings& settings)
     : settings_(settings), stop_(wiring.size()) {
+    std::vector<WireUse> uses;
     for (const DriveWiring& drive : wiring) {
-        const auto same = [&](const auto& bus) {
-            return bus->link().address().same_wire(drive.link);
-        };
-        auto bus = std::find_if(buses_.begin(), buses_.end(), same);
-        if (bus == buses_.end()) {
-            const LinkTiming timing = wire_timing(wiring, drive.link, settings.timing);
-            settings_.timing = settings_.timing.slower(timing); // for what is waited for on any wire
-            buses_.push_back(std::make_unique<ModbusBus>(settings.make_line(drive.link, timing, *settings.clock)));
-            bus = buses_.end() - 1;
-        }
+        uses.push_back({drive.link, drive.timing});
+    }
+    const WireGroups groups = group_by_wire(uses, settings.timing);
+    for (const WireUse& wire : groups.wires) {
+        settings_.timing = settings_.timing.slower(wire.timing); // for what is waited for on any wire
+        buses_.push_back(std::make_unique<ModbusBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
+    }
+    for (const DriveWiring& drive : wiring) {
         for (const PvtAxis& axis : drive.axes) {
             axes_ = std::max(axes_, axis.machine_axis + 1);
         }
-        drives_.emplace_back(drive, (*bus)->add(drive.link.unit, drive.both_in_one));
+        ModbusBus& bus = *buses_[groups.of_drive[drives_.size()]];
+        drives_.emplace_back(drive, bus.add(drive.link.unit, drive.both_in_one));
         stop_.add(drives_.back().client());
     }
 }

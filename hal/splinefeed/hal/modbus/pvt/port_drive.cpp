@@ -13,13 +13,6 @@ constexpr double on_its_way_us = 10'000.0; // a command
 
 } // namespace
 
-LinkTiming wire_timing(const std::vector<DriveWiring>& wiring, const LinkAddress& wire, LinkTiming base) noexcept {
-    for (const DriveWiring& drive : wiring) {
-        base = drive.link.same_wire(wire) ? base.slower(drive.timing) : base;
-    }
-    return base;
-}
-
 DriveProblem PortDrive::prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept {
     const PvtStatus status = client_->report().status;
     for (std::size_t k = 0; k < static_cast<std::size_t>(client_->axes()); ++k) {

@@ -21,10 +21,6 @@ struct DriveWiring {
     bool both_in_one = true;                         ///< it has function 23
 };
 
-/// Of a wire with some of these drives: what suits all of them, and `base`.
-[[nodiscard]] LinkTiming wire_timing(const std::vector<DriveWiring>& wiring, const LinkAddress& wire,
-                                     LinkTiming base) noexcept;
-
 class PortDrive {
 public:
     PortDrive(DriveWiring wiring, PvtClient& client) : wiring_(std::move(wiring)), client_(&client) {}

@@ -5,6 +5,7 @@
 // path. The one that is away stops by itself, off it.
 #include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
+#include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_company.hpp"
 
 #include <algorithm>
@@ -31,25 +32,18 @@ constexpr unsigned stop_turns = 10;  // of the buses, until what a drive was tol
 SetpointPort::SetpointPort(const std::vector<SetpointWiring>& wiring, const SetpointPortSettings& settings)
     : settings_(settings), motion_(track_segments, settings.reserve_us), facts_(wiring.size()),
       stop_(wiring.size(), {}) {
+    std::vector<WireUse> uses;
     for (const SetpointWiring& drive : wiring) {
-        const auto same = [&](const auto& bus) {
-            return bus->link().address().same_wire(drive.link);
-        };
-        auto bus = std::find_if(buses_.begin(), buses_.end(), same);
-        if (bus == buses_.end()) {
-            // The wire has one timing: that of the slowest drive on it.
-            LinkTiming timing = settings.timing;
-            for (const SetpointWiring& other : wiring) {
-                if (other.link.same_wire(drive.link)) {
-                    timing = timing.slower(timing_of(other.profile->link));
-                }
-            }
-            buses_.push_back(std::make_unique<SetpointBus>(settings.make_line(drive.link, timing, *settings.clock)));
-            bus = buses_.end() - 1;
-        }
+        uses.push_back({drive.link, timing_of(drive.profile->link)});
+    }
+    const WireGroups groups = group_by_wire(uses, settings.timing);
+    for (const WireUse& wire : groups.wires) {
+        buses_.push_back(std::make_unique<SetpointBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
+    }
+    for (const SetpointWiring& drive : wiring) {
         Place place;
         place.wiring = drive;
-        place.bus = bus->get();
+        place.bus = buses_[groups.of_drive[places_.size()]].get();
         place.index = place.bus->drives();
         static_cast<void>(place.bus->add(*drive.profile, drive.link.unit));
         place.frame = AxisFrame(drive.inverted, drive.profile->field_of(FieldRole::target_position));
