@@ -10,7 +10,7 @@
 #include "splinefeed/hal/rt/real_time.hpp"
 #include "splinefeed/hal/rt/time_histogram.hpp"
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
-#include "splinefeed/s5_pulse_train/pulse_train.hpp"
+#include "splinefeed/s5_pulse_train/any_pulse_train.hpp"
 
 #include <memory>
 #include <string>
@@ -96,7 +96,6 @@ public:
     [[nodiscard]] std::string trouble() const;
 
 private:
-    using Train = std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>>;
     enum class State : std::uint8_t { idle, running, done, halted, cut, failed };
 
     [[nodiscard]] int do_room() const noexcept override;
@@ -104,7 +103,6 @@ private:
     PortState do_poll() noexcept override;
     void do_halt() noexcept override { quick_stop(); }
 
-    [[nodiscard]] static Train train_for(const StepPortSettings& settings);
     void work() noexcept;
     bool obey(std::uint64_t now_ns) noexcept;
     [[nodiscard]] bool drives_hold(std::uint64_t now_ns) noexcept;
@@ -124,7 +122,7 @@ private:
 
     LineChanges lines_;
     StepPortSettings settings_;
-    Train train_;
+    AnyPulseTrain train_;
     EdgeClock clock_;
     std::vector<FeedSegment> segments_; // the ring's
     SegmentRing ring_;
