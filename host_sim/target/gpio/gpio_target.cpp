@@ -5,6 +5,7 @@
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/config/step_lines.hpp"
+#include "host_sim/output/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -298,16 +299,16 @@ std::string GpioTarget::where() const {
     if (!began_) {
         return "; nothing was moved";
     }
-    std::string text = port_.place_known() ? "; the machine stands at"
-                       : port_.may_be_on()
-                           ? "; drives may still be on, since a line cannot be set, and where the machine "
-                             "stands is not known (find the references again); the last steps were those to"
-                           : "; drives are off, and where the machine stands is not known (find the "
-                             "references again); the last steps were those to";
+    PlaceText place(port_.place_known() ? "; the machine stands at"
+                    : port_.may_be_on()
+                        ? "; drives may still be on, since a line cannot be set, and where the machine "
+                          "stands is not known (find the references again); the last steps were those to"
+                        : "; drives are off, and where the machine stands is not known (find the "
+                          "references again); the last steps were those to");
     for (int k = 0; k < machine_->settings.axes; ++k) {
-        text += fmt::format(" {}={:.4f}", machine_->axis_name[static_cast<unsigned>(k)], mover_.position(k));
+        place.add(machine_->axis_name[static_cast<unsigned>(k)], mover_.position(k));
     }
-    return text + " mm";
+    return place.text();
 }
 
 void GpioTarget::describe(Summary& summary) const {

@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/signal_watch.hpp"
+#include "host_sim/output/place_text.hpp"
 
 #include "splinefeed/hal/modbus/setpoint/stream_cost.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
@@ -107,7 +108,7 @@ std::vector<StoppedDrive> PvtTarget::stopped() const {
 }
 
 std::string PvtTarget::where() const {
-    std::string text = "; the machine stands at";
+    PlaceText place;
     for (std::size_t i = 0; i < port_.drives(); ++i) {
         const DriveReport report = port_.report(i);
         const DriveWiring& wiring = port_.wiring(i);
@@ -117,13 +118,11 @@ std::string PvtTarget::where() const {
                 const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
                 // One that is away went on to where all were to stop.
                 const bool heard = hal::system_clock().now_us() - report.answered_us < stale_us;
-                text += fmt::format(" {}={:.4f}{}", machine_->axis_name[axis],
-                                    counts / machine_->settings.axis[axis].steps_per_mm,
-                                    heard ? "" : " (when it was last heard)");
+                place.add(machine_->axis_name[axis], counts / machine_->settings.axis[axis].steps_per_mm, heard);
             }
         }
     }
-    return text + " mm";
+    return place.text();
 }
 
 std::string PvtTarget::prepare(const FeedSegment& first) {

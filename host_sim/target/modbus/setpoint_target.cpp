@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/signal_watch.hpp"
+#include "host_sim/output/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -180,14 +181,13 @@ std::vector<StoppedDrive> SetpointTarget::stopped() const {
 }
 
 std::string SetpointTarget::where() const {
-    std::string text = "; the machine stands at";
+    PlaceText place;
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
         const std::size_t axis = axis_of(i);
-        text += fmt::format(" {}={:.4f}{}", machine_->axis_name[axis],
-                            port_.position_counts(i) / machine_->settings.axis[axis].steps_per_mm,
-                            port_.heard(i) ? "" : " (when it was last heard)");
+        place.add(machine_->axis_name[axis], port_.position_counts(i) / machine_->settings.axis[axis].steps_per_mm,
+                  port_.heard(i));
     }
-    return text + " mm";
+    return place.text();
 }
 
 std::string SetpointTarget::prepare(const FeedSegment& first) {
