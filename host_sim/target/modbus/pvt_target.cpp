@@ -2,7 +2,6 @@
 #include "host_sim/target/modbus/pvt_target.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/signal_watch.hpp"
 #include "host_sim/output/place_text.hpp"
 
 #include "splinefeed/hal/modbus/setpoint/stream_cost.hpp"
@@ -58,8 +57,7 @@ void check_pvt_range(const MachineDescription& machine, double segment_us) {
 }
 
 PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, bool home)
-    : machine_(&machine), table_(std::move(table)),
-      port_(pvt_wiring(table_, machine), {.home = home, .interrupted = &SignalWatch::interrupted}) {
+    : ModbusTarget(std::move(table), machine, home, pvt_wiring) {
     if (const auto failure = port_.open()) {
         throw TargetError(drive_sentence(table_, port_, *failure));
     }
@@ -83,28 +81,8 @@ std::string drive_sentence(const DriveTable& table, const ModbusPort& port, cons
     return text;
 }
 
-std::string PvtTarget::halted(bool quick) const {
-    return stop_sentence(stopped(), quick);
-}
-
 std::string PvtTarget::fault() const {
     return drive_sentence(table_, port_, *port_.failure()) + unconfirmed_drives(stopped());
-}
-
-std::string PvtTarget::finish() {
-    if (machine_->drives_on_at_end.value_or(true)) {
-        return {};
-    }
-    port_.power_off();
-    return not_switched_off(stopped());
-}
-
-std::vector<StoppedDrive> PvtTarget::stopped() const {
-    std::vector<StoppedDrive> drives;
-    for (std::size_t i = 0; i < port_.drives(); ++i) {
-        drives.push_back({table_.drives[i].address.text, port_.stop_report(i)});
-    }
-    return drives;
 }
 
 std::string PvtTarget::where() const {
