@@ -4,7 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/output/place_text.hpp"
 
-#include "splinefeed/hal/modbus/setpoint/stream_cost.hpp"
+#include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>

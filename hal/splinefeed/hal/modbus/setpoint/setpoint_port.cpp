@@ -6,6 +6,7 @@
 #include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
+#include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_company.hpp"
 
 #include <algorithm>

@@ -19,10 +19,4 @@ struct StreamCost {
 /// table). A tcp link counts with its turnaround alone: measure it.
 [[nodiscard]] StreamCost stream_cost(const DriveProfile& profile, const LinkAddress& address) noexcept;
 
-/// What the drive asks of its wire.
-[[nodiscard]] constexpr LinkTiming timing_of(const LinkSettings& link) noexcept {
-    return {link.response_timeout_us + link.turnaround_us, link.silence_before_us + link.silence_after_us,
-            link.retries};
-}
-
 } // namespace splinefeed::hal::modbus
