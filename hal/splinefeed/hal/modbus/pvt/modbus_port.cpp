@@ -29,6 +29,7 @@ constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before 
 ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortSettings& settings)
     : settings_(settings), stop_(wiring.size()) {
     std::vector<WireUse> uses;
+    uses.reserve(wiring.size());
     for (const DriveWiring& drive : wiring) {
         uses.push_back({drive.link, drive.timing});
     }

@@ -34,6 +34,7 @@ SetpointPort::SetpointPort(const std::vector<SetpointWiring>& wiring, const Setp
     : settings_(settings), motion_(track_segments, settings.reserve_us), facts_(wiring.size()),
       stop_(wiring.size(), {}) {
     std::vector<WireUse> uses;
+    uses.reserve(wiring.size());
     for (const SetpointWiring& drive : wiring) {
         uses.push_back({drive.link, timing_of(drive.profile->link)});
     }
