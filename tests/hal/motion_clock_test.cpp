@@ -3,6 +3,7 @@
 #include "support/catch.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 using splinefeed::hal::MotionClock;
@@ -57,5 +58,40 @@ TEST_CASE("Motion clock: its rate changes by 1 within twice the reserve at most,
             REQUIRE(std::fabs(next - rate) < most);
             rate = next;
         }
+    }
+}
+
+TEST_CASE("Motion clock: instants are when the motion's time is that, and what comes later is delayed by as much") {
+    std::mt19937_64 random(11);
+    for (int round = 0; round < 200; ++round) {
+        const std::uint64_t reserve = 1'000'000 + random() % 50'000'000;
+        MotionClock clock(reserve);
+        std::uint64_t at = 1'000'000'000 + random() % 1'000'000'000;
+        clock.start(at);
+        CHECK(clock.instant(-700) == at - 700); // before its beginning
+        for (int stop = 0; stop < 3; ++stop) {
+            const std::uint64_t runs = random() % (4 * reserve);
+            for (int i = 1; i <= 10; ++i) {
+                const auto time = static_cast<std::int64_t>(clock.time(at + runs * static_cast<unsigned>(i) / 10));
+                CHECK(std::llabs(static_cast<std::int64_t>(clock.time(clock.instant(time))) - time) <= 2);
+            }
+            at += runs;
+            const auto passed = static_cast<std::int64_t>(clock.time(at));
+            clock.stop(at);
+            CHECK(clock.instant(passed - 5) == at); // due then at the latest
+            const auto stands = static_cast<std::int64_t>(clock.time(clock.standing_from()));
+            CHECK(clock.instant(stands + 2) == MotionClock::never);
+            const std::int64_t halfway = (passed + stands) / 2;
+            const std::uint64_t due = clock.instant(halfway);
+            CHECK(std::llabs(static_cast<std::int64_t>(clock.time(due)) - halfway) <= 2);
+            clock.delay(1234);
+            CHECK(clock.instant(halfway) == due + 1234);
+            CHECK(clock.stands(clock.standing_from()));
+            at = clock.standing_from() + random() % 1'000'000;
+            clock.resume(at);
+            CHECK(clock.instant(stands) == at);
+        }
+        clock.start(at); // anew
+        CHECK(clock.time(at + 5 * reserve) == 5 * reserve);
     }
 }
