@@ -66,9 +66,9 @@ def name_of(head):
     return None if words[-2] == "::" and words[0] != "using" else words[-1]
 
 
-def names_of(path):
-    """(name, line, whether no other source knows it) of all that the file declares at namespace scope."""
-    tokens = tokens_of(path.read_text())
+def names_of(text):
+    """(name, line, whether it is its source's own) of all that a file with that text declares at namespace scope."""
+    tokens = tokens_of(text)
     out = []
     unnamed = []  # whether each open namespace is, from the outermost
     inner = []  # whether it is a `detail`, which nobody else looks into
@@ -128,6 +128,26 @@ def names_of(path):
     return out
 
 
+# What has to be found in a source, so that this test does not grow blind: its own names, and those that all know.
+SAMPLE = """
+#define hidden(x) struct x {
+namespace a { struct Known; enum class Kind { first }; enum { plain, listed = 2 };
+template <class T, int n = (1 > 0)> concept Fit = requires(T t) { t.x(); };
+namespace { // struct comment
+constexpr std::array<std::pair<int, int>, 2> table{{{1, 2}, {3, 4}}}; const char* const text = "struct Text {";
+using Places = std::vector<int>; using b::Same; class Helper final : Base { int member; void method() {} };
+[[nodiscard]] std::map<int, std::string> build(int argument) noexcept { int local = 0; return {}; }
+template <class T> T own_template(T t) { return t; } int before[2] = {1, 2}; auto lambda = [](int x) { return x; };
+}
+namespace detail { struct Unreachable; }
+static int old_style(); int shared(int x) { if (x) { return 1; } return 2; } Known::Known(int x) : member(x), other{x} {} Known Known::get() const { return *this; }
+bool operator==(Known, Known); template <> struct Known<int> { int y; };
+}
+"""
+OWN = {"table", "text", "Places", "Helper", "build", "own_template", "before", "lambda", "old_style"}
+COMMON = {"Known", "Kind", "plain", "listed", "Fit", "shared"}
+
+
 def joined_sources(folder):
     alone = set()
     for listed in re.findall(r'set\(alone ([^)]*)\)', (ROOT / folder / "CMakeLists.txt").read_text()):
@@ -140,13 +160,16 @@ def joined_sources(folder):
 
 def main():
     if sys.argv[1:2] == ["--names"]:  # what is found in a file, for whoever doubts it
-        for name, line, own in names_of(pathlib.Path(sys.argv[2])):
+        for name, line, own in names_of(pathlib.Path(sys.argv[2]).read_text()):
             print(f"{sys.argv[2]}:{line}: {name}{' (its own)' if own else ''}")
         return 0
+    found = names_of(SAMPLE)
+    if {name for name, _, own in found if own} != OWN or {name for name, _, own in found if not own} != COMMON:
+        sys.exit(f"this test misreads its sample: {found}")
     known = {}
     for tree in HEADERS:
         for header in sorted((ROOT / tree).rglob("*.hpp")):
-            for name, line, _ in names_of(header):
+            for name, line, _ in names_of(header.read_text()):
                 known.setdefault(name, f"{header.relative_to(ROOT)}:{line}")
     if len(known) < 500:
         sys.exit(f"only {len(known)} names were found in all headers: this test does not read them any more")
@@ -154,7 +177,7 @@ def main():
     owned = 0
     for folder in JOINED:
         for source in joined_sources(folder):
-            for name, line, own in names_of(ROOT / source):
+            for name, line, own in names_of((ROOT / source).read_text()):
                 owned += own
                 if own and name in known:
                     problems.append(f"{source}:{line}: its own {name} hides that of {known[name]} in sources joined to it; rename it")
