@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What drives on Modbus TCP cost: exchanges one by one, and motion in real time through the port. The simulated drives
 // are processes of their own on the loopback. items_per_second counts segments of the whole machine (three axes).
-#include "host_sim/diagnose/round_trips.hpp"
+#include "host_sim/diagnose/histogram_picture.hpp"
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/pvt_drive.hpp"
-#include "splinefeed/hal/modbus/modbus_link.hpp"
-#include "splinefeed/hal/modbus/modbus_port.hpp"
+#include "splinefeed/hal/modbus/link/modbus_link.hpp"
+#include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <benchmark/benchmark.h>
@@ -94,10 +94,10 @@ private:
     LinkAddress address_;
 };
 
-void tell(benchmark::State& state, const host::RoundTrips& trips) {
+void tell(benchmark::State& state, const hal::TimeHistogram& trips) {
     state.counters["half_us"] = trips.below_us(0.5);
     state.counters["99%_us"] = trips.below_us(0.99);
-    state.counters["worst_us"] = static_cast<double>(trips.worst_us());
+    state.counters["worst_us"] = static_cast<double>(trips.most_ns()) * 1e-3;
 }
 
 /// One exchange after the other by function 23: a block full of segments there, the status back. The drive has no
@@ -117,7 +117,7 @@ void exchange(benchmark::State& state) {
     const std::size_t size = encode(block, segments, axes, registers);
     std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
     const auto status = std::span(raw).first(pvt::status_registers(axes));
-    host::RoundTrips trips;
+    hal::TimeHistogram trips;
     for (auto _ : state) {
         const LinkAnswer answer =
             link.exchange(1, pvt::block_address, std::span(registers).first(size), pvt::status_address, status);
@@ -125,14 +125,14 @@ void exchange(benchmark::State& state) {
             state.SkipWithError(describe(answer.fault));
             return;
         }
-        trips.add(answer.answered_us - answer.sent_us);
+        trips.add((answer.answered_us - answer.sent_us) * 1000);
     }
     state.counters["registers_out"] = static_cast<double>(size);
     state.counters["segments_a_s"] =
         benchmark::Counter(static_cast<double>(state.iterations() * block.count), benchmark::Counter::kIsRate);
     tell(state, trips);
     if (std::getenv("SPLINEFEED_HISTOGRAM") != nullptr) {
-        std::fputs(trips.picture().c_str(), stderr);
+        std::fputs(host::histogram_picture(trips).c_str(), stderr);
     }
 }
 

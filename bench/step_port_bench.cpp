@@ -50,8 +50,8 @@ void edges_late(benchmark::State& state) {
         while (port.poll().phase == PortPhase::running) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-        for (std::size_t octave = 0; octave < LateHistogram::octaves; ++octave) {
-            if (const std::uint64_t count = port.late().count(octave); count > 0) {
+        for (std::size_t octave = 0; octave < TimeHistogram::octaves; ++octave) {
+            if (const std::uint64_t count = port.late().in_octave(octave); count > 0) {
                 state.counters["octave " + std::to_string(octave)] = static_cast<double>(count);
             }
         }

@@ -46,6 +46,7 @@ repository_test(docs_links tools/docs_links.py)
 repository_test(docs_blocks ALONE tools/docs_blocks.py ${PROJECT_BINARY_DIR})
 repository_test(docs_pictures ../docs/pictures/make.py --check ${PROJECT_BINARY_DIR})
 repository_test(doxygen tools/doxygen.sh ${PROJECT_BINARY_DIR})
+repository_test(hidden_names tools/hidden_names.py)
 repository_test(harness tools/harness.sh ${sanitized}/bin/base_tests)
 
 # Also the bits of both compilers' optimised arithmetic, and that each source includes what it uses.

@@ -18,29 +18,29 @@ constexpr int start_points = 8;
 constexpr int newton_steps = 12;
 constexpr double merge_mm = 1e-6; // nearer waypoints are one to the curve (WaypointCurve::push)
 
-struct Jet {
+struct Derivatives {
     double value = 0.0;
     double first = 0.0;
     double second = 0.0;
 };
 
 // De Casteljau; the last three levels give the derivatives.
-Jet evaluate(PerDegree<double> b, int degree, double u) noexcept {
-    Jet jet;
+Derivatives derivatives_at(PerDegree<double> b, int degree, double u) noexcept {
+    Derivatives out;
     const auto n = static_cast<unsigned>(degree);
     for (unsigned level = n; level > 0; --level) {
         if (level == 2) {
-            jet.second = degree * (degree - 1) * (b[2] - 2.0 * b[1] + b[0]);
+            out.second = degree * (degree - 1) * (b[2] - 2.0 * b[1] + b[0]);
         }
         if (level == 1) {
-            jet.first = degree * (b[1] - b[0]);
+            out.first = degree * (b[1] - b[0]);
         }
         for (unsigned i = 0; i < level; ++i) {
             b[i] += u * (b[i + 1] - b[i]);
         }
     }
-    jet.value = b[0];
-    return jet;
+    out.value = b[0];
+    return out;
 }
 
 struct Approach {
@@ -65,12 +65,12 @@ double WaypointError::Piece::distance_mm(const PerAxis<Position>& position) cons
         Approach at;
         double tangent_sq = 0.0;
         for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
-            const Jet jet = evaluate(offset[k], degree, u);
-            const double miss = jet.value - target[k];
+            const Derivatives axis = derivatives_at(offset[k], degree, u);
+            const double miss = axis.value - target[k];
             at.distance_sq += miss * miss;
-            at.slope += miss * jet.first;
-            at.curvature += miss * jet.second;
-            tangent_sq += jet.first * jet.first;
+            at.slope += miss * axis.first;
+            at.curvature += miss * axis.second;
+            tangent_sq += axis.first * axis.first;
         }
         at.curvature = at.curvature + tangent_sq > 0.0 ? at.curvature + tangent_sq : tangent_sq;
         return at;

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 namespace splinefeed::host {
@@ -28,6 +29,16 @@ enum class NumberText { number, not_a_number, not_finite, out_of_range };
         return NumberText::out_of_range;
     }
     return std::isfinite(out) ? NumberText::number : NumberText::not_finite;
+}
+
+/// The whole text, digits with an optional minus alone, as a whole number from `low` to `high`; empty: it is none.
+template <class Whole>
+[[nodiscard]] std::optional<Whole> read_whole(std::string_view text, Whole low, Whole high) noexcept {
+    Whole number{};
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, number);
+    const bool fits = error == std::errc{} && end == last && number >= low && number <= high;
+    return fits ? std::optional(number) : std::nullopt;
 }
 
 /// What to tell about a text that is no number; the text goes before it.

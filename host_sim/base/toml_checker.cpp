@@ -24,7 +24,7 @@ void TomlChecker::require_known(const toml::table& table, std::initializer_list<
 std::string TomlChecker::text(const toml::node& node, std::string_view key) const {
     const auto value = node.value_exact<std::string>();
     if (!value || value->empty()) {
-        fail(node, fmt::format("{} must be a text in quotes, and not empty", key));
+        fail(node, fmt::format("{} must be a text in quotes{}", key, value ? ", and not empty" : ""));
     }
     return *value;
 }
@@ -41,6 +41,14 @@ std::int64_t TomlChecker::whole(const toml::node& node, std::string_view key, Wh
     const auto value = node.value_exact<std::int64_t>();
     if (!value || *value < range.low || *value > range.high) {
         fail(node, fmt::format("{} must be a whole number from {} to {}", key, range.low, range.high));
+    }
+    return *value;
+}
+
+double TomlChecker::finite(const toml::node& node, std::string_view key) const {
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value)) {
+        fail(node, fmt::format("{} must be a finite number", key));
     }
     return *value;
 }

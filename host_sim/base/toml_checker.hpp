@@ -42,9 +42,11 @@ public:
     void require_known(const toml::table& table, std::initializer_list<std::string_view> known,
                        std::string_view where) const;
 
+    /// Not empty.
     [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const;
     [[nodiscard]] bool flag(const toml::node& node, std::string_view key) const;
     [[nodiscard]] std::int64_t whole(const toml::node& node, std::string_view key, WholeRange range) const;
+    [[nodiscard]] double finite(const toml::node& node, std::string_view key) const;
     [[nodiscard]] double number(const toml::node& node, std::string_view key, const NumberRange& range) const;
     /// Milliseconds, also with a fraction, as whole microseconds.
     [[nodiscard]] std::uint32_t microseconds(const toml::node& node, std::string_view key, double most_ms) const;

@@ -3,12 +3,12 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/number_text.hpp"
 #include "host_sim/targets/target_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -213,12 +213,11 @@ void take_scalar(Job& job, const std::string& scalar) {
 }
 
 void take_window(Job& job, const std::string& text) {
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, job.run.motion.window_cells);
-    if (end != last || error != std::errc{} || job.run.motion.window_cells < 16 ||
-        job.run.motion.window_cells > 1000000) {
+    const auto cells = read_whole<std::size_t>(text, 16, 1000000);
+    if (!cells) {
         throw UsageError(fmt::format("--window {}: it must be a whole number from 16 to 1000000", in_quotes(text)));
     }
+    job.run.motion.window_cells = *cells;
 }
 
 // One output at most goes to standard output, and no two to one file.

@@ -5,7 +5,7 @@
 #include "host_sim/config/machine_description.hpp"
 #include "host_sim/config/target_address.hpp"
 
-#include "splinefeed/hal/modbus/drive_profile.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 #include <string>
 #include <vector>

@@ -2,15 +2,13 @@
 #include "host_sim/config/machine_file.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/base/toml_checker.hpp"
 #include "host_sim/base/toml_text.hpp"
 #include "host_sim/config/target_address.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <initializer_list>
 #include <toml++/toml.h>
 #include <vector>
 
@@ -21,44 +19,32 @@ namespace {
 constexpr std::string_view axis_letters = "xyzabc";
 constexpr double counter_limit = 2147483647.0;
 
-/// A number that a key may hold.
-struct Range {
-    double low;
-    double high;
-    const char* unit;
-};
-
 // As MotionLimits::make has them: here with the line of the file.
-constexpr Range velocity_range{0.001, 10000.0, "mm/s"};
-constexpr Range acceleration_range{0.1, 1e6, "mm/s^2"};
-constexpr Range chord_error_range{1e-6, 1.0, "mm"};
-constexpr Range zone_range{0.001, 1e6, "mm"};
-constexpr Range steps_range{0.001, 1e6, "counts per mm"};
-constexpr Range jerk_range{1.0, 1e9, "mm/s^3"};
+constexpr NumberRange velocity_range{0.001, 10000.0, "mm/s"};
+constexpr NumberRange acceleration_range{0.1, 1e6, "mm/s^2"};
+constexpr NumberRange chord_error_range{1e-6, 1.0, "mm"};
+constexpr NumberRange zone_range{0.001, 1e6, "mm"};
+constexpr NumberRange steps_range{0.001, 1e6, "counts per mm"};
+constexpr NumberRange jerk_range{1.0, 1e9, "mm/s^3"};
 
-/// Checks one file; remembers its name for messages.
-class Checker {
+/// Reads one file.
+class MachineReader {
 public:
-    explicit Checker(const std::string& file) : file_(file) {}
+    explicit MachineReader(const std::string& file) : file_(file), check_(file) {}
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
-        require_known(root, {"name", "sample_period_us", "drives_at_end", "path", "step", "axis"}, "");
+        check_.require_known(root, {"name", "sample_period_us", "drives_at_end", "path", "step", "axis"},
+                             "the machine file");
         MachineDescription machine;
         machine.file = file_;
         if (const toml::node* node = root.get("name")) {
-            machine.name = text(*node, "name");
+            machine.name = check_.text(*node, "name");
         }
-        if (const toml::node* node = root.get("sample_period_us")) {
-            const auto period = node->value_exact<std::int64_t>();
-            if (!period || *period < 50 || *period > 100000) {
-                fail(*node, "sample_period_us must be a whole number from 50 to 100000");
-            }
-            machine.settings.sample_period_us = static_cast<int>(*period);
-        }
+        check_.take(root, "sample_period_us", {50, 100'000}, machine.settings.sample_period_us);
         if (const toml::node* node = root.get("drives_at_end")) {
-            const std::string end = text(*node, "drives_at_end");
+            const std::string end = check_.text(*node, "drives_at_end");
             if (end != "on" && end != "off") {
-                fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
+                check_.fail(*node, fmt::format("drives_at_end is {}; it must be 'on' or 'off'", in_quotes(end)));
             }
             machine.drives_on_at_end = end == "on";
         }
@@ -69,79 +55,43 @@ public:
     }
 
 private:
-    template <class Node>
-    [[noreturn]] void fail(const Node& node, std::string_view what) const {
-        throw InputError(file_, node.source().begin.line, what);
-    }
-
-    void require_known(const toml::table& table, std::initializer_list<std::string_view> known,
-                       std::string_view where) const {
-        for (const auto& [key, value] : table) {
-            const std::string_view name = key.str();
-            if (std::find(known.begin(), known.end(), name) == known.end()) {
-                throw InputError(file_, key.source().begin.line,
-                                 fmt::format("unknown key {}{}{}", in_quotes(name), where,
-                                             suggestion(name, {known.begin(), known.size()})));
-            }
-        }
-    }
-
-    [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const {
-        const auto value = node.value_exact<std::string>();
-        if (!value) {
-            fail(node, fmt::format("{} must be a text in quotes", key));
-        }
-        return *value;
-    }
-
-    [[nodiscard]] double number(const toml::node& node, std::string_view key) const {
-        const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-        if (!value || !std::isfinite(*value)) {
-            fail(node, fmt::format("{} must be a finite number", key));
-        }
-        return *value;
-    }
-
-    [[nodiscard]] double number(const toml::node& node, std::string_view key, const Range& range) const {
-        const double value = number(node, key);
+    [[nodiscard]] double number(const toml::node& node, std::string_view key, const NumberRange& range) const {
+        const double value = check_.finite(node, key);
         if (value < range.low || value > range.high) {
-            fail(node, fmt::format("{} is {}; it must lie between {} and {} {}", key, value, range.low, range.high,
-                                   range.unit));
+            check_.fail(node, fmt::format("{} is {}; it must lie between {} and {} {}", key, value, range.low,
+                                          range.high, range.unit));
         }
         return value;
     }
 
-    [[nodiscard]] double required(const toml::table& table, std::string_view key, const Range& range,
+    [[nodiscard]] double required(const toml::table& table, std::string_view key, const NumberRange& range,
                                   std::string_view where) const {
         const toml::node* node = table.get(key);
         if (node == nullptr) {
-            fail(table, fmt::format("{} has no {}; it must be a number between {} and {} {}", where, key, range.low,
-                                    range.high, range.unit));
+            check_.fail(table, fmt::format("{} has no {}; it must be a number between {} and {} {}", where, key,
+                                           range.low, range.high, range.unit));
         }
         return number(*node, key, range);
     }
 
     void path(const toml::table& root, MachineSettings& settings) const {
         const toml::node* node = root.get("path");
-        const toml::table* table = node != nullptr ? node->as_table() : nullptr;
         if (node == nullptr) {
-            throw InputError(file_, 0, "there is no [path]; write [path] and below it max_feed_mm_s = 100");
+            check_.fail_file("there is no [path]; write [path] and below it max_feed_mm_s = 100");
         }
-        if (table == nullptr) {
-            fail(*node, "path must be a table: [path] and its keys below");
-        }
-        require_known(*table, {"max_feed_mm_s", "centripetal_mm_s2", "chord_error_mm", "jerk_plan"}, " in [path]");
-        settings.max_feed_mm_s = required(*table, "max_feed_mm_s", velocity_range, "[path]");
-        if (const toml::node* limit = table->get("centripetal_mm_s2")) {
+        const toml::table& table = check_.table(*node, "path");
+        check_.require_known(table, {"max_feed_mm_s", "centripetal_mm_s2", "chord_error_mm", "jerk_plan"}, "[path]");
+        settings.max_feed_mm_s = required(table, "max_feed_mm_s", velocity_range, "[path]");
+        if (const toml::node* limit = table.get("centripetal_mm_s2")) {
             settings.centripetal_mm_s2 = number(*limit, "centripetal_mm_s2", acceleration_range);
         }
-        if (const toml::node* limit = table->get("chord_error_mm")) {
+        if (const toml::node* limit = table.get("chord_error_mm")) {
             settings.chord_error_mm = number(*limit, "chord_error_mm", chord_error_range);
         }
-        if (const toml::node* tier = table->get("jerk_plan")) {
+        if (const toml::node* tier = table.get("jerk_plan")) {
             const std::string name = tier->value_or(std::string{});
             if (name != "optimal" && name != "bounded") {
-                fail(*tier, R"(jerk_plan must be "optimal" or "bounded")");
+                check_.fail(*tier, R"(jerk_plan must be "optimal" or "bounded")");
             }
             settings.jerk_tier = name == "bounded" ? JerkTier::bounded : JerkTier::optimal;
         }
@@ -152,32 +102,29 @@ private:
         if (node == nullptr) {
             return;
         }
-        const toml::table* table = node->as_table();
-        if (table == nullptr) {
-            fail(*node, "step must be a table: [step] and its keys below");
-        }
-        require_known(*table,
-                      {"engine", "tick_us", "step_length_us", "step_space_us", "direction_setup_us",
-                       "direction_hold_us", "step_on_edge"},
-                      " in [step]");
-        const toml::node* engine = table->get("engine");
-        const std::string kind = engine != nullptr ? text(*engine, "engine") : "intervals";
+        const toml::table& table = check_.table(*node, "step");
+        check_.require_known(table,
+                             {"engine", "tick_us", "step_length_us", "step_space_us", "direction_setup_us",
+                              "direction_hold_us", "step_on_edge"},
+                             "[step]");
+        const toml::node* engine = table.get("engine");
+        const std::string kind = engine != nullptr ? check_.text(*engine, "engine") : "intervals";
         if (kind != "intervals" && kind != "fixed-rate") {
-            fail(*engine, fmt::format("engine is {}; it must be 'intervals' or 'fixed-rate'", in_quotes(kind)));
+            check_.fail(*engine, fmt::format("engine is {}; it must be 'intervals' or 'fixed-rate'", in_quotes(kind)));
         }
         settings.tick_us = kind == "fixed-rate" ? 10.0 : 0.0;
-        if (const toml::node* tick = table->get("tick_us")) {
+        if (const toml::node* tick = table.get("tick_us")) {
             if (kind != "fixed-rate") {
-                fail(*tick, "tick_us is of engine = 'fixed-rate'; leave it out, or state that engine");
+                check_.fail(*tick, "tick_us is of engine = 'fixed-rate'; leave it out, or state that engine");
             }
-            settings.tick_us = number(*tick, "tick_us");
+            settings.tick_us = check_.finite(*tick, "tick_us");
             if (StepTiming::make({.tick_us = settings.tick_us}).error() != Error::none || settings.tick_us == 0.0) {
-                fail(*tick,
-                     fmt::format("tick_us is {}; it must be a multiple of 0.25 from 0.25 to 1000", settings.tick_us));
+                check_.fail(*tick, fmt::format("tick_us is {}; it must be a multiple of 0.25 from 0.25 to 1000",
+                                               settings.tick_us));
             }
         }
         const auto time = [&](const char* key, double least_us, double& value) {
-            if (const toml::node* given = table->get(key)) {
+            if (const toml::node* given = table.get(key)) {
                 value = number(*given, key, {least_us, 1000.0, "us"});
             }
         };
@@ -185,29 +132,21 @@ private:
         time("step_space_us", 0.125, settings.step_space_us);
         time("direction_setup_us", 0.0, settings.direction_setup_us);
         time("direction_hold_us", 0.0, settings.direction_hold_us);
-        if (const toml::node* on_edge = table->get("step_on_edge")) {
-            settings.step_on_edge = flag(*on_edge, "step_on_edge");
+        if (const toml::node* on_edge = table.get("step_on_edge")) {
+            settings.step_on_edge = check_.flag(*on_edge, "step_on_edge");
         }
-    }
-
-    [[nodiscard]] bool flag(const toml::node& node, std::string_view key) const {
-        const auto value = node.value_exact<bool>();
-        if (!value) {
-            fail(node, fmt::format("{} must be true or false", key));
-        }
-        return *value;
     }
 
     void motors(const toml::table& table, StepMotors& motors) const {
         if (const toml::node* count = table.get("motors")) {
             const auto value = count->value_exact<std::int64_t>();
             if (!value || *value < 1 || *value > 2) {
-                fail(*count, "motors must be 1 or 2");
+                check_.fail(*count, "motors must be 1 or 2");
             }
             motors.count = static_cast<int>(*value);
         }
         if (const toml::node* invert = table.get("invert_step")) {
-            motors.invert_step = flag(*invert, "invert_step");
+            motors.invert_step = check_.flag(*invert, "invert_step");
         }
         const toml::node* invert = table.get("invert_direction");
         if (invert == nullptr) {
@@ -215,17 +154,18 @@ private:
         }
         const toml::array* each = invert->as_array();
         if (each == nullptr) {
-            motors.invert_direction.fill(flag(*invert, "invert_direction"));
+            motors.invert_direction.fill(check_.flag(*invert, "invert_direction"));
             return;
         }
         if (each->size() != static_cast<std::size_t>(motors.count)) {
-            fail(*invert,
-                 fmt::format("invert_direction has {} values; it must have one for each of {} motors, or be true or "
-                             "false for all",
-                             each->size(), motors.count));
+            check_.fail(
+                *invert,
+                fmt::format("invert_direction has {} values; it must have one for each of {} motors, or be true or "
+                            "false for all",
+                            each->size(), motors.count));
         }
         for (std::size_t i = 0; i < each->size(); ++i) {
-            motors.invert_direction[i] = flag((*each)[i], "invert_direction");
+            motors.invert_direction[i] = check_.flag((*each)[i], "invert_direction");
         }
     }
 
@@ -233,42 +173,42 @@ private:
         const toml::node* node = root.get("axis");
         const toml::array* array = node != nullptr ? node->as_array() : nullptr;
         if (node == nullptr) {
-            throw InputError(file_, 0, "there is no [[axis]]; a machine has one to six");
+            check_.fail_file("there is no [[axis]]; a machine has one to six");
         }
         if (array == nullptr || array->empty()) {
-            fail(*node, "axis must be one to six tables, each with [[axis]] above it");
+            check_.fail(*node, "axis must be one to six tables, each with [[axis]] above it");
         }
         if (array->size() > static_cast<std::size_t>(max_axes)) {
-            fail((*array)[static_cast<std::size_t>(max_axes)],
-                 fmt::format("there are {} axes; a machine has one to {}", array->size(), max_axes));
+            check_.fail((*array)[static_cast<std::size_t>(max_axes)],
+                        fmt::format("there are {} axes; a machine has one to {}", array->size(), max_axes));
         }
         machine.settings.axes = static_cast<int>(array->size());
         for (std::size_t k = 0; k < array->size(); ++k) {
             const toml::table* table = (*array)[k].as_table();
             if (table == nullptr) {
-                fail((*array)[k], "axis must be one to six tables, each with [[axis]] above it");
+                check_.fail((*array)[k], "axis must be one to six tables, each with [[axis]] above it");
             }
             axis(*table, k, machine);
         }
     }
 
     void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
-        require_known(table,
-                      {"name", "kind", "travel_mm", "travel_end_zone_mm", "travel_end_velocity_mm_s",
-                       "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2", "max_jerk_mm_s3",
-                       "steps_per_mm", "invert", "motors", "invert_step", "invert_direction", "drive"},
-                      " in [[axis]]");
+        check_.require_known(table,
+                             {"name", "kind", "travel_mm", "travel_end_zone_mm", "travel_end_velocity_mm_s",
+                              "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2", "max_jerk_mm_s3",
+                              "steps_per_mm", "invert", "motors", "invert_step", "invert_direction", "drive"},
+                             "[[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
-            fail(table, "[[axis]] has no name; it must be one of x, y, z, a, b, c");
+            check_.fail(table, "[[axis]] has no name; it must be one of x, y, z, a, b, c");
         }
-        const std::string letter = text(*name, "name");
+        const std::string letter = check_.text(*name, "name");
         if (letter.size() != 1 || axis_letters.find(letter) == std::string_view::npos) {
-            fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter)));
+            check_.fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter)));
         }
         for (std::size_t j = 0; j < k; ++j) {
             if (machine.axis_name[j] == letter) {
-                fail(*name, fmt::format("there are two axes '{}'; each needs a name of its own", letter));
+                check_.fail(*name, fmt::format("there are two axes '{}'; each needs a name of its own", letter));
             }
         }
         const std::string where = fmt::format("axis {}", letter);
@@ -294,25 +234,25 @@ private:
         travel_end(table, where, machine.travel[k], axis);
         motors(table, machine.motors[k]);
         if (const toml::node* invert = table.get("invert")) {
-            machine.inverted[k] = flag(*invert, "invert");
+            machine.inverted[k] = check_.flag(*invert, "invert");
         }
         for (bool& direction : machine.motors[k].invert_direction) {
             direction = direction != machine.inverted[k];
         }
         if (const toml::node* drive = table.get("drive")) {
-            machine.drive[k] = text(*drive, "drive");
+            machine.drive[k] = check_.text(*drive, "drive");
             try {
                 static_cast<void>(parse_target_address(machine.drive[k]));
             } catch (const AddressError& error) {
-                fail(*drive, fmt::format("drive: {}", error.what()));
+                check_.fail(*drive, fmt::format("drive: {}", error.what()));
             }
         }
     }
 
     [[nodiscard]] bool is_rotary(const toml::node& node) const {
-        const std::string kind = text(node, "kind");
+        const std::string kind = check_.text(node, "kind");
         if (kind != "linear" && kind != "rotary") {
-            fail(node, fmt::format("kind is {}; it must be 'linear' or 'rotary'", in_quotes(kind)));
+            check_.fail(node, fmt::format("kind is {}; it must be 'linear' or 'rotary'", in_quotes(kind)));
         }
         return kind == "rotary";
     }
@@ -326,13 +266,15 @@ private:
         }
         const toml::node& given = zone != nullptr ? *zone : *velocity;
         if (zone == nullptr || velocity == nullptr) {
-            fail(given,
-                 fmt::format("{} must have both travel_end_zone_mm and travel_end_velocity_mm_s, or neither", where));
+            check_.fail(
+                given,
+                fmt::format("{} must have both travel_end_zone_mm and travel_end_velocity_mm_s, or neither", where));
         }
         if (!travel) {
-            fail(given,
-                 fmt::format("{} has a travel_end_zone_mm, but no travel_mm; give both, like travel_mm = [-10, 310]",
-                             where));
+            check_.fail(
+                given,
+                fmt::format("{} has a travel_end_zone_mm, but no travel_mm; give both, like travel_mm = [-10, 310]",
+                            where));
         }
         axis.travel_end_zone_mm = number(*zone, "travel_end_zone_mm", zone_range);
         axis.travel_end_velocity_mm_s = number(*velocity, "travel_end_velocity_mm_s", velocity_range);
@@ -343,23 +285,24 @@ private:
     [[nodiscard]] Travel travel(const toml::node& node, double steps_per_mm) const {
         const toml::array* array = node.as_array();
         if (array == nullptr || array->size() != 2) {
-            fail(node, "travel_mm must be two numbers, the lowest and the highest position, like [-10, 310]");
+            check_.fail(node, "travel_mm must be two numbers, the lowest and the highest position, like [-10, 310]");
         }
-        const Travel travel{number((*array)[0], "travel_mm"), number((*array)[1], "travel_mm")};
+        const Travel travel{check_.finite((*array)[0], "travel_mm"), check_.finite((*array)[1], "travel_mm")};
         if (!position_representable(travel.low) || !position_representable(travel.high)) {
-            fail(node, "travel_mm must lie within +-1048576 mm");
+            check_.fail(node, "travel_mm must lie within +-1048576 mm");
         }
         if (!(travel.low < travel.high)) {
-            fail(node, fmt::format("travel_mm is [{}, {}]; the second number must be the larger one", travel.low,
-                                   travel.high));
+            check_.fail(node, fmt::format("travel_mm is [{}, {}]; the second number must be the larger one", travel.low,
+                                          travel.high));
         }
         if (std::fmax(-travel.low, travel.high) * steps_per_mm > counter_limit) {
-            fail(node, "travel_mm times steps_per_mm must stay within +-2147483647 counts");
+            check_.fail(node, "travel_mm times steps_per_mm must stay within +-2147483647 counts");
         }
         return travel;
     }
 
     const std::string& file_;
+    TomlChecker check_;
 };
 
 } // namespace
@@ -367,7 +310,7 @@ private:
 MachineDescription parse_machine(std::string_view text, const std::string& file) {
     require_plain_toml(text, file);
     try {
-        return Checker(file).machine(toml::parse(text, file));
+        return MachineReader(file).machine(toml::parse(text, file));
     } catch (const toml::parse_error& error) {
         throw InputError(file, error.source().begin.line, error.description());
     }

@@ -2,7 +2,7 @@
 // profile_file: reads a drive profile .toml; docs/reference/profiles.md says what each key means.
 #pragma once
 
-#include "splinefeed/hal/modbus/drive_profile.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 #include <string>
 #include <string_view>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/base/toml_checker.hpp"
-#include "splinefeed/hal/modbus/drive_profile.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 namespace splinefeed::host {
 

@@ -2,7 +2,7 @@
 // shipped_profiles: the drive profiles that are part of the program, and those that a user writes.
 #pragma once
 
-#include "splinefeed/hal/modbus/drive_profile.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 #include <span>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/config/target_address.hpp"
 
+#include "host_sim/base/address_text.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
@@ -9,26 +10,20 @@
 
 #include "splinefeed/base/capacity.hpp"
 
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
 
 namespace {
 
-constexpr std::string_view tcp = "modbus-tcp://";
-constexpr std::string_view rtu = "modbus-rtu://";
-
 int whole_number(std::string_view key, std::string_view value, int low, int high) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc{} || end != value.data() + value.size() || number < low || number > high) {
+    const auto number = read_whole(value, low, high);
+    if (!number) {
         throw AddressError(
             fmt::format("{} is {}; it must be a whole number from {} to {}", key, in_quotes(value), low, high));
     }
-    return number;
+    return *number;
 }
 
 void take_baud(TargetAddress& address, std::string_view value) {
@@ -125,31 +120,21 @@ void take_place(TargetAddress& address, std::string_view place) {
 TargetAddress parse_target_address(const std::string& text) {
     TargetAddress address;
     address.text = text;
-    std::string_view rest = text;
-    if (rest.substr(0, tcp.size()) == tcp) {
-        rest.remove_prefix(tcp.size());
-    } else if (rest.substr(0, rtu.size()) == rtu) {
+    const AddressText parts = split_address(text);
+    if (parts.scheme == "modbus-rtu") {
         address.link.wire = hal::modbus::Wire::rtu;
-        rest.remove_prefix(rtu.size());
-    } else {
+    } else if (parts.scheme != "modbus-tcp") {
         throw AddressError(fmt::format("{} is no address of a drive; write modbus-tcp://HOST:PORT or "
                                        "modbus-rtu:///dev/ttyUSB0?baud=115200",
                                        in_quotes(text)));
     }
-    const std::size_t query = rest.find('?');
-    take_place(address, rest.substr(0, query));
-    if (query == std::string_view::npos) {
-        return address;
-    }
-    rest.remove_prefix(query + 1);
-    while (!rest.empty()) {
-        const std::string_view pair = rest.substr(0, rest.find('&'));
-        rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
-        const std::size_t equals = pair.find('=');
-        if (equals == std::string_view::npos || equals + 1 == pair.size()) {
-            throw AddressError(fmt::format("{} has no value; write key=value, with & between two", in_quotes(pair)));
+    take_place(address, parts.place);
+    for (const AddressText::Setting& setting : parts.settings) {
+        if (setting.value.empty()) {
+            throw AddressError(
+                fmt::format("{} has no value; write key=value, with & between two", in_quotes(setting.text)));
         }
-        take_key(address, pair.substr(0, equals), pair.substr(equals + 1));
+        take_key(address, setting.key, setting.value);
     }
     return address;
 }

@@ -2,7 +2,7 @@
 // TargetAddress: what --target, `drive = ` in a machine file and --listen say: where a drive is, and what it speaks.
 #pragma once
 
-#include "splinefeed/hal/modbus/link_address.hpp"
+#include "splinefeed/hal/modbus/link/link_address.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -31,7 +31,7 @@ json range_json(const std::vector<PerAxis<double>>& points, std::size_t first, s
     return array;
 }
 
-void interpolation(json& input, const CurveChoice& choice, int axes) {
+void interpolation_input(json& input, const CurveChoice& choice, int axes) {
     constexpr std::array<const char*, 3> parameters{"uniform", "chord", "centripetal"};
     input["degree"] = choice.degree;
     input["parameters"] = parameters[static_cast<std::size_t>(choice.parameterization)];
@@ -54,7 +54,7 @@ void interpolation(json& input, const CurveChoice& choice, int axes) {
 }
 
 // The first polygon takes degree + 1 points, each further one the degree - 2 that G2 leaves free.
-void chain(json& input, const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes) {
+void chain_input(json& input, const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes) {
     constexpr std::size_t order = 2;
     const auto degree = static_cast<std::size_t>(choice.degree);
     const std::size_t free = degree - order;
@@ -80,7 +80,7 @@ void chain(json& input, const CurveChoice& choice, const std::vector<PerAxis<dou
     input["betas"] = betas;
 }
 
-void ferguson(json& input, const CurveChoice& choice, int axes) {
+void ferguson_input(json& input, const CurveChoice& choice, int axes) {
     input["lambda"] = choice.lambda;
     input["mu"] = choice.mu ? json(*choice.mu) : json("auto");
     input["delta"] = choice.curvature_sign ? json(*choice.curvature_sign) : json("auto");
@@ -103,14 +103,14 @@ json points_description(const CurveChoice& choice, const std::vector<PerAxis<dou
     json input;
     input["closed"] = choice.closed;
     if (choice.method == Method::beta_chain) {
-        chain(input, choice, points, axes);
+        chain_input(input, choice, points, axes);
         return input;
     }
     input["points"] = range_json(points, 0, points.size(), axes);
     if (choice.method == Method::ferguson) {
-        ferguson(input, choice, axes);
+        ferguson_input(input, choice, axes);
     } else {
-        interpolation(input, choice, axes);
+        interpolation_input(input, choice, axes);
     }
     return input;
 }

@@ -4,7 +4,7 @@
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include "host_sim/config/gpio_map.hpp"
-#include "host_sim/diagnose/round_trips.hpp"
+#include "host_sim/diagnose/histogram_picture.hpp"
 #include "host_sim/target/gpio/gpio_target.hpp"
 
 #include <algorithm>
@@ -47,8 +47,7 @@ std::string inputs_text(const hal::gpio::LineMap& map, GpioChips& chips) {
 }
 
 /// How late a thread of the map's settings is woken, a thousand times a second.
-RoundTrips wake_ups(const hal::gpio::RealTimeSettings& settings, double seconds, std::string& missing) {
-    RoundTrips late;
+void wake_ups(const hal::RealTimeSettings& settings, double seconds, hal::TimeHistogram& late, std::string& missing) {
     std::thread([&] {
         missing = claim_real_time(settings);
         constexpr std::uint64_t period_ns = 1'000'000;
@@ -56,11 +55,10 @@ RoundTrips wake_ups(const hal::gpio::RealTimeSettings& settings, double seconds,
         const auto rounds = static_cast<std::uint64_t>(seconds * 1e3);
         for (std::uint64_t i = 1; i <= rounds; ++i) {
             const std::uint64_t due = begin + i * period_ns;
-            const std::uint64_t woken = hal::gpio::wait_until_ns(due, settings.spin_ns);
-            late.add(woken > due ? (woken - due) / ns_per_us : 0);
+            const std::uint64_t woken = hal::wait_until_ns(due, settings.spin_ns);
+            late.add(woken > due ? woken - due : 0);
         }
     }).join();
-    return late;
 }
 
 } // namespace
@@ -69,7 +67,7 @@ std::string gpio_report(const GpioAddress& address, const MachineDescription& ma
     const hal::gpio::LineMap map = read_gpio_map(address.map, machine, address.chip);
     const hal::gpio::StepPortSettings settings = port_settings(machine, map);
     std::string text = lines_text(map);
-    const hal::gpio::AwakeHost awake;
+    const hal::AwakeHost awake;
     std::string missing;
     std::vector<std::uint64_t> times;
     try {
@@ -79,7 +77,8 @@ std::string gpio_report(const GpioAddress& address, const MachineDescription& ma
     } catch (const hal::gpio::GpioError& error) {
         throw TargetError(error.what());
     }
-    const RoundTrips late = wake_ups(settings.real_time, seconds, missing);
+    hal::TimeHistogram late;
+    wake_ups(settings.real_time, seconds, late, missing);
     std::sort(times.begin(), times.end());
     const double mean_ns = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
     const auto at = [&](double share) {
@@ -91,7 +90,7 @@ std::string gpio_report(const GpioAddress& address, const MachineDescription& ma
     text += fmt::format("wake-ups, 1000 a second, {} us of each wait spent spinning: half below {:.0f} us late, 99 % "
                         "below {:.0f} us, worst {} us\n{}",
                         settings.real_time.spin_ns / ns_per_us, late.below_us(usual), late.below_us(nearly_all),
-                        late.worst_us(), late.picture());
+                        late.most_ns() / ns_per_us, histogram_picture(late));
     text += "what that means:\n";
     missing = awake.missing() + missing;
     if (!missing.empty()) {

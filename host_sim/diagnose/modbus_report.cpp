@@ -2,7 +2,7 @@
 #include "host_sim/diagnose/modbus_report.hpp"
 
 #include "host_sim/config/drive_table.hpp"
-#include "host_sim/diagnose/round_trips.hpp"
+#include "host_sim/diagnose/histogram_picture.hpp"
 #include "host_sim/target/modbus/pvt_target.hpp"
 #include "host_sim/target/modbus/setpoint_target.hpp"
 
@@ -21,10 +21,11 @@ using namespace hal::modbus;
 
 constexpr double usual = 0.5;
 constexpr double nearly_all = 0.99;
+constexpr std::uint64_t ns_per_us = 1000;
 
 /// What was measured on one drive.
 struct Measured {
-    RoundTrips round_trips;
+    hal::TimeHistogram round_trips;
     std::uint64_t lost = 0;
 };
 
@@ -35,7 +36,7 @@ void measure(Port& port, double seconds, std::vector<Measured>& drives) {
         for (std::size_t i = 0; i < drives.size(); ++i) {
             const LinkAnswer answer = port.probe(i);
             if (answer.ok()) {
-                drives[i].round_trips.add(answer.answered_us - answer.sent_us);
+                drives[i].round_trips.add((answer.answered_us - answer.sent_us) * ns_per_us);
             } else {
                 ++drives[i].lost;
             }
@@ -44,14 +45,14 @@ void measure(Port& port, double seconds, std::vector<Measured>& drives) {
 }
 
 std::string trips(const Measured& measured, const LinkCounts& counts) {
-    const RoundTrips& trips = measured.round_trips;
+    const hal::TimeHistogram& trips = measured.round_trips;
     std::string text =
         fmt::format("  round trip of a status read: half below {:.0f} us, 99 % below {:.0f} us, worst {} us\n",
-                    trips.below_us(usual), trips.below_us(nearly_all), trips.worst_us());
-    text += trips.picture();
+                    trips.below_us(usual), trips.below_us(nearly_all), trips.most_ns() / ns_per_us);
+    text += histogram_picture(trips);
     text += fmt::format("  lost: {} of {} ({} time-outs, {} broken connections, {} corrupt, {} that did not fit, {} "
                         "exceptions)\n",
-                        measured.lost, measured.lost + trips.count(), counts.timeouts, counts.disconnects,
+                        measured.lost, measured.lost + trips.total(), counts.timeouts, counts.disconnects,
                         counts.corrupt, counts.misfits, counts.exceptions);
     return text;
 }
@@ -60,7 +61,7 @@ std::string advice_on_losses(std::size_t drive, const Measured& measured, const 
     if (measured.lost == 0) {
         return {};
     }
-    const auto all = static_cast<double>(measured.lost + measured.round_trips.count());
+    const auto all = static_cast<double>(measured.lost + measured.round_trips.total());
     return fmt::format("  drive {}: {:.2f} % of the requests were lost; nothing is lost on the path, but look at {}\n",
                        drive + 1, 100.0 * static_cast<double>(measured.lost) / all,
                        link.wire == Wire::rtu ? "termination, shielding, and whether another master is on the line"

@@ -2,7 +2,7 @@
 // command_states: in which states a drive takes a command, the table of docs/reference/pvt_map.md.
 #pragma once
 
-#include "splinefeed/hal/modbus/pvt_map.hpp"
+#include "splinefeed/hal/modbus/pvt/pvt_map.hpp"
 
 namespace splinefeed::host {
 

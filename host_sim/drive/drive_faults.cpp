@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -105,12 +104,11 @@ void take_item(std::string_view item, DriveFaults& out) {
         break;
     case Shape::skew: out.clock_skew_ppm = number(item, fault, value, -1e5, 1e5); break;
     case Shape::seed: {
-        std::uint64_t seed = 0;
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), seed);
-        if (error != std::errc{} || end != value.data() + value.size()) {
+        const auto seed = read_whole<std::uint64_t>(value, 0, UINT64_MAX);
+        if (!seed) {
             refuse(item, fault, "it must be a whole number from 0 on");
         }
-        out.seed = seed;
+        out.seed = *seed;
         break;
     }
     case Shape::event:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/listen_address.hpp"
 
+#include "host_sim/base/address_text.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/number_text.hpp"
 #include "host_sim/config/baud_rate.hpp"
 
-#include <algorithm>
 #include <arpa/inet.h>
 #include <array>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -22,12 +22,11 @@ constexpr std::array<std::string_view, 5> keys{"baud", "parity", "stop", "unit",
 }
 
 int number(std::string_view text, std::string_view what, std::string_view digits, int low, int high) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || value < low || value > high) {
+    const auto value = read_whole(digits, low, high);
+    if (!value) {
         refuse(text, fmt::format("{} must be a whole number from {} to {}", what, low, high));
     }
-    return value;
+    return *value;
 }
 
 void take_key(std::string_view text, std::string_view key, std::string_view value, ListenAddress& out) {
@@ -78,23 +77,18 @@ ListenAddress parse_tcp(std::string_view text, std::string_view rest, bool allow
     return out;
 }
 
-ListenAddress parse_rtu(std::string_view text, std::string_view rest) {
+ListenAddress parse_rtu(std::string_view text, const AddressText& parts) {
     ListenAddress out;
     out.kind = ListenAddress::Kind::rtu;
-    const std::size_t mark = rest.find('?');
-    out.device = std::string(rest.substr(0, mark));
+    out.device = std::string(parts.place);
     if (out.device.size() < 2 || out.device.front() != '/') {
         refuse(text, "the device must be an absolute path, like rtu:///dev/ttyUSB0?baud=115200");
     }
-    std::string_view settings = mark == std::string_view::npos ? std::string_view{} : rest.substr(mark + 1);
-    while (!settings.empty()) {
-        const std::string_view item = settings.substr(0, settings.find('&'));
-        const std::size_t equals = item.find('=');
-        if (equals == std::string_view::npos) {
-            refuse(text, fmt::format("{} needs a value, like baud=115200", in_quotes(item)));
+    for (const AddressText::Setting& setting : parts.settings) {
+        if (setting.value.empty()) {
+            refuse(text, fmt::format("{} needs a value, like baud=115200", in_quotes(setting.text)));
         }
-        take_key(text, item.substr(0, equals), item.substr(equals + 1), out);
-        settings.remove_prefix(std::min(settings.size(), item.size() + 1));
+        take_key(text, setting.key, setting.value, out);
     }
     return out;
 }
@@ -102,13 +96,12 @@ ListenAddress parse_rtu(std::string_view text, std::string_view rest) {
 } // namespace
 
 ListenAddress parse_listen_address(std::string_view text, bool allow_remote) {
-    constexpr std::string_view tcp = "tcp://";
-    constexpr std::string_view rtu = "rtu://";
-    if (text.substr(0, tcp.size()) == tcp) {
-        return parse_tcp(text, text.substr(tcp.size()), allow_remote);
+    const AddressText parts = split_address(text);
+    if (parts.scheme == "tcp") {
+        return parse_tcp(text, parts.rest, allow_remote);
     }
-    if (text.substr(0, rtu.size()) == rtu) {
-        return parse_rtu(text, text.substr(rtu.size()));
+    if (parts.scheme == "rtu") {
+        return parse_rtu(text, parts);
     }
     refuse(text, "it must be like tcp://127.0.0.1:1502 or rtu:///dev/ttyUSB0?baud=115200");
 }

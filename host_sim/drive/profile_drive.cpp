@@ -2,7 +2,7 @@
 #include "host_sim/drive/profile_drive.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "splinefeed/hal/modbus/field_codec.hpp"
+#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <algorithm>
 #include <array>

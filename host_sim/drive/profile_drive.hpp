@@ -10,7 +10,7 @@
 #include "host_sim/drive/drive_model.hpp"
 #include "host_sim/drive/positioning_axis.hpp"
 #include "host_sim/drive/register_file.hpp"
-#include "splinefeed/hal/modbus/drive_profile.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 #include <memory>
 #include <optional>

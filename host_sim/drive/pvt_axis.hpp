@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/drive/motor_axis.hpp"
-#include "splinefeed/hal/modbus/pvt_map.hpp"
+#include "splinefeed/hal/modbus/pvt/pvt_map.hpp"
 
 namespace splinefeed::host {
 

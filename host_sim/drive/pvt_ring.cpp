@@ -15,7 +15,7 @@ constexpr double map_units_per_count = std::int64_t{1} << PvtSegment::position_b
 constexpr double velocity_units_per_unit = std::int64_t{1} << (PvtSegment::velocity_bits - PvtSegment::position_bits);
 constexpr double map_ticks_per_s = pvt::ticks_per_s;
 
-bool fits(const PvtSegment& segment, int axes) noexcept {
+bool is_executable(const PvtSegment& segment, int axes) noexcept {
     const auto moves = [](std::int64_t velocity) {
         return velocity != 0;
     };
@@ -57,7 +57,7 @@ PvtRefusal PvtRing::take(std::uint32_t first, std::span<const PvtSegment> segmen
     if (fresh.size() > free()) {
         return PvtRefusal::no_room;
     }
-    if (!std::all_of(fresh.begin(), fresh.end(), [this](const PvtSegment& s) { return fits(s, axes_); })) {
+    if (!std::all_of(fresh.begin(), fresh.end(), [this](const PvtSegment& s) { return is_executable(s, axes_); })) {
         return PvtRefusal::malformed;
     }
     for (const PvtSegment& segment : fresh) {

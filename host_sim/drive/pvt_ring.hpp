@@ -2,7 +2,7 @@
 // PvtRing: the segments that a drive holds, and where on them it is (docs/reference/pvt_map.md).
 #pragma once
 
-#include "splinefeed/hal/modbus/pvt_map.hpp"
+#include "splinefeed/hal/modbus/pvt/pvt_map.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/register_file.hpp"
 
-#include "splinefeed/hal/modbus/field_codec.hpp"
+#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "host_sim/drive/drive_model.hpp"
-#include "splinefeed/hal/modbus/drive_profile.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
 #include <cstdint>
 #include <span>

@@ -5,24 +5,9 @@
 
 namespace splinefeed::host {
 
-namespace {
-
-using Train = std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>>;
-
-Train train_for(const MachineDescription& machine) {
-    const StepTiming timing = checked_step_timing(machine);
-    const int axes = machine.settings.axes;
-    const StepDirSequencer lines(axes, timing);
-    if (timing.grid > 1) {
-        return PulseTrain<FixedRate>(FixedRate(axes, timing.grid), lines);
-    }
-    return PulseTrain<StepIntervals>(StepIntervals(axes), lines);
-}
-
-} // namespace
-
 EdgeWriter::EdgeWriter(OutputFile& file, const MachineDescription& machine)
-    : file_(&file), train_(train_for(machine)), motors_(machine.motors) {
+    : file_(&file), train_(make_pulse_train(machine.settings.axes, checked_step_timing(machine))),
+      motors_(machine.motors) {
     for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
         name_[k] = {machine.axis_name[k], machine.axis_name[k] + "2"};
     }

@@ -5,11 +5,10 @@
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/config/machine_description.hpp"
 
-#include "splinefeed/s5_pulse_train/pulse_train.hpp"
+#include "splinefeed/s5_pulse_train/any_pulse_train.hpp"
 
 #include <array>
 #include <string>
-#include <variant>
 
 namespace splinefeed::host {
 
@@ -30,7 +29,7 @@ private:
     void row(const Edge& edge);
 
     OutputFile* file_;
-    std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>> train_;
+    AnyPulseTrain train_;
     PerAxis<StepMotors> motors_;
     PerAxis<std::array<std::string, 2>> name_{};
 };

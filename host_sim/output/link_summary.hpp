@@ -2,7 +2,7 @@
 // LinkSummary: how the wires of a run on drives did.
 #pragma once
 
-#include "splinefeed/hal/modbus/link_counts.hpp"
+#include "splinefeed/hal/modbus/link/link_counts.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -2,6 +2,7 @@
 #include "host_sim/run/motion.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/output/place_text.hpp"
 #include "host_sim/output/progress.hpp"
 
 #include <cmath>
@@ -252,12 +253,12 @@ void Motion<S>::keep_failure(const std::exception_ptr& failure) {
 
 template <Scalar S>
 std::string Motion<S>::where() const {
-    std::string text = "; the machine stands at";
+    PlaceText place("; the machine stands at", 6);
     const PerAxis<double> position = machine_.position_mm();
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
-        text += fmt::format(" {}={:.6f}", description_->axis_name[k], position[k]);
+        place.add(description_->axis_name[k], position[k]);
     }
-    return text + fmt::format(" mm, {:.6f} s after its start", machine_.cycle_time_s());
+    return place.text() + fmt::format(", {:.6f} s after its start", machine_.cycle_time_s());
 }
 
 template <Scalar S>

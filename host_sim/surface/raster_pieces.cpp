@@ -10,10 +10,10 @@ namespace splinefeed::host {
 
 namespace {
 
-using Piece = BezierPiece<double>;
+using PathPiece = BezierPiece<double>;
 
 // The part of a piece from a to b, fractions of it, by two cuts of de Casteljau.
-Piece part_of(Piece piece, double a, double b) {
+PathPiece between(PathPiece piece, double a, double b) {
     const auto n = static_cast<unsigned>(piece.degree);
     const auto cut = [n](PerDegree<double>& row, double t, bool keep_left) {
         PerDegree<double> left{};
@@ -39,8 +39,8 @@ Piece part_of(Piece piece, double a, double b) {
     return piece;
 }
 
-Piece reversed(const Piece& piece) {
-    Piece out;
+PathPiece reversed(const PathPiece& piece) {
+    PathPiece out;
     out.degree = piece.degree;
     for (int i = 0; i <= piece.degree; ++i) {
         out.set_point(i, piece.point(piece.degree - i));
@@ -49,25 +49,25 @@ Piece reversed(const Piece& piece) {
 }
 
 // An iso-parametric line of the surface itself, from parameter `from` to `to`.
-std::vector<Piece> exact(const ToolSurface& surface, const CellInterval& stretch) {
+std::vector<PathPiece> exact(const ToolSurface& surface, const CellInterval& stretch) {
     const BSplineSurface<double>& view = surface.view();
     const bool u = (stretch.kind == CellInterval::Kind::along) == (surface.options().along == SurfaceDirection::u);
     const std::span<const double> knots = u ? view.knots_u : view.knots_v;
     const int degree = u ? view.degree_u : view.degree_v;
     std::vector<Point<double>> controls(u ? view.count_u() : view.count_v());
     require(iso_curve<double>(view, u ? SurfaceDirection::u : SurfaceDirection::v, stretch.constant, controls));
-    std::vector<Piece> all(bezier_piece_count<double>(knots, degree));
+    std::vector<PathPiece> all(bezier_piece_count<double>(knots, degree));
     std::vector<double> breaks(all.size() + 1);
     require(bezier_pieces<double>(knots, degree, controls, 3, false, all, breaks));
     const double low = std::min(stretch.from, stretch.to);
     const double high = std::max(stretch.from, stretch.to);
-    std::vector<Piece> out;
+    std::vector<PathPiece> out;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double length = breaks[i + 1] - breaks[i];
         const double a = std::max(0.0, (low - breaks[i]) / length);
         const double b = std::min(1.0, (high - breaks[i]) / length);
         if (a < b) {
-            out.push_back(part_of(all[i], a, b));
+            out.push_back(between(all[i], a, b));
         }
     }
     if (stretch.from > stretch.to) {
@@ -101,8 +101,8 @@ Point<double> slope(const ToolSurface& surface, const CellInterval& stretch, dou
 
 std::vector<BezierPiece<double>> pieces(const ToolSurface& surface, const std::vector<CellInterval>& path) {
     constexpr double no_length_mm = 1e-9;
-    std::vector<Piece> out;
-    const auto add = [&out](const Piece& piece) {
+    std::vector<PathPiece> out;
+    const auto add = [&out](const PathPiece& piece) {
         for (int i = 1; i <= piece.degree; ++i) {
             for (std::size_t k = 0; k < 3; ++k) {
                 if (std::fabs(piece.point(i)[k] - piece.point(0)[k]) > no_length_mm) {
@@ -117,13 +117,13 @@ std::vector<BezierPiece<double>> pieces(const ToolSurface& surface, const std::v
     };
     for (const CellInterval& stretch : path) {
         if (stretch.kind == CellInterval::Kind::straight) {
-            Piece line;
+            PathPiece line;
             line.degree = 1;
             line.set_point(0, stretch.start);
             line.set_point(1, stretch.end);
             add(line);
         } else if (!(surface.options().ball_radius_mm > 0.0)) {
-            for (const Piece& piece : exact(surface, stretch)) {
+            for (const PathPiece& piece : exact(surface, stretch)) {
                 add(piece);
             }
         } else {
@@ -137,7 +137,7 @@ std::vector<BezierPiece<double>> pieces(const ToolSurface& surface, const std::v
                 const Point<double> leave = slope(surface, stretch, at[i]);
                 const Point<double> arrive = slope(surface, stretch, at[i + 1]);
                 const double third = (at[i + 1] - at[i]) / 3.0;
-                Piece piece;
+                PathPiece piece;
                 piece.degree = 3;
                 Point<double> second = from;
                 Point<double> before = to;

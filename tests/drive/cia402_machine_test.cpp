@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/cia402_machine.hpp"
 
-#include "splinefeed/hal/modbus/drive_profile.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 #include "support/catch.hpp"
 
 #include <string>

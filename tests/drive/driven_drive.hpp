@@ -4,7 +4,7 @@
 
 #include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/profile_drive.hpp"
-#include "splinefeed/hal/modbus/field_codec.hpp"
+#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 #include "support/catch.hpp"
 
 #include <array>

@@ -2,8 +2,8 @@
 // Commands and readings by the profile, against the models: what a client on a bus does, without the bus.
 #include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/profile_drive.hpp"
-#include "splinefeed/hal/modbus/command_sequence.hpp"
-#include "splinefeed/hal/modbus/status_frames.hpp"
+#include "splinefeed/hal/modbus/setpoint/command_sequence.hpp"
+#include "splinefeed/hal/modbus/setpoint/status_frames.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::hal::modbus;

@@ -2,8 +2,8 @@
 // `splinefeed drive` with other profiles than its own, over real Modbus: this library's client, mbpoll.
 #include "drive/drive_process.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
-#include "splinefeed/hal/modbus/setpoint_frames.hpp"
-#include "splinefeed/hal/modbus/status_frames.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_frames.hpp"
+#include "splinefeed/hal/modbus/setpoint/status_frames.hpp"
 #include "support/catch.hpp"
 
 #include <chrono>

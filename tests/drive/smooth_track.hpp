@@ -2,7 +2,7 @@
 // A circle of two axes, from rest to rest, as feed segments of a millisecond; and where it is, in double.
 #pragma once
 
-#include "splinefeed/hal/modbus/trajectory_buffer.hpp"
+#include "splinefeed/hal/modbus/setpoint/trajectory_buffer.hpp"
 
 #include <array>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include "drive/driven_drive.hpp"
 #include "drive/smooth_track.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
-#include "splinefeed/hal/modbus/block_stream.hpp"
-#include "splinefeed/hal/modbus/cyclic_stream.hpp"
+#include "splinefeed/hal/modbus/setpoint/block_stream.hpp"
+#include "splinefeed/hal/modbus/setpoint/cyclic_stream.hpp"
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 

@@ -3,7 +3,7 @@
 // wrong.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/profile_file.hpp"
-#include "splinefeed/hal/modbus/field_codec.hpp"
+#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <array>
 #include <cstdlib>

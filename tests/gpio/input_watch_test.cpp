@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // InputWatch on a chip of the test: what acts, since when, and where the axes stood.
 #include "splinefeed/hal/gpio/input_watch.hpp"
-#include "splinefeed/hal/gpio/real_time.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
+#include "splinefeed/hal/rt/real_time.hpp"
 #include "support/catch.hpp"
 
 #include <cerrno>

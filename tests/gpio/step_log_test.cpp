@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/gpio/late_histogram.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
 #include "support/catch.hpp"
 
@@ -92,20 +91,4 @@ TEST_CASE("steps are read while they are written, and none is missing") {
     const auto counts = reader.counts_at(after_all);
     CHECK((*counts)[0] == steps / 4);
     CHECK((*counts)[1] == steps / 4);
-}
-
-TEST_CASE("lateness is counted in octaves of a microsecond") {
-    LateHistogram late;
-    for (const std::uint64_t ns : {0U, 999U, 1000U, 1999U, 2000U, 3999U, 4000U, 1'000'000U}) {
-        late.add(ns);
-    }
-    CHECK(late.count(0) == 2);
-    CHECK(late.count(1) == 2);
-    CHECK(late.count(2) == 2);
-    CHECK(late.count(3) == 1);
-    CHECK(late.count(10) == 1);
-    CHECK(late.total() == 8);
-    CHECK(late.most_ns() == 1'000'000);
-    CHECK(late.below_us(0.5) == 2);
-    CHECK(late.below_us(1.0) == 1024);
 }

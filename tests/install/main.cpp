@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A user's program: plans a straight move of 10 mm and says where it ends.
-#include "splinefeed/hal/motion_port.hpp"
-#include "splinefeed/s1_curve/g2_spline.hpp"
-#include "splinefeed/trajectory.hpp"
+#include "splinefeed/hal.hpp"
+#include "splinefeed/splinefeed.hpp"
 
 #include <array>
 #include <cstdio>
@@ -27,6 +26,19 @@ int main() {
     while (trajectory.next(segment)) {
     }
     const hal::PortState port;
+#ifdef SPLINEFEED_HAS_MODBUS
+    const hal::modbus::ModbusPort drives({}, {});
+    const hal::modbus::SetpointPort other_drives({}, {});
+    if (drives.drives() + other_drives.drives() != 0) {
+        return 1;
+    }
+#endif
+#ifdef SPLINEFEED_HAS_GPIO
+    const hal::gpio::StepPort lines({}, {});
+    if (lines.counts(0) != 0) {
+        return 1;
+    }
+#endif
     std::printf("%s after %lld counts\n", port.phase == hal::PortPhase::idle ? "idle" : "busy",
                 static_cast<long long>(segment.end[0] / units_per_count));
     return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/axis_frame.hpp"
+#include "splinefeed/hal/modbus/setpoint/axis_frame.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/clock_drift_compensation.hpp"
+#include "splinefeed/hal/modbus/pvt/clock_drift_compensation.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/clock_estimate.hpp"
+#include "splinefeed/hal/modbus/pvt/clock_estimate.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/field_codec.hpp"
+#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include "support/catch.hpp"
 

@@ -2,7 +2,7 @@
 // Frames from makers' manuals, byte for byte: libmodbus sends what profile and codec put into registers. Their
 // checksums were recomputed; where a manual's own table contradicts its frame, the frame is what a drive takes.
 #include "host_sim/config/shipped_profiles.hpp"
-#include "splinefeed/hal/modbus/field_codec.hpp"
+#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/link_address.hpp"
+#include "splinefeed/hal/modbus/link/link_address.hpp"
 
 #include "support/catch.hpp"
 

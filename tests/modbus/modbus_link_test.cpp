@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/modbus_link.hpp"
+#include "splinefeed/hal/modbus/link/modbus_link.hpp"
 
 #include "scripted_peer.hpp"
 #include "support/catch.hpp"

@@ -3,7 +3,7 @@
 // A short motion through the port and its buses against simulated drives in processes of their own: nothing is
 // allocated once the drives are prepared.
 #include "drive/drive_process.hpp"
-#include "splinefeed/hal/modbus/modbus_port.hpp"
+#include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 #include "support/allocations.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/pvt_client.hpp"
+#include "splinefeed/hal/modbus/pvt/pvt_client.hpp"
 
 #include "host_sim/drive/pvt_drive.hpp"
 #include "scripted_peer.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/pvt_map.hpp"
+#include "splinefeed/hal/modbus/pvt/pvt_map.hpp"
 
 #include "support/catch.hpp"
 

@@ -3,7 +3,7 @@
 // pseudo-terminal.
 #pragma once
 
-#include "splinefeed/hal/modbus/modbus_link.hpp"
+#include "splinefeed/hal/modbus/link/modbus_link.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <arpa/inet.h>

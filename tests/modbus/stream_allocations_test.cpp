@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "drive/smooth_track.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
-#include "splinefeed/hal/modbus/block_stream.hpp"
-#include "splinefeed/hal/modbus/cyclic_stream.hpp"
+#include "splinefeed/hal/modbus/setpoint/block_stream.hpp"
+#include "splinefeed/hal/modbus/setpoint/cyclic_stream.hpp"
 #include "support/allocations.hpp"
 #include "support/catch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/stream_cost.hpp"
+#include "splinefeed/hal/modbus/setpoint/stream_cost.hpp"
 
 #include "host_sim/config/shipped_profiles.hpp"
 #include "support/catch.hpp"

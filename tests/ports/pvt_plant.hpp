@@ -4,7 +4,7 @@
 
 #include "host_sim/drive/pvt_drive.hpp"
 #include "ports/plant.hpp"
-#include "splinefeed/hal/modbus/modbus_port.hpp"
+#include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 
 #include <optional>
 

@@ -5,7 +5,7 @@
 #include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/profile_drive.hpp"
 #include "ports/plant.hpp"
-#include "splinefeed/hal/modbus/setpoint_port.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
 #include <optional>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "host_sim/drive/drive_model.hpp"
-#include "splinefeed/hal/modbus/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/modbus_line.hpp"
 
 #include <deque>
 #include <map>

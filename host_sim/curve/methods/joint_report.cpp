@@ -10,26 +10,26 @@ namespace splinefeed::host {
 
 namespace {
 
-using Vector = PerAxis<double>;
+using AxisVector = PerAxis<double>;
 
 constexpr double least_regular = 1e-13; // a derivative of less, relative to the control points, is none
 
-Vector minus(const Vector& a, const Vector& b) {
-    Vector out{};
+AxisVector minus(const AxisVector& a, const AxisVector& b) {
+    AxisVector out{};
     for (std::size_t k = 0; k < out.size(); ++k) {
         out[k] = a[k] - b[k];
     }
     return out;
 }
 
-Vector times(double factor, Vector a) {
+AxisVector times(double factor, AxisVector a) {
     for (double& x : a) {
         x *= factor;
     }
     return a;
 }
 
-double dot(const Vector& a, const Vector& b) {
+double inner_product(const AxisVector& a, const AxisVector& b) {
     double sum = 0.0;
     for (std::size_t k = 0; k < a.size(); ++k) {
         sum += a[k] * b[k];
@@ -37,8 +37,8 @@ double dot(const Vector& a, const Vector& b) {
     return sum;
 }
 
-double size(const Vector& a) {
-    return std::sqrt(dot(a, a));
+double size(const AxisVector& a) {
+    return std::sqrt(inner_product(a, a));
 }
 
 // The largest |coordinate|: what rounding of a control point is relative to.
@@ -95,10 +95,10 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
     const Rounding e1 = rounding_of(after, agreement);
     const double h0 = length_of(curve, from);
     const double h1 = length_of(curve, to);
-    const Vector q1 = times(1.0 / h0, end.first);
-    const Vector r1 = times(1.0 / h1, start.first);
-    const Vector q2 = times(1.0 / (h0 * h0), end.second);
-    const Vector r2 = times(1.0 / (h1 * h1), start.second);
+    const AxisVector q1 = times(1.0 / h0, end.first);
+    const AxisVector r1 = times(1.0 / h1, start.first);
+    const AxisVector q2 = times(1.0 / (h0 * h0), end.second);
+    const AxisVector r2 = times(1.0 / (h1 * h1), start.second);
     const auto agree = [&agreement](double jump, double a, double b, double noise) {
         return jump <= agreement.relative * std::max(a, b) + noise;
     };
@@ -123,7 +123,7 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
     if (regular) {
         const double n0 = size(end.first);
         const double n1 = size(start.first);
-        const Vector turn = minus(times(1.0 / n1, start.first), times(1.0 / n0, end.first));
+        const AxisVector turn = minus(times(1.0 / n1, start.first), times(1.0 / n0, end.first));
         g1 = c0 && size(turn) <= agreement.relative + e0.first / n0 + e1.first / n1;
         const double k0 = size(end.curvature);
         const double k1 = size(start.curvature);
@@ -179,10 +179,10 @@ CurveSample sample_of(const BezierPiece<double>& piece, int axes, double u) {
         }
         out.point[k] = u == 1.0 ? piece.control[k][n] : row[0];
     }
-    const double n_sq = dot(out.first, out.first);
+    const double n_sq = inner_product(out.first, out.first);
     out.regular = std::sqrt(n_sq) > 2.0 * n * least_regular * largest;
     if (out.regular) {
-        const Vector normal = minus(out.second, times(dot(out.first, out.second) / n_sq, out.first));
+        const AxisVector normal = minus(out.second, times(inner_product(out.first, out.second) / n_sq, out.first));
         out.curvature = times(1.0 / n_sq, normal);
         out.kappa = axes == 2 ? (out.first[0] * out.second[1] - out.first[1] * out.second[0]) / (n_sq * std::sqrt(n_sq))
                               : size(out.curvature);

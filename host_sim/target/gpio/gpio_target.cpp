@@ -5,6 +5,7 @@
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/gpio_map.hpp"
 #include "host_sim/config/step_lines.hpp"
+#include "host_sim/output/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,18 +41,18 @@ hal::StopTimes stop_times(const MachineDescription& machine) {
             .settle_us = 2000};
 }
 
-std::vector<GpioSummary::Octave> octaves(const hal::gpio::LateHistogram& late) {
+std::vector<GpioSummary::Octave> octaves(const hal::TimeHistogram& late) {
     std::vector<GpioSummary::Octave> some;
-    for (std::size_t i = 0; i < hal::gpio::LateHistogram::octaves; ++i) {
-        if (late.count(i) > 0) {
-            some.push_back({static_cast<double>(std::uint64_t{1} << i) / us_per_s, late.count(i)});
+    for (std::size_t i = 0; i < hal::TimeHistogram::octaves; ++i) {
+        if (late.in_octave(i) > 0) {
+            some.push_back({static_cast<double>(std::uint64_t{1} << i) / us_per_s, late.in_octave(i)});
         }
     }
     return some;
 }
 
 /// What the thread of a port will lack.
-std::string lacking(const hal::gpio::RealTimeSettings& settings) {
+std::string lacking(const hal::RealTimeSettings& settings) {
     std::string missing;
     std::thread([&] { missing = claim_real_time(settings); }).join();
     return missing;
@@ -298,24 +299,24 @@ std::string GpioTarget::where() const {
     if (!began_) {
         return "; nothing was moved";
     }
-    std::string text = port_.place_known() ? "; the machine stands at"
-                       : port_.may_be_on()
-                           ? "; drives may still be on, since a line cannot be set, and where the machine "
-                             "stands is not known (find the references again); the last steps were those to"
-                           : "; drives are off, and where the machine stands is not known (find the "
-                             "references again); the last steps were those to";
+    PlaceText place(port_.place_known() ? "; the machine stands at"
+                    : port_.may_be_on()
+                        ? "; drives may still be on, since a line cannot be set, and where the machine "
+                          "stands is not known (find the references again); the last steps were those to"
+                        : "; drives are off, and where the machine stands is not known (find the "
+                          "references again); the last steps were those to");
     for (int k = 0; k < machine_->settings.axes; ++k) {
-        text += fmt::format(" {}={:.4f}", machine_->axis_name[static_cast<unsigned>(k)], mover_.position(k));
+        place.add(machine_->axis_name[static_cast<unsigned>(k)], mover_.position(k));
     }
-    return text + " mm";
+    return place.text();
 }
 
 void GpioTarget::describe(Summary& summary) const {
-    const hal::gpio::LateHistogram& late = port_.late();
+    const hal::TimeHistogram& late = port_.late();
     const hal::gpio::StepPortReport report = port_.report();
     summary.gpio = GpioSummary{.edges = report.edges,
-                               .median_late_s = static_cast<double>(late.below_us(0.5)) / us_per_s,
-                               .p99_late_s = static_cast<double>(late.below_us(0.99)) / us_per_s,
+                               .median_late_s = late.below_us(0.5) / us_per_s,
+                               .p99_late_s = late.below_us(0.99) / us_per_s,
                                .most_late_s = static_cast<double>(late.most_ns()) / ns_per_s,
                                .late = octaves(late),
                                .schedule_slip_s = static_cast<double>(report.schedule_slip_ns) / ns_per_s,

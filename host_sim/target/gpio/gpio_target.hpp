@@ -45,7 +45,7 @@ private:
     const MachineDescription* machine_;
     RunOptions wishes_;
     hal::Clock* time_;
-    std::optional<hal::gpio::AwakeHost> awake_;
+    std::optional<hal::AwakeHost> awake_;
     std::unique_ptr<hal::gpio::LineMap> map_;
     std::unique_ptr<GpioLines> chips_;
     hal::gpio::StepPort port_;

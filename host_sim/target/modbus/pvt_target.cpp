@@ -2,9 +2,9 @@
 #include "host_sim/target/modbus/pvt_target.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/signal_watch.hpp"
+#include "host_sim/output/place_text.hpp"
 
-#include "splinefeed/hal/modbus/stream_cost.hpp"
+#include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>
@@ -57,8 +57,7 @@ void check_pvt_range(const MachineDescription& machine, double segment_us) {
 }
 
 PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, bool home)
-    : machine_(&machine), table_(std::move(table)),
-      port_(pvt_wiring(table_, machine), {.home = home, .interrupted = &SignalWatch::interrupted}) {
+    : ModbusTarget(std::move(table), machine, home, pvt_wiring) {
     if (const auto failure = port_.open()) {
         throw TargetError(drive_sentence(table_, port_, *failure));
     }
@@ -82,32 +81,12 @@ std::string drive_sentence(const DriveTable& table, const ModbusPort& port, cons
     return text;
 }
 
-std::string PvtTarget::halted(bool quick) const {
-    return stop_sentence(stopped(), quick);
-}
-
 std::string PvtTarget::fault() const {
     return drive_sentence(table_, port_, *port_.failure()) + unconfirmed_drives(stopped());
 }
 
-std::string PvtTarget::finish() {
-    if (machine_->drives_on_at_end.value_or(true)) {
-        return {};
-    }
-    port_.power_off();
-    return not_switched_off(stopped());
-}
-
-std::vector<StoppedDrive> PvtTarget::stopped() const {
-    std::vector<StoppedDrive> drives;
-    for (std::size_t i = 0; i < port_.drives(); ++i) {
-        drives.push_back({table_.drives[i].address.text, port_.stop_report(i)});
-    }
-    return drives;
-}
-
 std::string PvtTarget::where() const {
-    std::string text = "; the machine stands at";
+    PlaceText place;
     for (std::size_t i = 0; i < port_.drives(); ++i) {
         const DriveReport report = port_.report(i);
         const DriveWiring& wiring = port_.wiring(i);
@@ -117,13 +96,11 @@ std::string PvtTarget::where() const {
                 const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
                 // One that is away went on to where all were to stop.
                 const bool heard = hal::system_clock().now_us() - report.answered_us < stale_us;
-                text += fmt::format(" {}={:.4f}{}", machine_->axis_name[axis],
-                                    counts / machine_->settings.axis[axis].steps_per_mm,
-                                    heard ? "" : " (when it was last heard)");
+                place.add(machine_->axis_name[axis], counts / machine_->settings.axis[axis].steps_per_mm, heard);
             }
         }
     }
-    return text + " mm";
+    return place.text();
 }
 
 std::string PvtTarget::prepare(const FeedSegment& first) {

@@ -2,11 +2,9 @@
 // PvtTarget: a run on drives that interpolate: who they are, whether the line carries the plan, and how the run went.
 #pragma once
 
-#include "host_sim/config/drive_table.hpp"
-#include "host_sim/target/run_target.hpp"
-#include "host_sim/target/stop_sentence.hpp"
+#include "host_sim/target/modbus/modbus_target.hpp"
 
-#include "splinefeed/hal/modbus/modbus_port.hpp"
+#include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 
 namespace splinefeed::host {
 
@@ -22,7 +20,7 @@ void check_pvt_range(const MachineDescription& machine, double segment_us);
 [[nodiscard]] std::string drive_sentence(const DriveTable& table, const hal::modbus::ModbusPort& port,
                                          const hal::modbus::DriveFailure& failure);
 
-class PvtTarget final : public RunTarget {
+class PvtTarget final : public ModbusTarget<hal::modbus::ModbusPort> {
 public:
     /// Connects to the drives. Throws TargetError. @pre they interpolate
     PvtTarget(DriveTable table, const MachineDescription& machine, bool home);
@@ -36,19 +34,9 @@ public:
     void describe(Summary& summary) const override;
 
 private:
-    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
     [[nodiscard]] std::string prepare(const FeedSegment& first) override;
-    void complete() override { port_.complete(); }
-    void quick_stop() override { port_.quick_stop(); }
-    [[nodiscard]] std::string halted(bool quick) const override;
-    [[nodiscard]] std::string finish() override;
-    void release() noexcept override { port_.close(); }
     [[nodiscard]] std::string fault() const override;
-    [[nodiscard]] std::vector<StoppedDrive> stopped() const;
 
-    const MachineDescription* machine_;
-    DriveTable table_;
-    hal::modbus::ModbusPort port_;
     double least_segment_us_ = 0.0;
 };
 

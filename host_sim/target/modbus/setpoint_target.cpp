@@ -2,7 +2,7 @@
 #include "host_sim/target/modbus/setpoint_target.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/signal_watch.hpp"
+#include "host_sim/output/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,8 +104,7 @@ void check_register_ranges(const DriveTable& table, const MachineDescription& ma
 }
 
 SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machine, bool home)
-    : machine_(&machine), table_(std::move(table)),
-      port_(target_wiring(table_, machine), {.home = home, .interrupted = &SignalWatch::interrupted}) {
+    : ModbusTarget(std::move(table), machine, home, target_wiring) {
     if (const std::string what = port_.open(); !what.empty()) {
         throw TargetError(sentence(what));
     }
@@ -155,39 +154,18 @@ std::string SetpointTarget::note() const {
                        port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
 }
 
-std::string SetpointTarget::halted(bool quick) const {
-    return stop_sentence(stopped(), quick);
-}
-
 std::string SetpointTarget::fault() const {
     return sentence(port_.trouble()) + unconfirmed_drives(stopped());
 }
 
-std::string SetpointTarget::finish() {
-    if (machine_->drives_on_at_end.value_or(true)) {
-        return {};
-    }
-    port_.power_off();
-    return not_switched_off(stopped());
-}
-
-std::vector<StoppedDrive> SetpointTarget::stopped() const {
-    std::vector<StoppedDrive> drives;
-    for (std::size_t i = 0; i < port_.drives(); ++i) {
-        drives.push_back({table_.drives[i].address.text, port_.stop_report(i)});
-    }
-    return drives;
-}
-
 std::string SetpointTarget::where() const {
-    std::string text = "; the machine stands at";
+    PlaceText place;
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
         const std::size_t axis = axis_of(i);
-        text += fmt::format(" {}={:.4f}{}", machine_->axis_name[axis],
-                            port_.position_counts(i) / machine_->settings.axis[axis].steps_per_mm,
-                            port_.heard(i) ? "" : " (when it was last heard)");
+        place.add(machine_->axis_name[axis], port_.position_counts(i) / machine_->settings.axis[axis].steps_per_mm,
+                  port_.heard(i));
     }
-    return text + " mm";
+    return place.text();
 }
 
 std::string SetpointTarget::prepare(const FeedSegment& first) {

@@ -2,11 +2,9 @@
 // SetpointTarget: a run on drives that are told by their profiles where to be, period by period.
 #pragma once
 
-#include "host_sim/config/drive_table.hpp"
-#include "host_sim/target/run_target.hpp"
-#include "host_sim/target/stop_sentence.hpp"
+#include "host_sim/target/modbus/modbus_target.hpp"
 
-#include "splinefeed/hal/modbus/setpoint_port.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
 namespace splinefeed::host {
 
@@ -23,7 +21,7 @@ namespace splinefeed::host {
 /// axis, its value and the range.
 void check_register_ranges(const DriveTable& table, const MachineDescription& machine, std::uint32_t period_us);
 
-class SetpointTarget final : public RunTarget {
+class SetpointTarget final : public ModbusTarget<hal::modbus::SetpointPort> {
 public:
     /// Connects to the drives. Throws TargetError, and UsageError where the wires are too slow. @pre they do not
     /// interpolate
@@ -41,22 +39,11 @@ public:
     void describe(Summary& summary) const override;
 
 private:
-    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
     [[nodiscard]] std::string prepare(const FeedSegment& first) override;
-    void complete() override { port_.complete(); }
-    void quick_stop() override { port_.quick_stop(); }
-    [[nodiscard]] std::string halted(bool quick) const override;
-    [[nodiscard]] std::string finish() override;
-    void release() noexcept override { port_.close(); }
     [[nodiscard]] std::string fault() const override;
-    [[nodiscard]] std::vector<StoppedDrive> stopped() const;
 
     [[nodiscard]] std::string sentence(const std::string& trouble) const;
     [[nodiscard]] std::size_t axis_of(std::size_t drive) const noexcept;
-
-    const MachineDescription* machine_;
-    DriveTable table_;
-    hal::modbus::SetpointPort port_;
 };
 
 } // namespace splinefeed::host

@@ -2,6 +2,8 @@
 // EdgeClock: when the edges of a motion are due, by CLOCK_MONOTONIC, on a host that may be late.
 #pragma once
 
+#include "splinefeed/hal/rt/motion_clock.hpp"
+
 #include <cstdint>
 
 namespace splinefeed::hal::gpio {
@@ -15,22 +17,22 @@ struct EdgeClockSettings {
 /// The motion's time runs with ours. An edge that comes late keeps its distance to the next one up to the guard, so
 /// that no pulse and no set-up time is ever shorter than planned, and never is a delay caught up with a burst: later
 /// than what is tolerated, the whole motion moves by it.
-/// Where the motion's end is not known in time, its time slows down to stand, over twice the reserve, and goes on
-/// alike: the axes stay on the path. Not for several threads at once.
+/// Where the motion's end is not known in time, its time slows down to stand and goes on by the law of MotionClock: the
+/// axes stay on the path. Not for several threads at once.
 class EdgeClock {
 public:
-    explicit EdgeClock(const EdgeClockSettings& settings) noexcept : settings_(settings) {}
+    explicit EdgeClock(const EdgeClockSettings& settings) noexcept : settings_(settings), clock_(settings.reserve_ns) {}
 
-    static constexpr std::uint64_t never = UINT64_MAX;
+    static constexpr std::uint64_t never = MotionClock::never;
 
-    /// The motion's time is motion_ns at that instant. It runs at full rate from here on.
+    /// The motion's time is motion_ns at that instant and before. It runs at full rate from here on.
     void start(std::uint64_t at_ns, std::int64_t motion_ns) noexcept;
     /// Its time slows down from that instant on. @pre running
-    void stop(std::uint64_t at_ns) noexcept;
+    void stop(std::uint64_t at_ns) noexcept { clock_.stop(at_ns); }
     /// It stands, and begins to move at that instant. @pre stands(at_ns)
-    void resume(std::uint64_t at_ns) noexcept;
-    [[nodiscard]] bool stopping() const noexcept { return mode_ == Mode::falling; }
-    [[nodiscard]] bool stands(std::uint64_t now_ns) const noexcept;
+    void resume(std::uint64_t at_ns) noexcept { clock_.resume(at_ns); }
+    [[nodiscard]] bool stopping() const noexcept { return clock_.stopping(); }
+    [[nodiscard]] bool stands(std::uint64_t now_ns) const noexcept { return clock_.stands(now_ns); }
 
     /// The motion's time at that instant.
     [[nodiscard]] std::int64_t motion_ns(std::uint64_t now_ns) const noexcept;
@@ -51,18 +53,12 @@ public:
     [[nodiscard]] std::uint64_t schedule_slip_ns() const noexcept { return schedule_slip_ns_; }
 
 private:
-    enum class Mode : std::uint8_t { running, falling, rising };
-
     [[nodiscard]] std::uint64_t planned_ns(std::int64_t motion_ns) const noexcept;
-    [[nodiscard]] double fall_ns() const noexcept;
-    [[nodiscard]] double fallen_ns() const noexcept;
 
     EdgeClockSettings settings_;
-    Mode mode_ = Mode::running;
-    double rate_ = 1.0; // at the start of a fall
-    std::uint64_t base_ns_ = 0;
-    std::int64_t base_motion_ns_ = 0;
-    std::uint64_t last_ns_ = 0; // the last edges were made
+    MotionClock clock_;
+    std::int64_t begin_motion_ns_ = 0; // the motion's time where clock_ began
+    std::uint64_t last_ns_ = 0;        // the last edges were made
     std::int64_t last_motion_ns_ = INT64_MIN;
     std::uint64_t schedule_slip_ns_ = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/input_watch.hpp"
 
-#include "splinefeed/hal/gpio/real_time.hpp"
+#include "splinefeed/hal/rt/real_time.hpp"
 
 #include <algorithm>
 #include <cerrno>

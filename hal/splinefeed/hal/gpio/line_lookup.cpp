@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/line_lookup.hpp"
 
+#include "splinefeed/hal/base/edit_distance.hpp"
+
 #include <algorithm>
-#include <numeric>
 
 namespace splinefeed::hal::gpio {
 
 namespace {
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-// Letters to insert, delete or replace; case is free.
-std::size_t edits(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (const char c : a) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (lower(c) == lower(b[j]) ? 0U : 1U);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
 
 std::string quoted(std::string_view name) {
     return "'" + std::string(name) + "'";
@@ -35,7 +17,7 @@ std::string quoted(std::string_view name) {
 std::string nearest(std::string_view name, std::span<const std::string> names) {
     std::vector<std::pair<std::size_t, unsigned>> near; // edits, offset
     for (unsigned offset = 0; offset < names.size(); ++offset) {
-        const std::size_t count = edits(name, names[offset]);
+        const std::size_t count = edit_distance(name, names[offset]);
         if (!names[offset].empty() && count <= std::max<std::size_t>(2, name.size() / 2) && count < name.size()) {
             near.emplace_back(count, offset);
         }

@@ -32,20 +32,13 @@ std::uint64_t guard_of(const StepTiming& timing) noexcept {
 
 } // namespace
 
-StepPort::Train StepPort::train_for(const StepPortSettings& settings) {
-    const StepDirSequencer lines(settings.axes, settings.timing);
-    if (settings.timing.grid > 1) {
-        return PulseTrain<FixedRate>(FixedRate(settings.axes, settings.timing.grid), lines);
-    }
-    return PulseTrain<StepIntervals>(StepIntervals(settings.axes), lines);
-}
-
 // What is held is twice the reserve and more, so that a motion that has just begun is not told to slow down.
 StepPort::StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& settings)
     : lines_(std::move(chips), settings.axes, settings.timing.step_on_edge), settings_(settings),
-      train_(train_for(settings)), clock_({.guard_ns = guard_of(settings.timing),
-                                           .tolerated_ns = settings.tolerated_ns,
-                                           .reserve_ns = settings.buffer_ms * ns_per_ms * 2 / 5}),
+      train_(make_pulse_train(settings.axes, settings.timing)),
+      clock_({.guard_ns = guard_of(settings.timing),
+              .tolerated_ns = settings.tolerated_ns,
+              .reserve_ns = settings.buffer_ms * ns_per_ms * 2 / 5}),
       segments_(ring_segments), ring_(segments_), time_(settings.clock != nullptr ? settings.clock : &system_clock()) {}
 
 StepPort::~StepPort() {
@@ -105,7 +98,7 @@ void StepPort::park() noexcept {
 }
 
 void StepPort::reset() noexcept {
-    train_ = train_for(settings_);
+    train_ = make_pulse_train(settings_.axes, settings_.timing);
     ring_.clear();
     lines_.begin();
     have_ = false;

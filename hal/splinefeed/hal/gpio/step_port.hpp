@@ -3,14 +3,14 @@
 #pragma once
 
 #include "splinefeed/hal/gpio/edge_clock.hpp"
-#include "splinefeed/hal/gpio/late_histogram.hpp"
 #include "splinefeed/hal/gpio/line_changes.hpp"
-#include "splinefeed/hal/gpio/real_time.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
+#include "splinefeed/hal/rt/real_time.hpp"
+#include "splinefeed/hal/rt/time_histogram.hpp"
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
-#include "splinefeed/s5_pulse_train/pulse_train.hpp"
+#include "splinefeed/s5_pulse_train/any_pulse_train.hpp"
 
 #include <memory>
 #include <string>
@@ -90,13 +90,12 @@ public:
     [[nodiscard]] bool place_known() const noexcept { return !was_cut() && state_.load() != State::failed; }
     /// Where all axes stood at an instant.
     [[nodiscard]] const StepLog& log() const noexcept { return log_; }
-    [[nodiscard]] const LateHistogram& late() const noexcept { return late_; }
+    [[nodiscard]] const TimeHistogram& late() const noexcept { return late_; }
     [[nodiscard]] StepPortReport report() const noexcept;
     /// Why it is in fault.
     [[nodiscard]] std::string trouble() const;
 
 private:
-    using Train = std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>>;
     enum class State : std::uint8_t { idle, running, done, halted, cut, failed };
 
     [[nodiscard]] int do_room() const noexcept override;
@@ -104,7 +103,6 @@ private:
     PortState do_poll() noexcept override;
     void do_halt() noexcept override { quick_stop(); }
 
-    [[nodiscard]] static Train train_for(const StepPortSettings& settings);
     void work() noexcept;
     bool obey(std::uint64_t now_ns) noexcept;
     [[nodiscard]] bool drives_hold(std::uint64_t now_ns) noexcept;
@@ -124,12 +122,12 @@ private:
 
     LineChanges lines_;
     StepPortSettings settings_;
-    Train train_;
+    AnyPulseTrain train_;
     EdgeClock clock_;
     std::vector<FeedSegment> segments_; // the ring's
     SegmentRing ring_;
     StepLog log_;
-    LateHistogram late_;
+    TimeHistogram late_;
     PerAxis<std::atomic<std::int64_t>> counts_{};
     std::atomic<std::uint64_t> submitted_ticks_{0};
     std::atomic<std::uint64_t> motion_ns_{0}; // of the last edge, or what has passed

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// All of the core that a program needs to stream waypoints into feed segments, and those into steps. What sees all
+// points at once (splines/) and surfaces are not in it.
+#pragma once
+
+// Waypoints to curves.
+#include "splinefeed/s1_curve/bspline_curve.hpp"
+#include "splinefeed/s1_curve/catmull_rom.hpp"
+#include "splinefeed/s1_curve/catmull_rom_modified.hpp"
+#include "splinefeed/s1_curve/g2_bezier.hpp"
+#include "splinefeed/s1_curve/g2_spline.hpp"
+#include "splinefeed/s1_curve/polyline.hpp"
+#include "splinefeed/s1_curve/smoothed_curve.hpp"
+
+// Curves to feed segments, within the machine's limits.
+#include "splinefeed/jerk_trajectory.hpp"
+#include "splinefeed/smooth_trajectory.hpp"
+#include "splinefeed/trajectory.hpp"
+
+// Feed segments to an interrupt or another thread, and to edges of step and direction lines.
+#include "splinefeed/s4_segment_stream/segment_ring.hpp"
+#include "splinefeed/s5_pulse_train/pulse_train.hpp"

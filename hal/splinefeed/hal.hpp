@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// All ports that are linked: each library behind splinefeed::hal says with a macro that it is there.
+#pragma once
+
+#include "splinefeed/hal/motion_port.hpp"
+#include "splinefeed/hal/stop_sequence.hpp"
+
+#ifdef SPLINEFEED_HAS_MODBUS // splinefeed::hal_modbus
+#include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
+#endif
+
+#ifdef SPLINEFEED_HAS_GPIO // splinefeed::hal_gpio
+#include "splinefeed/hal/gpio/input_lines.hpp"
+#include "splinefeed/hal/gpio/input_watch.hpp"
+#include "splinefeed/hal/gpio/output_lines.hpp"
+#include "splinefeed/hal/gpio/step_port.hpp"
+#endif

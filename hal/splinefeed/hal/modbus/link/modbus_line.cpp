@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+
+#include "splinefeed/hal/modbus/link/modbus_link.hpp"
+
+#include <array>
+
+namespace splinefeed::hal::modbus {
+
+const char* describe(LinkFault fault) noexcept {
+    switch (fault) {
+    case LinkFault::none: return "it answers";
+    case LinkFault::timeout:
+        return "no answer in time; is it powered, is the unit number right, are baud rate and parity those of the "
+               "drive?";
+    case LinkFault::disconnected: return "the connection is gone; is the cable plugged in, is the port open?";
+    case LinkFault::corrupt: return "an answer with a wrong checksum; look for noise, termination and the baud rate";
+    case LinkFault::wrong_unit: return "another unit answered; two drives may have the same number";
+    case LinkFault::wrong_length: return "an answer that does not fit the request; another master may be on the line";
+    case LinkFault::exception: return "the drive refused the request";
+    case LinkFault::bad_unit: return "nothing was sent: a unit number must be 1 to 247, or on tcp 255";
+    }
+    return "";
+}
+
+const char* exception_name(std::uint8_t code) noexcept {
+    constexpr std::array<const char*, 12> names{
+        "none", "illegal function",     "illegal address", "illegal value",         "device failure", "acknowledge",
+        "busy", "negative acknowledge", "memory parity",   "not a known exception", "gateway path",   "gateway target"};
+    return code < names.size() ? names[code] : names[9];
+}
+
+std::unique_ptr<ModbusLine> make_link(const LinkAddress& address, const LinkTiming& timing, Clock& clock) {
+    return std::make_unique<ModbusLink>(address, timing, clock);
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/link/modbus_link.hpp"
+
+#include <arpa/inet.h>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <modbus/modbus.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::uint64_t us_per_s = 1'000'000;
+// What is still under way arrives before it is thrown away; asked again at once, a peer would be a reply behind for
+// ever.
+constexpr std::uint64_t settle_us = 5000;
+// A receiver that has lost the beginning of a frame waits for silence: after so many failures it gets plenty.
+constexpr int lost_failures = 3;
+constexpr std::uint64_t lost_us = 300'000;
+constexpr std::size_t longest_frame = 256;
+
+// The IPv4 address of a name in numbers; empty where it has none.
+std::string resolved(const std::string& host) {
+    addrinfo wanted{};
+    wanted.ai_family = AF_INET;
+    wanted.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    if (getaddrinfo(host.c_str(), nullptr, &wanted, &found) != 0) {
+        return {};
+    }
+    std::array<char, INET_ADDRSTRLEN> text{};
+    const auto* const address = reinterpret_cast<const sockaddr_in*>(found->ai_addr);
+    const bool ok = inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size()) != nullptr;
+    freeaddrinfo(found);
+    return ok ? text.data() : "";
+}
+
+LinkFault fault_of(int error) noexcept {
+    switch (error) {
+    case ETIMEDOUT:
+    case EAGAIN: return LinkFault::timeout;
+    case EMBBADCRC: return LinkFault::corrupt;
+    case EMBBADSLAVE: return LinkFault::wrong_unit;
+    case EMBBADDATA:
+    case EMBMDATA:
+    case EMBUNKEXC:
+    case EMBBADEXC: return LinkFault::wrong_length;
+    default: return error > MODBUS_ENOBASE ? LinkFault::exception : LinkFault::disconnected;
+    }
+}
+
+} // namespace
+
+struct ModbusLink::Context {
+    LinkAddress address;
+    LinkTiming timing;
+    Clock* clock = nullptr;
+    modbus_t* modbus = nullptr;
+    std::uint64_t quiet_from_us = 0; // the last byte on the line
+    int error = 0;
+    bool no_host = false; // the name has no address
+    bool connected = false;
+    int failures = 0;    // in a row
+    int timeouts = 0;    // in a row
+    bool dirty = false;  // something may still come in
+    bool behind = false; // whole answers, one after the other
+
+    [[nodiscard]] bool lost() const noexcept { return address.wire == Wire::rtu && failures >= lost_failures; }
+    [[nodiscard]] std::uint64_t next_us() const noexcept {
+        const std::uint64_t settle = lost()   ? lost_us
+                                     : behind ? timing.answer_us + frame_us(address, longest_frame)
+                                     : dirty  ? settle_us
+                                              : 0;
+        return quiet_from_us + silence_us(address) + timing.before_us + settle;
+    }
+};
+
+ModbusLink::ModbusLink(const LinkAddress& address, const LinkTiming& timing, Clock& clock)
+    : context_(std::make_unique<Context>(Context{.address = address, .timing = timing, .clock = &clock})) {
+    constexpr int data_bits = 8;
+    const std::string host = address.wire == Wire::tcp ? resolved(address.host) : address.host;
+    context_->no_host = host.empty();
+    if (context_->no_host) {
+        return;
+    }
+    context_->modbus = address.wire == Wire::tcp
+                           ? modbus_new_tcp(host.c_str(), address.port)
+                           : modbus_new_rtu(host.c_str(), address.baud, address.parity, data_bits, address.stops());
+    if (context_->modbus == nullptr) {
+        context_->error = errno;
+    }
+}
+
+ModbusLink::~ModbusLink() {
+    if (context_->modbus != nullptr) {
+        ModbusLink::close();
+        modbus_free(context_->modbus);
+    }
+}
+
+const LinkAddress& ModbusLink::address() const noexcept {
+    return context_->address;
+}
+
+Clock& ModbusLink::clock() const noexcept {
+    return *context_->clock;
+}
+
+bool ModbusLink::connected() const noexcept {
+    return context_->connected;
+}
+
+const char* ModbusLink::error() const noexcept {
+    return context_->no_host ? "there is no host of that name" : modbus_strerror(context_->error);
+}
+
+std::uint64_t ModbusLink::next_us() const noexcept {
+    return std::max(context_->clock->now_us(), context_->next_us());
+}
+
+void ModbusLink::resynchronise() noexcept {
+    if (context_->address.wire == Wire::rtu) {
+        context_->dirty = context_->behind = true;
+    }
+}
+
+bool ModbusLink::connect() noexcept {
+    Context& context = *context_;
+    if (context.modbus == nullptr) {
+        return false;
+    }
+    close();
+    const std::uint32_t most = context.timing.answer_us;
+    modbus_set_response_timeout(context.modbus, most / us_per_s, most % us_per_s);
+    if (modbus_connect(context.modbus) != 0) {
+        context.error = errno;
+        return false;
+    }
+    context.connected = true;
+    context.timeouts = 0;
+    context.dirty = context.address.wire == Wire::rtu; // the other end of a new connection has nothing to say
+    context.quiet_from_us = context.clock->now_us();
+    return true;
+}
+
+void ModbusLink::close() noexcept {
+    if (context_->connected) {
+        modbus_close(context_->modbus);
+        context_->connected = false;
+    }
+}
+
+// TCP sends what was lost again after ever longer pauses, of seconds, while a new connection is there at once. And what
+// it still holds must never come: an old target would send the drive back.
+void ModbusLink::abandon() noexcept {
+    if (context_->address.wire == Wire::tcp) {
+        constexpr linger drop{.l_onoff = 1, .l_linger = 0};
+        setsockopt(modbus_get_socket(context_->modbus), SOL_SOCKET, SO_LINGER, &drop, sizeof(drop));
+    }
+    close();
+}
+
+template <class Call>
+LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expected, const Call& call) noexcept {
+    Context& context = *context_;
+    LinkAnswer answer;
+    answer.sent_us = answer.answered_us = context.clock->now_us();
+    if (!context.connected) {
+        answer.fault = LinkFault::disconnected;
+        return answer;
+    }
+    // Else libmodbus would send to whatever unit it had before.
+    if (!is_unit(context.address.wire, unit) || modbus_set_slave(context.modbus, unit) != 0) {
+        answer.fault = LinkFault::bad_unit;
+        return answer;
+    }
+    const bool lost = context.lost();
+    const std::uint64_t quiet = context.next_us();
+    if (answer.sent_us < quiet) {
+        context.clock->sleep_until_us(quiet);
+        answer.sent_us = context.clock->now_us();
+    }
+    if (context.dirty) {
+        modbus_flush(context.modbus);
+        context.dirty = context.behind = false;
+    }
+    // libmodbus counts from the moment at which the request is in the system's buffer.
+    const std::uint32_t most = context.timing.answer_us + frame_us(context.address, bytes.request + bytes.reply);
+    modbus_set_response_timeout(context.modbus, most / us_per_s, most % us_per_s);
+    errno = 0;
+    const int done = call(context.modbus);
+    answer.answered_us = context.quiet_from_us = context.clock->now_us();
+    context.failures = done == expected ? 0 : lost ? 1 : context.failures + 1;
+    if (done == expected) {
+        context.timeouts = 0;
+        answer.arrived_us = answer.sent_us + frame_us(context.address, bytes.request);
+        answer.replied_us = answer.answered_us - frame_us(context.address, bytes.reply);
+        return answer;
+    }
+    const int error = errno;
+    answer.fault = done >= 0 ? LinkFault::wrong_length : fault_of(error);
+    context.dirty = true;
+    context.timeouts = answer.fault == LinkFault::timeout ? context.timeouts + 1 : 0;
+    if (answer.fault == LinkFault::exception) {
+        answer.exception = static_cast<std::uint8_t>(error - MODBUS_ENOBASE);
+        context.dirty = false;
+    } else if (answer.fault == LinkFault::disconnected ||
+               (context.address.wire == Wire::tcp && context.timeouts > context.timing.retries)) {
+        context.error = error;
+        abandon();
+    }
+    return answer;
+}
+
+LinkAnswer ModbusLink::read(int unit, int address, std::span<std::uint16_t> out) noexcept {
+    std::array<std::uint16_t, MODBUS_MAX_READ_REGISTERS> in{};
+    const int count = static_cast<int>(out.size());
+    const LinkAnswer answer =
+        transact(unit, exchange_bytes(context_->address, 0, out.size()), count,
+                 [&](modbus_t* modbus) { return modbus_read_registers(modbus, address, count, in.data()); });
+    if (answer.ok()) {
+        std::memcpy(out.data(), in.data(), out.size_bytes());
+    }
+    return answer;
+}
+
+LinkAnswer ModbusLink::write(int unit, int address, std::span<const std::uint16_t> values) noexcept {
+    const int count = static_cast<int>(values.size());
+    return transact(unit, exchange_bytes(context_->address, values.size(), 0), count,
+                    [&](modbus_t* modbus) { return modbus_write_registers(modbus, address, count, values.data()); });
+}
+
+// Its frames are as long as those of a read of one register, and the answer is the request once more.
+LinkAnswer ModbusLink::write_one(int unit, int address, std::uint16_t value) noexcept {
+    const std::size_t bytes = exchange_bytes(context_->address, 0, 1).request;
+    return transact(unit, {bytes, bytes}, 1,
+                    [&](modbus_t* modbus) { return modbus_write_register(modbus, address, value); });
+}
+
+LinkAnswer ModbusLink::exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
+                                std::span<std::uint16_t> out) noexcept {
+    std::array<std::uint16_t, MODBUS_MAX_WR_READ_REGISTERS> in{};
+    const int count = static_cast<int>(out.size());
+    const LinkAnswer answer =
+        transact(unit, exchange_bytes(context_->address, values.size(), out.size()), count, [&](modbus_t* modbus) {
+            return modbus_write_and_read_registers(modbus, write_address, static_cast<int>(values.size()),
+                                                   values.data(), read_address, count, in.data());
+        });
+    if (answer.ok()) {
+        std::memcpy(out.data(), in.data(), out.size_bytes());
+    }
+    return answer;
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// ModbusLink: one wire to one or several drives, on libmodbus. It keeps the silences of a serial line, which libmodbus
+// does not, and tells what went wrong by name.
+#pragma once
+
+#include "splinefeed/hal/modbus/link/modbus_line.hpp"
+
+namespace splinefeed::hal::modbus {
+
+/// Not copied, not moved; used by one thread at a time. It allocates when it is made, and never again.
+class ModbusLink final : public ModbusLine {
+public:
+    /// The clock must outlive it.
+    ModbusLink(const LinkAddress& address, const LinkTiming& timing, Clock& clock = system_clock());
+    ModbusLink(const ModbusLink&) = delete;
+    ModbusLink& operator=(const ModbusLink&) = delete;
+    ~ModbusLink() override;
+
+    bool connect() noexcept override;
+    void close() noexcept override;
+    [[nodiscard]] bool connected() const noexcept override;
+    [[nodiscard]] const char* error() const noexcept override;
+
+    LinkAnswer read(int unit, int address, std::span<std::uint16_t> out) noexcept override;
+    LinkAnswer write(int unit, int address, std::span<const std::uint16_t> values) noexcept override;
+    LinkAnswer write_one(int unit, int address, std::uint16_t value) noexcept override;
+    LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
+                        std::span<std::uint16_t> out) noexcept override;
+
+    void resynchronise() noexcept override;
+    [[nodiscard]] std::uint64_t next_us() const noexcept override;
+    [[nodiscard]] const LinkAddress& address() const noexcept override;
+    [[nodiscard]] Clock& clock() const noexcept override;
+
+private:
+    struct Context;
+
+    void abandon() noexcept;
+
+    template <class Call>
+    LinkAnswer transact(int unit, const ExchangeBytes& bytes, int expected, const Call& call) noexcept;
+
+    std::unique_ptr<Context> context_;
+};
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// drive_timing: what a drive's profile says of its line, as the line needs it.
+#pragma once
+
+#include "splinefeed/hal/modbus/link/link_address.hpp"
+#include "splinefeed/hal/modbus/profile/drive_profile.hpp"
+
+namespace splinefeed::hal::modbus {
+
+/// What the drive asks of its wire.
+[[nodiscard]] constexpr LinkTiming timing_of(const LinkSettings& link) noexcept {
+    return {link.response_timeout_us + link.turnaround_us, link.silence_before_us + link.silence_after_us,
+            link.retries};
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/pvt/drive_problem.hpp"
+
+namespace splinefeed::hal::modbus {
+
+DriveProblem identity_problem(const PvtIdentity& identity, int least_axes) noexcept {
+    if (identity.magic != pvt::magic) {
+        return DriveProblem::not_pvt;
+    }
+    if (identity.version != pvt::version) {
+        return DriveProblem::version;
+    }
+    if (identity.check_32 == swapped_words(pvt::word_check_32)) {
+        return DriveProblem::words_swapped;
+    }
+    if (identity.check_32 != pvt::word_check_32 || identity.check_16 != pvt::word_check_16 || identity.axes < 1 ||
+        identity.axes > max_axes) {
+        return DriveProblem::not_pvt;
+    }
+    if (identity.axes < least_axes) {
+        return DriveProblem::axes;
+    }
+    return identity.ticks_per_s != pvt::ticks_per_s ? DriveProblem::ticks : DriveProblem::none;
+}
+
+const char* describe(DriveProblem problem) noexcept {
+    switch (problem) {
+    case DriveProblem::none: return "nothing is wrong";
+    case DriveProblem::unreachable: return "there is no connection; check host or device, port and cable";
+    case DriveProblem::silent: return "it does not answer; check power, unit number, baud rate and parity";
+    case DriveProblem::damaged:
+        return "it answers, and the checksum of its status never holds; check the cable, and the drive's own checksum "
+               "(docs/reference/pvt_map.md)";
+    case DriveProblem::not_pvt: return "it has not the map splinefeed-pvt; give the profile that it has";
+    case DriveProblem::words_swapped:
+        return "its 32-bit numbers have the low word first; splinefeed-pvt has the high word first: set the drive or "
+               "the gateway so";
+    case DriveProblem::version: return "its map is of another version than 1; bring the drive or splinefeed up to date";
+    case DriveProblem::axes:
+        return "it has fewer axes than the machine asks of it; name a drive or a machine file (-m) with as many";
+    case DriveProblem::ticks: return "it does not count in ticks of 1/8 us, as version 1 of the map does";
+    case DriveProblem::power_cycled: return "it was switched off and on; what it had not executed is lost";
+    case DriveProblem::fault: return "it is in fault";
+    case DriveProblem::refused: return "it refuses what it is told, again and again";
+    case DriveProblem::out_of_step:
+        return "it reports segments that were never sent; another master may be on the line";
+    case DriveProblem::range:
+        return "the program goes beyond what its map carries: 2^31 counts of position, 2^23 counts a segment; lower "
+               "steps_per_mm, and the drive's counts with it";
+    case DriveProblem::not_homed: return "its homing did not come to its end; look at its switches and its settings";
+    }
+    return "";
+}
+
+} // namespace splinefeed::hal::modbus

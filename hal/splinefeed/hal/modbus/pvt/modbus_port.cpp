@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: MIT
+//
+// All drives have the same segments by number, the same stop reserve and, as far as their clocks are known, one time of
+// start: so they are at the same place of the path at all times. Where one of them is about to run dry (its ring would
+// last for less than the reserve and a guard, as far as is known of it), all are told to treat the same segment as
+// their last: each slows down by the map's rule, and they stand together, on the path. What they were told beyond that
+// they drop; it is sent again.
+#include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
+
+#include "splinefeed/hal/modbus/link/wire_groups.hpp"
+#include "splinefeed/hal/modbus/pvt/bus_rate.hpp"
+#include "splinefeed/hal/modbus/pvt/pvt_setup.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::uint64_t lead_us = 60'000;   // from a command to the instant that it names
+constexpr std::uint64_t settle_us = 40'000; // until a drive's state tells of its start
+constexpr double guard_us = 60'000.0;       // to tell the others that one runs dry
+constexpr std::uint64_t look_every_us = 1000;
+constexpr double ticks_per_us = 8.0;
+constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before a hold becomes a quick stop
+
+} // namespace
+
+ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortSettings& settings)
+    : settings_(settings), stop_(wiring.size()) {
+    std::vector<WireUse> uses;
+    uses.reserve(wiring.size());
+    for (const DriveWiring& drive : wiring) {
+        uses.push_back({drive.link, drive.timing});
+    }
+    const WireGroups groups = group_by_wire(uses, settings.timing);
+    for (const WireUse& wire : groups.wires) {
+        settings_.timing = settings_.timing.slower(wire.timing); // for what is waited for on any wire
+        buses_.push_back(std::make_unique<ModbusBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
+    }
+    for (const DriveWiring& drive : wiring) {
+        for (const PvtAxis& axis : drive.axes) {
+            axes_ = std::max(axes_, axis.machine_axis + 1);
+        }
+        ModbusBus& bus = *buses_[groups.of_drive[drives_.size()]];
+        drives_.emplace_back(drive, bus.add(drive.link.unit, drive.both_in_one));
+        stop_.add(drives_.back().client());
+    }
+}
+
+ModbusPort::~ModbusPort() {
+    close();
+}
+
+void ModbusPort::close() noexcept {
+    const bool ended = phase_ == ModbusPhase::halted || phase_ == ModbusPhase::done || phase_ == ModbusPhase::fault;
+    if (prepared_ && !ended) {
+        begin_stop(StopRequest::hold);
+        await_stop();
+    }
+    prepared_ = false;
+    for (const auto& bus : buses_) {
+        bus->stop();
+    }
+}
+
+std::optional<DriveFailure> ModbusPort::open() {
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        const auto axes = static_cast<int>(drives_[i].wiring().axes.size());
+        if (const DriveProblem problem = drives_[i].client().open(axes); problem != DriveProblem::none) {
+            return DriveFailure{i, problem};
+        }
+    }
+    return std::nullopt;
+}
+
+double ModbusPort::least_segment_us() {
+    double least = pvt::shortest_ticks / ticks_per_us;
+    for (const auto& bus : buses_) {
+        least = std::max(least, splinefeed::hal::modbus::least_segment_us(*bus, settings_.timing));
+    }
+    return least;
+}
+
+std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
+    times_.segment_us = first.duration_ticks / ticks_per_us;
+    double ring_us = settings_.buffer_us;
+    for (const PortDrive& drive : drives_) {
+        ring_us = std::min(ring_us, drive.client().report().identity.ring * times_.segment_us);
+    }
+    buffer_segments_ = static_cast<std::uint32_t>(ring_us / times_.segment_us);
+    const double reserve_ms = std::max(1.0, std::min<double>(settings_.stop_reserve_ms, ring_us / 4000.0));
+    const auto stop_reserve_ms = static_cast<std::uint16_t>(reserve_ms);
+    times_.reserve_us = 1000.0 * stop_reserve_ms;
+    times_.silent_us = settings_.silent_us;
+    times_.settling_us = settle_us;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        if (const DriveProblem problem = drives_[i].prepare(first, stop_reserve_ms); problem != DriveProblem::none) {
+            return DriveFailure{i, problem};
+        }
+    }
+    stop_times_.hold_us = lead_us + static_cast<std::uint64_t>(2.0 * times_.reserve_us) +
+                          stop_exchanges * settings_.timing.answer_us + stop_times_.settle_us;
+    stop_.set_times(stop_times_, times_);
+    for (const auto& bus : buses_) {
+        bus->start();
+    }
+    prepared_ = true;
+    PvtSetup setup(drives_, times_, *settings_.clock);
+    auto failure = setup.enable(settings_.away_us);
+    failure = failure ? failure : setup.command(PvtCommand::begin, settings_.first_sequence);
+    if (!failure && settings_.home) {
+        failure = setup.home(settings_.interrupted);
+        if (failure) { // what still looks for its reference moves
+            quick_stop();
+            await_stop();
+        }
+    }
+    failure = failure ? failure : setup.command(PvtCommand::place);
+    if (!failure) {
+        look();
+        executed_to_ = settings_.first_sequence;
+        enter(ModbusPhase::filling);
+    }
+    return failure;
+}
+
+std::uint64_t ModbusPort::busy_us() const noexcept {
+    std::uint64_t sum = 0;
+    for (const auto& bus : buses_) {
+        sum += bus->busy_us();
+    }
+    return sum;
+}
+
+std::uint32_t ModbusPort::executed() const noexcept {
+    std::uint32_t least = drives_.front().status().executed;
+    for (const PortDrive& drive : drives_) {
+        least = pvt::earlier(least, drive.status().executed);
+    }
+    return least;
+}
+
+int ModbusPort::do_room() const noexcept {
+    std::size_t room = PvtClient::queue_capacity;
+    for (const PortDrive& drive : drives_) {
+        const std::size_t held = PvtClient::queue_capacity - drive.client().room();
+        room = std::min(room, held < buffer_segments_ ? buffer_segments_ - held : 0);
+    }
+    return phase_ == ModbusPhase::fault || phase_ == ModbusPhase::halted ? 0 : static_cast<int>(room);
+}
+
+bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
+    if (phase_ == ModbusPhase::fault || phase_ == ModbusPhase::halting || phase_ == ModbusPhase::halted) {
+        return false;
+    }
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        if (!drives_[i].carries(segment)) { // nobody gets it
+            fail(i, DriveProblem::range);
+            return false;
+        }
+    }
+    const std::span<const std::int64_t> velocities(segment.end_velocity.data(), static_cast<std::size_t>(axes_));
+    const bool rests = std::all_of(velocities.begin(), velocities.end(), [](std::int64_t v) { return v == 0; });
+    for (PortDrive& drive : drives_) {
+        drive.push(segment, rests);
+    }
+    return true;
+}
+
+void ModbusPort::look() noexcept {
+    now_us_ = settings_.clock->now_us();
+    for (PortDrive& drive : drives_) {
+        drive.look(now_us_, times_);
+    }
+}
+
+void ModbusPort::enter(ModbusPhase phase) noexcept {
+    phase_ = phase;
+    entered_us_ = now_us_;
+    for (PortDrive& drive : drives_) {
+        drive.forget();
+        drive.client().hold_back(phase == ModbusPhase::stopping || phase == ModbusPhase::halting ||
+                                 phase == ModbusPhase::halted || phase == ModbusPhase::fault);
+    }
+}
+
+// The others stop on the path; then it is in fault.
+void ModbusPort::fail(std::size_t drive, DriveProblem problem) noexcept {
+    failure_ = DriveFailure{drive, problem};
+    begin_stop(StopRequest::hold);
+}
+
+// Whether every drive has what it is to start with, counted from the one that is furthest behind: it is by that one
+// that there is room, and a drive that stands ahead of it starts later and gets its own in between, or is at the end.
+bool ModbusPort::filled() const noexcept {
+    const std::uint32_t first = executed();
+    return std::all_of(drives_.begin(), drives_.end(), [&](const PortDrive& drive) {
+        const std::uint32_t has = drive.status().next - first;
+        const bool all = complete_ && drive.has_all();
+        return has > 0 && (all || 8 * has >= 7 * buffer_segments_) && drive.seen().clock.known();
+    });
+}
+
+// So that a start that is lost is told again in time.
+std::uint64_t ModbusPort::start_lead_us() const noexcept {
+    constexpr std::uint64_t lost = 2;
+    return lead_us + lost * settings_.timing.answer_us;
+}
+
+// At one instant of our clock; a drive that stands ahead of the others that much later.
+void ModbusPort::start() noexcept {
+    const std::uint32_t first = executed();
+    for (PortDrive& drive : drives_) {
+        const double ahead_us = (drive.status().executed - first) * times_.segment_us;
+        const std::uint64_t at_us = now_us_ + start_lead_us() + static_cast<std::uint64_t>(ahead_us);
+        started_us_ = std::max(started_us_, at_us + settle_us);
+        drive.start(at_us, times_);
+    }
+    enter(ModbusPhase::starting);
+}
+
+// Whether all drives run, and go on running for long enough to tell the others if one does not.
+void ModbusPort::watch() noexcept {
+    if (now_us_ < started_us_) {
+        return;
+    }
+    bool all_done = complete_;
+    bool dry = false;
+    for (const PortDrive& drive : drives_) {
+        const bool has_all = complete_ && drive.has_all();
+        const bool done = has_all && drive.executed_all();
+        all_done = all_done && done && drive.says_it_stands();
+        dry = dry || drive.seen().problem != DriveProblem::none || drive.status().state == PvtState::stopping ||
+              (!done && drive.lag_us() > PortDrive::lag_limit_us) ||
+              (!has_all && drive.left_us(times_) < times_.reserve_us + guard_us) ||
+              (has_all && drive.age_us() > settings_.away_us) || (drive.says_it_stands() && !done);
+    }
+    if (all_done) {
+        enter(ModbusPhase::done);
+    } else if (dry) {
+        std::optional<std::uint32_t> first;
+        for (const PortDrive& drive : drives_) {
+            if (drive.seen().problem == DriveProblem::none) {
+                first = pvt::earlier(first.value_or(drive.status().next), drive.status().next);
+            }
+        }
+        stop_at_ = first.value_or(executed());
+        enter(ModbusPhase::stopping);
+    }
+}
+
+void ModbusPort::stop() noexcept {
+    for (PortDrive& drive : drives_) {
+        if (drive.heard(times_) && !drive.says_it_stands() && drive.status().next != stop_at_) {
+            drive.end_at(stop_at_, now_us_, times_);
+        }
+    }
+    if (all_stand()) {
+        enter(ModbusPhase::waiting);
+    }
+}
+
+bool ModbusPort::all_stand() const noexcept {
+    return std::all_of(drives_.begin(), drives_.end(), [&](const PortDrive& drive) { return drive.stands(times_); });
+}
+
+// For whoever is away; then all go on together.
+void ModbusPort::wait() noexcept {
+    bool ready = true;
+    bool done = complete_;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        const PortDrive& drive = drives_[i];
+        const DriveProblem problem = drive.seen().problem != DriveProblem::none   ? drive.seen().problem
+                                     : drive.age_us() > settings_.away_us         ? DriveProblem::silent
+                                     : drive.status().state == PvtState::disabled ? DriveProblem::refused
+                                                                                  : DriveProblem::none;
+        if (problem != DriveProblem::none) {
+            fail(i, problem);
+            return;
+        }
+        ready = ready && drive.heard(times_) && drive.says_it_stands() && !drive.pending();
+        done = done && drive.executed_all();
+    }
+    if (ready && done) {
+        enter(ModbusPhase::done);
+    } else if (ready && filled()) {
+        resumes_ += phase_ == ModbusPhase::waiting ? 1U : 0U;
+        start();
+    }
+}
+
+void ModbusPort::begin_stop(StopRequest request) noexcept {
+    look();
+    stop_.request(request, now_us_, now_us_ + lead_us, drives_);
+    if (phase_ != ModbusPhase::halting) {
+        enter(ModbusPhase::halting);
+    }
+}
+
+void ModbusPort::follow_stop() noexcept {
+    stop_.follow(now_us_, drives_);
+    if (phase_ == ModbusPhase::halting && stop_.sequence().settled()) {
+        enter(failure_ ? ModbusPhase::fault : ModbusPhase::halted);
+    }
+}
+
+void ModbusPort::await_stop() noexcept {
+    while (phase_ == ModbusPhase::halting) {
+        settings_.clock->sleep_us(look_every_us);
+        look();
+        follow_stop();
+    }
+}
+
+std::uint64_t ModbusPort::longest_stop_us() const noexcept {
+    return stop_times_.hold_us + stop_times_.quick_stop_us + stop_times_.disable_us;
+}
+
+PortState ModbusPort::do_poll() noexcept {
+    look();
+    switch (phase_) {
+    case ModbusPhase::filling:
+    case ModbusPhase::waiting: wait(); break;
+    case ModbusPhase::starting:
+        if (PvtSetup::carried_out(drives_)) {
+            enter(ModbusPhase::running);
+        } else if (now_us_ > entered_us_ + PvtSetup::command_us) {
+            enter(ModbusPhase::stopping);
+        }
+        break;
+    case ModbusPhase::running: watch(); break;
+    case ModbusPhase::stopping: stop(); break;
+    case ModbusPhase::halting:
+    case ModbusPhase::halted:
+    case ModbusPhase::fault: follow_stop(); break;
+    case ModbusPhase::done: break;
+    }
+    const PortPhase phase = phase_ == ModbusPhase::fault    ? PortPhase::fault
+                            : phase_ == ModbusPhase::done   ? PortPhase::idle
+                            : phase_ == ModbusPhase::halted ? PortPhase::halted
+                                                            : PortPhase::running;
+    const std::uint32_t now = executed();
+    executed_ += now - executed_to_; // numbers wrap
+    executed_to_ = now;
+    return {phase, executed_};
+}
+
+void ModbusPort::quick_stop() noexcept {
+    begin_stop(StopRequest::quick_stop);
+}
+
+void ModbusPort::power_off() noexcept {
+    begin_stop(StopRequest::disable);
+    await_stop();
+}
+
+void ModbusPort::do_halt() noexcept {
+    if (phase_ != ModbusPhase::fault && phase_ != ModbusPhase::done) {
+        begin_stop(StopRequest::hold);
+    }
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/pvt/port_drive.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr double on_its_way_us = 10'000.0; // a command
+
+} // namespace
+
+DriveProblem PortDrive::prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept {
+    const PvtStatus status = client_->report().status;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(client_->axes()); ++k) {
+        last_.end[k] = std::int64_t{status.position[k]} * (1 << PvtSegment::position_bits);
+    }
+    FeedSegment standing = first;
+    standing.end = first.start;
+    standing.end_velocity = {};
+    if (!to_pvt(standing, wiring_.axes, last_)) {
+        return DriveProblem::range;
+    }
+    last_.rest = false;
+    return client_->configure({stop_reserve_ms, wiring_.watchdog_ms, wiring_.following_window});
+}
+
+double PortDrive::gain_us(double host_us) const noexcept {
+    const auto at_us = static_cast<std::uint64_t>(host_us);
+    return static_cast<double>(client_->drive_us(at_us) - static_cast<std::int64_t>(at_us));
+}
+
+bool PortDrive::carries(const FeedSegment& segment) const noexcept {
+    PvtSegment ignored;
+    return to_pvt(segment, wiring_.axes, ignored);
+}
+
+void PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
+    const bool carried = to_pvt(segment, wiring_.axes, last_);
+    SPLINEFEED_ASSERT(carried);
+    if (trim_.anchored()) {
+        const double gain = gain_us(trim_.next_end_us(segment.duration_ticks)) - gained_us_;
+        last_.duration_ticks =
+            std::clamp(trim_.trimmed(segment.duration_ticks, gain), pvt::shortest_ticks, pvt::longest_ticks);
+    }
+    last_.rest = rests;
+    client_->push(last_);
+}
+
+// At a count of n executed segments the motion is within the next one: no further than its end. Each answer comes at
+// another place in its segment, so some say it closely.
+void PortDrive::look(std::uint64_t now_us, const PortTimes& times) noexcept {
+    seen_ = client_->report();
+    age_us_ = now_us > seen_.answered_us ? now_us - seen_.answered_us : 0;
+    const auto said_us = static_cast<double>(seen_.said_us);
+    if (starting_ && !seen_.command_pending) { // one that was told too late began then
+        starting_ = false;
+        lag_us_ = std::max(lag_us_, said_us - start_us_);
+    }
+    ran_ += status().executed - ran_to_; // numbers wrap
+    ran_to_ = status().executed;
+    if (trim_.anchored() && said_us > full_rate_us_ && !executed_all()) {
+        const double most_us = static_cast<double>(ran_ + 1) * times.segment_us;
+        lag_us_ = std::max(lag_us_, said_us - began_us_ - most_us - unsure_us_ - seen_.clock.uncertainty_us());
+    }
+}
+
+bool PortDrive::says_it_stands() const noexcept {
+    const PvtState state = status().state;
+    return state == PvtState::held || state == PvtState::standing || state == PvtState::disabled ||
+           state == PvtState::fault;
+}
+
+bool PortDrive::stands(const PortTimes& times) const noexcept {
+    const bool counts = seen_.problem == DriveProblem::none || seen_.problem == DriveProblem::fault ||
+                        seen_.problem == DriveProblem::power_cycled;
+    if (counts && heard(times)) {
+        return says_it_stands();
+    }
+    const double whole_us = (status().next - status().executed) * times.segment_us;
+    return static_cast<double>(age_us_) > whole_us + 2.0 * times.reserve_us + static_cast<double>(times.settling_us);
+}
+
+double PortDrive::left_us(const PortTimes& times) const noexcept {
+    return static_cast<std::int32_t>(status().next - status().executed) * times.segment_us -
+           static_cast<double>(age_us_);
+}
+
+void PortDrive::tell(PvtCommand command, std::uint32_t argument) noexcept {
+    if (!told_ && !seen_.command_pending) {
+        client_->command(command, argument);
+        told_ = seen_.command_pending = true;
+        seen_.command_refused = false;
+    }
+}
+
+void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
+    const bool held = status().state == PvtState::held;
+    forget();
+    tell(held ? PvtCommand::resume : PvtCommand::start, seen_.clock.drive_clock(at_us));
+    starting_ = true;
+    start_us_ = static_cast<double>(at_us);
+    from_joint_ = client_->at_joint(status());
+    // A drive that speeds up from rest loses as much as its reserve.
+    began_us_ = static_cast<double>(at_us) + (held ? times.reserve_us : 0.0);
+    full_rate_us_ = began_us_ + (held ? times.reserve_us : 0.0);
+    ran_ = 0;
+    ran_to_ = status().executed;
+    unsure_us_ = seen_.clock.uncertainty_us();
+    most_unsure_us_ = std::max(most_unsure_us_, unsure_us_);
+    lag_us_ = 0.0;
+    const double queued_us = (client_->pushed() - status().executed) * times.segment_us;
+    trim_.anchor(began_us_ + queued_us);
+    gained_us_ = gain_us(trim_.next_end_us(0));
+}
+
+void PortDrive::end_at(std::uint32_t sequence, std::uint64_t now_us, const PortTimes& times) noexcept {
+    const double left =
+        static_cast<std::int32_t>(sequence - status().executed) * times.segment_us - static_cast<double>(age_us_);
+    const bool too_near = refused() || left < times.reserve_us + on_its_way_us;
+    if (refused()) {
+        forget();
+    }
+    tell(too_near ? PvtCommand::hold : PvtCommand::end, too_near ? seen_.clock.drive_clock(now_us) : sequence);
+}
+
+} // namespace splinefeed::hal::modbus

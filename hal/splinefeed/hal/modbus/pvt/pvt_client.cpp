@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+//
+// Nothing lost, nothing twice. What may be sent next is what the drive says it expects: `next` of its last status that
+// is known to be an answer to our last request (nonce), whole (checksum) and of the same life (boot number). Where no
+// answer came, the next block begins with the same segment: the drive skips what it took already. Segments stay in the
+// queue until they were executed, since `end` makes the drive drop what it had.
+#include "splinefeed/hal/modbus/pvt/pvt_client.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+
+#include <cstdlib>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::uint64_t listen_every_us = 4'000; // while it has motion
+constexpr std::uint64_t idle_every_us = 20'000;  // while it stands
+constexpr std::uint64_t connect_every_us = 20'000;
+constexpr int opening_attempts = 5;
+constexpr std::uint16_t most_refusals = 20; // of what no repetition makes better
+constexpr std::uint8_t illegal_function = 1;
+
+} // namespace
+
+PvtClient::PvtClient(ModbusLine& link, int unit, bool both_in_one)
+    : link_(&link), unit_(unit), queue_(queue_capacity), both_in_one_(both_in_one) {}
+
+// A few times, with a new connection where the old one broke.
+template <class Attempt>
+bool PvtClient::persist(const Attempt& attempt) noexcept {
+    for (int i = 0; i < opening_attempts; ++i) {
+        if (!link_->connected() && !link_->connect()) {
+            continue;
+        }
+        const LinkAnswer answer = attempt();
+        count(answer);
+        if (answer.ok()) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool PvtClient::read_status() noexcept {
+    std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
+    const std::span<std::uint16_t> whole(raw.data(), pvt::status_registers(axes_));
+    for (int i = 0; i < opening_attempts; ++i) {
+        if (persist([&] { return link_->read(unit_, pvt::status_address, whole); }) && status_holds(whole)) {
+            report_.status = decode_status(whole, axes_);
+            return true;
+        }
+    }
+    return false;
+}
+
+DriveProblem PvtClient::open(int least_axes) noexcept {
+    const std::lock_guard lock(mutex_);
+    if (!link_->connected() && !link_->connect()) {
+        return report_.problem = DriveProblem::unreachable;
+    }
+    std::array<std::uint16_t, pvt::identity_registers> raw{};
+    if (!persist([&] { return link_->read(unit_, pvt::identity_address, raw); })) {
+        const bool answers = report_.last_fault == LinkFault::exception;
+        return report_.problem = answers ? DriveProblem::not_pvt : DriveProblem::silent;
+    }
+    const PvtIdentity identity = decode_identity(raw);
+    report_.identity = identity;
+    report_.problem = identity_problem(identity, least_axes);
+    if (report_.problem != DriveProblem::none) {
+        return report_.problem;
+    }
+    axes_ = identity.axes;
+    if (!read_status()) {
+        const bool answers = report_.last_fault == LinkFault::none;
+        return report_.problem = answers ? DriveProblem::damaged : DriveProblem::silent;
+    }
+    report_.answered_us = link_->clock().now_us();
+    // Another number than that of whoever was here before: its late blocks are refused.
+    session_ = static_cast<std::uint16_t>(report_.answered_us ^ (report_.answered_us >> 16U));
+    counter_ = report_.status.last_command;
+    nonce_ = static_cast<std::uint16_t>(report_.status.nonce + 1U);
+    began_ = false;
+    return DriveProblem::none;
+}
+
+// Read, changed and written back: what nobody asked for stays.
+DriveProblem PvtClient::configure(const PvtSettings& wanted) noexcept {
+    const std::lock_guard lock(mutex_);
+    report_.clock.clear(); // a run goes by exchanges with a nonce alone
+    std::array<std::uint16_t, pvt::configuration_registers> registers{};
+    bool done = persist([&] { return link_->read(unit_, pvt::configuration_address, registers); });
+    if (done) {
+        PvtConfiguration configuration = decode_configuration(registers);
+        configuration.stop_reserve_ms = wanted.stop_reserve_ms.value_or(configuration.stop_reserve_ms);
+        configuration.watchdog_ms = wanted.watchdog_ms.value_or(configuration.watchdog_ms);
+        configuration.following_window = wanted.following_window.value_or(configuration.following_window);
+        encode(configuration, registers);
+        done = persist([&] { return link_->write(unit_, pvt::configuration_address, registers); });
+    }
+    return report_.problem = done                                         ? DriveProblem::none
+                             : report_.last_fault == LinkFault::exception ? DriveProblem::refused
+                                                                          : DriveProblem::silent;
+}
+
+LinkAnswer PvtClient::probe() noexcept {
+    const std::lock_guard lock(mutex_);
+    if (!link_->connected()) {
+        static_cast<void>(link_->connect());
+    }
+    std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
+    const std::span<std::uint16_t> whole(raw.data(), pvt::status_registers(axes_));
+    // Without a nonce a late answer to an earlier read cannot be told apart: its clock is of no use.
+    const bool nothing_late = report_.last_fault == LinkFault::none;
+    LinkAnswer answer = link_->read(unit_, pvt::status_address, whole);
+    if (answer.ok() && !status_holds(whole)) {
+        answer.fault = LinkFault::corrupt;
+    }
+    count(answer);
+    if (answer.ok()) {
+        report_.status = decode_status(whole, axes_);
+        if (nothing_late) {
+            see_clock(answer);
+        }
+    }
+    return answer;
+}
+
+void PvtClient::see_clock(const LinkAnswer& answer) noexcept {
+    report_.clock.sample(answer.arrived_us, answer.replied_us, report_.status.clock_us);
+    report_.answered_us = answer.answered_us;
+    report_.said_us = answer.arrived_us;
+}
+
+bool PvtClient::at_joint(const PvtStatus& status) const noexcept {
+    constexpr std::int64_t near_counts = 2; // a shaft that stands there
+    if (status.executed == 0) {
+        return status.state == PvtState::standing;
+    }
+    const PvtSegment& before = segment(status.executed - 1);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(axes_); ++k) {
+        const std::int64_t off = (std::int64_t{status.position[k]} << PvtSegment::position_bits) - before.end[k];
+        if (std::abs(off) > near_counts << PvtSegment::position_bits) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::size_t PvtClient::room() const noexcept {
+    return queue_capacity - (tail_.load(std::memory_order_relaxed) - head_.load(std::memory_order_acquire));
+}
+
+void PvtClient::push(const PvtSegment& segment) noexcept {
+    const std::uint32_t tail = tail_.load(std::memory_order_relaxed);
+    queue_[tail % queue_capacity] = segment;
+    tail_.store(tail + 1, std::memory_order_release);
+}
+
+void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSegment& place) noexcept {
+    const std::lock_guard lock(mutex_);
+    SPLINEFEED_ASSERT(order_.command == PvtCommand::none);
+    if (command == PvtCommand::begin) {
+        head_.store(argument);
+        tail_.store(argument);
+        sent_ = argument;
+        executed_ = 0;
+    }
+    order_ = {command, argument, place};
+    report_.command_pending = true;
+    report_.command_refused = false;
+    ++counter_;
+}
+
+void PvtClient::interrupt(PvtCommand command, std::uint32_t argument) noexcept {
+    const std::lock_guard lock(mutex_);
+    order_ = {command, argument, {}};
+    report_.command_pending = true;
+    report_.command_refused = false;
+    ++counter_;
+}
+
+std::int64_t PvtClient::drive_us(std::uint64_t host_us) const noexcept {
+    const std::lock_guard lock(mutex_);
+    return report_.clock.drive_us(host_us);
+}
+
+DriveReport PvtClient::report() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return report_;
+}
+
+// Whether the drive is to be asked now; `waiting` segments are ready that it does not have.
+bool PvtClient::due(std::uint64_t now_us, std::uint32_t waiting) const noexcept {
+    if (order_.command != PvtCommand::none) {
+        return true;
+    }
+    // Whole blocks, as long as the drive has plenty.
+    const std::uint32_t fits = waiting < report_.status.free ? waiting : report_.status.free;
+    if (fits >= pvt::most_segments(axes_) || (fits > 0 && 2U * report_.status.free > report_.identity.ring)) {
+        return true;
+    }
+    const bool moves = report_.status.state == PvtState::running || report_.status.state == PvtState::stopping;
+    return now_us - last_exchange_us_ >= (moves ? listen_every_us : idle_every_us);
+}
+
+void PvtClient::fill(PvtBlock& block, std::uint32_t waiting) noexcept {
+    block.nonce = ++nonce_;
+    block.session = session_;
+    block.first = report_.status.next;
+    if (order_.command != PvtCommand::none) {
+        block.command = order_.command;
+        block.command_counter = counter_;
+        block.argument = order_.argument;
+        if (order_.command == PvtCommand::place) {
+            block.count = 1;
+            batch_[0] = order_.place;
+        }
+        return;
+    }
+    block.command_counter = counter_;
+    auto count = static_cast<std::uint32_t>(pvt::most_segments(axes_));
+    count = waiting < count ? waiting : count;
+    count = report_.status.free < count ? report_.status.free : count;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        batch_[i] = queue_[(block.first + i) % queue_capacity];
+    }
+    block.count = static_cast<std::uint16_t>(count);
+    const auto known = static_cast<std::int32_t>(sent_ - block.first);
+    report_.counts.resent += count > 0 && known > 0 ? 1U : 0U;
+    sent_ = static_cast<std::int32_t>(count) > known ? block.first + count : sent_;
+}
+
+LinkAnswer PvtClient::exchange(std::span<const std::uint16_t> block, std::span<std::uint16_t> status) noexcept {
+    if (both_in_one_) {
+        const LinkAnswer answer = link_->exchange(unit_, pvt::block_address, block, pvt::status_address, status);
+        if (answer.fault != LinkFault::exception || answer.exception != illegal_function) {
+            return answer;
+        }
+        both_in_one_ = false;
+    }
+    const LinkAnswer written = link_->write(unit_, pvt::block_address, block);
+    return written.ok() ? link_->read(unit_, pvt::status_address, status) : written;
+}
+
+bool PvtClient::reconnect(std::uint64_t now_us) noexcept {
+    if (now_us - last_connect_us_ < connect_every_us) {
+        return false;
+    }
+    last_connect_us_ = now_us;
+    return link_->connect();
+}
+
+bool PvtClient::step() noexcept {
+    const std::uint64_t now = link_->clock().now_us();
+    if (!link_->connected() && !reconnect(now)) {
+        return false;
+    }
+    PvtBlock block;
+    {
+        const std::lock_guard lock(mutex_);
+        const bool stands =
+            report_.problem == DriveProblem::power_cycled || report_.problem == DriveProblem::out_of_step;
+        const std::uint32_t waiting = stands || !began_ || held_back_.load(std::memory_order_relaxed)
+                                          ? 0
+                                          : tail_.load(std::memory_order_acquire) - report_.status.next;
+        if (!due(now, waiting)) {
+            return false;
+        }
+        fill(block, waiting);
+    }
+    const std::size_t size = encode(block, batch_, axes_, block_);
+    std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
+    const std::span<std::uint16_t> status(raw.data(), pvt::status_registers(axes_));
+    const LinkAnswer answer = exchange(std::span(block_).first(size), status);
+    last_exchange_us_ = answer.answered_us;
+    const std::lock_guard lock(mutex_);
+    take(answer, block, status);
+    return true;
+}
+
+void PvtClient::count(const LinkAnswer& answer) noexcept {
+    report_.last_fault = answer.fault;
+    report_.exception = answer.exception;
+    report_.counts.count(answer.fault);
+}
+
+void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<const std::uint16_t> raw) noexcept {
+    count(answer);
+    if (!answer.ok()) {
+        return;
+    }
+    const PvtStatus status = decode_status(raw, axes_);
+    if (!status_holds(raw)) {
+        const bool words = status.boot == swapped_words(report_.identity.boot);
+        report_.problem = words ? DriveProblem::words_swapped : report_.problem;
+        ++report_.counts.corrupt;
+        return;
+    }
+    if (status.nonce != block.nonce) {
+        ++report_.counts.stale;
+        link_->resynchronise();
+        return;
+    }
+    if (const DriveProblem problem = judge(status); problem != DriveProblem::none) {
+        report_.problem = problem;
+        report_.status = status;
+        report_.answered_us = answer.answered_us;
+        report_.said_us = answer.arrived_us;
+        answer_order(status, block); // it can still be stopped
+        return;
+    }
+    keep(status, block);
+    see_clock(answer);
+}
+
+// Whether what the drive says can be.
+DriveProblem PvtClient::judge(const PvtStatus& status) const noexcept {
+    if (status.boot != report_.identity.boot) {
+        return status.boot == swapped_words(report_.identity.boot) ? DriveProblem::words_swapped
+                                                                   : DriveProblem::power_cycled;
+    }
+    const auto sent = static_cast<std::int32_t>(sent_ - head_.load(std::memory_order_relaxed));
+    const auto executed = static_cast<std::int32_t>(status.executed - head_.load(std::memory_order_relaxed));
+    const auto next = static_cast<std::int32_t>(status.next - head_.load(std::memory_order_relaxed));
+    return began_ && (executed < 0 || next < executed || next > sent) ? DriveProblem::out_of_step : DriveProblem::none;
+}
+
+void PvtClient::end_order() noexcept {
+    order_.command = PvtCommand::none;
+    report_.command_pending = false;
+}
+
+// What became of the order in the block.
+void PvtClient::answer_order(const PvtStatus& status, const PvtBlock& block) noexcept {
+    if (order_.command == PvtCommand::none || block.command != order_.command || block.command_counter != counter_) {
+        return;
+    }
+    if (status.refused == PvtRefusal::none) {
+        if (status.last_command == counter_) {
+            const bool loses_ring = order_.command == PvtCommand::quick_stop || order_.command == PvtCommand::disable;
+            began_ = (began_ || order_.command == PvtCommand::begin) && !loses_ring;
+            end_order();
+        }
+    } else if (status.refused != PvtRefusal::checksum && status.refused != PvtRefusal::no_room &&
+               status.refused != PvtRefusal::gap) {
+        report_.command_refused = true; // its state changed on the way: whoever gave the order looks at it again
+        end_order();
+    }
+}
+
+void PvtClient::keep(const PvtStatus& status, const PvtBlock& block) noexcept {
+    LinkCounts& counts = report_.counts;
+    if (status.refused == PvtRefusal::none) {
+        refusals_in_row_ = 0;
+    } else if (status.refused == PvtRefusal::checksum) {
+        ++counts.corrupt;
+    } else if (status.refused != PvtRefusal::no_room && status.refused != PvtRefusal::gap) {
+        // Without a session every block is refused that only asks how the drive is.
+        const bool counts_as_one = began_ || block.command != PvtCommand::none;
+        refusals_in_row_ = static_cast<std::uint16_t>(refusals_in_row_ + (counts_as_one ? 1 : 0));
+        if (refusals_in_row_ >= most_refusals) {
+            report_.problem = DriveProblem::refused;
+        }
+    }
+    answer_order(status, block);
+    report_.status = status;
+    if (began_) {
+        executed_ += status.executed - head_.load(std::memory_order_relaxed); // numbers wrap
+        counts.segments = executed_ + (status.next - status.executed);
+        head_.store(status.executed, std::memory_order_release);
+    }
+    if (status.state == PvtState::fault) {
+        report_.problem = DriveProblem::fault;
+    } else if (report_.problem == DriveProblem::fault) {
+        report_.problem = DriveProblem::none; // it was reset
+    }
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/pvt/pvt_group_stop.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::hal::modbus {
+
+void PvtGroupStop::request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
+                           std::span<const PortDrive> drives) noexcept {
+    if (!sequence_.requested()) {
+        hold_at_us_ = hold_at_us;
+        in_step_ = std::all_of(drives.begin(), drives.end(), [](const PortDrive& drive) { return drive.in_step(); });
+    }
+    sequence_.request(request, now_us);
+}
+
+// Whether all drives stand at one place of the path: all slowed down from one instant on, or none moved and all are at
+// one joint; at the end of the motion it does not matter how.
+bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
+    const std::uint32_t first = drives.front().status().executed; // numbers wrap
+    std::int32_t least = 0;
+    std::int32_t most = 0;
+    bool stands = true;
+    bool at_end = true;
+    bool in_time = true;
+    bool at_rest = true;
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+        const auto executed = static_cast<std::int32_t>(drives[i].status().executed - first);
+        least = std::min(least, executed);
+        most = std::max(most, executed);
+        at_end = at_end && drives[i].executed_all();
+        in_time = in_time && stops_[i].hold() == PvtStop::Hold::in_time;
+        at_rest =
+            at_rest && stops_[i].hold() == PvtStop::Hold::at_rest && drives[i].client().at_joint(drives[i].status());
+        stands = stands && drives[i].seen().problem == DriveProblem::none && drives[i].says_it_stands();
+    }
+    return stands && (at_end || (at_rest && most == least) || (in_time && in_step_ && most - least <= 1));
+}
+
+void PvtGroupStop::follow(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept {
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+        stops_[i].see(drives[i].seen(), times_);
+        facts_[i] = stops_[i].facts();
+    }
+    const bool together = on_path(drives);
+    for (StopFacts& facts : facts_) {
+        facts.on_path = together;
+    }
+    sequence_.update(now_us, facts_);
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+        if (const StopRequest request = sequence_.to_send(i); request != StopRequest::none) {
+            stops_[i].tell(request, hold_at_us_);
+        }
+    }
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/pvt/pvt_map.hpp"
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::size_t checksum_at = 9;
+
+constexpr std::array<std::uint32_t, 256> crc_table = [] {
+    std::array<std::uint32_t, 256> table{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+        std::uint32_t rest = i;
+        for (int bit = 0; bit < 8; ++bit) {
+            rest = (rest & 1U) != 0 ? 0xEDB88320U ^ (rest >> 1U) : rest >> 1U;
+        }
+        table[i] = rest;
+    }
+    return table;
+}();
+
+std::uint32_t checksum(std::span<const std::uint16_t> block) noexcept {
+    return crc32(block.subspan(pvt::block_head_registers), crc32(block.first(checksum_at)));
+}
+
+constexpr std::int64_t largest_48 = (std::int64_t{1} << 47U) - 1;
+
+// Nearest, ties upwards; nothing where it does not fit 48 bits, of either sign.
+std::optional<std::int64_t> divided(std::int64_t value, std::int64_t divisor) noexcept {
+    if (value > largest_48 * divisor || value < -largest_48 * divisor) {
+        return std::nullopt;
+    }
+    const std::int64_t shifted = value + divisor / 2;
+    const std::int64_t quotient = shifted / divisor;
+    return shifted % divisor < 0 ? quotient - 1 : quotient;
+}
+
+} // namespace
+
+const char* fault_name(std::uint16_t fault) noexcept {
+    constexpr std::array<const char*, 7> names{"no fault",
+                                               "its segments ran out while it moved",
+                                               "its watchdog: it heard nothing for too long",
+                                               "a limit of velocity, acceleration or travel",
+                                               "the following error left its window",
+                                               "emergency stop",
+                                               "its bus"};
+    return fault < names.size() ? names[fault] : "a fault of its maker's; see the drive's manual";
+}
+
+std::uint32_t crc32(std::span<const std::uint16_t> registers, std::uint32_t before) noexcept {
+    std::uint32_t rest = ~before;
+    for (const std::uint16_t value : registers) {
+        rest = crc_table[(rest ^ (std::uint32_t{value} >> 8U)) & 0xFFU] ^ (rest >> 8U);
+        rest = crc_table[(rest ^ value) & 0xFFU] ^ (rest >> 8U);
+    }
+    return ~rest;
+}
+
+std::optional<std::int64_t> pvt_position(std::int64_t units) noexcept {
+    return divided(units, units_per_count >> PvtSegment::position_bits);
+}
+
+bool to_pvt(const FeedSegment& segment, std::span<const PvtAxis> axes, PvtSegment& out) noexcept {
+    static_assert(units_per_count % (std::int64_t{1} << PvtSegment::velocity_bits) == 0);
+    PvtSegment made = out;
+    made.duration_ticks = segment.duration_ticks;
+    made.rest = segment.end_velocity == PerAxis<std::int64_t>{};
+    bool fits = segment.duration_ticks >= pvt::shortest_ticks && segment.duration_ticks <= pvt::longest_ticks;
+    for (std::size_t k = 0; k < axes.size() && fits; ++k) {
+        if (axes[k].machine_axis >= 0) {
+            const auto axis = static_cast<std::size_t>(axes[k].machine_axis);
+            const auto end = pvt_position(segment.end[axis]);
+            const auto velocity = divided(segment.end_velocity[axis], units_per_count >> PvtSegment::velocity_bits);
+            fits = end && velocity;
+            made.end[k] = axes[k].inverted ? -end.value_or(0) : end.value_or(0);
+            made.end_velocity[k] = axes[k].inverted ? -velocity.value_or(0) : velocity.value_or(0);
+        }
+    }
+    out = fits ? made : out;
+    return fits;
+}
+
+std::size_t encode(const PvtBlock& block, std::span<const PvtSegment> segments, int axes,
+                   PvtBlockRegisters& out) noexcept {
+    RegisterWriter writer(out);
+    writer.put16(block.nonce);
+    writer.put16(block.session);
+    writer.put16(static_cast<std::uint16_t>(block.command));
+    writer.put16(block.command_counter);
+    writer.put32(block.argument);
+    writer.put16(block.count);
+    writer.put32(block.first);
+    writer.put32(0);
+    for (const PvtSegment& segment : segments.first(block.count)) {
+        writer.put32(segment.duration_ticks | (segment.rest ? pvt::rest_mark : 0));
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            writer.put48(segment.end[k]);
+            writer.put48(segment.end_velocity[k]);
+        }
+    }
+    const std::size_t size = writer.size();
+    RegisterWriter(std::span(out).subspan(checksum_at, 2)).put32(checksum(std::span(out).first(size)));
+    return size;
+}
+
+std::optional<PvtBlock> decode_block(std::span<const std::uint16_t> registers, int axes,
+                                     PvtSegments& segments) noexcept {
+    if (registers.size() < pvt::block_head_registers) {
+        return std::nullopt;
+    }
+    RegisterReader reader(registers);
+    PvtBlock block;
+    block.nonce = reader.take16();
+    block.session = reader.take16();
+    block.command = static_cast<PvtCommand>(reader.take16());
+    block.command_counter = reader.take16();
+    block.argument = reader.take32();
+    block.count = reader.take16();
+    block.first = reader.take32();
+    static_cast<void>(reader.take32());
+    if (block.count > pvt::most_segments(axes) ||
+        registers.size() != pvt::block_head_registers + block.count * pvt::segment_registers(axes)) {
+        return std::nullopt;
+    }
+    for (PvtSegment& segment : std::span(segments).first(block.count)) {
+        const std::uint32_t duration = reader.take32();
+        segment.duration_ticks = duration & ~pvt::rest_mark;
+        segment.rest = (duration & pvt::rest_mark) != 0;
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            segment.end[k] = reader.take48();
+            segment.end_velocity[k] = reader.take48();
+        }
+    }
+    return block;
+}
+
+bool checksum_holds(std::span<const std::uint16_t> block) noexcept {
+    return block.size() >= pvt::block_head_registers &&
+           RegisterReader(block.subspan(checksum_at, 2)).take32() == checksum(block);
+}
+
+void encode(const PvtIdentity& identity, std::span<std::uint16_t, pvt::identity_registers> out) noexcept {
+    RegisterWriter writer(out);
+    writer.put16(identity.magic);
+    writer.put16(identity.version);
+    writer.put16(identity.axes);
+    writer.put16(identity.ring);
+    writer.put32(identity.ticks_per_s);
+    writer.put32(identity.boot);
+    writer.put16(identity.check_16);
+    writer.put32(identity.check_32);
+}
+
+PvtIdentity decode_identity(std::span<const std::uint16_t, pvt::identity_registers> in) noexcept {
+    RegisterReader reader(in);
+    PvtIdentity identity;
+    identity.magic = reader.take16();
+    identity.version = reader.take16();
+    identity.axes = reader.take16();
+    identity.ring = reader.take16();
+    identity.ticks_per_s = reader.take32();
+    identity.boot = reader.take32();
+    identity.check_16 = reader.take16();
+    identity.check_32 = reader.take32();
+    return identity;
+}
+
+void encode(const PvtConfiguration& configuration,
+            std::span<std::uint16_t, pvt::configuration_registers> out) noexcept {
+    RegisterWriter writer(out);
+    writer.put16(configuration.watchdog_ms);
+    writer.put16(configuration.stop_reserve_ms);
+    writer.put32(configuration.following_window);
+}
+
+PvtConfiguration decode_configuration(std::span<const std::uint16_t, pvt::configuration_registers> in) noexcept {
+    RegisterReader reader(in);
+    PvtConfiguration configuration;
+    configuration.watchdog_ms = reader.take16();
+    configuration.stop_reserve_ms = reader.take16();
+    configuration.following_window = reader.take32();
+    return configuration;
+}
+
+void encode(const PvtStatus& status, int axes, std::span<std::uint16_t> out) noexcept {
+    RegisterWriter writer(out);
+    writer.put16(status.nonce);
+    writer.put16(static_cast<std::uint16_t>(status.state));
+    writer.put16(status.fault);
+    writer.put16(status.fault_axis);
+    writer.put32(status.next);
+    writer.put32(status.executed);
+    writer.put16(status.free);
+    writer.put16(static_cast<std::uint16_t>(status.refused));
+    writer.put16(status.refusals);
+    writer.put16(status.last_command);
+    writer.put32(status.clock_us);
+    writer.put32(status.boot);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        writer.put32(static_cast<std::uint32_t>(status.position[k]));
+        writer.put32(static_cast<std::uint32_t>(status.following_error[k]));
+    }
+    writer.put32(crc32(out.first(writer.size())));
+}
+
+bool status_holds(std::span<const std::uint16_t> status) noexcept {
+    const std::size_t last = status.size() - 2;
+    return RegisterReader(status.subspan(last)).take32() == crc32(status.first(last));
+}
+
+PvtStatus decode_status(std::span<const std::uint16_t> in, int axes) noexcept {
+    RegisterReader reader(in);
+    PvtStatus status;
+    status.nonce = reader.take16();
+    status.state = static_cast<PvtState>(reader.take16());
+    status.fault = reader.take16();
+    status.fault_axis = reader.take16();
+    status.next = reader.take32();
+    status.executed = reader.take32();
+    status.free = reader.take16();
+    status.refused = static_cast<PvtRefusal>(reader.take16());
+    status.refusals = reader.take16();
+    status.last_command = reader.take16();
+    status.clock_us = reader.take32();
+    status.boot = reader.take32();
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        status.position[k] = static_cast<std::int32_t>(reader.take32());
+        status.following_error[k] = static_cast<std::int32_t>(reader.take32());
+    }
+    return status;
+}
+
+} // namespace splinefeed::hal::modbus

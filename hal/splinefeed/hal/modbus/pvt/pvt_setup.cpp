@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/pvt/pvt_setup.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::uint64_t homing_us = 300'000'000;
+constexpr std::uint64_t look_every_us = 1000;
+
+bool stands(const PortDrive& drive) noexcept {
+    const PvtState state = drive.status().state;
+    return (state == PvtState::standing || state == PvtState::held) && !drive.pending();
+}
+
+} // namespace
+
+bool PvtSetup::carried_out(const std::vector<PortDrive>& drives) noexcept {
+    return std::none_of(drives.begin(), drives.end(), [](const PortDrive& drive) { return drive.pending(); });
+}
+
+// And looks at what the drives said meanwhile.
+void PvtSetup::wait() noexcept {
+    clock_.sleep_us(look_every_us);
+    now_us_ = clock_.now_us();
+    for (PortDrive& drive : drives_) {
+        drive.look(now_us_, times_);
+    }
+}
+
+std::optional<DriveFailure> PvtSetup::command(PvtCommand command, std::uint32_t argument) {
+    for (PortDrive& drive : drives_) {
+        drive.command(command, argument);
+    }
+    const std::uint64_t until = clock_.now_us() + command_us;
+    do {
+        wait();
+    } while (!carried_out(drives_) && now_us_ < until);
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        const DriveReport& seen = drives_[i].seen();
+        if (seen.command_pending || seen.command_refused || seen.problem != DriveProblem::none) {
+            return DriveFailure{i, seen.problem != DriveProblem::none ? seen.problem
+                                   : seen.command_refused             ? DriveProblem::refused
+                                                                      : DriveProblem::silent};
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<DriveFailure> PvtSetup::enable(std::uint64_t within_us) {
+    const std::uint64_t until = clock_.now_us() + within_us;
+    for (;;) {
+        wait();
+        bool ready = true;
+        for (std::size_t i = 0; i < drives_.size(); ++i) {
+            PortDrive& drive = drives_[i];
+            ready = ready && stands(drive);
+            if (now_us_ > until && !stands(drive)) {
+                return DriveFailure{i, drive.refused() ? DriveProblem::refused : DriveProblem::silent};
+            }
+            drive.forget();
+            if (drive.status().state == PvtState::fault) {
+                drive.tell(PvtCommand::fault_reset, 0);
+            } else if (drive.status().state == PvtState::disabled) {
+                drive.tell(PvtCommand::enable, 0);
+            }
+        }
+        if (ready) {
+            return std::nullopt;
+        }
+    }
+}
+
+std::optional<DriveFailure> PvtSetup::home(bool (*interrupted)()) {
+    if (const auto failure = command(PvtCommand::home)) {
+        return failure;
+    }
+    const std::uint64_t until = clock_.now_us() + homing_us;
+    for (;;) {
+        wait();
+        const bool given_up = now_us_ > until || (interrupted != nullptr && interrupted());
+        bool homing = false;
+        for (std::size_t i = 0; i < drives_.size(); ++i) {
+            const bool turns = drives_[i].status().state == PvtState::homing;
+            homing = homing || turns;
+            const DriveProblem problem = drives_[i].seen().problem;
+            if (problem != DriveProblem::none || (turns && given_up)) {
+                return DriveFailure{i, problem == DriveProblem::none ? DriveProblem::not_homed : problem};
+            }
+        }
+        if (!homing) {
+            return std::nullopt;
+        }
+    }
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/setpoint/setpoint_company.hpp"
+
+namespace splinefeed::hal::modbus {
+
+std::string SetpointCompany::attend(const SetpointDrive& but) {
+    for (troubled_ = 0; troubled_ < drives_.size(); ++troubled_) {
+        SetpointDrive& drive = *drives_[troubled_];
+        if (&drive == &but) {
+            continue;
+        }
+        static_cast<void>(drive.read_next());
+        const DriveReading& reading = drive.reading();
+        if (reading.state == DriveState::fault) {
+            return "it is in fault, code " + std::to_string(reading.fault_code) + "; see its manual";
+        }
+        if (reading.state == DriveState::disabled) {
+            return "it was disabled while another drive was made ready";
+        }
+        if (drive.link().clock().now_us() > drive.heard_us() + away_us_) {
+            return std::string("it does not answer any more: ") + describe(drive.last_answer().fault);
+        }
+    }
+    return {};
+}
+
+} // namespace splinefeed::hal::modbus

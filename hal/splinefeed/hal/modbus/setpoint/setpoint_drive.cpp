@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/setpoint/setpoint_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr int looks = 5; // until a drive says that it is enabled
+constexpr std::uint64_t settle_us = 20'000;
+constexpr std::uint64_t homing_begins_us = 200'000;
+constexpr std::uint64_t homing_us = 300'000'000;
+
+} // namespace
+
+SetpointDrive::SetpointDrive(const DriveProfile& profile, ModbusLine& link, int unit)
+    : profile_(&profile), link_(&link), unit_(unit), status_(profile) {}
+
+std::string SetpointDrive::trouble(const char* what) const {
+    if (!trouble_elsewhere_.empty()) {
+        return trouble_elsewhere_;
+    }
+    std::string text = std::string(what) + ": " + describe(answer_.fault);
+    if (answer_.fault == LinkFault::exception) {
+        text += std::string(" with exception ") + exception_name(answer_.exception);
+    }
+    return text;
+}
+
+bool SetpointDrive::note(const LinkAnswer& answer) noexcept {
+    answer_ = answer;
+    counts_.count(answer.fault);
+    if (answer.ok()) {
+        heard_us_ = answer.answered_us;
+    }
+    return answer.ok();
+}
+
+bool SetpointDrive::write(const RegisterWrite& write) noexcept {
+    return note(profile_->link.function_write ? link_->write(unit_, write.address, write.registers())
+                                              : link_->write_one(unit_, write.address, write.values[0]));
+}
+
+bool SetpointDrive::read(std::uint16_t address, std::span<std::uint16_t> out) noexcept {
+    return note(link_->read(unit_, address, out));
+}
+
+// A connection that broke is made anew, whatever `retries` says.
+template <class Try>
+bool SetpointDrive::persist(const Try& attempt) {
+    for (int i = 0; i <= profile_->link.retries; ++i) {
+        if (attempt()) {
+            return true;
+        }
+        if (!link_->connected()) {
+            static_cast<void>(link_->connect());
+        }
+    }
+    return false;
+}
+
+bool SetpointDrive::set_field(FieldIndex field, std::int64_t raw) {
+    return persist([&] { return write(frames().single(field, raw)); });
+}
+
+// True as well where the drive has no such register.
+bool SetpointDrive::set_role(FieldRole role, std::int64_t physical_q16) {
+    const RegisterField* const field = profile_->field_of(role);
+    return field == nullptr || !field->writable() ||
+           set_field(static_cast<FieldIndex>(field - profile_->fields.data()), raw_of(*field, physical_q16).raw);
+}
+
+// A register that wears with every write only where it holds something else.
+bool SetpointDrive::initialise() {
+    return std::all_of(profile_->init.begin(), profile_->init.end(), [&](const DriveProfile::InitialValue& value) {
+        const RegisterField& field = profile_->fields[value.field];
+        std::array<std::uint16_t, 4> registers{};
+        const std::span<std::uint16_t> in = std::span(registers).first(field.registers());
+        if (field.flash && field.readable()) {
+            if (!persist([&] { return read(field.address, in); })) {
+                return false;
+            }
+            if (take_raw(field, in) == value.value) {
+                return true;
+            }
+        }
+        return set_field(value.field, value.value);
+    });
+}
+
+bool SetpointDrive::read_next() noexcept {
+    const std::size_t i = asked_++ % status_.reads().size();
+    const RegisterRead& frame = status_.reads()[i];
+    std::array<std::uint16_t, RegisterWrite::most> registers{};
+    const std::span<std::uint16_t> in = std::span(registers).first(frame.count);
+    if (!read(frame.address, in)) {
+        return false;
+    }
+    status_.take(i, in);
+    said_us_[i] = answer_.arrived_us;
+    reading_ = status_.reading();
+    return true;
+}
+
+bool SetpointDrive::read_status() noexcept {
+    asked_ = 0;
+    for (std::size_t i = 0; i < status_.reads().size(); ++i) {
+        if (!read_next()) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::string SetpointDrive::check_identity() {
+    for (const DriveProfile::IdentityCheck& check : profile_->identity) {
+        const RegisterField& field = profile_->fields[check.test.field];
+        std::array<std::uint16_t, 4> registers{};
+        const std::span<std::uint16_t> in = std::span(registers).first(field.registers());
+        if (!persist([&] { return read(field.address, in); })) {
+            return trouble("its identity cannot be read");
+        }
+        if (!holds(check.test, take_raw(field, in))) {
+            return check.sentence;
+        }
+    }
+    return {};
+}
+
+std::string SetpointDrive::open() {
+    if (!link_->connected() && !link_->connect()) {
+        return std::string("there is no connection (") + link_->error() + "); check address, port and cable";
+    }
+    if (profile_->link.reads_zero_until_written) {
+        SetpointFrames neutral(*profile_); // all as the profile has it: nothing starts
+        const RegisterField* const control = profile_->field_of(FieldRole::control);
+        const auto index = static_cast<FieldIndex>(control - profile_->fields.data());
+        if (control != nullptr && !persist([&] { return write(neutral.single(index, control->value)); })) {
+            return trouble("it cannot be written to");
+        }
+    }
+    if (std::string what = check_identity(); !what.empty()) {
+        return what;
+    }
+    return persist([&] { return read_status(); }) ? std::string() : trouble("its status cannot be read");
+}
+
+std::uint64_t SetpointDrive::said_us() const noexcept {
+    return *std::min_element(said_us_.begin(), said_us_.begin() + static_cast<int>(status_.reads().size()));
+}
+
+bool SetpointDrive::stop(StopRequest request) noexcept {
+    for (const DriveCommand way : {DriveCommand::quick_stop, DriveCommand::halt, DriveCommand::disable}) {
+        const bool suits = request != StopRequest::disable || way == DriveCommand::disable;
+        if (suits && !profile_->steps_of(way).empty()) {
+            return command(way, 0);
+        }
+    }
+    return false;
+}
+
+// False: something is wrong with another drive.
+bool SetpointDrive::wait_until(std::uint64_t instant_us) noexcept {
+    Clock& clock = link_->clock();
+    while (meanwhile_ && trouble_elsewhere_.empty() && clock.now_us() < instant_us) {
+        clock.sleep_until_us(std::min(instant_us, clock.now_us() + settle_us));
+        trouble_elsewhere_ = meanwhile_();
+    }
+    clock.sleep_until_us(instant_us);
+    return !meanwhile_ || trouble_elsewhere_.empty();
+}
+
+bool SetpointDrive::command(DriveCommand command) noexcept {
+    return this->command(command, profile_->link.retries);
+}
+
+bool SetpointDrive::command(DriveCommand command, int failures) noexcept {
+    CommandSequence sequence(*profile_, frames());
+    if (!sequence.begin(command)) {
+        return false;
+    }
+    int failed = 0;
+    while (!sequence.finished()) {
+        if (!wait_until(sequence.due_us())) {
+            return false;
+        }
+        if (write(sequence.next())) {
+            sequence.told(link_->clock().now_us());
+        } else if (++failed > failures) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <class Work>
+std::string SetpointDrive::attended(const SetpointSettings& settings, const Work& work) {
+    meanwhile_ = settings.meanwhile;
+    trouble_elsewhere_.clear();
+    std::string what = work();
+    meanwhile_ = nullptr;
+    return what;
+}
+
+std::string SetpointDrive::enable(const SetpointSettings& settings) {
+    return attended(settings, [&] { return switch_on(settings); });
+}
+
+std::string SetpointDrive::switch_on(const SetpointSettings& settings) {
+    if (profile_->stream == StreamWay::blocks) {
+        block_.emplace(*profile_, BlockSettings{.axis = settings.axis,
+                                                .period_us = settings.period_us,
+                                                .acceleration = settings.ramp_counts_s2,
+                                                .fastest = settings.fastest_counts_s});
+    } else {
+        cyclic_.emplace(*profile_, CyclicSettings{settings.axis, profile_->period_us, settings.period_us,
+                                                  settings.acceleration_counts_s2});
+    }
+    if (!initialise()) {
+        return trouble("its settings cannot be written");
+    }
+    const std::int64_t one = std::int64_t{1} << physical_bits;
+    if (profile_->stream_mode && !set_role(FieldRole::mode, *profile_->stream_mode * one)) {
+        return trouble("its mode cannot be set");
+    }
+    if (profile_->watchdog_timeout_ms > 0 && !set_role(FieldRole::watchdog, profile_->watchdog_timeout_ms * one)) {
+        return trouble("its watchdog cannot be set");
+    }
+    if (profile_->following_error_window_counts &&
+        !set_role(FieldRole::following_error_window, *profile_->following_error_window_counts * one)) {
+        return trouble("its window for following errors cannot be set");
+    }
+    if (reading_.state == DriveState::fault && !command(DriveCommand::fault_reset)) {
+        return trouble("its fault cannot be reset");
+    }
+    if (!command(DriveCommand::enable)) {
+        return trouble("it cannot be enabled");
+    }
+    for (int i = 0; i < looks; ++i) {
+        if (!wait_until(link_->clock().now_us() + settle_us)) {
+            return trouble("");
+        }
+        if (read_status() && reading_.state == DriveState::enabled) {
+            return {};
+        }
+    }
+    return not_enabled();
+}
+
+std::string SetpointDrive::begin(const SetpointSettings& settings) {
+    return attended(settings, [&] {
+        std::string what = settings.home ? home(settings) : std::string();
+        if (!what.empty()) {
+            return what;
+        }
+        return persist([&] { return read_status(); }) ? follow() : trouble("its status cannot be read");
+    });
+}
+
+std::string SetpointDrive::not_enabled() const {
+    return reading_.state == DriveState::fault ? "it is in fault, code " + std::to_string(reading_.fault_code)
+                                               : "it does not say that it is enabled";
+}
+
+// From where it stands.
+std::string SetpointDrive::follow() {
+    if (!block_) {
+        return {};
+    }
+    block_->begin(static_cast<double>(reading_.position_q16) / (1 << physical_bits));
+    aimed_ = block_->prime();
+    return persist([&] { return send(); }) ? std::string() : trouble("it cannot be told where to be");
+}
+
+std::string SetpointDrive::home(const SetpointSettings& settings) {
+    const std::int64_t one = std::int64_t{1} << physical_bits;
+    if (profile_->steps_of(DriveCommand::home).empty()) {
+        return "its profile has no command to home it; leave --home out, or home it by its own means";
+    }
+    if ((profile_->homing_mode && !set_role(FieldRole::mode, *profile_->homing_mode * one)) ||
+        !command(DriveCommand::home)) {
+        return trouble("it cannot be homed");
+    }
+    const std::uint64_t begun = link_->clock().now_us();
+    for (;;) {
+        if (!wait_until(link_->clock().now_us() + settle_us)) {
+            meanwhile_ = nullptr; // the others have been told
+            static_cast<void>(command(DriveCommand::quick_stop));
+            return trouble("");
+        }
+        if (settings.interrupted != nullptr && settings.interrupted()) {
+            static_cast<void>(command(DriveCommand::quick_stop));
+            return "interrupted while it was homed; it was stopped";
+        }
+        if (!persist([&] { return read_status(); })) {
+            return trouble("it does not answer while it is homed");
+        }
+        const bool stands = reading_.state == DriveState::enabled && (profile_->homed ? reading_.homed : reading_.done);
+        const std::uint64_t now = link_->clock().now_us();
+        if (stands && now > begun + homing_begins_us) { // what it says may be of the time before
+            break;
+        }
+        if (reading_.state == DriveState::fault || reading_.state == DriveState::disabled) {
+            return not_enabled();
+        }
+        if (now > begun + homing_us) {
+            static_cast<void>(command(DriveCommand::quick_stop));
+            return "its homing did not come to its end; look at its switches and its settings";
+        }
+    }
+    return profile_->stream_mode && !set_role(FieldRole::mode, *profile_->stream_mode * one)
+               ? trouble("its mode cannot be set")
+               : std::string();
+}
+
+void SetpointDrive::aim(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
+    aimed_ = block_ ? block_->block(track, instant) : cyclic_->frame(track, instant);
+}
+
+// Again where it was lost: what did not change is not told again.
+bool SetpointDrive::send() noexcept {
+    counts_.segments += aimed_.empty() ? 0U : 1U;
+    const auto told = [this](const RegisterWrite& frame) {
+        for (int i = 0; i <= profile_->link.retries; ++i) {
+            if (write(frame)) {
+                return true;
+            }
+        }
+        return false;
+    };
+    bool sent = std::all_of(aimed_.begin(), aimed_.end(), told);
+    if (sent && unsure_ && block_ && !aimed_.empty()) {
+        aimed_ = block_->again();
+        sent = std::all_of(aimed_.begin(), aimed_.end(), told);
+    }
+    unsure_ = aimed_.empty() ? unsure_ : !sent;
+    return sent;
+}
+
+bool SetpointDrive::at_target() const noexcept {
+    constexpr double window_counts = 64.0; // drives call less `in position`
+    const double says_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
+    return !block_ || std::fabs(says_counts - block_->target_counts()) <= window_counts;
+}
+
+void SetpointDrive::stood(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
+    if (cyclic_) {
+        cyclic_->stood(track, instant);
+    }
+}
+
+void SetpointDrive::correct() noexcept {
+    constexpr double rounding_counts = 1.5; // of what it says, and of the model
+    const double says_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
+    if (block_ && std::fabs(says_counts - block_->position_counts()) > rounding_counts) {
+        block_->begin(says_counts);
+    }
+}
+
+void SetpointDrive::arrived(std::uint64_t arrival_us) noexcept {
+    if (block_ && !aimed_.empty()) {
+        block_->arrived(arrival_us);
+    }
+}
+
+bool SetpointDrive::told_end(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
+    return block_ ? block_->told_end() : cyclic_->told_end(track, motion_us);
+}
+
+bool SetpointDrive::clamped() const noexcept {
+    return block_ ? block_->clamped() : cyclic_->clamped();
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+//
+// The positions of a drive are its own: what it has where the machine's motion begins is taken off for good, so that
+// nothing jumps. Where a drive is in fault or away, the motion's clock slows down for all the others: they stay on the
+// path. The one that is away stops by itself, off it.
+#include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
+
+#include "splinefeed/hal/modbus/link/wire_groups.hpp"
+#include "splinefeed/hal/modbus/profile/drive_timing.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_company.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+constexpr std::size_t track_segments = 4096;
+constexpr double ticks_per_us = 8.0;
+constexpr std::uint64_t lead_us = 50'000;
+constexpr std::uint64_t recent_us = 50'000;
+constexpr std::uint64_t keep_us = 100'000;     // of the track: threads look at it a little later
+constexpr std::uint64_t arrive_us = 5'000'000; // for the drives to say that they have arrived
+constexpr std::uint64_t settle_us = 50'000;    // of their shafts
+constexpr double us_per_s = 1e6;
+constexpr std::uint64_t look_every_us = 1000;
+constexpr double stand_counts = 2.0; // from where it was told to stand, when it does
+constexpr unsigned stop_turns = 10;  // of the buses, until what a drive was told and says is known
+
+} // namespace
+
+SetpointPort::SetpointPort(const std::vector<SetpointWiring>& wiring, const SetpointPortSettings& settings)
+    : settings_(settings), motion_(track_segments, settings.reserve_us), facts_(wiring.size()),
+      stop_(wiring.size(), {}) {
+    std::vector<WireUse> uses;
+    uses.reserve(wiring.size());
+    for (const SetpointWiring& drive : wiring) {
+        uses.push_back({drive.link, timing_of(drive.profile->link)});
+    }
+    const WireGroups groups = group_by_wire(uses, settings.timing);
+    for (const WireUse& wire : groups.wires) {
+        buses_.push_back(std::make_unique<SetpointBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
+    }
+    for (const SetpointWiring& drive : wiring) {
+        Place place;
+        place.wiring = drive;
+        place.bus = buses_[groups.of_drive[places_.size()]].get();
+        place.index = place.bus->drives();
+        static_cast<void>(place.bus->add(*drive.profile, drive.link.unit));
+        place.frame = AxisFrame(drive.inverted, drive.profile->field_of(FieldRole::target_position));
+        places_.push_back(std::move(place));
+    }
+}
+
+std::string SetpointPort::open() {
+    for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
+        const Place& place = places_[trouble_with_];
+        if (std::string what = place.bus->drive(place.index).open(); !what.empty()) {
+            return what;
+        }
+    }
+    trouble_with_ = 0;
+    for (const auto& bus : buses_) {
+        period_us_ = std::max(period_us_, bus->shortest_period_us());
+    }
+    return {};
+}
+
+LinkAnswer SetpointPort::probe(std::size_t drive) noexcept {
+    SetpointDrive& asked = places_[drive].bus->drive(places_[drive].index);
+    static_cast<void>(asked.read_next());
+    return asked.last_answer();
+}
+
+std::string SetpointPort::prepare(const FeedSegment& first) {
+    segment_us_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(first.duration_ticks / ticks_per_us));
+    SetpointCompany company(settings_.away_us);
+    for (const bool enabled : {false, true}) { // all are enabled before the first one is homed
+        for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
+            Place& place = places_[trouble_with_];
+            SetpointDrive& drive = place.bus->drive(place.index);
+            bool elsewhere = false;
+            const auto attend = [&] {
+                std::string what = company.attend(drive);
+                elsewhere = elsewhere || !what.empty();
+                return what;
+            };
+            const SetpointSettings settings{.axis = place.wiring.axis,
+                                            .period_us = period_us_,
+                                            .acceleration_counts_s2 = place.wiring.acceleration_counts_s2,
+                                            .home = settings_.home,
+                                            .interrupted = settings_.interrupted,
+                                            .ramp_counts_s2 = place.wiring.ramp_counts_s2,
+                                            .fastest_counts_s = place.wiring.fastest_counts_s,
+                                            .meanwhile = attend};
+            if (std::string what = enabled ? drive.begin(settings) : drive.enable(settings); !what.empty()) {
+                trouble_with_ = elsewhere ? company.troubled() : trouble_with_;
+                return what;
+            }
+            const std::int64_t start = first.start[static_cast<std::size_t>(place.wiring.axis)];
+            if (!enabled) {
+                company.add(drive);
+            } else if (!place.frame.align(drive.reading().position_q16, start)) {
+                return AxisFrame::out_of_range;
+            }
+        }
+    }
+    for (const Place& place : places_) {
+        motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(place.wiring, period_us_));
+    }
+    const std::uint64_t turns_us = stop_turns * std::uint64_t{period_us_} * places_.size() + stand_still_us;
+    stop_times_.hold_us = lead_us + std::uint64_t{2} * settings_.reserve_us + turns_us + answers_us();
+    stop_times_.quick_stop_us += turns_us;
+    stop_times_.disable_us += turns_us;
+    stop_.set_times(stop_times_);
+    began_us_ = settings_.clock->now_us();
+    const auto ahead_us = static_cast<std::uint32_t>(motion_.ahead_us);
+    settings_.buffer_us = std::max(settings_.buffer_us, 2 * (settings_.reserve_us + ahead_us));
+    for (const auto& bus : buses_) {
+        bus->start(motion_, period_us_);
+    }
+    return {};
+}
+
+// A few exchanges in a row that fail, on the slowest wire.
+std::uint64_t SetpointPort::answers_us() const noexcept {
+    constexpr std::uint64_t lost = 4;
+    std::uint64_t longest_us = settings_.timing.answer_us;
+    for (const Place& place : places_) {
+        const LinkSettings& link = place.wiring.profile->link;
+        longest_us = std::max<std::uint64_t>(longest_us, link.response_timeout_us + link.turnaround_us);
+    }
+    return lost * longest_us;
+}
+
+void SetpointPort::complete() noexcept {
+    const std::lock_guard lock(motion_.mutex);
+    motion_.complete = true;
+}
+
+bool SetpointPort::heard(std::size_t drive) const noexcept {
+    const std::uint64_t now = settings_.clock->now_us();
+    return now < report(drive).heard_us + recent_us + std::uint64_t{drives()} * period_us_;
+}
+
+double SetpointPort::deviation_counts(std::size_t drive) const noexcept {
+    const Place& place = places_[drive];
+    return place.deviation_counts + rounding_counts(place.wiring, period_us_) +
+           late_counts(place.wiring, period_us_, report(drive).late_us, place.speed_counts_s,
+                       SetpointBus::allowed_late_us + settings_.reserve_us);
+}
+
+double SetpointPort::deviation_bound_counts(std::size_t drive) const noexcept {
+    const Place& place = places_[drive];
+    const double period_s = period_us_ / us_per_s;
+    return place.wiring.acceleration_counts_s2 * period_s * period_s / 8.0 + rounding_counts(place.wiring, period_us_);
+}
+
+std::uint64_t SetpointPort::busy_us() const noexcept {
+    std::uint64_t sum = 0;
+    for (const auto& bus : buses_) {
+        sum += bus->busy_us();
+    }
+    return sum;
+}
+
+void SetpointPort::close() noexcept {
+    if (began_us_ != 0 && phase_ != Phase::done) {
+        if (!stop_.requested()) {
+            begin_stop(StopRequest::hold);
+        }
+        await_stop();
+    }
+    began_us_ = 0;
+    for (const auto& bus : buses_) {
+        bus->stop();
+    }
+}
+
+int SetpointPort::do_room() const noexcept {
+    if (!takes()) {
+        return 0;
+    }
+    const std::lock_guard lock(motion_.mutex);
+    const std::uint64_t now = motion_.clock.time(settings_.clock->now_us());
+    const std::uint64_t held = motion_.track.end_us() - std::min(now, motion_.track.end_us());
+    const std::uint64_t most = settings_.buffer_us + period_us_;
+    const std::uint64_t room = held < most ? (most - held) / segment_us_ + 1 : 0;
+    return static_cast<int>(std::min<std::uint64_t>(room, motion_.track.room()));
+}
+
+bool SetpointPort::do_submit(const FeedSegment& segment) noexcept {
+    if (!takes()) {
+        return false;
+    }
+    FeedSegment moved = segment;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (!places_[i].frame.apply(moved,
+                                    static_cast<std::size_t>(places_[i].wiring.axis))) { // nobody is told any of it
+            trouble_ = AxisFrame::out_of_range;
+            trouble_with_ = i;
+            begin_stop(StopRequest::hold); // on the path
+            return false;
+        }
+    }
+    for (Place& place : places_) {
+        const auto axis = static_cast<std::size_t>(place.wiring.axis);
+        const auto way =
+            static_cast<double>(std::max(std::abs(segment.start_velocity[axis]), std::abs(segment.end_velocity[axis])));
+        place.speed_counts_s = std::max(place.speed_counts_s, way / static_cast<double>(units_per_count) *
+                                                                  ticks_per_us * us_per_s / segment.duration_ticks);
+        place.deviation_counts =
+            std::max(place.deviation_counts, line_deviation_counts(segment, place.wiring.axis, period_us_));
+    }
+    const std::lock_guard lock(motion_.mutex);
+    ++submitted_;
+    return motion_.track.push(moved);
+}
+
+// All of them slow down, on the path; what is not on it stops for itself.
+void SetpointPort::begin_stop(StopRequest request) noexcept {
+    const std::uint64_t now = settings_.clock->now_us();
+    if (!stop_.requested()) {
+        stop_began_us_ = now;
+    }
+    stop_.request(request, now);
+    const std::lock_guard lock(motion_.mutex);
+    motion_.stops = true;
+    if (phase_ != Phase::filling && !motion_.clock.stopping()) { // else it was never started, and never will be
+        motion_.clock.stop(now);
+    }
+    phase_ = Phase::ending;
+}
+
+// False: a drive is in trouble.
+bool SetpointPort::watch() noexcept {
+    const std::uint64_t now = settings_.clock->now_us();
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        trouble_ = places_[i].watch.trouble(report(i), now, settings_.away_us, began_us_);
+        if (!trouble_.empty()) {
+            trouble_with_ = i;
+            return false;
+        }
+    }
+    return true;
+}
+
+void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
+    bool together = true;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const SetpointReport seen = report(i);
+        const double tolerance = stand_counts + rounding_counts(places_[i].wiring, period_us_);
+        facts_[i] = stop_facts(seen, motion_, stop_began_us_);
+        together = together && stands_on_path(seen, motion_, places_[i].wiring.axis, tolerance);
+    }
+    for (StopFacts& facts : facts_) {
+        facts.on_path = together;
+    }
+    stop_.update(now_us, facts_);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (const StopRequest request = stop_.to_send(i); request > StopRequest::hold) {
+            places_[i].bus->stop_drive(places_[i].index, request);
+        }
+    }
+    if (phase_ == Phase::ending && stop_.settled()) {
+        phase_ = trouble_.empty() ? Phase::halted : Phase::fault;
+    }
+}
+
+// A cyclic drive has no move that could be done: it counts where it stands.
+bool SetpointPort::arrived() noexcept {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const SetpointReport seen = report(i);
+        bool there = seen.reading.done && seen.at_target;
+        if (places_[i].wiring.profile->stream == StreamWay::cyclic) {
+            const std::lock_guard lock(motion_.mutex);
+            const TrajectoryPoint end = motion_.track.at(places_[i].wiring.axis, motion_.track.end_us());
+            there = std::abs(seen.reading.position_q16 - end.position_q16) <= (1 << physical_bits);
+        }
+        if (!seen.told_end || !there) {
+            trouble_with_ = i;
+            return false;
+        }
+    }
+    return true;
+}
+
+// As far as the clock tells.
+std::uint64_t SetpointPort::executed() const noexcept {
+    const std::lock_guard lock(motion_.mutex);
+    return std::min(motion_.clock.time(settings_.clock->now_us()) / segment_us_, submitted_);
+}
+
+// Any bus may have stopped the clock, for all.
+void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
+    bool all_heard = true;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        // A drive that is told blocks may not have got some of them: then it is to get to the path first.
+        const bool returns = phase_ == Phase::waiting && places_[i].wiring.profile->stream == StreamWay::blocks &&
+                             report(i).still_us < stand_still_us;
+        all_heard = all_heard && heard(i) && !returns;
+    }
+    const std::lock_guard lock(motion_.mutex);
+    const std::uint64_t time_us = motion_.time_us(now_us);
+    const std::uint64_t end_us = motion_.track.end_us();
+    const bool filled = motion_.complete || end_us >= time_us + settings_.buffer_us;
+    switch (phase_) {
+    case Phase::filling:
+        if (filled && !motion_.track.empty()) {
+            motion_.clock.start(now_us + lead_us);
+            phase_ = Phase::running;
+        }
+        break;
+    case Phase::running:
+        motion_.track.release(time_us > keep_us ? time_us - keep_us : 0);
+        if (motion_.clock.stopping()) {
+            phase_ = Phase::stopping;
+        } else if (motion_.complete && time_us >= end_us) {
+            phase_ = Phase::arriving;
+            arriving_us_ = now_us;
+        }
+        break;
+    case Phase::stopping: phase_ = motion_.clock.stands(now_us) ? Phase::waiting : phase_; break;
+    case Phase::waiting:
+        if (filled && all_heard && now_us > stood_us_ + settle_us) {
+            motion_.clock.resume(now_us + lead_us);
+            ++resumes_;
+            phase_ = Phase::running;
+        }
+        break;
+    case Phase::arriving: // a bus may have stopped the clock since then, from an instant before the end on
+        phase_ = motion_.clock.stopping() ? Phase::stopping : phase_;
+        break;
+    case Phase::ending:
+    case Phase::halted:
+    case Phase::done:
+    case Phase::fault: break;
+    }
+    stood_us_ = phase_ == Phase::waiting ? stood_us_ : now_us;
+}
+
+PortState SetpointPort::do_poll() noexcept {
+    const std::uint64_t now = settings_.clock->now_us();
+    if (!stop_.requested() && phase_ != Phase::done && !watch()) {
+        begin_stop(StopRequest::hold);
+    }
+    follow_clock(now);
+    there_us_ = phase_ != Phase::arriving || !arrived() ? 0 : there_us_ == 0 ? now : there_us_;
+    if (there_us_ != 0 && now > there_us_ + settle_us) {
+        phase_ = Phase::done;
+    } else if (phase_ == Phase::arriving && now > arriving_us_ + arrive_us) {
+        trouble_ = "it does not say that it has arrived";
+        begin_stop(StopRequest::hold);
+    }
+    if (stop_.requested()) {
+        follow_stop(now);
+    }
+    const PortPhase phase = phase_ == Phase::fault    ? PortPhase::fault
+                            : phase_ == Phase::halted ? PortPhase::halted
+                            : phase_ == Phase::done   ? PortPhase::idle
+                                                      : PortPhase::running;
+    return {phase, executed()};
+}
+
+void SetpointPort::do_halt() noexcept {
+    if (takes() || phase_ == Phase::arriving) {
+        begin_stop(StopRequest::hold);
+    }
+}
+
+void SetpointPort::quick_stop() noexcept {
+    begin_stop(StopRequest::quick_stop);
+}
+
+void SetpointPort::power_off() noexcept {
+    begin_stop(StopRequest::disable);
+    await_stop();
+}
+
+void SetpointPort::await_stop() noexcept {
+    while (phase_ == Phase::ending) {
+        settings_.clock->sleep_us(look_every_us);
+        follow_stop(settings_.clock->now_us());
+    }
+}
+
+} // namespace splinefeed::hal::modbus

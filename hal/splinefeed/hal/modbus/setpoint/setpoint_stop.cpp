@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/setpoint/setpoint_stop.hpp"
+
+#include <cmath>
+
+namespace splinefeed::hal::modbus {
+
+namespace {
+
+// What a drive that has stopped for itself did; none: it follows, as far as is known.
+StopRequest stopped_itself(DriveState state) noexcept {
+    switch (state) {
+    case DriveState::fault:
+    case DriveState::disabled:
+    case DriveState::not_ready: return StopRequest::disable;
+    case DriveState::quick_stop:
+    case DriveState::halted: return StopRequest::quick_stop;
+    case DriveState::enabled:
+    case DriveState::moving:
+    case DriveState::homing:
+    case DriveState::unknown: break;
+    }
+    return StopRequest::none;
+}
+
+} // namespace
+
+// A hold is executed when a target arrived behind the instant at which the motion stands, or if it never began.
+StopFacts stop_facts(const SetpointReport& seen, SetpointMotion& motion, std::uint64_t began_us) noexcept {
+    StopFacts facts{.said_us = seen.said_us,
+                    .standstill = seen.still_us >= stand_still_us,
+                    .executed = seen.executed,
+                    .executed_us = seen.executed_us};
+    const StopRequest itself = stopped_itself(seen.reading.state);
+    if (itself > facts.executed && seen.said_us > began_us) {
+        facts.executed = itself;
+        facts.executed_us = began_us;
+    }
+    if (facts.executed != StopRequest::none) {
+        return facts;
+    }
+    const std::lock_guard lock(motion.mutex);
+    const bool began = motion.clock.stopping();
+    const std::uint64_t stands_us = began ? motion.clock.standing_from() : began_us;
+    if (!began || seen.told_us >= stands_us) {
+        facts.executed = StopRequest::hold;
+        facts.executed_us = stands_us;
+    }
+    return facts;
+}
+
+bool stands_on_path(const SetpointReport& seen, SetpointMotion& motion, int axis, double tolerance_counts) noexcept {
+    if (seen.reading.state != DriveState::enabled && seen.reading.state != DriveState::moving) {
+        return false;
+    }
+    const std::lock_guard lock(motion.mutex);
+    if (motion.track.empty() || !motion.clock.stopping()) {
+        return true; // it never began to move
+    }
+    const std::uint64_t stands_us = motion.clock.time(motion.clock.standing_from());
+    const std::int64_t off_q16 = seen.reading.position_q16 - motion.track.at(axis, stands_us).position_q16;
+    return std::fabs(static_cast<double>(off_q16)) / (1 << physical_bits) <= tolerance_counts;
+}
+
+} // namespace splinefeed::hal::modbus

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/output/place_text.hpp"
+#include "support/catch.hpp"
+
+using splinefeed::host::PlaceText;
+
+TEST_CASE("Place text: axes with their places, and which of them nobody has heard") {
+    PlaceText place;
+    place.add("x", 1.0);
+    place.add("y", -2.00004, false);
+    CHECK(place.text() == "; the machine stands at x=1.0000 y=-2.0000 (when it was last heard) mm");
+    PlaceText exact("; last steps to", 6);
+    exact.add("z", 0.5);
+    CHECK(exact.text() == "; last steps to z=0.500000 mm");
+}
