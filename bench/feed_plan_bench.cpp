@@ -7,8 +7,8 @@
 // on the machine count only by the caches that they use.
 #include "looped_curve.hpp"
 
-#include "splinefeed/s3_feed_plan/jerk_plan.hpp"
-#include "splinefeed/s3_feed_plan/smooth_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -3,7 +3,7 @@
 // segment stream.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"
 #include "splinefeed/trajectory.hpp"
 
 namespace splinefeed {

@@ -2,7 +2,7 @@
 // Trajectory: the pipeline in one object: curve source -> arc length -> feed plan -> segment stream.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/feed_plan.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
 #include "splinefeed/s4_segment_stream/profile_sampler.hpp"
 #include "splinefeed/s4_segment_stream/segment_stream.hpp"
 

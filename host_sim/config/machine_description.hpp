@@ -2,7 +2,7 @@
 // MachineDescription: a machine file in memory.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s5_pulse_train/step_timing.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/output/segment_writer.hpp"
 
-#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 
 namespace splinefeed::host {
 

@@ -7,7 +7,7 @@
 // at every step. A first derivative of degree n is n times a difference of two, so its relative error is 2 n c / sigma
 // with sigma = |dr/dw| in the same units, and twice that is allowed for the halvings. A second derivative takes n (n -
 // 1) times four roundings over sigma^2. In Fixed a length in mm is rounded to 2^-32 mm.
-#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "support/catch.hpp"
 #include "support/cell_reference.hpp"
 

@@ -3,7 +3,7 @@
 // What the rounding of long segments does where cells meet.
 #include "splinefeed/s2_arc_length/control_rounding.hpp"
 
-#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "support/catch.hpp"
 #include "support/cell_reference.hpp"
 

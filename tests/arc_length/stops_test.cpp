@@ -2,7 +2,7 @@
 //
 // Where the machine must stop, how cells are graded there, and that the source may starve anywhere.
 #include "splinefeed/number/path_position.hpp"
-#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "support/catch.hpp"
 #include "support/cell_reference.hpp"
 

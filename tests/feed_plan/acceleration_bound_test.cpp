@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The polygon of the speeds that a cell allows against its definition, evaluated in long double.
-#include "splinefeed/s3_feed_plan/acceleration_bound.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/acceleration_bound.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is left of a polynomial on a part of a cell is the same polynomial.
-#include "splinefeed/s3_feed_plan/cell_interval.hpp"
+#include "splinefeed/s2_arc_length/cell_interval.hpp"
 
 #include "support/bezier_paths.hpp"
 #include "support/catch.hpp"

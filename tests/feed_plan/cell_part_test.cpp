@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A part of a cell is the same curve: positions, shapes and lengths against those of the whole.
-#include "splinefeed/s3_feed_plan/cell_part.hpp"
+#include "splinefeed/s2_arc_length/cell_part.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // States from which the exits of a cell are reached, against motions through it that are tried at random.
-#include "splinefeed/s3_feed_plan/controllable_set.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/controllable_set.hpp"
 
 #include "support/catch.hpp"
 #include "support/jerk_reference.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Ways too short for a speed: as slow as it takes, whatever the path does.
-#include "splinefeed/s3_feed_plan/crawl.hpp"
+#include "splinefeed/s3_feed_plan/limits/crawl.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The feed counts the linear axes; rotary ones follow within limits of their own.
-#include "splinefeed/s3_feed_plan/feed_share.hpp"
+#include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
 
 #include "support/catch.hpp"
 #include "support/emitted.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The two inequalities of filtered_limits.cpp in long double: what is allowed keeps them, and hardly less would do.
-#include "splinefeed/s3_feed_plan/filtered_limits.hpp"
+#include "splinefeed/s3_feed_plan/jerk_filtered/filtered_limits.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Motions of whole legs: the limits at many points of every cell, in long double, and the time on a straight line.
-#include "splinefeed/s3_feed_plan/leg_attempts.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/leg_attempts.hpp"
 
 #include "support/catch.hpp"
 #include "support/jerk_reference.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What a path asks for against the derivatives of its cells at many points.
-#include "splinefeed/s3_feed_plan/path_derivative_bounds.hpp"
+#include "splinefeed/s3_feed_plan/jerk_filtered/path_derivative_bounds.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"

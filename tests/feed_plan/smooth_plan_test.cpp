@@ -2,7 +2,7 @@
 //
 // The motion that is to be averaged: continuous, inside what its cells allow, and with accelerations that change their
 // sign only after a time without.
-#include "splinefeed/s3_feed_plan/smooth_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"

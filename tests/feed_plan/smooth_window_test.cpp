@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the cells of a window ask for: no less than each of the cells that the average can be in, found step by step.
-#include "splinefeed/s3_feed_plan/smooth_window.hpp"
+#include "splinefeed/s3_feed_plan/jerk_filtered/smooth_window.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Polygons of states against the half-planes that they were made with, at random states.
-#include "splinefeed/s3_feed_plan/state_polygon.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/state_polygon.hpp"
 
 #include "support/catch.hpp"
 

@@ -19,7 +19,7 @@ class Module:
 
 
 MODULES = (
-    Module("feed plan", (f"{CORE}/s3_feed_plan/*.cpp",), (("feed_plan_tests", ""), ("stream_tests", "~[jerk]"))),
+    Module("feed plan", (f"{CORE}/s3_feed_plan/*/*.cpp",), (("feed_plan_tests", ""), ("stream_tests", "~[jerk]"))),
     Module("segment stream", (f"{CORE}/s4_segment_stream/*.cpp",), (("stream_tests", "~[jerk]"), ("stream_tests", "[smooth]~[steering]"))),
     Module("pulse train", (f"{CORE}/s5_pulse_train/*.cpp",), (("pulse_tests", ""),), surveyed=True),
     Module("ports", ("hal/splinefeed/hal/modbus/*/*.cpp", "hal/splinefeed/hal/*.cpp", "hal/splinefeed/hal/rt/motion_clock.cpp"), (("hal_tests", ""), ("ports_tests", ""), ("modbus_tests", "")), host=True),

@@ -3,7 +3,7 @@
 // Cells along a curve whose direction is known everywhere, and what a motion asks of them, in long double.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk_cell.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_cell.hpp"
 
 #include <algorithm>
 #include <cmath>

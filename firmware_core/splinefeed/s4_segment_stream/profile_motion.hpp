@@ -3,7 +3,7 @@
 // takes. Derivation: profile_motion.cpp.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/motion_plan.hpp"
+#include "splinefeed/s3_feed_plan/steering/motion_plan.hpp"
 
 namespace splinefeed {
 

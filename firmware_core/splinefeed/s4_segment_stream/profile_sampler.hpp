@@ -3,7 +3,7 @@
 // Derivation: profile_sampler.cpp.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s4_segment_stream/profile_motion.hpp"
 #include "splinefeed/s4_segment_stream/sampler.hpp"
 

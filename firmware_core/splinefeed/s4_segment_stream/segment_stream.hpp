@@ -8,7 +8,7 @@
 // segment_stream.cpp.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/motion_limits.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 #include "splinefeed/s4_segment_stream/sampler.hpp"
 

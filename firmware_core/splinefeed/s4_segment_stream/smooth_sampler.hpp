@@ -3,7 +3,7 @@
 // Derivation: smooth_sampler.cpp.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/smooth_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
 #include "splinefeed/s4_segment_stream/moving_average.hpp"
 #include "splinefeed/s4_segment_stream/sampler.hpp"
 

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+//
+// With w0, w1 the parameters at the ends of the stretch, the position is a polynomial of omega = (w - w0) / (w1 - w0),
+// and so is omega of xi = (x - from) / l, l the length of the stretch: both are shifted to their start (Horner's rule,
+// repeated) and scaled. The shape's Bezier points are those on the stretch; 2 L q'' and what it leaves its parabola by,
+// per length of the cell, shrink with the length.
+#include "splinefeed/s2_arc_length/cell_part.hpp"
+
+#include <span>
+
+namespace splinefeed {
+
+namespace {
+
+// Coefficients of the polynomial in x - x0.
+template <Scalar S>
+void shift(std::span<S> power, S x0) noexcept {
+    for (std::size_t i = 0; i + 1 < power.size(); ++i) {
+        for (std::size_t j = power.size() - 1; j-- > i;) {
+            power[j] = power[j] + power[j + 1] * x0;
+        }
+    }
+}
+
+} // namespace
+
+template <Scalar S>
+Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
+    const S one = from_integer<S>(1);
+    const S length = stretch.length();
+    Cell<S> out = cell;
+    const S w0 = stretch.from == S{} ? S{} : cell.parameter_at(stretch.from);
+    const S w1 = stretch.to == one ? one : cell.parameter_at(stretch.to);
+    const S width = w1 - w0;
+    const auto degree = static_cast<std::size_t>(cell.degree);
+    const S third = literal<S>(1.0 / 3.0);
+    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        PerDegree<S>& power = out.power[k];
+        shift(std::span<S>(power).first(degree + 1), w0);
+        S scale = width;
+        for (std::size_t i = 1; i <= degree; ++i) {
+            power[i] = power[i] * scale;
+            scale = scale * width;
+        }
+        out.origin[k] = displaced(cell.origin[k], power[0], cell.unit_log2);
+        power[0] = power[0] - distance<S>(cell.origin[k], out.origin[k], cell.unit_log2);
+        AxisShape<S>& shape = out.shape[k];
+        const std::array<S, 4> tangent = points_on(
+            stretch, std::array<S, 4>{shape.tangent[0], shape.tangent[0] + scale2(third * shape.bend[0], -1),
+                                      shape.tangent[1] - scale2(third * shape.bend[2], -1), shape.tangent[1]});
+        shape.tangent = {tangent[0], tangent[3]};
+        shape.bend = points_on(stretch, shape.bend);
+        for (S& b : shape.bend) {
+            b = b * length;
+        }
+        shape.spread = shape.spread * length;
+    }
+    // inverse[i] belongs to x^(i+1)
+    std::array<S, 7> inverse{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        inverse[i + 1] = cell.inverse[i];
+    }
+    shift(std::span<S>(inverse), stretch.from);
+    S scale = length / width;
+    for (std::size_t i = 0; i < 6; ++i) {
+        out.inverse[i] = inverse[i + 1] * scale;
+        scale = scale * length;
+    }
+    out.length_mm = cell.length_mm * length;
+    out.stop_before = cell.stop_before && stretch.from == S{};
+    if (!(stretch.to == one)) {
+        out.stop_at_end = false;
+        cell.position_at(stretch.to, out.end);
+    }
+    return out;
+}
+
+template Cell<double> part_of(const Cell<double>&, const CellInterval<double>&) noexcept;
+template Cell<float> part_of(const Cell<float>&, const CellInterval<float>&) noexcept;
+template Cell<Fixed> part_of(const Cell<Fixed>&, const CellInterval<Fixed>&) noexcept;
+
+} // namespace splinefeed

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+//
+// With b = v^2 linear in s over a cell of length L from b0 to b1, a = (b1 - b0) / (2 L), an axis accelerates by
+// f = q' a + q'' b, x = s / L. q'' is taken as the parabola through its values at x = 0, 1/2, 1, q' as the cubic
+// through its values and slopes at both ends. Then 2 L f = q' (b1 - b0) + 2 L q'' b is a cubic in x. The Bezier points
+// of q' are t0, t1 = t0 + c0 / 6, t2 = t3 - c2 / 6, t3, with those of 2 L q'', c0, c1, c2; of its product with b, as a
+// cubic, c0 b0, (2 c1 b0 + c0 b1) / 3, (c2 b0 + 2 c1 b1) / 3, c2 b1. So the Bezier points of 2 L f are entry_j b0 +
+// exit_j b1:
+//
+//   j        0          1                2                3
+//   entry    c0 - t0    2 c1 / 3 - t1    c2 / 3 - t2      -t3
+//   exit     t0         c0 / 3 + t1      2 c1 / 3 + t2    c2 + t3
+//
+// A polynomial stays between its Bezier points, so
+//
+//   | entry_j b0 + exit_j b1 | + spread (b0 + b1) <= 2 L A        j = 0 ... 3, every axis
+//
+// holds A at every point of the cell; spread covers what q' and q'' leave their polynomials by. j = 0 and 3 are the two
+// ends of the cell (the interpolation scheme of TOPP-RA: H. Pham, Q.-C. Pham, IEEE T-RO 34 (2018)); 1 and 2 close the
+// gap between them. Where the axis does not turn round one sign of f is braking, and A is the braking limit for it. The
+// signs matter where an axis turns round: there |q'| |a| + |q''| b would give away several per cent.
+//
+// The polygon P of these half-planes is convex and holds (0, 0). Hence
+// - the entries from which an exit up to K can be reached are all from 0 to some largest one, a concave function of K
+//   that rises up to the peak of P and is constant beyond;
+// - below the peak only half-planes that bound the entry from above matter: those that bound it from below hold on the
+//   line from (0, 0) to the peak and to the right of it.
+//
+// Peak: for an entry b0 the exits allowed are those from low(b0) to high(b0), low convex, high concave, low(0) <=
+// high(0): the root of low - high from above, by Newton's steps from one pair of half-planes to the next. Each step is
+// a cut that holds for every point of P, so they end where no pair is violated; no step at all is the usual case.
+#include "splinefeed/s3_feed_plan/acceleration/acceleration_bound.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+// A Newton step leaves one half-plane for good: there are eight an axis. Six axes never took more than nine steps.
+constexpr int most_steps = 8 * max_axes + 64;
+
+// What the entry is taken back by where rounding hides the next step, doubled as often as it takes.
+template <Scalar S>
+constexpr int least_step_log2 = std::same_as<S, double>  ? -50
+                                : std::same_as<S, float> ? -22
+                                                         : -30;
+
+} // namespace
+
+template <Scalar S>
+AccelerationBound<S>::AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits,
+                                        const CellInterval<S>& stretch) noexcept
+    : cell_(&cell), stretch_(stretch) {
+    const S length = stretch.whole() ? cell.length_mm : cell.length_mm * stretch.length();
+    const S twice = length + length;
+    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        const auto scaled = [&](S acceleration) {
+            return smaller(scale2(twice * acceleration, limits.refinement.shape_log2),
+                           from_integer<S>(1 << 30)); // never reached
+        };
+        const S speeding = scaled(limits.acceleration_mm_s2[k]);
+        const S braking = scaled(limits.braking_mm_s2[k]);
+        const int way = speeding == braking ? 1 : cell.heading[k];
+        upwards_[k] = way == 1 ? speeding : way == -1 ? braking : smaller(speeding, braking);
+        downwards_[k] = way == 1 ? braking : way == -1 ? speeding : upwards_[k];
+    }
+}
+
+template <Scalar S>
+template <class Visit>
+void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
+    const S third = literal<S>(1.0 / 3.0);
+    for (unsigned k = 0; k < static_cast<unsigned>(cell_->axes); ++k) {
+        const AxisShape<S>& shape = cell_->shape[k];
+        const S spread = stretch_.whole() ? shape.spread : shape.spread * stretch_.length();
+        const auto both = [&](S entry, S exit) {
+            visit(Row{spread + entry, spread + exit, upwards_[k]}, spread);
+            visit(Row{spread - entry, spread - exit, downwards_[k]}, spread);
+        };
+        std::array<S, 3> bend = shape.bend;
+        std::array<S, 4> t{shape.tangent[0], shape.tangent[0] + scale2(third * bend[0], -1),
+                           shape.tangent[1] - scale2(third * bend[2], -1), shape.tangent[1]};
+        if (!stretch_.whole()) {
+            t = points_on(stretch_, t);
+            bend = points_on(stretch_, bend);
+            for (S& b : bend) {
+                b = b * stretch_.length(); // 2 L q'' of the shorter length
+            }
+        }
+        const S c0 = third * bend[0];
+        const S c1 = third * (bend[1] + bend[1]);
+        const S c2 = third * bend[2];
+        both(bend[0] - t[0], t[0]);
+        both(c1 - t[1], t[1] + c0);
+        both(c2 - t[2], t[2] + c1);
+        both(-t[3], t[3] + bend[2]);
+    }
+}
+
+// What violates a half-plane is taken back from the end that is asked for: the quotient stays below it, whatever the
+// divisor.
+template <Scalar S>
+template <auto Given, auto Asked>
+S AccelerationBound<S>::lowered(S given_sq, S at_most) const noexcept {
+    S best = at_most;
+    each_row([&](const Row& row, S) {
+        const S excess = row.*Given * given_sq + row.*Asked * best - row.limit;
+        if (excess > S{} && row.*Asked > S{}) {
+            best = excess < row.*Asked * best ? best - excess / row.*Asked : S{};
+        }
+    });
+    return best;
+}
+
+template <Scalar S>
+S AccelerationBound<S>::largest_exit(S entry_sq, S at_most) const noexcept {
+    return lowered<&Row::entry, &Row::exit>(entry_sq, at_most);
+}
+
+template <Scalar S>
+S AccelerationBound<S>::largest_entry(S exit_sq, S at_most) const noexcept {
+    return lowered<&Row::exit, &Row::entry>(exit_sq, at_most);
+}
+
+// What violates a half-plane is added to the exit. The spread goes with |v^2|: below zero it takes from the other side.
+template <Scalar S>
+S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept {
+    const bool below_zero = exit_sq < S{};
+    S best = exit_sq;
+    each_row([&](const Row& row, S spread) {
+        const S exit = below_zero ? row.exit - (spread + spread) : row.exit;
+        const S excess = row.entry * entry_sq + exit * best - row.limit;
+        if (excess > S{} && exit < S{}) {
+            best = best + smaller(quotient_or_max(excess, -exit), at_most - best);
+        }
+    });
+    return best;
+}
+
+template <Scalar S>
+S AccelerationBound<S>::smallest_exit(S entry_sq, S at_least, S at_most) const noexcept {
+    const S best = lifted(entry_sq, at_least, at_most);
+    return at_least < S{} && best > S{} ? lifted(entry_sq, S{}, larger(at_most, S{})) : best;
+}
+
+// The entry where two half-planes meet, the exits of which cancel with the weight 0 ... 1 of the second.
+template <Scalar S>
+S AccelerationBound<S>::crossing_of(const Row& first, const Row& second, S weight) noexcept {
+    const S entry = first.entry + second.entry * weight;
+    return entry > S{} ? quotient_or_max(first.limit + second.limit * weight, entry) : largest<S>();
+}
+
+template <Scalar S>
+EndSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
+    const S one = from_integer<S>(1);
+    const S beyond = cap_sq + cap_sq; // of every exit
+    S entry = cap_sq;
+    S back = larger(scale2(cap_sq, least_step_log2<S>), literal<S>(0x1p-32));
+    for (int step = 0; step < most_steps; ++step) {
+        Row above{S{}, one, cap_sq}; // exit <= cap
+        Row below{S{}, -one, S{}};   // exit >= 0
+        S high = cap_sq;
+        S low{};
+        each_row([&](const Row& row, S) {
+            if (row.exit > S{} && high > -cap_sq) {
+                const S excess = row.entry * entry + row.exit * high - row.limit;
+                if (excess > S{}) {
+                    high = high - smaller(quotient_or_max(excess, row.exit), high + cap_sq);
+                    above = row;
+                }
+            } else if (row.exit <= S{} && low < beyond) {
+                const S excess = row.entry * entry + row.exit * low - row.limit;
+                if (excess > S{}) {
+                    low = smaller(low + smaller(quotient_or_max(excess, -row.exit), beyond), beyond);
+                    below = row;
+                }
+            }
+        });
+        if (low <= high) {
+            return {entry, low};
+        }
+        const S crossing = -below.exit < above.exit ? crossing_of(below, above, -below.exit / above.exit)
+                                                    : crossing_of(above, below, above.exit / -below.exit);
+        if (!(crossing < entry)) { // the same pair again: rounding, which nearly parallel lines magnify
+            entry = larger(entry - back, S{});
+            back += back;
+            continue;
+        }
+        entry = crossing;
+    }
+    return {}; // not reached
+}
+
+template class AccelerationBound<double>;
+template class AccelerationBound<float>;
+template class AccelerationBound<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// AccelerationBound: which v^2 at the two ends of a cell keep every axis within its acceleration, with signs, at every
+// point of the cell. Derivation: acceleration_bound.cpp.
+#pragma once
+
+#include "splinefeed/s2_arc_length/cell.hpp"
+#include "splinefeed/s2_arc_length/cell_interval.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
+
+namespace splinefeed {
+
+/// v^2 at both ends of a cell.
+template <Scalar S>
+struct EndSpeeds {
+    S entry_sq{};
+    S exit_sq{};
+};
+
+/// The convex polygon of the pairs (entry_sq, exit_sq) that a cell, or a stretch of one, allows: eight half-planes an
+/// axis. It holds (0, 0).
+/// Half of them bound accelerations in the axis's own direction, half those against it, each by a limit of its own.
+/// Cost of a function: two products for each of four points and axis, and a division for every time one of them bites.
+template <Scalar S>
+class AccelerationBound {
+public:
+    AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits, const CellInterval<S>& stretch = {}) noexcept;
+
+    /// Largest exit_sq up to at_most. @pre some exit_sq up to at_most is allowed together with entry_sq
+    [[nodiscard]] S largest_exit(S entry_sq, S at_most) const noexcept;
+    /// Smallest exit_sq from at_least to at_most; at_most where there is none below it. Below zero it is the slope of a
+    /// line that is to end where it meets zero. @pre at_least <= at_most, at_least >= -entry_sq
+    [[nodiscard]] S smallest_exit(S entry_sq, S at_least, S at_most) const noexcept;
+    /// Largest entry_sq up to at_most. @pre exit_sq < peak().exit_sq
+    [[nodiscard]] S largest_entry(S exit_sq, S at_most) const noexcept;
+    /// The largest entry_sq of all where no end is faster than cap_sq, with the smallest exit_sq that goes with it.
+    [[nodiscard]] EndSpeeds<S> peak(S cap_sq) const noexcept;
+
+private:
+    struct Row { // entry * entry_sq + exit * exit_sq <= limit
+        S entry{};
+        S exit{};
+        S limit{};
+    };
+
+    [[nodiscard]] static S crossing_of(const Row& first, const Row& second, S weight) noexcept;
+    template <class Visit>
+    void each_row(Visit&& visit) const noexcept; // visit(row, spread)
+    template <auto Given, auto Asked>            // members of Row
+    [[nodiscard]] S lowered(S given_sq, S at_most) const noexcept;
+    [[nodiscard]] S lifted(S entry_sq, S exit_sq, S at_most) const noexcept;
+
+    const Cell<S>* cell_;
+    CellInterval<S> stretch_;
+    PerAxis<S> upwards_{};   // 2 L A of accelerations > 0
+    PerAxis<S> downwards_{}; // and of those < 0
+};
+
+} // namespace splinefeed

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+//
+// In a stretch of a cell, b = v^2 from b0 at its start to b1 at its end is allowed where (b0, b1) is in the polygon of
+// the stretch (acceleration_bound.cpp). What a cell allows, its stretches allow: their Bezier points are convex
+// combinations of the cell's. So the profile segment that a machine is on stays allowed from wherever it is, and with
+// it, (0, 0) being allowed, every slower start with some exit no faster.
+//
+// The hardest change: b1 as far from b0 as the polygon lets it. Where the line from b0 to b1 meets the speed that was
+// wanted, the profile segment ends. A cell can be a thousand braking distances long, and b1 far below zero (which is
+// nothing but the slope of a line that ends before it) or above all caps, for which Fixed has no room: b1 goes no
+// further than twice the change that is wanted, and if it could, half of the stretch will do, and so on.
+#include "splinefeed/s3_feed_plan/acceleration/profile_segment.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+// A machine that brakes for a hold is taken down in steps of this part of a cell: b need not be linear over all of it.
+// Where the path leaves an axis next to no room for braking, a little less speed soon becomes much less time.
+constexpr double step = 0.25;
+
+// 2^-28 of the longest cell is 6e-8 mm.
+constexpr int most_halvings = 28;
+
+// A rest of a cell shorter than this fraction is left to the profile segment before it: its length would have few
+// digits.
+constexpr double crumb = 1.0 / 1024.0;
+
+template <Scalar S>
+struct Change {
+    ProfileSegment<S> profile_segment{};
+    bool reached = false; ///< the goal, within the cell
+};
+
+template <Scalar S>
+Change<S> hardest_change(const Cell<S>& cell, const MotionLimits<S>& limits, const SteeringTarget<S>& aim,
+                         S goal_sq) noexcept {
+    const bool faster = goal_sq > aim.entry_sq;
+    const S beyond = goal_sq + goal_sq - aim.entry_sq;
+    ProfileSegment<S> profile_segment{{aim.from}, aim.entry_sq, {}, false};
+    S at_most = aim.known_sq < S{} ? aim.most_sq : aim.known_sq;
+    S& to = profile_segment.stretch.to;
+    if (aim.rest && aim.from + literal<S>(step + crumb) < to) {
+        to = aim.from + literal<S>(step);
+        at_most = larger(at_most, aim.entry_sq);
+    }
+    S exit{};
+    for (int halvings = 0;; ++halvings) {
+        const AccelerationBound<S> bound(cell, limits, profile_segment.stretch);
+        exit = faster ? bound.largest_exit(aim.entry_sq, beyond)
+                      : bound.smallest_exit(aim.entry_sq, beyond, larger(at_most, beyond));
+        if (halvings == most_halvings || (faster ? exit < beyond : exit > beyond)) {
+            break;
+        }
+        to = aim.from + scale2(profile_segment.stretch.length(), -1);
+        at_most = goal_sq; // it was passed in the middle of twice this stretch
+    }
+    profile_segment.exit_sq = exit;
+    if (faster ? exit < goal_sq : exit > goal_sq) {
+        return {profile_segment, false};
+    }
+    profile_segment.exit_sq = goal_sq;
+    if (!(exit == goal_sq)) {
+        to = aim.from + profile_segment.stretch.length() * ((goal_sq - aim.entry_sq) / (exit - aim.entry_sq));
+    }
+    return {profile_segment, true};
+}
+
+} // namespace
+
+template <Scalar S>
+ProfileSegment<S> steered_segment(const Cell<S>& cell, const MotionLimits<S>& limits,
+                                  const SteeringTarget<S>& aim) noexcept {
+    const S one = from_integer<S>(1);
+    const S last = one - literal<S>(crumb);
+    if (aim.rest || aim.entry_sq > aim.level_sq) {
+        Change<S> change = hardest_change(cell, limits, aim, aim.rest ? S{} : aim.level_sq);
+        if (change.reached && change.profile_segment.stretch.to < last) {
+            change.profile_segment.stops = aim.rest;
+            return change.profile_segment;
+        }
+        if (aim.rest && change.profile_segment.stretch.to < last) {
+            return change.profile_segment;
+        }
+        if (aim.rest) {
+            const S exit = change.reached ? S{} : smaller(change.profile_segment.exit_sq, aim.most_sq);
+            return {{aim.from}, aim.entry_sq, exit, !(exit > S{})};
+        }
+    } else if (aim.entry_sq < aim.exit_sq) {
+        const Change<S> change = hardest_change(cell, limits, aim, aim.exit_sq);
+        if (change.reached && change.profile_segment.stretch.to < last) {
+            // And then on at this speed, where neither less nor more is asked for
+            const AccelerationBound<S> rest(cell, limits, {change.profile_segment.stretch.to});
+            if (!(rest.largest_exit(aim.exit_sq, aim.exit_sq) < aim.exit_sq) &&
+                !(rest.smallest_exit(aim.exit_sq, aim.exit_sq, aim.exit_sq + aim.exit_sq) > aim.exit_sq)) {
+                return change.profile_segment;
+            }
+        }
+    }
+    const AccelerationBound<S> bound(cell, limits, {aim.from});
+    const S at_most = aim.known_sq < S{} ? aim.most_sq : larger(aim.known_sq, aim.exit_sq);
+    S exit = bound.smallest_exit(aim.entry_sq, aim.exit_sq, at_most);
+    if (!(exit > aim.exit_sq)) {
+        exit = larger(bound.largest_exit(aim.entry_sq, aim.exit_sq), smaller(aim.known_sq, aim.exit_sq));
+    }
+    return {{aim.from}, aim.entry_sq, smaller(exit, aim.most_sq), false};
+}
+
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template ProfileSegment<S> steered_segment(const Cell<S>&, const MotionLimits<S>&,                                 \
+                                               const SteeringTarget<S>&) noexcept;
+SPLINEFEED_INSTANTIATE(double)
+SPLINEFEED_INSTANTIATE(float)
+SPLINEFEED_INSTANTIATE(Fixed)
+#undef SPLINEFEED_INSTANTIATE
+
+} // namespace splinefeed

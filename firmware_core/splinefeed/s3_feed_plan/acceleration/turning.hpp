@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Turning: where an axis that brakes with another limit than it accelerates with may turn round. Derivation:
+// turning.cpp.
+#pragma once
+
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
+
+namespace splinefeed {
+
+/// Takes cells in travel order and tells each of them, once enough of the path behind it is known, which way such axes
+/// move in it and near it (Cell::heading). Cost: nothing where no axis has two limits; else a few products a cell, and
+/// as much again for every cell within two or three segment durations.
+template <Scalar S>
+class Turning {
+public:
+    explicit Turning(const MotionLimits<S>& limits) noexcept : limits_(&limits) { clear(); }
+
+    /// Which way an axis moves all along a cell: 1, -1, or 0 where it may turn round in it.
+    [[nodiscard]] static int way_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
+
+    /// Looks at the newest of `count` cells and at those before it. @param cell_at  the cell of an index, `settled` is
+    /// told the indices of cells whose headings have changed
+    template <class CellAt, class Settled>
+    void take(std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
+        for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+            if (const S near_mm = near_mm_of(k); near_mm > S{}) {
+                take(k, near_mm, count, cell_at, settled);
+            }
+        }
+    }
+    /// The path ends with the newest of `count` cells, at rest.
+    template <class CellAt, class Settled>
+    void end(std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
+        for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+            if (const S near_mm = near_mm_of(k); near_mm > S{}) {
+                settle(k, near_mm, count, near_mm, cell_at, settled);
+            }
+        }
+    }
+    /// The next cell begins a path, at rest.
+    void clear() noexcept;
+
+private:
+    static constexpr std::int8_t unsettled = 2; // times the way: it may turn round behind what is known
+
+    /// So far an axis travels before it can turn round; 0: it has one limit.
+    [[nodiscard]] S near_mm_of(unsigned axis) const noexcept;
+    [[nodiscard]] static S travel_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
+
+    template <class CellAt, class Settled>
+    void take(unsigned k, S near_mm, std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
+        Cell<S>& cell = cell_at(count - 1);
+        const int way = way_in(cell, k, *limits_);
+        if (way == 0 || way == -way_[k]) {
+            travelled_mm_[k] = S{};
+        }
+        way_[k] = static_cast<std::int8_t>(way);
+        cell.heading[k] = static_cast<std::int8_t>(travelled_mm_[k] < near_mm ? 0 : way * unsettled);
+        if (way != 0) {
+            travelled_mm_[k] = smaller(travelled_mm_[k] + travel_in(cell, k, *limits_), near_mm);
+            settle(k, near_mm, count, S{}, cell_at, settled);
+        }
+    }
+
+    // Those that are far enough before the newest, or before where it is going to turn round
+    template <class CellAt, class Settled>
+    void settle(unsigned k, S near_mm, std::size_t count, S ahead_mm, const CellAt& cell_at,
+                const Settled& settled) noexcept {
+        for (std::size_t i = count; i-- > 0;) {
+            Cell<S>& cell = cell_at(i);
+            if (way_in(cell, k, *limits_) != way_[k] || cell.heading[k] == 0 || cell.heading[k] == way_[k]) {
+                break;
+            }
+            if (!(ahead_mm < near_mm)) {
+                cell.heading[k] = way_[k];
+                settled(i);
+            }
+            ahead_mm = smaller(ahead_mm + travel_in(cell, k, *limits_), near_mm);
+        }
+    }
+
+    const MotionLimits<S>* limits_;
+    PerAxis<S> travelled_mm_{};  // since it may have turned round
+    PerAxis<std::int8_t> way_{}; // in the newest cell
+};
+
+} // namespace splinefeed

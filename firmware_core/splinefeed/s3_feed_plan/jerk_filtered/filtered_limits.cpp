@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+//
+// A motion s(t) whose acceleration a along the path is constant in every cell is averaged over T:
+//
+//   s_f(t) = mean of s over [t - T/2, t + T/2],  v_f and a_f the means of v and a,  j_f = (a(t + T/2) - a(t - T/2)) /
+//   T.
+//
+// The machine is at q(s_f(t)). Let Q1, Q2, Q3 be the largest |q'|, |q''|, |q'''| of an axis over all places where s_f
+// can be while s is in a cell, give or take T/2 (SmoothWindow finds that part of the path). If in every cell, with v at
+// its faster end and w = v + |a| T/2,
+//
+//   Q1 |a| + Q2 v^2 <= A                                              (1)
+//   Q1 |a| / T + max(Q3 w^3, 3 Q2 w |a| + Q3s w^3) <= J               (2)
+//
+// and if a changes its sign only after a time T at a = 0, then the axis keeps A and J:
+//
+// (1) For every instant of the average |q'| |a| + |q''| v^2 <= A, q' and q'' being those at s_f. So it holds for the
+//     means, and v_f^2 is at most the mean of v^2.
+// (2) All accelerations of the average have one sign or are 0. So |j_f| <= M / T with M the largest |a| among them, and
+//     |a_f| <= M. In the cell of that M, v_f <= v + M T/2 = w. Where q'' a and q''' have the same sign the two parts of
+//     3 q'' v a + q''' v^3 add up, and Q3s is the largest |q'''| of such places: where q'' and q''' have the same sign
+//     for a > 0, the other one for a < 0. Elsewhere the larger of both remains.
+//
+// Both left sides are convex in v^2 where v^2 at the other end is given, and in a where v is: between a point that is
+// allowed and one that is not the chord lies above them and meets the limit at a point that is allowed. With the
+// Illinois rule a few such steps come within a thousandth, once both points are not too far apart. (2) is taken times
+// T, an acceleration like (1).
+#include "splinefeed/s3_feed_plan/jerk_filtered/filtered_limits.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr int steps = 4;
+constexpr int level_steps = 8;           // of a cell's level, which is found once
+constexpr double within = 1.0 - 0x1p-14; // of the way to where a chord meets the limit, lest rounding go beyond
+constexpr int most_shrinks = 14;         // by 8, of what is far beyond: v down to 1e-6 of a first guess
+
+// a b for a, b >= 0, in Fixed at most 2^29: sums of three of them have their place.
+template <Scalar S>
+S bounded_product(S a, S b) noexcept {
+    if constexpr (std::same_as<S, Fixed>) {
+        return smaller(Fixed::from_raw(detail::checked_product(a.raw(), b.raw()).raw), Fixed(1 << 29));
+    } else {
+        return a * b;
+    }
+}
+
+// The largest x from low to high with excess(x) <= 0, but for what the steps leave. @pre excess(low) <= 0
+template <Scalar S, class Excess>
+S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexcept {
+    S above = excess(high);
+    if (!(above > S{})) {
+        return high;
+    }
+    S below = excess(low);
+    for (int i = 0; i < most_shrinks && above > scale2(-below, 2); ++i) {
+        const S x = low + scale2(high - low, -3);
+        const S e = excess(x);
+        if (!(e > S{})) {
+            low = x;
+            below = e;
+            break;
+        }
+        high = x;
+        above = e;
+    }
+    bool rose = false;
+    for (int i = 0; i < most_steps && below < S{}; ++i) {
+        const S x = low + (high - low) * (-below / (above - below) * literal<S>(within));
+        const S e = excess(x);
+        if (e > S{}) {
+            high = x;
+            above = e;
+            rose = false;
+        } else {
+            low = x;
+            below = e;
+            above = rose ? scale2(above, -1) : above;
+            rose = true;
+        }
+    }
+    return low;
+}
+
+} // namespace
+
+// What |q'''| has beyond the scalar is not seen. There the speed is that of crawling, and what q''' asks for at that
+// speed is less than half of the jerk (detail::sharpest_curvature): the other half is left for what is seen.
+template <Scalar S>
+S FilteredLimits<S>::jerk(unsigned axis) const noexcept {
+    return demand_->beyond ? scale2(limits_->jerk_mm_s3[axis], -1) : limits_->jerk_mm_s3[axis];
+}
+
+// By how much the worst axis is beyond its acceleration, or beyond T times its jerk.
+template <Scalar S>
+template <bool Braking>
+S FilteredLimits<S>::excess(S speed_sq, S acceleration) const noexcept {
+    const S t = smoothing_->seconds;
+    const S w = square_root(speed_sq) + acceleration * smoothing_->half_s;
+    const S w_t = w * t;
+    const S thrice = from_integer<S>(3) * acceleration * t;
+    S most = -largest<S>();
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        const AxisDemand<S>& at = demand_->axis[k];
+        const auto cubed = [&](S third) {
+            return bounded_product(bounded_product(bounded_product(third, w), w_t), w);
+        };
+        const S along = at.first * acceleration;
+        const S limit = smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]);
+        const S bend =
+            bounded_product(bounded_product(at.second, w), thrice) + cubed(Braking ? at.third_against : at.third_with);
+        const S alone = cubed(larger(at.third_with, at.third_against));
+        most = larger(most, along + bounded_product(at.second, speed_sq) - limit);
+        most = larger(most, along + larger(bend, alone) - bounded_product(jerk(k), t));
+    }
+    return most;
+}
+
+template <Scalar S>
+S FilteredLimits<S>::level(S at_most) const noexcept {
+    return largest_allowed(
+        S{}, at_most, [&](S speed_sq) { return excess<false>(speed_sq, S{}); }, level_steps);
+}
+
+template <Scalar S>
+S FilteredLimits<S>::steepest() const noexcept {
+    S most = scale2(from_integer<S>(1), 22); // more than six axes' limits together
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]),
+                                bounded_product(jerk(k), smoothing_->seconds));
+        most = smaller(most, quotient_or_max(limit, demand_->axis[k].first));
+    }
+    return most;
+}
+
+template <Scalar S>
+template <bool Braking>
+S FilteredLimits<S>::faster_end(S slower_sq, S at_most, S length_mm, S steepest) const noexcept {
+    if (!(at_most > slower_sq)) {
+        return at_most;
+    }
+    const S twice = length_mm + length_mm;
+    // The steepest line is allowed where nothing bends; beyond it nothing is.
+    const S change = at_most - slower_sq;
+    const S high = quotient_or_max(change, twice) > steepest ? slower_sq + twice * steepest : at_most;
+    return largest_allowed(slower_sq, high, [&](S speed_sq) {
+        return excess<Braking>(speed_sq, smaller(quotient_or_max(speed_sq - slower_sq, twice), steepest));
+    });
+}
+
+template <Scalar S>
+S FilteredLimits<S>::largest_exit(S entry_sq, S at_most, S length_mm, S steepest) const noexcept {
+    return faster_end<false>(entry_sq, at_most, length_mm, steepest);
+}
+
+template <Scalar S>
+S FilteredLimits<S>::largest_entry(S exit_sq, S at_most, S length_mm, S steepest) const noexcept {
+    return faster_end<true>(exit_sq, at_most, length_mm, steepest);
+}
+
+template <Scalar S>
+S FilteredLimits<S>::acceleration(S speed_sq, S steepest) const noexcept {
+    return largest_allowed(S{}, steepest, [&](S a) { return excess<false>(speed_sq, a); });
+}
+
+template <Scalar S>
+S FilteredLimits<S>::braking(S speed_sq, S steepest) const noexcept {
+    return largest_allowed(S{}, steepest, [&](S a) { return excess<true>(speed_sq, a); });
+}
+
+template class FilteredLimits<double>;
+template class FilteredLimits<float>;
+template class FilteredLimits<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT
+//
+// b = v^2 is linear in s along a profile segment, a cell or a part of one: the acceleration is constant. What a cell
+// allows (FilteredLimits) is monotone, so
+//
+// - backward: K_i, the largest b at node i from which there is a way to rest at the end of what is known: the largest
+//   entry with an exit K_i+1, no larger than what may be kept up beside the node. Whatever is below will do, too. A
+//   longer window only raises K.
+// - forward: never above K. The average keeps its jerk where the acceleration changes its sign only after a time T
+//   without (filtered_limits.cpp). Braking may begin only T after the end of acceleration: so it is accelerated only to
+//   a speed that can be kept up for T below K. And it is accelerated only T after the end of braking, which asks for
+//   nothing: a machine that coasts below K may brake at once if it braked last. Steering can bring K of what is wanted
+//   down in that time: then the motion goes on above it, never above K of the machine, until it may brake.
+//
+// Two K, as in FeedPlan: the machine's (hard), and that of what the steering wants (soft), which is what a motion that
+// is not above it keeps below. One that is above it brakes as hard as its cells allow, as soon as it may.
+//
+// From rest either sign is allowed: who averages the motion lets it rest for T.
+#include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+#include "splinefeed/s3_feed_plan/limits/crawl.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double slowest_sq = 1e-6;    // as FeedPlan's
+constexpr double crumb = 1.0 / 1024.0; // of a cell: a part this short is left to the profile segment before it
+constexpr double gain = 1.0 / 2048.0;  // of v^2, which is not worth a profile segment
+constexpr int bisections = 12;
+constexpr int from_rest = 12; // more of them where it starts
+constexpr double spare_time = 1.0 / 16.0;
+constexpr double above = 0x1p-20;   // K, by rounding: of v^2
+constexpr double nothing_mm = 1e-6; // a way from rest to rest that may be too short for a motion
+
+// A way of which the time is known well enough [mm].
+template <Scalar S>
+constexpr double least_way_mm = std::same_as<S, double> ? 0x1p-40 : 0x1p-22;
+
+// A profile segment is no shorter than this part of a cell.
+template <Scalar S>
+constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
+                              : std::same_as<S, double> ? 0x1p-40
+                                                        : 0x1p-30;
+
+} // namespace
+
+template <Scalar S>
+SmoothPlan<S>::SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept
+    : source_(&source), limits_(&limits), window_(limits, cells) {
+    source.lead();
+}
+
+template <Scalar S>
+Pull SmoothPlan<S>::take(UnderrunPolicy underrun) noexcept {
+    Pull pull = source_->prepare(underrun);
+    if (pull != Pull::item) {
+        return pull;
+    }
+    const Cell<S>& cell = source_->cell(); // of both halves of a crumb
+    const S cap_sq = source_->cap_sq();
+    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a crumb
+        source_->advance();
+        pull = source_->prepare(underrun);
+        SPLINEFEED_ASSERT(pull == Pull::item);
+    }
+    window_.append(cell, cap_sq, source_->programmed_sq(cell), source_->profile_segment().exit_sq);
+    source_->advance();
+    return Pull::item;
+}
+
+// As much as there is room for. A motion that is to stop does not wait for more.
+template <Scalar S>
+Pull SmoothPlan<S>::refill(UnderrunPolicy underrun) noexcept {
+    Pull pull = Pull::item;
+    while (window_.has_room() && pull == Pull::item) {
+        pull = take(underrun);
+    }
+    starved_ = pull == Pull::starved;
+    if (starved_ && underrun == UnderrunPolicy::wait && !steering_.stops()) {
+        return pull;
+    }
+    if (pull == Pull::finished) {
+        window_.end_here();
+    }
+    window_.prepare(!window_.has_room());
+    if (known() == 0 && starved_ && underrun == UnderrunPolicy::drain) { // nothing to go on with
+        window_.end_here();
+        window_.prepare(false);
+    }
+    taken_ = starved_ ? window_.capacity() : 0; // then it is asked again with every profile segment
+    look_back(false);
+    return pull;
+}
+
+// The motion brakes, and the input is late: it may be for the cells at the end that are not prepared, as the average
+// may go beyond them. If that end is to be a rest, they are known as well.
+template <Scalar S>
+bool SmoothPlan<S>::ends_here() noexcept {
+    if (!(profile_segment_.exit_sq < profile_segment_.entry_sq) || window_.prepared() == window_.size()) {
+        return false;
+    }
+    window_.end_here();
+    window_.prepare(false);
+    look_back(true);
+    return true;
+}
+
+template <Scalar S>
+S SmoothPlan<S>::wanted_sq(const SmoothCell<S>& cell) const noexcept {
+    const S ratio = steering_.ratio();
+    return larger(smaller(cell.level_sq, cell.demand.programmed_sq * (ratio * ratio)),
+                  smaller(cell.level_sq, literal<S>(slowest_sq)));
+}
+
+// @param all  else it ends where nothing changes any more
+template <Scalar S>
+void SmoothPlan<S>::look_back(bool all) noexcept {
+    for (std::size_t i = known(); i-- > 0;) {
+        SmoothCell<S>& here = ahead(i);
+        const FilteredLimits<S> bound = bound_of(here);
+        const S hard_beyond = hard_exit(i);
+        const S soft_beyond = soft_exit(i);
+        const S wanted = wanted_sq(here);
+        const auto reached_from = [&](S beyond, S at_most) {
+            return bound.largest_entry(beyond, at_most, here.cell.length_mm, here.steepest);
+        };
+        S hard = reached_from(hard_beyond, here.level_sq);
+        const bool alike = hard_beyond == soft_beyond && wanted == here.level_sq;
+        const S soft_reach = alike ? hard : reached_from(soft_beyond, wanted);
+        S soft = soft_reach;
+        const bool first = window_.front() + i == 0 || window_.ends_leg(window_.front() + i - 1);
+        if (first) {
+            hard = soft = S{};
+        } else {
+            const SmoothCell<S>& before = window_.at(window_.front() + i - 1);
+            hard = smaller(hard, smaller(here.bound_sq, before.level_sq));
+            soft = smaller(soft, smaller(here.bound_sq, wanted_sq(before)));
+        }
+        const bool same = !all && i < looked_ && hard == here.hard_sq && soft == here.soft_sq;
+        here.hard_sq = hard;
+        here.soft_sq = soft;
+        here.soft_reach = soft_reach;
+        if (same) {
+            break;
+        }
+    }
+    looked_ = known();
+}
+
+// Whether a speed can be kept up for the time that is averaged over, from a place in the front cell on.
+template <Scalar S>
+bool SmoothPlan<S>::coasts(S from, S speed_sq, S speed) const noexcept {
+    const S ticks = from_integer<S>(smoothing_.ticks()) + literal<S>(spare_time);
+    S left = speed * (ticks / limits_->segments_per_s) + from * length();
+    for (std::size_t i = 0; i < known(); ++i) {
+        const SmoothCell<S>& here = ahead(i);
+        const S exit = soft_exit(i);
+        if (speed_sq > exit) {
+            const S top = here.soft_reach;
+            return top > speed_sq && !(here.cell.length_mm * ((top - speed_sq) / (top - exit)) < left);
+        }
+        if (!(here.cell.length_mm < left)) {
+            return true;
+        }
+        left = left - here.cell.length_mm;
+    }
+    return false;
+}
+
+template <Scalar S>
+void SmoothPlan<S>::profile_segment_to(S to, S exit_sq) noexcept {
+    profile_segment_ = {{at_, to}, speed_sq_, exit_sq, !(exit_sq > S{})};
+    exit_speed_ = exit_sq == speed_sq_ ? speed_ : square_root(exit_sq);
+    const S way = length() * profile_segment_.stretch.length();
+    const S sum = speed_ + exit_speed_;
+    ticks_ = quotient_or_max((way + way) * limits_->segments_per_s, sum);
+    profile_segment_.linear = quotient_or_max(speed_ + speed_, sum);
+}
+
+// At constant speed, to the end of the cell or until the sign may change. false: so slow that the way does not resolve.
+// Then it has hardly started from rest: both accelerations together take less than T, and no change reaches over them.
+template <Scalar S>
+bool SmoothPlan<S>::coast() noexcept {
+    const S one = from_integer<S>(1);
+    const S left = sign_.left(smoothing_.ticks());
+    const S way = speed_ * (left / limits_->segments_per_s);
+    if (!(way > literal<S>(least_way_mm<S>))) {
+        return false;
+    }
+    const S to = at_ + larger(quotient_or_max(way, length()), literal<S>(least_part<S>));
+    // A part in which it has to brake is not left out, however short it is.
+    const bool braked = speed_sq_ > hard_exit(0);
+    const bool whole = !(to < one) || !(braked || to < one - literal<S>(crumb));
+    profile_segment_to(whole ? one : to, speed_sq_);
+    return true;
+}
+
+// As hard as the cell allows, to a speed or the end of the cell.
+template <Scalar S>
+void SmoothPlan<S>::brake(S goal_sq) noexcept {
+    const S one = from_integer<S>(1);
+    const S a = bound_of(ahead(0)).braking(speed_sq_, ahead(0).steepest);
+    const S way = length() * (one - at_);
+    const S needed = speed_sq_ - goal_sq;
+    const S possible = (way + way) * a;
+    if (possible > needed) {
+        const S to = at_ + (one - at_) * (needed / possible);
+        if (to < one - literal<S>(crumb)) {
+            profile_segment_to(larger(to, at_ + literal<S>(least_part<S>)), goal_sq);
+            return;
+        }
+    }
+    profile_segment_to(one, smaller(larger(speed_sq_ - possible, goal_sq), hard_exit(0)));
+}
+
+// Below K: on at this speed, and along K where that comes down to it.
+template <Scalar S>
+void SmoothPlan<S>::follow() noexcept {
+    const S one = from_integer<S>(1);
+    const S exit = soft_exit(0);
+    const bool may_brake = sign_.last() != AccelerationSign::accelerating || rested();
+    const S tolerated = may_brake ? S{} : speed_sq_ * literal<S>(above);
+    if (!(speed_sq_ > exit + tolerated)) {
+        profile_segment_to(one, speed_sq_);
+        return;
+    }
+    const S top = ahead(0).soft_reach;
+    const S meets = top > speed_sq_ ? (top - speed_sq_) / (top - exit) : S{};
+    const S least = may_brake ? literal<S>(crumb) : literal<S>(0x1p-20);
+    if (meets > at_ + least && (!may_brake || meets < one - least)) {
+        profile_segment_to(smaller(meets, one), speed_sq_);
+    } else if (may_brake) {
+        profile_segment_to(one, exit);
+    } else { // K of what is wanted came down since it accelerated; that of the machine did not
+        coast();
+    }
+}
+
+template <Scalar S>
+bool SmoothPlan<S>::accelerate() noexcept {
+    const S one = from_integer<S>(1);
+    const SmoothCell<S>& here = ahead(0);
+    const S exit = soft_exit(0);
+    const S top = here.soft_reach > exit ? here.soft_reach : smaller(exit, wanted_sq(here));
+    const S worth = speed_sq_ * literal<S>(gain);
+    if (!(top > speed_sq_ + worth)) {
+        return false;
+    }
+    if (speed_sq_ > S{} && !coasts(at_, speed_sq_, speed_)) {
+        return false;
+    }
+    const FilteredLimits<S> bound = bound_of(here);
+    const S way = length() * (one - at_);
+    const S most = bound.largest_exit(speed_sq_, top, way, here.steepest);
+    const S change = larger(most - speed_sq_, S{});
+    S steep = quotient_or_max(change, way + way);
+    if (!(most < top)) { // sooner than at the end of the cell
+        steep = larger(steep, bound.acceleration(most, here.steepest));
+    }
+    // Place where a speed is reached
+    const auto reached = [&](S speed_sq) {
+        const S share = quotient_or_max(larger(speed_sq - speed_sq_, S{}), (way + way) * steep);
+        return share < one ? at_ + (one - at_) * share : one;
+    };
+    S speed_sq = most;
+    S place = reached(most);
+    const S fast = square_root(most);
+    if (!coasts(place, most, fast)) {
+        S low = speed_;
+        S high = fast;
+        for (int i = speed_sq_ > S{} ? from_rest : 0; i < bisections + from_rest; ++i) {
+            const S middle = scale2(low + high, -1);
+            const S square = smaller(middle * middle, most);
+            (coasts(reached(square), square, middle) ? low : high) = middle;
+        }
+        speed_sq = smaller(low * low, most);
+        place = reached(speed_sq);
+    }
+    if (!(speed_sq > speed_sq_ + worth) || !(place > at_)) {
+        return false;
+    }
+    profile_segment_to(place, speed_sq);
+    return true;
+}
+
+// From rest to the end of the cell where that is next to nothing.
+template <Scalar S>
+void SmoothPlan<S>::crawl() noexcept {
+    const S one = from_integer<S>(1);
+    const S way = length() * (one - at_);
+    SPLINEFEED_ASSERT(way < literal<S>(nothing_mm));
+    profile_segment_to(one, S{});
+    profile_segment_.linear = one;
+    ticks_ = crawling_ticks(way, *limits_);
+}
+
+template <Scalar S>
+void SmoothPlan<S>::choose() noexcept {
+    chosen_ = true;
+    SmoothCell<S>& here = ahead(0);
+    static_cast<void>(bound_of(here));
+    const S exit = soft_exit(0);
+    const S top = here.soft_reach;
+    const S allowed = top > exit ? top - (top - exit) * at_ : larger(top, exit);
+    if (steering_.stops() || speed_sq_ > allowed + allowed * literal<S>(0x1p-14)) {
+        const bool waits = sign_.last() == AccelerationSign::accelerating && !rested() && coast();
+        if (!waits) {
+            brake(steering_.stops() ? S{} : smaller(exit, speed_sq_));
+        }
+    } else if ((sign_.last() == AccelerationSign::braking && !rested()) || !accelerate()) {
+        if (!(speed_sq_ > S{})) {
+            crawl();
+            return;
+        }
+        follow();
+        const S left = sign_.left(smoothing_.ticks());
+        // It may accelerate before the end of the cell
+        if (sign_.last() == AccelerationSign::braking && left > S{} && profile_segment_.exit_sq == speed_sq_ &&
+            ticks_ > left) {
+            const S end = profile_segment_.stretch.to;
+            if (coast() && profile_segment_.stretch.to > end) {
+                profile_segment_to(end, speed_sq_);
+            }
+        }
+    }
+}
+
+template <Scalar S>
+Pull SmoothPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
+    if (chosen_) {
+        return Pull::item;
+    }
+    const bool stands = !(speed_sq_ > S{});
+    if (steering_.stops() && stands && steering_.aborts()) {
+        return Pull::finished;
+    }
+    if (known() == 0 || 4 * taken_ >= window_.capacity()) {
+        const Pull pull = refill(underrun);
+        if (known() == 0 || (starved_ && underrun == UnderrunPolicy::wait && !steering_.stops())) {
+            return pull;
+        }
+    }
+    if (steering_.stops() && stands) {
+        return Pull::held;
+    }
+    if (steering_.news()) {
+        steering_.taken();
+        look_back(true);
+    }
+    if (stands) {
+        sign_ = {};
+    }
+    choose();
+    if (starved_ && underrun == UnderrunPolicy::drain && !steering_.stops() && ends_here()) {
+        choose();
+    }
+    return Pull::item;
+}
+
+template <Scalar S>
+void SmoothPlan<S>::advance() noexcept {
+    sign_.pass(profile_segment_.entry_sq, profile_segment_.exit_sq, ticks_);
+    speed_sq_ = profile_segment_.exit_sq;
+    speed_ = exit_speed_;
+    at_ = profile_segment_.stretch.to;
+    chosen_ = false;
+    if (at_ == from_integer<S>(1)) {
+        at_ = S{};
+        window_.pass_front();
+        ++taken_;
+        looked_ = looked_ > 0 ? looked_ - 1 : 0;
+    }
+}
+
+template <Scalar S>
+bool SmoothPlan<S>::steer(const Place<S>& place) noexcept {
+    const S speed = square_root(place.speed_sq);
+    // It all but stands: first it comes to rest or gets under way, lest it be taken to rest where its average does not.
+    if (!(speed * (from_integer<S>(smoothing_.ticks()) / limits_->segments_per_s) > literal<S>(least_way_mm<S>))) {
+        return false;
+    }
+    if (place.time_share > S{}) {
+        sign_.pass(profile_segment_.entry_sq, profile_segment_.exit_sq, ticks_ * place.time_share);
+    }
+    at_ = place.fraction;
+    speed_sq_ = place.speed_sq;
+    speed_ = speed;
+    chosen_ = false;
+    return true;
+}
+
+template <Scalar S>
+void SmoothPlan<S>::clear() noexcept {
+    SPLINEFEED_ASSERT(standing());
+    source_->forget();
+    window_.clear();
+    steering_.start();
+    taken_ = looked_ = 0;
+    at_ = speed_sq_ = speed_ = S{};
+    sign_ = {};
+    chosen_ = starved_ = false;
+}
+
+template class SmoothPlan<double>;
+template class SmoothPlan<float>;
+template class SmoothPlan<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// SmoothWindow: the cells that a smoothed plan knows, and what each asks of the motion through it.
+//
+//        behind            front           prepared            back
+//      |___|___|___|___|___|___|___|___|___|___|___|___|___|___|
+//          ^ the machine   ^ the motion that is averaged  ^ not yet known far enough ahead
+#pragma once
+
+#include "splinefeed/base/ring_index.hpp"
+#include "splinefeed/number/path_position.hpp"
+#include "splinefeed/s3_feed_plan/jerk_filtered/filtered_limits.hpp"
+
+#include <span>
+
+namespace splinefeed {
+
+/// A cell of the window, the caller's storage. Speeds are v^2 [mm^2/s^2].
+template <Scalar S>
+struct SmoothCell {
+    Cell<S> cell{};
+    PathPosition start{}; ///< where it starts on the path
+    S bound_sq{};         ///< at its start: no motion is faster, whatever the steering
+    S bound_ticks{};      ///< least time in it
+    PathDerivativeBounds<S> own{};
+    PathDerivativeBounds<S> demand{}; ///< of all places where the average can be while the motion is in the cell
+    std::uint32_t smoothing_q8 = 0;
+    S steepest{};   ///< FilteredLimits::steepest
+    S level_sq{};   ///< largest that may be kept up in it
+    S hard_sq{};    ///< largest at its start from which the end of what is known can be reached at rest
+    S soft_sq{};    ///< the same with what the steering wants
+    S soft_reach{}; ///< soft_sq as the cell alone would have it
+};
+
+/// A ring of cells; all indices count from the oldest.
+template <Scalar S>
+class SmoothWindow {
+public:
+    SmoothWindow(const MotionLimits<S>& limits, std::span<SmoothCell<S>> storage) noexcept
+        : limits_(&limits), storage_(storage) {}
+
+    [[nodiscard]] SmoothCell<S>& at(std::size_t i) noexcept { return storage_[ring_index(head_ + i, storage_.size())]; }
+    [[nodiscard]] const SmoothCell<S>& at(std::size_t i) const noexcept {
+        return storage_[ring_index(head_ + i, storage_.size())];
+    }
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] std::size_t front() const noexcept { return front_; }
+    [[nodiscard]] std::size_t prepared() const noexcept { return prepared_; }
+    [[nodiscard]] std::size_t capacity() const noexcept { return storage_.size(); }
+    /// append() may be called.
+    [[nodiscard]] bool has_room() const noexcept { return size_ + 2 < storage_.size(); }
+    /// The motion is at rest at the end of the cell, whatever is wanted.
+    [[nodiscard]] bool ends_leg(std::size_t i) const noexcept { return !(bound_behind(i) > S{}); }
+
+    /// Appends a cell, and a stop before it where q'' jumps. @param exit_bound_sq  bound of v^2 at its end
+    void append(const Cell<S>& cell, S cap_sq, S programmed_sq, S exit_bound_sq) noexcept;
+    /// The motion is at rest at the end of what is known, whatever comes behind it.
+    void end_here() noexcept;
+    /// Prepares the cells of which enough is known behind them. @param force  at least half of them, up to the next
+    /// leg: what there is no room to know is not needed by a motion that is slow enough
+    void prepare(bool force) noexcept;
+    /// The motion that is averaged leaves the front cell.
+    void pass_front() noexcept { ++front_; }
+    /// The machine leaves the oldest cell. @pre front() > 0
+    void release() noexcept;
+    void clear() noexcept;
+
+private:
+    [[nodiscard]] S bound_behind(std::size_t i) const noexcept {
+        return i + 1 < size_ ? at(i + 1).bound_sq : end_bound_sq_;
+    }
+    [[nodiscard]] bool bend_jumps(const Cell<S>& before, const Cell<S>& after, S speed_sq) const noexcept;
+    void split_last() noexcept;
+    [[nodiscard]] bool starts_leg(std::size_t i) const noexcept { return !(at(i).bound_sq > S{}); }
+    [[nodiscard]] std::uint32_t smoothing_of_leg(std::size_t first, bool& in_view) const noexcept;
+    [[nodiscard]] bool last_reached(std::size_t i, const Smoothing<S>& smoothing, std::size_t& last) const noexcept;
+    [[nodiscard]] std::size_t first_reached(std::size_t i, const Smoothing<S>& smoothing) const noexcept;
+    void slow_down(std::size_t first) noexcept;
+    void measure(std::size_t i) noexcept;
+    void tighten(std::size_t first) noexcept;
+    [[nodiscard]] PathDerivativeBounds<S> demand_of(std::size_t first, std::size_t last) noexcept;
+
+    const MotionLimits<S>* limits_;
+    std::span<SmoothCell<S>> storage_;
+    std::size_t head_ = 0;
+    std::size_t size_ = 0;
+    std::size_t front_ = 0;
+    std::size_t prepared_ = 0; // cells from the oldest on
+    PathPosition end_{};       // of the path as it is known
+    S end_bound_sq_{};         // there
+    Smoothing<S> smoothing_{}; // of the leg that is being prepared
+    std::size_t bounded_ = 0;  // cells with a bound of the leg's own, from the oldest on
+    // Largest demands over a part of the path that only moves on: `own` of the cells from low_ to middle_ holds that of
+    // all from there to middle_, joined_ that of the cells from middle_ to high_.
+    std::size_t low_ = 0;
+    std::size_t middle_ = 0;
+    std::size_t high_ = 0;
+    PathDerivativeBounds<S> joined_{};
+};
+
+} // namespace splinefeed

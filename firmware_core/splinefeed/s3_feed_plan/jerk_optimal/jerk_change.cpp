@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+//
+// A motion to rest at a given place is a leg (jerk_leg.cpp), planned over pieces of the cells ahead: short enough for
+// the change of the speed, and next to the rest graded as cells next to stops are. From how near on there is one is
+// found by bisection: what can stop at a place can stop at those beyond, with more room.
+//
+// Where less is wanted, the caps of the cells change from some place on, the nearest that a leg exists for: to a rest
+// as far behind that place as braking from what is wanted takes, so that a leg exists for the rest of the path, too.
+// Before that place the caps stay as they were. Where more is wanted the place is where the machine is.
+#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_change.hpp"
+
+#include "splinefeed/s2_arc_length/cell_part.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double pieces = 8.0;              // of the braking distance, at least
+constexpr double next_to_rest = 1.0 / 48.0; // of the longest piece
+constexpr double part_before = 0.4;         // of the distance to the rest: the longest piece there
+constexpr double part_from_start = 0.6;     // of the distance from a start
+constexpr double sliver = 1e-3;             // of a piece: less is not cut off
+constexpr double longer = 1.25;             // pieces, where there is no room for all of them
+constexpr double coarsest_behind = 10.0;    // part_behind, before those that are stopped in become longer
+constexpr double close = 0.004;             // relative error of a distance that is close enough
+constexpr double farther = 1.4;             // than a guess that was too near
+constexpr double roomy = 1.5;               // of what braking takes, where it need not be the least
+constexpr int most_steps = 56;
+
+} // namespace
+
+template <Scalar S>
+JerkChange<S>::JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, double from, const SpeedState& state,
+                          std::size_t planned) noexcept
+    : window_(&window), limits_(&limits), from_(from), state_(state), old_planned_(planned),
+      along_(window.node(0).cell.move_limits(
+          smaller(window.node(0).cell.cap_sq, larger(state.b, window.node(0).wanted_sq)))) {
+    if (state.slope > 0.0) {
+        start_mm_ = 4.0 / 3.0 * state.b / state.slope;
+    }
+    for (std::size_t i = 0; i < window.size(); ++i) {
+        known_mm_ += window.node(i).cell.length_mm * (i == 0 ? 1.0 - from : 1.0);
+        if (window.cell(i).stop_at_end) {
+            break;
+        }
+    }
+}
+
+// With constant limits along the path; from a steady speed to another.
+template <Scalar S>
+double JerkChange<S>::ramp_mm(double from_mm_s, double to_mm_s) const noexcept {
+    const double a = along_.acceleration_mm_s2;
+    const double j = along_.jerk_mm_s3;
+    const double change = absolute(from_mm_s - to_mm_s);
+    const double seconds = change * j > a * a ? change / a + a / j : 2.0 * square_root(change / j);
+    return 0.5 * (from_mm_s + to_mm_s) * seconds;
+}
+
+// Whether the old plan has a parabola in a cell.
+template <Scalar S>
+bool JerkChange<S>::knows(std::size_t cell) const noexcept {
+    return cell < old_planned_ && window_->node(cell).travel == Travel::curve &&
+           (cell == 0 || window_->node(cell).state.b > 0.0) && window_->node(cell + 1).state.b > 0.0;
+}
+
+// And what that is. The state at the start of the front cell is not that of its node, but the machine's is known.
+template <Scalar S>
+SpeedState JerkChange<S>::known_state(std::size_t cell, double fraction) const noexcept {
+    const double length = window_->node(cell).cell.length_mm;
+    const SpeedState& end = window_->node(cell + 1).state;
+    const double start = cell == 0 ? from_ : 0.0;
+    const SpeedState& from = cell == 0 ? state_ : window_->node(cell).state;
+    const double s = (fraction - start) * length;
+    const double u = (end.slope - from.slope) / ((1.0 - start) * length);
+    return {from.b + (from.slope + 0.5 * u * s) * s, from.slope + u * s};
+}
+
+// v^2 at a distance from a rest with these limits; no more than the speed that is braked from.
+template <Scalar S>
+double JerkChange<S>::braking_sq(double distance_mm) const noexcept {
+    const double a = along_.acceleration_mm_s2;
+    const double j = along_.jerk_mm_s3;
+    const double last = a * a * a / (6.0 * j * j); // with the acceleration falling to zero
+    if (distance_mm < last) {
+        const double third = power_two_thirds(6.0 * distance_mm / j);
+        return smaller(peak_sq_, 0.25 * j * j * third * third);
+    }
+    return smaller(peak_sq_, 0.25 * a * a * a * a / (j * j) + 2.0 * a * (distance_mm - last));
+}
+
+// Graded towards a rest and from it, behind what is cut finely up to cells that are long.
+template <Scalar S>
+double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
+    const double part =
+        at_mm < cuts.end_mm ? (cuts.end_mm - at_mm) * part_before : (at_mm - cuts.end_mm) * cuts.part_behind;
+    if (at_mm < cuts.fine_mm - least_mm(cuts)) {
+        return larger(cuts.finest_mm, smaller(cuts.coarsest_mm, part));
+    }
+    return cuts.graded() ? larger(cuts.finest_mm, part) : largest<double>();
+}
+
+// Whether a cell that begins there is cut or planned.
+template <Scalar S>
+bool JerkChange<S>::concerns(const Cuts& cuts, double at_mm, double length_mm) noexcept {
+    return at_mm < larger(cuts.end_mm, cuts.fine_mm) - least_mm(cuts) ||
+           (cuts.graded() && cuts.part_behind * (at_mm - cuts.end_mm) < length_mm);
+}
+
+// What is too short to be cut off.
+template <Scalar S>
+double JerkChange<S>::least_mm(const Cuts& cuts) noexcept {
+    return larger(sliver * cuts.finest_mm, 0.1 * JerkWindow<S>::shortest_mm);
+}
+
+// Calls visit(cell, from, to, at_mm) for every piece of the cells from the front on, as far as they are cut or planned,
+// until it answers false. Cell 0 is number `first` of the window.
+template <Scalar S>
+template <class Visit>
+void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept {
+    const double least = least_mm(cuts);
+    double at_mm = 0.0;
+    for (std::size_t i = 0; i + first < window_->size(); ++i) {
+        const double length = window_->node(i + first).cell.length_mm;
+        if (!concerns(cuts, at_mm, length)) {
+            return;
+        }
+        double from = i == 0 ? from_ : 0.0;
+        while (from < 1.0) {
+            const double left = (1.0 - from) * length;
+            // Next to a start, too, the speed changes over distances as short as the way so far.
+            const double longest =
+                larger(cuts.finest_mm, smaller(longest_piece(cuts, at_mm), part_from_start * (start_mm_ + at_mm)));
+            double piece = left <= longest ? left : left < 2.0 * longest ? 0.5 * left : longest;
+            for (const double mark : {cuts.change_mm, cuts.end_mm}) {
+                if (at_mm < mark - least && at_mm + 1.5 * piece > mark) { // nor is a short one left before it
+                    piece = at_mm + piece > mark ? mark - at_mm : 0.5 * (mark - at_mm);
+                }
+            }
+            piece = left - piece < larger(least, sliver * piece) ? left : piece;
+            const double to = piece < left ? from + piece / length : 1.0;
+            if (!visit(i, from, to, at_mm)) {
+                return;
+            }
+            at_mm += piece;
+            from = to;
+        }
+    }
+}
+
+// Longer pieces where the window has too little room for all of them; first those behind the rest, which is where the
+// machine starts again, but only after it has stopped.
+template <Scalar S>
+bool JerkChange<S>::fit(Cuts& cuts) noexcept {
+    for (int step = 0; step < most_steps; ++step) {
+        pieces_ = cells_ = 0;
+        const std::size_t most = window_->scratch().size() + window_->size();
+        each_piece(cuts, 0, [&](std::size_t i, double, double, double) {
+            ++pieces_;
+            cells_ = i + 1;
+            return pieces_ < most;
+        });
+        if (pieces_ <= cells_ + window_->room() && pieces_ < window_->scratch().size()) {
+            return true;
+        }
+        if (cuts.part_behind < coarsest_behind) {
+            cuts.part_behind *= longer;
+        } else {
+            cuts.coarsest_mm *= longer;
+            cuts.finest_mm *= longer;
+        }
+    }
+    return false;
+}
+
+// Plans the leg to cuts.end_mm in the scratch nodes.
+template <Scalar S>
+bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
+    const std::span<JerkNode> nodes = window_->scratch();
+    const double least = least_mm(cuts);
+    const bool to_rest = cuts.graded();
+    const double gain = 2.0 * along_.acceleration_mm_s2;
+    std::size_t n = 0;
+    std::size_t changed = 0;
+    std::size_t known = 0; // pieces from the first on that the old plan has states for
+    each_piece(cuts, 0, [&](std::size_t i, double from, double to, double at_mm) {
+        if (at_mm >= cuts.end_mm - least) {
+            return false;
+        }
+        const JerkNode& whole = window_->node(i);
+        const double at_end = window_->node(i + 1).at_most_sq;
+        const bool before = at_mm < cuts.change_mm - least;
+        JerkNode& node = nodes[n++];
+        node.cell = jerk_cell_of(part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)}),
+                                 *limits_, before ? whole.cell.cap_sq : whole.wanted_sq);
+        const double fastest = whole.at_most_sq + from * (at_end - whole.at_most_sq);
+        node.at_most_sq = to_rest ? smaller(fastest, roomy * peak_sq_) : fastest;
+        const double rising = state_.b + (to_rest ? larger(state_.slope, 0.0) : gain) * at_mm;
+        double expected = to_rest ? smaller(rising, braking_sq(cuts.end_mm - at_mm)) : rising;
+        if (known + 1 == n && (before || to_rest) && knows(i)) {
+            node.state = known_state(i, from);
+            expected = smaller(expected, node.state.b);
+            known = n;
+        }
+        node.expected_sq = smaller(expected, smaller(node.at_most_sq, node.cell.cap_sq));
+        changed += before ? 1U : 0U;
+        return true;
+    });
+    if (n < JerkLeg::fewest_cells) {
+        return false;
+    }
+    JerkNode& end = nodes[n];
+    end.at_most_sq = end.expected_sq = 0.0;
+    JerkLeg leg(nodes.first(n + 1), &state_, known);
+    if (!leg.plan()) {
+        return false;
+    }
+    end.state = {0.0, 0.0};
+    seconds_ = leg.seconds();
+    planned_ = n;
+    changed_ = changed > 0 ? changed : 1;
+    return true;
+}
+
+// Cuts the cells of the window, and gives them the motion of the last attempt.
+template <Scalar S>
+void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
+    const std::span<JerkNode> tried = window_->scratch();
+    const double least = least_mm(cuts);
+    const std::size_t more = pieces_ - cells_;
+    window_->open(0, more); // no piece comes behind where its cell is now
+    Cell<S> whole;
+    JerkNode start;
+    double at_end = 0.0;
+    std::size_t n = 0;
+    each_piece(cuts, more, [&](std::size_t i, double from, double to, double at_mm) {
+        if (n == 0 || from == 0.0) {
+            whole = window_->cell(i + more);
+            start.take(window_->node(i + more));
+            at_end = window_->node(i + more + 1).at_most_sq;
+        }
+        window_->cell(n) = part_of(whole, CellInterval<S>{from_double<S>(from), from_double<S>(to)});
+        JerkNode& node = window_->node(n);
+        node.take(start);
+        const bool before = at_mm < cuts.change_mm - least;
+        node.cell = jerk_cell_of(window_->cell(n), *limits_, before ? start.cell.cap_sq : start.wanted_sq);
+        node.at_most_sq = start.at_most_sq + from * (at_end - start.at_most_sq);
+        node.expected_sq = n < planned_ ? tried[n].expected_sq : smaller(node.at_most_sq, node.cell.cap_sq);
+        node.state = n <= planned_ ? tried[n].state : node.state;
+        node.travel = Travel::curve;
+        ++n;
+        return true;
+    });
+    window_->node(0).state = state_;
+    window_->node(planned_).state = {0.0, 0.0};
+    for (std::size_t i = n; i < window_->size(); ++i) {
+        JerkNode& node = window_->node(i);
+        node.cell.cap_sq = cuts.change_mm < known_mm_ ? node.wanted_sq : node.cell.cap_sq;
+        node.expected_sq = smaller(node.at_most_sq, node.cell.cap_sq);
+    }
+}
+
+// Finds the least distance that there is a motion for, and adopts it.
+template <Scalar S>
+template <class CutsAt>
+bool JerkChange<S>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
+    const auto possible = [&](double distance_mm, Cuts& cuts) {
+        cuts = cuts_at(distance_mm);
+        return fit(cuts) && attempt(cuts);
+    };
+    Cuts cuts;
+    double low = 0.0;
+    double high = smaller(guess_mm, known_mm_);
+    while (!possible(high, cuts)) {
+        if (!(high < known_mm_)) {
+            return false;
+        }
+        low = high;
+        high = smaller(high * farther, known_mm_);
+    }
+    while (high - low > close * high) {
+        const double middle = 0.5 * (low + high);
+        (possible(middle, cuts) ? high : low) = middle;
+    }
+    // What is as near as can be leaves no room to brake as hard as can be: a little farther may be sooner.
+    double best = high;
+    auto least_s = largest<double>();
+    for (const double more : {1.0, 1.005, 1.01, 1.02, 1.04, 1.08}) {
+        const double distance = smaller(high * more, known_mm_);
+        if (possible(distance, cuts) && seconds_ < least_s) {
+            least_s = seconds_;
+            best = distance;
+        }
+    }
+    if (!possible(best, cuts)) {
+        return false;
+    }
+    adopt(cuts);
+    return true;
+}
+
+template <Scalar S>
+bool JerkChange<S>::to_rest() noexcept {
+    const double v = square_root(state_.b);
+    const double a = 0.5 * larger(state_.slope, 0.0);
+    const double peak = v + 0.5 * a * a / along_.jerk_mm_s3; // the acceleration falls to zero first
+    peak_sq_ = peak * peak;
+    const double guess = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, pieces * JerkWindow<S>::shortest_mm);
+    return nearest(guess, [&](double end_mm) {
+        const double longest = guess / pieces;
+        return Cuts{end_mm, largest<double>(), end_mm + guess, longest,
+                    larger(longest * next_to_rest, JerkWindow<S>::shortest_mm)};
+    });
+}
+
+template <Scalar S>
+bool JerkChange<S>::to_wanted() noexcept {
+    const double v = square_root(state_.b);
+    const double wanted = square_root(window_->node(0).wanted_sq);
+    const double ramp = ramp_mm(v, wanted);
+    const double longest = larger(larger(ramp / pieces, sliver * known_mm_), JerkWindow<S>::shortest_mm);
+    const double stop = roomy * ramp_mm(larger(v, wanted), 0.0);
+    const auto cuts_at = [&](double change_mm) {
+        return Cuts{smaller(change_mm + ramp + stop, known_mm_), change_mm, change_mm + ramp, longest, longest};
+    };
+    Cuts cuts = cuts_at(0.0);
+    if (fit(cuts) && attempt(cuts)) {
+        adopt(cuts);
+        return true;
+    }
+    return nearest(larger(ramp, longest), cuts_at);
+}
+
+template class JerkChange<double>;
+template class JerkChange<float>;
+template class JerkChange<Fixed>;
+
+} // namespace splinefeed

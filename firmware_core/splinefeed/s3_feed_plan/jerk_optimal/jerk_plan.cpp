@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: MIT
+//
+// The window is planned leg by leg, from a stop (or from where the machine will be) to the next stop (or to the end of
+// what is known, at rest). A leg that ends at a stop is final; of one that ends with the window the first half is
+// committed. The rest is planned again with more in view. Its old plan is kept: where none can be found from the state
+// at the end of what is committed (that can happen, since the sets of states are made smaller to have few corners) the
+// old one is travelled to its end, which is at rest.
+//
+// A straight leg is one move in closed form (s_curve_profile.cpp).
+#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/leg_attempts.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double least_part = 0.01; // of a cell, where a change of the steering waits for the next
+template <Scalar S>
+constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fractions of a cell
+
+} // namespace
+
+template <Scalar S>
+JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
+    : source_(&source), limits_(&limits), window_(limits, storage) {
+    source.lead();
+}
+
+template <Scalar S>
+double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {
+    return to_double(source_->wanted_sq(cell, from_double<S>(most_sq), steering_.ratio()));
+}
+
+template <Scalar S>
+Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
+    Pull pull = source_->prepare(underrun);
+    if (pull != Pull::item) {
+        return pull;
+    }
+    const Cell<S> cell = source_->cell();
+    const double most_sq = to_double(source_->cap_sq());
+    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a crumb
+        source_->advance();
+        pull = source_->prepare(underrun);
+        SPLINEFEED_ASSERT(pull == Pull::item);
+    }
+    window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(source_->profile_segment().exit_sq));
+    planned_all_ = false;
+    source_->advance();
+    return Pull::item;
+}
+
+template <Scalar S>
+Pull JerkPlan<S>::fill(UnderrunPolicy underrun) noexcept {
+    Pull pull = Pull::item;
+    while (!window_.full() && pull == Pull::item) {
+        pull = take(underrun);
+    }
+    return pull;
+}
+
+// The second half of the old plan brakes for nothing but the end of what was known.
+template <Scalar S>
+void JerkPlan<S>::expect_again() noexcept {
+    window_.forget_travelled();
+    for (std::size_t i = (window_.size() + 1) / 2; i < window_.size(); ++i) {
+        JerkNode& node = window_.node(i);
+        node.expected_sq = smaller(node.at_most_sq, node.cell.cap_sq);
+    }
+}
+
+// From stop to stop through every cell: crumbs between cusps, and a few cells where there is no better plan; behind
+// them there may be one. Returns where it ends.
+template <Scalar S>
+std::size_t JerkPlan<S>::hop(std::size_t first, std::size_t end) noexcept {
+    planned_ = end;
+    if (end - first > JerkLeg::fewest_cells) {
+        slow_legs_ += hops_ == 1 ? 1U : 0U;
+        planned_ = smaller(end, first + hops_);
+        hops_ = smaller(2 * hops_, window_.size());
+    }
+    for (std::size_t i = first; i < planned_; ++i) {
+        window_.node(i).travel = Travel::hop;
+        window_.node(i + 1).state = {0.0, 0.0};
+    }
+    return planned_;
+}
+
+template <Scalar S>
+void JerkPlan<S>::plan(bool ended) noexcept {
+    const std::size_t half = (window_.size() + 1) / 2;
+    std::size_t at = 0;
+    while (at < window_.size() && (at == 0 || at < half)) {
+        std::size_t end = at + 1;
+        while (end < window_.size() && !window_.cell(end - 1).stop_at_end) {
+            ++end;
+        }
+        const bool stops = window_.cell(end - 1).stop_at_end || (ended && end == window_.size());
+        if (!stops && at > 0) {
+            break;
+        }
+        const std::size_t committed = stops ? end : half;
+        const bool rests = !(window_.node(at).state.b > 0.0);
+        if (stops && rests && StraightLeg<S>::is_straight(window_.nodes(at, end))) {
+            for (std::size_t i = at; i < end; ++i) {
+                window_.node(i).travel = Travel::line;
+            }
+            window_.node(end).state = {0.0, 0.0};
+            planned_ = end;
+            at = end;
+            hops_ = 1;
+        } else if (plan_leg(window_.nodes(at, end), rests ? 0 : planned_)) {
+            for (std::size_t i = at; i < end; ++i) {
+                window_.node(i).travel = Travel::curve;
+            }
+            planned_ = end;
+            at = committed;
+            hops_ = 1;
+        } else if (!rests) { // the old plan once more, to its end
+            SPLINEFEED_ASSERT(at == 0 && planned_ > 0);
+            ++slow_legs_;
+            at = planned_;
+        } else {
+            at = hop(at, end);
+        }
+    }
+    committed_ = at;
+    planned_all_ = true;
+}
+
+// The next profile segment of a straight move, as far as it lies in the front cell.
+template <Scalar S>
+void JerkPlan<S>::choose_on_line() noexcept {
+    const double length = window_.node(0).cell.length_mm;
+    const double per_length = 1.0 / length;
+    const JerkNode& node = window_.node(0);
+    const bool last = node.travel == Travel::hop || cell().stop_at_end; // the move ends in this cell
+    const LinePiece piece = last ? line_.next() : line_.next(length - on_line_mm_);
+    const S from = profile_segment_.stretch.from;
+    on_line_mm_ = smaller(on_line_mm_ + piece.length_mm, length);
+    const S one = from_integer<S>(1);
+    const S reached = from_double<S>(on_line_mm_ * per_length);
+    const bool to_end = last ? line_.done() : !(on_line_mm_ < length && reached < one);
+    // The last phase of a move may be shorter than the last digit of a cell: that one is kept for it.
+    const S before_end = one - scale2(one, last_digit_log2<S>);
+    profile_segment_ = {};
+    profile_segment_.stretch = {from, to_end ? one : smaller(reached, before_end)};
+    profile_segment_.entry_sq = from_double<S>(piece.entry_mm_s * piece.entry_mm_s);
+    profile_segment_.exit_sq = from_double<S>(piece.exit_mm_s * piece.exit_mm_s);
+    profile_segment_.shape = SpeedShape::cubic;
+    profile_segment_.duration_ms = from_double<S>(1e3 * piece.duration_s);
+    profile_segment_.linear = from_double<S>(piece.linear);
+    profile_segment_.quadratic = from_double<S>(piece.quadratic);
+    profile_segment_.stops = to_end && line_.done();
+}
+
+template <Scalar S>
+void JerkPlan<S>::choose() noexcept {
+    const JerkNode& from = window_.node(0);
+    const JerkNode& to = window_.node(1);
+    if (!line_.done()) {
+        choose_on_line();
+        return;
+    }
+    profile_segment_ = {};
+    on_line_mm_ = 0.0;
+    if (from.travel != Travel::curve) {
+        const StraightLeg<S> leg(window_);
+        line_ = LineTravel(leg.from_rest());
+        line_limits_ = leg.limits();
+        choose_on_line();
+        return;
+    }
+    const auto scalar = [](double x) {
+        return from_double<S>(x);
+    };
+    profile_segment_.entry_sq = scalar(from.state.b);
+    profile_segment_.exit_sq = scalar(to.state.b);
+    const bool starts = !(profile_segment_.entry_sq > S{});
+    const bool stops = !(profile_segment_.exit_sq > S{});
+    profile_segment_.stops = stops;
+    if (starts || stops) { // constant jerk, t = 3 L / v
+        profile_segment_.shape = SpeedShape::cubic;
+        profile_segment_.duration_ms =
+            scalar(3e3 * from.cell.length_mm / square_root(starts ? to.state.b : from.state.b));
+        profile_segment_.linear = from_integer<S>(starts ? 0 : 3);
+        profile_segment_.quadratic = from_integer<S>(starts ? 0 : -3);
+    } else {
+        profile_segment_.shape = SpeedShape::parabola;
+        profile_segment_.middle_sq = scalar(from.state.b + 0.5 * from.state.slope * from.cell.length_mm);
+    }
+}
+
+template <Scalar S>
+void JerkPlan<S>::want() noexcept {
+    steering_.taken();
+    for (std::size_t i = 0; i < window_.size(); ++i) {
+        JerkNode& node = window_.node(i);
+        node.wanted_sq = wanted_sq(window_.cell(i), node.most_sq);
+    }
+}
+
+template <Scalar S>
+bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
+    StraightLeg<S> leg(window_, line_limits_);
+    if (!(steering_.stops() ? leg.to_rest(from, state) : leg.to_end(from, state))) {
+        return false;
+    }
+    line_ = LineTravel(leg.move());
+    planned_ = committed_ = leg.cells();
+    window_.node(planned_).state = {0.0, 0.0}; // where it ends inside the leg an earlier plan may have moved
+    return true;
+}
+
+template <Scalar S>
+bool JerkPlan<S>::change_curve(double from, const SpeedState& state) noexcept {
+    JerkChange<S> change(window_, *limits_, from, state, planned_);
+    if (!(steering_.stops() ? change.to_rest() : change.to_wanted())) {
+        return false;
+    }
+    planned_ = change.planned();
+    committed_ = change.changed();
+    planned_all_ = false;
+    return true;
+}
+
+// A change of the steering while the machine moves. Where no other motion is found the plan stays as it is until there
+// is one from where a later profile segment starts; that of a stop is travelled to its end, at rest.
+template <Scalar S>
+bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
+    if (state.b < JerkWindow<S>::slowest_sq) {
+        return false; // later: it has just started, or is about to stand
+    }
+    want();
+    window_.forget_travelled();
+    if (halt_ > 0) {
+        window_.cell(halt_ - 1).stop_at_end = false;
+    }
+    const bool stops = steering_.stops();
+    const bool on_line = !line_.done();
+    const double travelled_mm = from * window_.node(0).cell.length_mm;
+    const bool found = on_line ? change_line(from, state) : change_curve(from, state);
+    unanswered_ = !found;
+    if (!found) {
+        if (halt_ > 0) {
+            window_.cell(halt_ - 1).stop_at_end = true;
+        }
+        committed_ = stops ? planned_ : committed_;
+        return false;
+    }
+    // What is left of the front cell is a cell of its own, but on a straight move.
+    on_line_mm_ = on_line ? travelled_mm : 0.0;
+    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).cell.length_mm);
+    halt_ = 0;
+    if (stops) {
+        committed_ = planned_;
+        if (!window_.cell(planned_ - 1).stop_at_end) {
+            halt_ = planned_;
+            Cell<S>& last = window_.cell(planned_ - 1);
+            last.stop_at_end = true;
+            last.position_at(from_integer<S>(1), last.end);
+        }
+    }
+    return true;
+}
+
+template <Scalar S>
+bool JerkPlan<S>::steer(const Place<S>& place) noexcept {
+    const double from = to_double(place.fraction);
+    const double left = 1.0 - from;
+    if (line_.done() && (left < least_part || left * window_.node(0).cell.length_mm < JerkWindow<S>::shortest_mm)) {
+        return false; // with the next profile segment
+    }
+    if (!answer(from, state_on(profile_segment_, window_.node(0).cell.length_mm, from, to_double(place.time_share)))) {
+        return false;
+    }
+    chosen_ = false;
+    return true;
+}
+
+// Before a profile segment is chosen.
+template <Scalar S>
+void JerkPlan<S>::follow_steering() noexcept {
+    if (standing()) {
+        unanswered_ = false;
+        want();
+        for (std::size_t i = 0; i < window_.size(); ++i) {
+            JerkNode& node = window_.node(i);
+            node.cell.cap_sq = node.wanted_sq;
+            node.expected_sq = smaller(node.at_most_sq, node.wanted_sq);
+        }
+        committed_ = planned_ = 0;
+        planned_all_ = false;
+    } else if (line_.done()) {
+        const SpeedState state = window_.node(0).state; // the node moves
+        static_cast<void>(answer(0.0, state));
+    } else {
+        const MoveState& state = line_.reached();
+        static_cast<void>(answer(to_double(profile_segment_.stretch.from),
+                                 {state.speed_mm_s * state.speed_mm_s, 2.0 * state.acceleration_mm_s2}));
+    }
+}
+
+template <Scalar S>
+Pull JerkPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
+    if (chosen_) {
+        return Pull::item;
+    }
+    if (steering_.stops() && standing()) {
+        if (steering_.aborts()) {
+            return Pull::finished;
+        }
+        const Pull pull = window_.size() == 0 ? fill(underrun) : Pull::item;
+        return window_.size() == 0 ? pull : Pull::held;
+    }
+    if (steering_.news() || unanswered_) {
+        follow_steering();
+    }
+    if (committed_ == 0 && steering_.stops()) {
+        committed_ = planned_;
+    }
+    if (committed_ == 0) {
+        expect_again();
+        const Pull pull = fill(underrun);
+        if (window_.size() == 0 || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
+            return pull;
+        }
+        if (planned_all_ && planned_ > 0) {
+            // What comes in later changes the rest of it, but for a move that is one.
+            const bool in_part =
+                pull == Pull::starved && !steering_.stops() && line_.done() && window_.node(0).travel == Travel::curve;
+            committed_ = in_part ? 1 : planned_;
+        } else {
+            plan(pull == Pull::finished);
+        }
+    }
+    choose();
+    chosen_ = true;
+    return Pull::item;
+}
+
+template <Scalar S>
+void JerkPlan<S>::advance() noexcept {
+    SPLINEFEED_ASSERT(chosen_);
+    chosen_ = false;
+    if (!(profile_segment_.stretch.to == from_integer<S>(1))) {
+        profile_segment_.stretch.from = profile_segment_.stretch.to;
+        return;
+    }
+    profile_segment_.stretch.from = S{};
+    on_line_mm_ = 0.0;
+    window_.pop();
+    --committed_;
+    --planned_;
+    halt_ -= halt_ > 0 ? 1U : 0U;
+}
+
+template <Scalar S>
+void JerkPlan<S>::rest_at(S /*fraction*/) noexcept {
+    SPLINEFEED_ASSERT(false); // it stops where it says
+}
+
+template <Scalar S>
+bool JerkPlan<S>::standing() const noexcept {
+    return !chosen_ && line_.done() && !(window_.node(0).state.b > 0.0);
+}
+
+template <Scalar S>
+void JerkPlan<S>::clear() noexcept {
+    SPLINEFEED_ASSERT(standing());
+    source_->forget();
+    window_.clear();
+    committed_ = planned_ = halt_ = 0;
+    hops_ = 1;
+    on_line_mm_ = 0.0;
+    profile_segment_ = {};
+    planned_all_ = unanswered_ = false;
+    steering_.start();
+}
+
+template class JerkPlan<double>;
+template class JerkPlan<float>;
+template class JerkPlan<Fixed>;
+
+} // namespace splinefeed

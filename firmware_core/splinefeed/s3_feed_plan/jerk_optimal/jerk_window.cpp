@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_window.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+#include "splinefeed/s2_arc_length/cell_part.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+// How much larger the third derivative of what fits leave is than the second, times the length. A rest x (1-x) (1-2x)
+// of q'' has the slope 1 at the ends and reaches 0.096. That of the inverse, c x^3 (1-x)^3 (x-1/2), makes it 24, but
+// five times that rest is allowed for.
+constexpr double ripple = 10.4;
+// Rounding of q'', times the length of the cell: a unit vector of Fixed is off by 2^-32, and is taken times the change
+// of |dr/dw| in the cell, at most as much as that is.
+template <Scalar S>
+constexpr double bend_noise = std::same_as<S, double> ? 0x1p-48 : 0x1p-30;
+
+} // namespace
+
+template <Scalar S>
+JerkCell jerk_cell_of(const Cell<S>& cell, const MotionLimits<S>& limits, double cap_sq) noexcept {
+    JerkCell out;
+    out.axes = cell.axes;
+    out.length_mm = to_double(cell.length_mm);
+    out.cap_sq = cap_sq;
+    const double unit = to_double(scale2(from_integer<S>(1), -limits.refinement.shape_log2));
+    const double per_length = 1.0 / out.length_mm;
+    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        const AxisShape<S>& shape = cell.shape[k];
+        out.jerk_mm_s3[k] = to_double(limits.jerk_mm_s3[k]);
+        for (unsigned e = 0; e < 2; ++e) {
+            AxisEnd& at = out.end[e][k];
+            at.first = to_double(shape.tangent[e]) * unit;
+            at.second = 0.5 * per_length * unit * to_double(shape.bend[2 * e]);
+            at.third = per_length * per_length * unit * to_double(shape.bend[1 + e] - shape.bend[e]);
+            at.second_spread = 0.5 * per_length * unit * to_double(shape.spread);
+            at.third_spread = ripple * at.second_spread * per_length;
+            at.most_forward = at.most_backward =
+                to_double(smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]));
+        }
+    }
+    return out;
+}
+
+template <Scalar S>
+JerkWindow<S>::JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
+    : limits_(&limits), storage_(storage), spare_(storage.cells.size() / 4) {
+    spare_ = spare_ < most_spare ? spare_ : most_spare;
+    clear();
+}
+
+// Where q'' jumps by d so does the acceleration by d v^2, and a third difference over T^3 sees up to 3/4 of that over
+// T. More than the reserve of MotionLimits::make can take is a stop.
+template <Scalar S>
+bool JerkWindow<S>::bend_jumps(const JerkNode& before, const JerkNode& after) const noexcept {
+    const double per_s = 0.75 * to_double(limits_->segments_per_s);
+    const double noise = bend_noise<S> / smaller(before.cell.length_mm, after.cell.length_mm);
+    for (unsigned k = 0; k < static_cast<unsigned>(after.cell.axes); ++k) {
+        const double jump = absolute(after.cell.end[0][k].second - before.cell.end[1][k].second);
+        const double reserve = detail::jerk_reserve * after.cell.jerk_mm_s3[k];
+        if ((jump - noise) * smaller(after.at_most_sq, after.most_sq) * per_s > reserve) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <Scalar S>
+void JerkWindow<S>::append(const Cell<S>& added, double most_sq, double wanted_sq, double exit_at_most_sq) noexcept {
+    SPLINEFEED_ASSERT(room() > 0);
+    cell(size_) = added;
+    JerkNode& here = node(size_);
+    here.cell = jerk_cell_of(added, *limits_, wanted_sq);
+    here.most_sq = most_sq;
+    here.wanted_sq = wanted_sq;
+    // What was expected under another override may be next to nothing.
+    here.expected_sq = size_ > 0 ? smaller(here.at_most_sq, smaller(node(size_ - 1).wanted_sq, wanted_sq))
+                                 : smaller(here.expected_sq, wanted_sq);
+    here.travel = Travel::curve;
+    if (size_ > 0 && bend_jumps(node(size_ - 1), here)) {
+        Cell<S>& before = cell(size_ - 1);
+        before.stop_at_end = true;
+        before.end = added.origin;
+    }
+    JerkNode& next = node(size_ + 1);
+    next.at_most_sq = exit_at_most_sq;
+    next.expected_sq = smaller(exit_at_most_sq, wanted_sq);
+    ++size_;
+}
+
+template <Scalar S>
+void JerkWindow<S>::pop() noexcept {
+    head_ = ring_index(head_ + 1, storage_.cells.size());
+    ++travelled_;
+    --size_;
+}
+
+template <Scalar S>
+void JerkWindow<S>::forget_travelled() noexcept {
+    for (std::size_t i = 0; travelled_ > 0 && i <= size_; ++i) {
+        storage_.nodes[i].take(storage_.nodes[travelled_ + i]);
+    }
+    travelled_ = 0;
+}
+
+template <Scalar S>
+void JerkWindow<S>::open(std::size_t first, std::size_t more) noexcept {
+    SPLINEFEED_ASSERT(travelled_ == 0 && more <= room());
+    for (std::size_t i = size_ + 1; i-- > first;) {
+        if (i < size_) {
+            cell(i + more) = cell(i);
+        }
+        node(i + more).take(node(i));
+    }
+    size_ += more;
+}
+
+template <Scalar S>
+void JerkWindow<S>::split(std::size_t i, double fraction) noexcept {
+    open(i, 1);
+    const S cut = from_double<S>(fraction);
+    const Cell<S> whole = cell(i + 1);
+    cell(i) = part_of(whole, CellInterval<S>{S{}, cut});
+    cell(i + 1) = part_of(whole, CellInterval<S>{cut, from_integer<S>(1)});
+    JerkNode& before = node(i);
+    JerkNode& after = node(i + 1);
+    before.take(after);
+    after.at_most_sq += fraction * (node(i + 2).at_most_sq - after.at_most_sq);
+    after.expected_sq = smaller(after.at_most_sq, after.cell.cap_sq);
+    after.state = {0.0, 0.0};
+    for (std::size_t k = i; k < i + 2; ++k) {
+        node(k).cell = jerk_cell_of(cell(k), *limits_, before.cell.cap_sq);
+    }
+}
+
+template <Scalar S>
+void JerkWindow<S>::clear() noexcept {
+    size_ = travelled_ = 0;
+    if (!storage_.nodes.empty()) {
+        storage_.nodes[0] = {}; // at rest; all others are written before they are read
+    }
+}
+
+template JerkCell jerk_cell_of(const Cell<double>&, const MotionLimits<double>&, double) noexcept;
+template JerkCell jerk_cell_of(const Cell<float>&, const MotionLimits<float>&, double) noexcept;
+template JerkCell jerk_cell_of(const Cell<Fixed>&, const MotionLimits<Fixed>&, double) noexcept;
+template class JerkWindow<double>;
+template class JerkWindow<float>;
+template class JerkWindow<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+//
+// To the speed v with the jerk j and at most the acceleration a:
+//   v j >= a^2: the acceleration rises for a/j, stays for v/a - a/j and falls for a/j: T = v/a + a/j in all,
+//   else it rises and falls for sqrt(v/j): T = 2 sqrt(v/j).
+// By symmetry the way is v T / 2, and as much for braking. Where 2 v T / 2 > L, the speed v that is reached follows
+// from v T(v) = L: v^2/a + v a/j = L, or 2 v^(3/2) / sqrt(j) = L.
+//
+// In motion, with the acceleration b (counted towards the speed that is to be reached, a change by d): it goes from b
+// to a peak p and back to zero, which changes the speed by (2 p^2 - b^2) / (2 j); p = sqrt(j d + b^2 / 2), or the
+// limit, which then stays. The way of a move to rest grows with its peak speed, which halving finds.
+#include "splinefeed/s3_feed_plan/jerk_optimal/s_curve_profile.hpp"
+
+#include "splinefeed/number/scalar.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double rounding = 1e-9; // of a length, which would be crept along
+
+} // namespace
+
+// Newton's method on y^3 = x^2 from above, after taking powers of 8 out of x^2 so that y starts within a factor of 4.
+double power_two_thirds(double x) noexcept {
+    double square = x * x;
+    double scale = 1.0;
+    while (square > 8.0) {
+        square *= 0.125;
+        scale *= 2.0;
+    }
+    while (square < 1.0 && square > 0.0) {
+        square *= 8.0;
+        scale *= 0.5;
+    }
+    double y = 2.0;
+    for (int i = 0; i < 8; ++i) {
+        y = (2.0 * y + square / (y * y)) * (1.0 / 3.0);
+    }
+    return y * scale;
+}
+
+MoveState MoveState::after(double t, double jerk_mm_s3) const noexcept {
+    return {position_mm + t * (speed_mm_s + t * (0.5 * acceleration_mm_s2 + t * jerk_mm_s3 * (1.0 / 6.0))),
+            speed_mm_s + t * (acceleration_mm_s2 + 0.5 * t * jerk_mm_s3), acceleration_mm_s2 + t * jerk_mm_s3};
+}
+
+SCurveProfile::SCurveProfile(double length_mm, const MoveLimits& limits) noexcept {
+    const double a = limits.acceleration_mm_s2;
+    const double j = limits.jerk_mm_s3;
+    const double corner = a * a / j; // speed up to which the acceleration does not reach its limit
+    double v = limits.speed_mm_s;
+    const double ramp = v >= corner ? v / a + a / j : 2.0 * square_root(v / j);
+    double cruise = 0.0;
+    if (v * ramp <= length_mm) {
+        cruise = (length_mm - v * ramp) / v;
+    } else {
+        v = power_two_thirds(0.5 * length_mm * square_root(j));
+        if (v > corner) {
+            v = 0.5 * (square_root(corner * corner + 4.0 * a * length_mm) - corner);
+        }
+    }
+    const double rise = v >= corner ? a / j : square_root(v / j);
+    const double stay = v >= corner ? larger(v / a - a / j, 0.0) : 0.0;
+    phase_ = {{{rise, j}, {stay, 0.0}, {rise, -j}, {cruise, 0.0}, {rise, -j}, {stay, 0.0}, {rise, j}}};
+}
+
+// To a steady speed, in three phases.
+void SCurveProfile::ramp(std::size_t first, const MoveState& from, double to_mm_s, const MoveLimits& limits) noexcept {
+    const double j = limits.jerk_mm_s3;
+    const double a0 = from.acceleration_mm_s2;
+    const double steady = from.speed_mm_s + 0.5 * a0 * absolute(a0) / j; // if the acceleration is taken back at once
+    const double way = to_mm_s < steady ? -1.0 : 1.0;
+    const double b = way * a0;
+    const double change = way * (to_mm_s - from.speed_mm_s);
+    const double square = j * change + 0.5 * b * b;
+    double peak = square > 0.0 ? square_root(square) : 0.0;
+    double stay = 0.0;
+    const double most = larger(limits.acceleration_mm_s2, b); // rounding, or a limit that became lower
+    if (peak > most) {
+        peak = most;
+        stay = larger((change - (2.0 * peak * peak - b * b) / (2.0 * j)) / peak, 0.0);
+    }
+    phase_[first] = {larger((peak - b) / j, 0.0), way * j};
+    phase_[first + 1] = {stay, 0.0};
+    phase_[first + 2] = {peak / j, -way * j};
+}
+
+void SCurveProfile::pass(const MoveState& start, double peak_mm_s, const MoveLimits& limits) noexcept {
+    start_ = start;
+    ramp(0, start, peak_mm_s, limits);
+    phase_[3] = {};
+    ramp(4, {0.0, peak_mm_s, 0.0}, 0.0, limits);
+}
+
+SCurveProfile SCurveProfile::to_rest(const MoveState& start, const MoveLimits& limits) noexcept {
+    SCurveProfile move;
+    move.start_ = start;
+    move.ramp(4, start, 0.0, limits); // the last phases: with them a move ends
+    return move;
+}
+
+SCurveProfile SCurveProfile::to_length(const MoveState& start, double length_mm, const MoveLimits& limits) noexcept {
+    SCurveProfile nearest = to_rest(start, limits);
+    if (!(nearest.length_mm() < length_mm * (1.0 - rounding))) {
+        return nearest;
+    }
+    SCurveProfile move;
+    move.pass(start, limits.speed_mm_s, limits);
+    const double rest = length_mm - move.length_mm();
+    if (rest >= 0.0) {
+        move.phase_[3].duration_s = rest / limits.speed_mm_s;
+        return move;
+    }
+    double low = 0.0;
+    double high = limits.speed_mm_s;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        move.pass(start, middle, limits);
+        (move.length_mm() > length_mm ? high : low) = middle;
+    }
+    move.pass(start, low, limits);
+    if (low > 0.0) {
+        move.phase_[3].duration_s = larger((length_mm - move.length_mm()) / low, 0.0); // what halving left
+    }
+    return move;
+}
+
+double SCurveProfile::length_mm() const noexcept {
+    MoveState state{0.0, start_.speed_mm_s, start_.acceleration_mm_s2};
+    for (const JerkPhase& phase : phase_) {
+        state = state.after(phase.duration_s, phase.jerk_mm_s3);
+    }
+    return state.position_mm;
+}
+
+double SCurveProfile::duration_s() const noexcept {
+    double sum = 0.0;
+    for (const JerkPhase& phase : phase_) {
+        sum += phase.duration_s;
+    }
+    return sum;
+}
+
+} // namespace splinefeed

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s3_feed_plan/jerk_optimal/straight_leg.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double same_cap = 1e-9;
+constexpr double end = 1e-6; // of a cell, in which a move ends with the cell
+
+/// The fastest that the acceleration-limited plan is in the cell behind a node, with the largest override.
+double fastest_sq(const JerkNode& node, const JerkNode& next) noexcept {
+    return smaller(node.most_sq, larger(node.at_most_sq, next.at_most_sq));
+}
+
+/// What keeps the limits of all cells of a straight leg.
+MoveLimits limits_of(std::span<const JerkNode> nodes) noexcept {
+    MoveLimits least{square_root(nodes.front().most_sq), largest<double>(), largest<double>()};
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const MoveLimits limits = nodes[i].cell.move_limits(fastest_sq(nodes[i], nodes[i + 1]));
+        least.acceleration_mm_s2 = smaller(least.acceleration_mm_s2, limits.acceleration_mm_s2);
+        least.jerk_mm_s3 = smaller(least.jerk_mm_s3, limits.jerk_mm_s3);
+    }
+    return least;
+}
+
+MoveState state_of(const SpeedState& state) noexcept {
+    return {0.0, square_root(state.b), 0.5 * state.slope};
+}
+
+} // namespace
+
+template <Scalar S>
+bool StraightLeg<S>::is_straight(std::span<const JerkNode> nodes) noexcept {
+    const double cap = nodes.front().cell.cap_sq;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const JerkCell& cell = nodes[i].cell;
+        if (!cell.straight(fastest_sq(nodes[i], nodes[i + 1])) || absolute(cell.cap_sq - cap) > same_cap * cap) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <Scalar S>
+StraightLeg<S>::StraightLeg(JerkWindow<S>& window) noexcept : window_(&window) {
+    find_cells();
+    const JerkNode& front = window.node(0);
+    limits_ = front.travel == Travel::hop ? front.cell.move_limits(front.most_sq) : limits_of(window.nodes(0, cells_));
+}
+
+template <Scalar S>
+StraightLeg<S>::StraightLeg(JerkWindow<S>& window, const MoveLimits& limits) noexcept
+    : window_(&window), limits_(limits) {
+    find_cells();
+}
+
+template <Scalar S>
+void StraightLeg<S>::find_cells() noexcept {
+    while (window_->node(0).travel != Travel::hop && !window_->cell(cells_ - 1).stop_at_end) {
+        ++cells_;
+    }
+}
+
+// The limits, with the caps of the cells.
+template <Scalar S>
+MoveLimits StraightLeg<S>::capped() const noexcept {
+    MoveLimits limits = limits_;
+    for (std::size_t i = 0; i < cells_; ++i) {
+        limits.speed_mm_s = smaller(limits.speed_mm_s, square_root(window_->node(i).cell.cap_sq));
+    }
+    return limits;
+}
+
+template <Scalar S>
+double StraightLeg<S>::length_mm() const noexcept {
+    double length = 0.0;
+    for (std::size_t i = 0; i < cells_; ++i) {
+        length += window_->node(i).cell.length_mm;
+    }
+    return length;
+}
+
+template <Scalar S>
+SCurveProfile StraightLeg<S>::from_rest() const noexcept {
+    return SCurveProfile(length_mm(), capped());
+}
+
+template <Scalar S>
+bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
+    move_ = SCurveProfile::to_rest(state_of(state), limits_);
+    double left = from * window_->node(0).cell.length_mm + move_.length_mm();
+    std::size_t i = 0;
+    while (i < cells_ && left > window_->node(i).cell.length_mm) {
+        left -= window_->node(i).cell.length_mm;
+        ++i;
+    }
+    if (i == cells_) {
+        return false;
+    }
+    // No part is cut off that is next to nothing: a little farther, or to the end of the cell.
+    constexpr double least = JerkWindow<S>::shortest_mm;
+    const double length = window_->node(i).cell.length_mm;
+    const bool whole = larger(left, least) > length - least;
+    const double more = (whole ? length : larger(left, least)) - left;
+    if (whole ? i + 1 == cells_ : window_->room() == 0) {
+        return false;
+    }
+    if (more > 0.0) {
+        move_ = SCurveProfile::to_length(state_of(state), move_.length_mm() + more, limits_);
+    }
+    if (!whole) {
+        window_->split(i, (left + more) / length);
+    }
+    cells_ = i + 1;
+    return true;
+}
+
+template <Scalar S>
+bool StraightLeg<S>::to_end(double from, const SpeedState& state) noexcept {
+    const double left = length_mm() - from * window_->node(0).cell.length_mm;
+    MoveLimits wanted = limits_;
+    for (std::size_t i = 0; i < cells_; ++i) {
+        wanted.speed_mm_s = smaller(wanted.speed_mm_s, square_root(window_->node(i).wanted_sq));
+    }
+    move_ = SCurveProfile::to_length(state_of(state), left, wanted);
+    if (!(move_.length_mm() <= left * (1.0 + end))) {
+        return false;
+    }
+    for (std::size_t i = 0; i < cells_; ++i) {
+        window_->node(i).cell.cap_sq = window_->node(i).wanted_sq;
+    }
+    return true;
+}
+
+template class StraightLeg<double>;
+template class StraightLeg<float>;
+template class StraightLeg<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// dq/ds of a cell is the cubic with the Bezier points of acceleration_bound.cpp. The length of a vector is convex: of
+// its linear part it is nowhere longer than the longest of the four points.
+#include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+template <Scalar S>
+S share_of(const Cell<S>& cell, const MotionLimits<S>& limits, bool rotary) noexcept {
+    const S sixth = literal<S>(1.0 / 6.0);
+    S largest{};
+    for (unsigned j = 0; j < 4; ++j) {
+        PerAxis<S> direction{};
+        for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+            const AxisShape<S>& shape = cell.shape[k];
+            if (limits.rotary[k] == rotary) {
+                direction[k] = j == 0   ? shape.tangent[0]
+                               : j == 1 ? shape.tangent[0] + sixth * shape.bend[0]
+                               : j == 2 ? shape.tangent[1] - sixth * shape.bend[2]
+                                        : shape.tangent[1];
+            }
+        }
+        largest = larger(largest, norm(direction.data(), cell.axes));
+    }
+    return smaller(scale2(largest, -limits.refinement.shape_log2), from_integer<S>(1));
+}
+
+} // namespace
+
+template <Scalar S>
+S feed_share(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept {
+    if (!limits.mixed) {
+        return from_integer<S>(1);
+    }
+    const S linear = share_of(cell, limits, false);
+    return linear > literal<S>(0x1p-17) ? linear : share_of(cell, limits, true);
+}
+
+#define SPLINEFEED_INSTANTIATE(S) template S feed_share(const Cell<S>&, const MotionLimits<S>&) noexcept;
+SPLINEFEED_INSTANTIATE(double)
+SPLINEFEED_INSTANTIATE(float)
+SPLINEFEED_INSTANTIATE(Fixed)
+#undef SPLINEFEED_INSTANTIATE
+
+} // namespace splinefeed

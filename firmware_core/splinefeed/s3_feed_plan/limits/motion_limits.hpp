@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: MIT
+// MotionLimits: what the machine can do, checked once, in the scalar of the pipeline.
+#pragma once
+
+#include "splinefeed/base/capacity.hpp"
+#include "splinefeed/base/status.hpp"
+#include "splinefeed/number/scalar.hpp"
+#include "splinefeed/s2_arc_length/arc_length.hpp"
+#include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
+
+#include <cstdint>
+
+namespace splinefeed {
+
+/// One tick of a feed segment's duration is 1/8 us.
+inline constexpr int ticks_per_us = 8;
+
+/// The checked limits. A plain aggregate: a microcontroller can build it at compile time.
+template <Scalar S>
+struct MotionLimits {
+    int axes = 0;
+    PerAxis<S> velocity_mm_s{};
+    PerAxis<S> acceleration_mm_s2{};           ///< along the axis's velocity
+    PerAxis<S> braking_mm_s2{};                ///< against it
+    PerAxis<std::uint64_t> steps_per_mm_q32{}; ///< counts per mm, 32 fraction bits
+    S feed_mm_s{};                             ///< what planning may use of max_feed_mm_s
+    S path_mm_s{}; ///< no speed along the path, over all axes, is above; without rotary axes feed_mm_s
+    PerAxis<bool> rotary{};
+    PerAxis<S> end_velocity_mm_s{}; ///< of an axis beyond Refinement::open; 0: no such limit
+    bool mixed = false;             ///< some axes are rotary and some are not
+    PerAxis<S> jerk_mm_s3{};        ///< meaningful where jerk_limited
+    bool jerk_limited = false;      ///< some axis's jerk is limited: the speeds want a JerkPlan or a SmoothPlan
+    JerkTier jerk_tier = JerkTier::optimal;
+    std::uint32_t smoothing_q8 = 0;      ///< of JerkTier::bounded: time to average over, in 1/256 of a segment
+    std::uint32_t most_smoothing_q8 = 0; ///< and the longest that a straight move may ask for
+    S usable{};                          ///< the part of a limit that planning may use, but for the noise of positions
+    S feed_noise_mm_s{};
+    S centripetal_mm_s2{};           ///< 0: none
+    S chord_mm_s2{};                 ///< 8 e / T^2, to be divided by the curvature; 0: none
+    S segments_per_s{};              ///< feed segments a second
+    std::uint32_t segment_ticks = 0; ///< duration of a feed segment
+    int segments_per_sample = 1;     ///< feed segments per sample period
+    Refinement<S> refinement{};
+
+    /// What planning may use of a programmed feed; at least half of it.
+    [[nodiscard]] constexpr S usable_feed(S feed) const noexcept {
+        return larger(feed * usable - feed_noise_mm_s, scale2(feed, -1));
+    }
+
+    /// Checks every number (Error names the first that is out of range) and derives the rest.
+    [[nodiscard]] static constexpr Result<MotionLimits> make(const MachineSettings& settings) noexcept;
+};
+
+namespace detail {
+
+/// Relative resolution of the curve parameter within a cell, with what the polynomials add to it.
+template <Scalar S>
+inline constexpr double parameter_error = 9.4e-10; // 4 ulp of Q31.32; double takes the same cells, to stay comparable
+template <>
+inline constexpr double parameter_error<float> = 2.4e-7; // 4 x 2^-24
+
+/// The part of every limit that planning leaves to relative rounding.
+template <Scalar S>
+inline constexpr double usable_margin = 6e-6; // twice the feed fluctuation that arc length tolerates
+template <>
+inline constexpr double usable_margin<float> = 1e-3;
+
+/// How much of an acceleration limit rounding may use up before cells are made shorter.
+template <Scalar S>
+inline constexpr double rounding_share = 2e-5;
+template <>
+inline constexpr double rounding_share<float> = 2e-3;
+
+/// The same of an axis's own limit, for the jumps of its speed that rounding causes where cells meet. Less of it makes
+/// float slow: its cells of long segments have few digits for a direction.
+template <Scalar S>
+inline constexpr double jump_share = 4e-5;
+template <>
+inline constexpr double jump_share<float> = 2e-2;
+
+/// And for joints whose change of direction is tolerated as none (Refinement::direction_jump).
+inline constexpr double corner_share = 2e-5;
+
+/// Segments that a mean may take in.
+inline constexpr int most_smoothing = 1024;
+
+/// Time to average over, for the time A / J of the axis that takes longest to its acceleration: shorter, it leaves
+/// acceleration unused, longer, bends are smoothed away (docs/explanation/feed.md).
+constexpr double smoothing_s(double rise_s) noexcept {
+    const double most = 0.7 * rise_s < 0.0175 ? 0.7 * rise_s : 0.0175;
+    return most > 0.35 * rise_s ? most : 0.35 * rise_s;
+}
+
+/// A time in 1/256 of a segment, from one segment to the most.
+constexpr std::uint32_t smoothing_q8(double time_s, double segment_s) noexcept {
+    const double q8 = 256.0 * time_s / segment_s + 0.5;
+    return q8 < 256.0 ? 256U : q8 > 256.0 * most_smoothing ? 256U * most_smoothing : static_cast<std::uint32_t>(q8);
+}
+
+/// Rounding of a position, e, becomes the acceleration 4 e / T^2 in the second difference of control points.
+constexpr double acceleration_noise(double error_mm, double segment_s) noexcept {
+    return 4.0 * error_mm / (segment_s * segment_s);
+}
+
+/// The part of a jerk limit that planning leaves to jumps of the curvature.
+inline constexpr double jerk_reserve = 5e-4;
+
+/// The jerk 8 e / T^3 in the third.
+constexpr double jerk_noise(double error_mm, double segment_s) noexcept {
+    return 8.0 * error_mm / (segment_s * segment_s * segment_s);
+}
+
+/// And the speed 2 e / T in the first difference.
+constexpr double speed_noise(double error_mm, double segment_s) noexcept {
+    return 2.0 * error_mm / segment_s;
+}
+
+/// Longest cell [mm]: its parameter resolves `error` of it, which must stay below `share` of the acceleration and ten
+/// times that of the feed; and below a thousandth of the jerk, if that is limited (not 0).
+constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double jerk,
+                                 double segment_s) noexcept {
+    const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
+    const double by_feed = 10.0 * share * feed * segment_s / (2.0 * error);
+    double length = by_acceleration < by_feed ? by_acceleration : by_feed;
+    const double by_jerk = 1e-3 * jerk * segment_s * segment_s * segment_s / (8.0 * error);
+    length = jerk > 0.0 && by_jerk < length ? by_jerk : length;
+    return length < 0.0625 ? 0.0625 : length > 16.0 ? 16.0 : length;
+}
+
+/// Feed segments per sample period (1, 2, 4 or 8) that keep the smoothing of the path, T^2 |A| / 6, below 0.35 um.
+constexpr int segments_per_sample(double period_s, double acceleration_sq) noexcept {
+    int n = 1;
+    while (n < 8) {
+        const double t2 = period_s * period_s / (n * n);
+        if (t2 * t2 * acceleration_sq <= 36.0 * 0.35e-3 * 0.35e-3) { // squared, to avoid the root
+            break;
+        }
+        n *= 2;
+    }
+    return n;
+}
+
+/// Rounding of a direction at a joint, which is no corner.
+template <Scalar S>
+inline constexpr double direction_noise = 2e-9;
+template <>
+inline constexpr double direction_noise<float> = 2e-6;
+
+/// Largest curvature of a cell [1/mm]. No plan is slower than v = 1e-3 mm/s away from stops, and there the curvature
+/// k asks for the acceleration k v^2, which may be an eighth of the softest limit, and for the jerk q''' v^3, which may
+/// be a quarter of one. A hairpin that cells resolve has |q'''| up to some 5 k^2. @param jerk  0: not limited
+constexpr double sharpest_curvature(double acceleration, double jerk) noexcept {
+    constexpr double most = 16e6; // that a cell tells from infinite
+    const double by_acceleration = 1e6 / 8.0 * acceleration;
+    double sharpest = by_acceleration < most ? by_acceleration : most;
+    if (jerk > 0.0 && 5e-9 * sharpest * sharpest > 0.25 * jerk) {
+        double root = sharpest; // Newton's steps end above the root
+        for (int step = 0; step < 64; ++step) {
+            root = 0.5 * (root + 0.05e9 * jerk / root);
+        }
+        sharpest = root;
+    }
+    return sharpest;
+}
+
+/// Chord error e at the sample period T: v^2 <= 8 e / (kappa T^2), capped to what Fixed holds (no limit in practice).
+constexpr double chord_limit(double error_mm, double period_s) noexcept {
+    const double limit = 8.0 * error_mm / (period_s * period_s);
+    return limit < 1e9 ? limit : 1e9;
+}
+
+/// Numbers made of a shape are at most 3, and times v^2 they must stay below 2^29; what is left of that Fixed has for
+/// digits.
+constexpr int shape_log2(double feed) noexcept {
+    int n = 0;
+    while (n < 16 && 3.0 * feed * feed * (2 << n) <= 400e6) {
+        ++n;
+    }
+    return n;
+}
+
+/// Speed of a path along which the linear axes keep the feed and each rotary axis its velocity; at most what fits into
+/// Fixed, squared, with the numbers of a shape.
+constexpr double fastest_path(double feed, double turning_sq) noexcept {
+    constexpr double fastest = 10000.0;
+    double root = fastest; // Newton's steps end above the root
+    for (int step = 0; step < 64; ++step) {
+        root = 0.5 * (root + (feed * feed + turning_sq) / root);
+    }
+    return root < fastest ? root : fastest;
+}
+
+constexpr bool within(double x, double low, double high) noexcept {
+    return x >= low && x <= high; // false for NaN
+}
+
+/// false for NaN
+constexpr bool travel_end_valid(const AxisSettings& axis) noexcept {
+    return within(axis.travel_end_zone_mm, 0.001, 1e6) && within(axis.travel_end_velocity_mm_s, 0.001, 10000.0) &&
+           position_representable(axis.travel_low_mm) && position_representable(axis.travel_high_mm) &&
+           axis.travel_low_mm < axis.travel_high_mm;
+}
+
+/// Travel at full speed. What is emitted averages the plan over two segments to either side, which the axis passes at
+/// its end velocity, and the position is off by T^2 A / 6: the zone begins that much earlier.
+constexpr PositionRange open_travel(const AxisSettings& axis, double segment_s) noexcept {
+    const double zone = axis.travel_end_zone_mm + 2.0 * segment_s * axis.travel_end_velocity_mm_s +
+                        segment_s * segment_s * axis.larger_acceleration_mm_s2() / 6.0;
+    const auto position = [](double mm) {
+        return position_from_mm(mm < -1048576.0 ? -1048576.0 : mm > 1048576.0 ? 1048576.0 : mm);
+    };
+    return {position(axis.travel_low_mm + zone), position(axis.travel_high_mm - zone)};
+}
+
+/// Largest count of an axis, either way.
+inline constexpr double most_counts = 2147483647.0;
+
+/// Where the counter of an axis reaches; 2^21 mm is beyond all waypoints and what a curve overshoots them by.
+constexpr PositionRange countable(const AxisSettings& axis) noexcept {
+    const double mm = most_counts / axis.steps_per_mm;
+    const Position reach = displaced(Position{}, mm < 2097152.0 ? mm : 2097152.0, 0);
+    return {Position{-reach.raw}, reach};
+}
+
+/// What is wrong with the numbers that are no axis's; none if nothing.
+constexpr Error machine_error(const MachineSettings& settings) noexcept {
+    if (settings.axes < 1 || settings.axes > max_axes) {
+        return Error::axes_out_of_range;
+    }
+    if (!within(settings.max_feed_mm_s, 0.001, 10000.0)) {
+        return Error::feed_out_of_range;
+    }
+    if (settings.centripetal_mm_s2 != 0.0 && !within(settings.centripetal_mm_s2, 0.1, 1e6)) {
+        return Error::centripetal_out_of_range;
+    }
+    if (settings.chord_error_mm != 0.0 && !within(settings.chord_error_mm, 1e-6, 1.0)) {
+        return Error::chord_error_out_of_range;
+    }
+    if (settings.sample_period_us < 50 || settings.sample_period_us > 100000) {
+        return Error::sample_period_out_of_range;
+    }
+    const int n = settings.segments_per_sample;
+    if (n < 0 || n > 8 || (n > 0 && settings.sample_period_us * ticks_per_us % n != 0)) {
+        return Error::segments_per_sample_invalid;
+    }
+    return Error::none;
+}
+
+/// What is wrong with an axis's numbers; none if nothing.
+template <Scalar S>
+constexpr Error axis_error(const AxisSettings& axis) noexcept {
+    if (!within(axis.max_velocity_mm_s, 0.001, 10000.0)) {
+        return Error::velocity_out_of_range;
+    }
+    if (!within(axis.max_acceleration_mm_s2, 0.1, 1e6)) {
+        return Error::acceleration_out_of_range;
+    }
+    if (axis.max_braking_mm_s2 != 0.0 && !within(axis.max_braking_mm_s2, 0.1, 1e6)) {
+        return Error::braking_out_of_range;
+    }
+    if (axis.travel_end_zone_mm != 0.0 && !travel_end_valid(axis)) {
+        return Error::travel_end_out_of_range;
+    }
+    if (axis.max_jerk_mm_s3 != 0.0 && !within(axis.max_jerk_mm_s3, 1.0, 1e9)) {
+        return Error::jerk_out_of_range;
+    }
+    if (std::same_as<S, float> && axis.max_jerk_mm_s3 != 0.0) {
+        return Error::jerk_in_float;
+    }
+    if (!within(axis.steps_per_mm, 0.001, 1e6)) {
+        return Error::steps_out_of_range;
+    }
+    if (axis.travel_end_zone_mm != 0.0 && (axis.travel_low_mm * axis.steps_per_mm < -most_counts ||
+                                           axis.travel_high_mm * axis.steps_per_mm > most_counts)) {
+        return Error::counts_out_of_range;
+    }
+    return Error::none;
+}
+
+} // namespace detail
+
+template <Scalar S>
+constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& settings) noexcept {
+    if (const Error error = detail::machine_error(settings); error != Error::none) {
+        return error;
+    }
+    MotionLimits limits;
+    limits.axes = settings.axes;
+    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+        if (const Error error = detail::axis_error<S>(settings.axis[k]); error != Error::none) {
+            return error;
+        }
+    }
+    const AxisTotals totals = axis_totals(settings);
+    const double softest = totals.softest;
+    const double smoothest = totals.smoothest;
+    double rise_s = 0.0; // longest time to the acceleration of an axis
+    limits.mixed = totals.rotary > 0 && totals.rotary < settings.axes;
+    const double path =
+        limits.mixed ? detail::fastest_path(settings.max_feed_mm_s, totals.turning_sq) : settings.max_feed_mm_s;
+    const double period_s = settings.sample_period_us * 1e-6;
+    const int n = settings.segments_per_sample > 0 ? settings.segments_per_sample
+                                                   : detail::segments_per_sample(period_s, totals.acceleration_sq);
+    const double segment_s = period_s / n;
+    constexpr double usable = 1.0 - detail::usable_margin<S>;
+    double feed_noise = 0.0;
+    const double longest = detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest,
+                                                   settings.max_feed_mm_s, smoothest, segment_s);
+    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+        const AxisSettings& axis = settings.axis[k];
+        // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30).
+        // Where the jerk is limited v^2 is a parabola of s: the parameter is the sum of a series.
+        const double parameter_error = (smoothest > 0.0 ? 4.0 : 1.0) * detail::parameter_error<S>;
+        const double error_mm = longest * parameter_error + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
+        const double noise = detail::acceleration_noise(error_mm, segment_s);
+        if (noise > 0.25 * axis.smaller_acceleration_mm_s2()) {
+            return Error::period_too_short;
+        }
+        const double speed_noise = detail::speed_noise(error_mm, segment_s);
+        if (speed_noise > 0.25 * axis.max_velocity_mm_s || speed_noise > 0.25 * settings.max_feed_mm_s) {
+            return Error::period_too_short;
+        }
+        feed_noise += speed_noise;
+        if (axis.travel_end_zone_mm != 0.0) {
+            if (speed_noise > 0.25 * axis.travel_end_velocity_mm_s) {
+                return Error::period_too_short;
+            }
+            limits.end_velocity_mm_s[k] = from_double<S>(axis.travel_end_velocity_mm_s * usable - speed_noise);
+            limits.refinement.open[k] = detail::open_travel(axis, segment_s);
+            const S piece = from_double<S>(axis.travel_end_zone_mm / 64.0);
+            S& longest_piece = limits.refinement.end_piece_mm;
+            longest_piece = longest_piece > S{} ? smaller(longest_piece, piece) : piece;
+        }
+        limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * usable - speed_noise);
+        // Jumps of the speed and of the direction that are tolerated at joints are accelerations, too.
+        const auto planned = [&](double acceleration) {
+            return from_double<S>(acceleration * usable - noise -
+                                  detail::jump_share<S> * axis.smaller_acceleration_mm_s2() -
+                                  detail::corner_share * softest);
+        };
+        limits.refinement.jump_mm_s[k] =
+            from_double<S>(detail::jump_share<S> * axis.smaller_acceleration_mm_s2() * segment_s);
+        limits.acceleration_mm_s2[k] = planned(axis.max_acceleration_mm_s2);
+        limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
+        limits.rotary[k] = axis.rotary;
+        limits.refinement.countable[k] = detail::countable(axis);
+        if (axis.max_jerk_mm_s3 > 0.0) {
+            const double jerk_noise = detail::jerk_noise(error_mm, segment_s);
+            if (jerk_noise > 0.25 * axis.max_jerk_mm_s3) {
+                return Error::period_too_short;
+            }
+            limits.jerk_limited = true;
+            // The softest axis holds the others back to about as much
+            const double acceleration =
+                axis.smaller_acceleration_mm_s2() < 2.0 * softest ? axis.smaller_acceleration_mm_s2() : 2.0 * softest;
+            const double rise = acceleration / axis.max_jerk_mm_s3;
+            rise_s = rise > rise_s ? rise : rise_s;
+            limits.jerk_mm_s3[k] = from_double<S>(axis.max_jerk_mm_s3 * (usable - detail::jerk_reserve) - jerk_noise);
+        } else {
+            limits.jerk_mm_s3[k] = from_integer<S>(1 << 30); // no limit in practice
+        }
+        limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
+    }
+    limits.jerk_tier = settings.jerk_tier;
+    limits.smoothing_q8 = (detail::smoothing_q8(detail::smoothing_s(rise_s), segment_s) + 128U) / 256U * 256U;
+    limits.most_smoothing_q8 = detail::smoothing_q8(rise_s, segment_s);
+    limits.usable = from_double<S>(usable);
+    limits.feed_noise_mm_s = from_double<S>(feed_noise);
+    limits.feed_mm_s = limits.usable_feed(from_double<S>(settings.max_feed_mm_s));
+    limits.path_mm_s = limits.mixed ? from_double<S>(path * usable) : limits.feed_mm_s;
+    limits.centripetal_mm_s2 = from_double<S>(settings.centripetal_mm_s2 * usable);
+    limits.chord_mm_s2 = from_double<S>(detail::chord_limit(settings.chord_error_mm, period_s));
+    limits.segments_per_s = from_double<S>(n / period_s);
+    limits.segment_ticks = static_cast<std::uint32_t>(settings.sample_period_us * ticks_per_us / n);
+    limits.segments_per_sample = n;
+    Refinement<S>& refinement = limits.refinement;
+    refinement.axes = settings.axes;
+    refinement.longest_mm = from_double<S>(longest);
+    refinement.max_feed_mm_s = limits.feed_mm_s;
+    refinement.shape_log2 = detail::shape_log2(path);
+    // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
+    refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
+    refinement.sharpest = from_double<S>(detail::sharpest_curvature(softest, smoothest));
+    if (smoothest > 0.0) {
+        refinement.finest_grade_log2 = settings.jerk_tier == JerkTier::optimal ? 5 : 1;
+        refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors
+        refinement.inverse_error = scale2(refinement.inverse_error, -3);
+        refinement.curvature_change = scale2(refinement.curvature_change, -1); // a rest that goes with its cube
+    }
+    // A jump of direction d asks for the acceleration v d / T: tolerated below a share of the limit, plus rounding.
+    refinement.direction_jump =
+        from_double<S>(detail::corner_share * softest * segment_s / path) + from_double<S>(detail::direction_noise<S>);
+    return limits;
+}
+
+} // namespace splinefeed

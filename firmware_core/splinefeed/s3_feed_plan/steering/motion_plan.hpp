@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// MotionPlan: what the segment stream follows: a plan that says, profile segment by profile segment, how the path is
+// travelled.
+#pragma once
+
+#include "splinefeed/s1_curve/curve_source.hpp"
+#include "splinefeed/s2_arc_length/cell.hpp"
+#include "splinefeed/s2_arc_length/cell_interval.hpp"
+#include "splinefeed/s3_feed_plan/steering/steering.hpp"
+
+namespace splinefeed {
+
+/// How the speed changes along a profile segment.
+enum class SpeedShape : std::uint8_t {
+    line,     ///< v^2 is linear in s: constant acceleration along the path
+    parabola, ///< v^2 is a parabola of s with the Bezier points entry_sq, middle_sq, exit_sq
+    cubic     ///< s is a cubic of time: constant jerk along the path
+};
+
+/// How the machine passes a cell or a part of it. Speeds are v^2 [mm^2/s^2].
+template <Scalar S>
+struct ProfileSegment {
+    CellInterval<S> stretch{};
+    S entry_sq{};
+    S exit_sq{};
+    bool stops = false; ///< the machine comes to rest at its end and dwells
+    SpeedShape shape = SpeedShape::line;
+    S middle_sq{};   ///< parabola
+    S duration_ms{}; ///< cubic; its length after the fraction y of the time is that times
+    S linear{};      ///< linear y + quadratic y^2 + (1 - linear - quadratic) y^3
+    S quadratic{};
+};
+
+/// Where the machine is on its profile segment.
+template <Scalar S>
+struct Place {
+    S fraction{};   ///< of the cell's length
+    S speed_sq{};   ///< v^2, or what a hold may take it for (SegmentStream)
+    S time_share{}; ///< fraction of the profile segment's time
+};
+
+/// What the plan does where the input is starved.
+enum class UnderrunPolicy : std::uint8_t {
+    wait, ///< it asks for more: what is planned does not depend on when the input comes
+    drain ///< it goes on with what is known, and to rest at its end: for a machine that cannot wait
+};
+
+template <Scalar S>
+class MotionPlan {
+public:
+    MotionPlan(const MotionPlan&) = delete;
+    MotionPlan& operator=(const MotionPlan&) = delete;
+
+    /// Makes sure that there is a profile_segment(), through cell(). `starved`: the window is not full and nothing is
+    /// committed (UnderrunPolicy::drain: there is nothing at all). `held`: the machine stands and is to stand.
+    virtual Pull prepare(UnderrunPolicy underrun) noexcept = 0;
+    /// @pre the last prepare() answered item, as for the next three
+    [[nodiscard]] virtual const Cell<S>& cell() const noexcept = 0;
+    [[nodiscard]] const ProfileSegment<S>& profile_segment() const noexcept { return profile_segment_; }
+    /// The profile segment is done.
+    virtual void advance() noexcept = 0;
+    /// The machine stopped there, on its last profile segment.
+    virtual void rest_at(S fraction) noexcept = 0;
+
+    [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
+    [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
+    /// Takes a change of the steering into account at once, from where the machine is on its profile segment. Without
+    /// the call it is taken into account with the next profile segment. false: the profile segment stays as it is.
+    virtual bool steer(const Place<S>& place) noexcept = 0;
+    /// The machine stands where its last profile segment ended.
+    [[nodiscard]] virtual bool standing() const noexcept = 0;
+    /// Forgets every cell: for a new program. @pre standing()
+    virtual void clear() noexcept = 0;
+
+protected:
+    MotionPlan() noexcept = default;
+    ~MotionPlan() = default;
+
+    ProfileSegment<S> profile_segment_;
+    Steering<S> steering_;
+};
+
+} // namespace splinefeed
