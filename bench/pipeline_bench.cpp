@@ -3,6 +3,7 @@
 // is the cost of a stage alone. items_per_second counts waypoints.
 #include "raster.hpp"
 
+#include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/trajectory.hpp"
 
@@ -111,9 +112,10 @@ void pipeline(benchmark::State& state, std::int64_t count, const auto& source) {
     std::int64_t segments = 0;
     for (auto _ : state) {
         G2Spline<S> curve(CurveOptions<S>{});
-        auto trajectory = std::make_unique<Trajectory<S>>(curve, machine, window);
+        auto planner = std::make_unique<AccelerationPlanner<S>>(window);
+        auto trajectory = Trajectory<S>::make(curve, machine, *planner).value();
         pump(curve, count, source, [&] {
-            while (trajectory->next(segment)) {
+            while (trajectory.next(segment) == Pull::item) {
                 benchmark::DoNotOptimize(segment);
                 ++segments;
             }

@@ -13,8 +13,9 @@
 #include "splinefeed/s1_curve/smoothed_curve.hpp"
 
 // Curves to feed segments, within the machine's limits.
-#include "splinefeed/jerk_trajectory.hpp"
-#include "splinefeed/smooth_trajectory.hpp"
+#include "splinefeed/acceleration_planner.hpp"
+#include "splinefeed/bounded_planner.hpp"
+#include "splinefeed/optimal_planner.hpp"
 #include "splinefeed/trajectory.hpp"
 
 // Feed segments to an interrupt or another thread, and to edges of step and direction lines.

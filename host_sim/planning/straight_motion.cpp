@@ -27,7 +27,7 @@ StraightMotion::StraightMotion(const MachineDescription& machine, const PerAxis<
 }
 
 bool StraightMotion::next(FeedSegment& segment) {
-    return moves_ && planner_.trajectory().next(segment);
+    return moves_ && planner_.trajectory().next(segment) == Pull::item;
 }
 
 } // namespace splinefeed::host

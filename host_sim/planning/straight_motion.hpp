@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
-#include "host_sim/planning/planner.hpp"
+#include "host_sim/planning/planned_trajectory.hpp"
 
 #include "splinefeed/s1_curve/polyline.hpp"
 
@@ -26,7 +26,7 @@ public:
 private:
     MotionLimits<double> limits_;
     Polyline<double> line_;
-    Planner<double> planner_;
+    PlannedTrajectory<double> planner_;
     bool moves_ = false;
 };
 

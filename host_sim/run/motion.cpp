@@ -132,7 +132,7 @@ template <Scalar S>
 bool Motion<S>::pull(FeedSegment& segment) {
     const Clock::time_point start = Clock::now();
     late_ = late();
-    const bool item = trajectory_.next(segment, late_ ? UnderrunPolicy::drain : UnderrunPolicy::wait);
+    const bool item = trajectory_.next(segment, late_ ? UnderrunPolicy::drain : UnderrunPolicy::wait) == Pull::item;
     planning_ += Clock::now() - start;
     return item;
 }

@@ -4,7 +4,7 @@
 
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
-#include "host_sim/planning/planner.hpp"
+#include "host_sim/planning/planned_trajectory.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/run/path_tee.hpp"
 #include "host_sim/run/supervision.hpp"
@@ -82,7 +82,7 @@ private:
     LimitShare share_;
     CurveFeeder<S> feeder_;
     PathTee<S> tee_;
-    Planner<S> planner_;
+    PlannedTrajectory<S> planner_;
     Trajectory<S>& trajectory_; // the planner's
     SimulatedMachine machine_;
     std::vector<OperatorEvent> events_;

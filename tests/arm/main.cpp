@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The whole pipeline on a microcontroller: plans a small path and prints a hash over every integer of every feed
 // segment. The same source on the host must print the same hash.
+#include "splinefeed/acceleration_planner.hpp"
+#include "splinefeed/bounded_planner.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
-#include "splinefeed/smooth_trajectory.hpp"
+#include "splinefeed/trajectory.hpp"
 #include "write_value.hpp"
 
 #include <array>
@@ -81,8 +83,7 @@ private:
 };
 
 Static<G2Spline<Real>> curve_storage;
-using Pipeline = std::conditional_t<jerk_limited, SmoothTrajectory<Real>, Trajectory<Real>>;
-Static<Pipeline> trajectory_storage;
+Static<std::conditional_t<jerk_limited, BoundedPlanner<Real>, AccelerationPlanner<Real>>> planner_storage;
 Static<std::array<PlannedCell<Real>, FeedPlan<Real>::smallest_window>> window_storage;
 Static<std::array<SmoothCell<Real>, SmoothPlan<Real>::smallest_window>> cells_storage;
 Static<std::array<PathPosition, SmoothSampler<Real>::places_for(*limits)>> places_storage;
@@ -131,7 +132,7 @@ constexpr std::int64_t units(std::int32_t um) {
     return curve_storage.build(CurveOptions<Real>{});
 }
 
-[[gnu::noinline]] Trajectory<Real>& build_trajectory(G2Spline<Real>& curve) {
+[[gnu::noinline]] Result<Trajectory<Real>> make_trajectory(G2Spline<Real>& curve) {
     auto& window = window_storage.build();
     write_value("bytes: curve      ", sizeof curve);
     write_value("bytes: arc length ", sizeof(ArcLength<Real>));
@@ -144,9 +145,10 @@ constexpr std::int64_t units(std::int32_t um) {
         write_value("bytes: smooth plan", sizeof(SmoothPlan<Real>));
         write_value("bytes: its window ", sizeof cells);
         write_value("bytes: mean       ", sizeof(SmoothSampler<Real>) + sizeof places);
-        return trajectory_storage.build(curve, *limits, window, SmoothStorage<Real>{cells, places});
+        return Trajectory<Real>::make(curve, *limits,
+                                      planner_storage.build(window, SmoothStorage<Real>{cells, places}));
     } else {
-        return trajectory_storage.build(curve, *limits, window);
+        return Trajectory<Real>::make(curve, *limits, planner_storage.build(window));
     }
 }
 
@@ -154,13 +156,17 @@ constexpr std::int64_t units(std::int32_t um) {
 
 int main() {
     auto& curve = build_curve();
-    auto& trajectory = build_trajectory(curve);
+    auto made = make_trajectory(curve);
+    if (!made.has_value()) {
+        return 1;
+    }
+    Trajectory<Real>& trajectory = *made;
 
     Hash hash;
     std::uint64_t segments = 0;
     std::size_t pushed = 0;
     while (trajectory.state() != Pull::finished) {
-        if (trajectory.next(segment)) {
+        if (trajectory.next(segment) == Pull::item) {
             hash.add(segment);
             ++segments;
         } else if (trajectory.state() == Pull::starved) {

@@ -4,6 +4,7 @@
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/machine/simulated_machine.hpp"
 
+#include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/s1_curve/catmull_rom.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/s1_curve/polyline.hpp"
@@ -138,7 +139,12 @@ void run_curve(const Program& program, Curve& curve) {
     }
     const int axes = program.machine.settings.axes;
     std::vector<PlannedCell<S>> window(program.window);
-    Trajectory<S> trajectory(curve, *limits, window);
+    AccelerationPlanner<S> planner(window);
+    auto made = Trajectory<S>::make(curve, *limits, planner);
+    if (!made.has_value()) {
+        fail("planner", 0.0);
+    }
+    Trajectory<S>& trajectory = *made;
     SimulatedMachine machine(program.machine, limits->segments_per_sample, {.enforce = true});
     const std::vector<Feed> order = order_of(program);
     std::size_t pushed = 0;
@@ -147,7 +153,7 @@ void run_curve(const Program& program, Curve& curve) {
     FeedSegment last{};
     for (;;) {
         FeedSegment segment;
-        if (trajectory.next(segment)) {
+        if (trajectory.next(segment) == Pull::item) {
             for (unsigned k = 0; k < static_cast<unsigned>(axes) && segments > 0; ++k) {
                 if (segment.start[k] != last.end[k] || segment.start_velocity[k] != last.end_velocity[k]) {
                     fail("chain", static_cast<double>(segments));

@@ -92,10 +92,11 @@ double cycle_time(const std::vector<CurveSegment<S>>& path, const MachineSetting
     ListSource<S> source(path);
     const MotionLimits<S> limits = MotionLimits<S>::make(machine).value();
     std::vector<PlannedCell<S>> window(4096);
-    Trajectory<S> trajectory(source, limits, window);
+    AccelerationPlanner<S> planner(window);
+    auto trajectory = Trajectory<S>::make(source, limits, planner).value();
     FeedSegment segment;
     double seconds = 0.0;
-    while (trajectory.next(segment)) {
+    while (trajectory.next(segment) == Pull::item) {
         seconds += segment.duration_ticks / 8e6;
     }
     return seconds;

@@ -12,7 +12,11 @@ int main() {
     const auto limits = MotionLimits<Fixed>::make(MachineSettings{});
     G2Spline<Fixed> curve(CurveOptions<Fixed>{});
     static std::array<PlannedCell<Fixed>, 64> window;
-    Trajectory<Fixed> trajectory(curve, *limits, window);
+    static AccelerationPlanner<Fixed> planner(window);
+    auto trajectory = Trajectory<Fixed>::make(curve, *limits, planner);
+    if (!trajectory.has_value()) {
+        return 1;
+    }
 
     Waypoint<Fixed> waypoint;
     if (!curve.push(waypoint).ok()) {
@@ -23,7 +27,7 @@ int main() {
         return 1;
     }
     FeedSegment segment;
-    while (trajectory.next(segment)) {
+    while (trajectory->next(segment) == Pull::item) {
     }
     const hal::PortState port;
 #ifdef SPLINEFEED_HAS_MODBUS

@@ -40,7 +40,7 @@ Run run(const MachineSettings& machine, bool old) {
     Run out;
     FeedSegment segment;
     for (int i = 0; trajectory.state() != Pull::finished;) {
-        if (trajectory.next(segment)) {
+        if (trajectory.next(segment) == Pull::item) {
             out.segments.push_back(segment);
         } else if (i < 100) {
             const double x = 0.5 * i;

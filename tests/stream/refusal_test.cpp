@@ -6,7 +6,8 @@
 #include "support/emitted.hpp"
 #include "support/steered_run.hpp"
 
-#include <type_traits>
+#include <array>
+#include <utility>
 
 using namespace splinefeed_test;
 
@@ -14,19 +15,13 @@ namespace {
 
 constexpr std::uint64_t seed = 1312;
 
-template <Scalar S>
-using Window = std::span<PlannedCell<S>>;
-
 // Limits that end with the line would dangle.
-template <class Trajectory, class... Storage>
-constexpr bool takes_temporary_limits =
-    std::is_constructible_v<Trajectory, CurveSource<double>&, decltype(*MotionLimits<double>::make({})), Window<double>,
-                            Storage...>;
-static_assert(!takes_temporary_limits<Trajectory<double>>);
-static_assert(!takes_temporary_limits<JerkTrajectory<double>, JerkStorage<double>>);
-static_assert(!takes_temporary_limits<SmoothTrajectory<double>, SmoothStorage<double>>);
-static_assert(
-    std::is_constructible_v<Trajectory<double>, CurveSource<double>&, const MotionLimits<double>&, Window<double>>);
+template <class Limits>
+concept TakesLimits = requires(CurveSource<double>& curve, Limits&& limits, Planner<double>& planner) {
+    Trajectory<double>::make(curve, std::forward<Limits>(limits), planner);
+};
+static_assert(!TakesLimits<MotionLimits<double>>);
+static_assert(TakesLimits<const MotionLimits<double>&>);
 
 MachineSettings jerk_machine(JerkTier tier) {
     MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
@@ -51,23 +46,9 @@ MotionLimits<S> limits_of(const MachineSettings& machine) {
     return MotionLimits<S>::make(machine).value();
 }
 
-/// It says why, and whatever is asked of it, nothing moves.
 template <Scalar S>
-void require_refused(Trajectory<S>& trajectory, CurveSource<S>& curve, Error error) {
-    CHECK(trajectory.status().error() == error);
-    FeedSegment segment;
-    trajectory.hold();
-    trajectory.resume();
-    trajectory.override_feed(S{});
-    for (const UnderrunPolicy underrun : {UnderrunPolicy::wait, UnderrunPolicy::drain}) {
-        CHECK_FALSE(trajectory.next(segment, underrun));
-        CHECK(trajectory.state() == Pull::finished);
-    }
-    CHECK(trajectory.activity() == Activity::running);
-    CHECK_FALSE(trajectory.stand(segment));
-    CHECK(trajectory.start(curve).error() == error);
-    CHECK_FALSE(trajectory.next(segment));
-    trajectory.abort();
+Error refusal(CurveSource<S>& curve, const MotionLimits<S>& limits, Planner<S>& planner) {
+    return Trajectory<S>::make(curve, limits, planner).error();
 }
 
 template <Scalar S>
@@ -88,23 +69,19 @@ TEST_CASE("a planner that the limits do not ask for is refused", "[stream][refus
     std::vector<JerkNode> nodes(JerkStorage<S>::nodes_for(64));
     std::vector<SmoothCell<S>> smooth_cells(64);
     std::vector<PathPosition> places(SmoothSampler<S>::places_for(bounded));
-    for (const MotionLimits<S>& limits : {plain, optimal, bounded}) {
-        Trajectory<S> a(source, limits, window);
-        JerkTrajectory<S> b(source, limits, window, {cells, nodes});
-        SmoothTrajectory<S> c(source, limits, window, {smooth_cells, places});
-        CHECK(a.status().ok() == !limits.jerk_limited);
-        CHECK(b.status().ok() == (limits.jerk_limited && limits.jerk_tier == JerkTier::optimal));
-        CHECK(c.status().ok() == (limits.jerk_limited && limits.jerk_tier == JerkTier::bounded));
-        if (limits.jerk_limited) {
-            require_refused<S>(a, source, Error::planner_unsuited);
-        } else {
-            require_refused<S>(b, source, Error::planner_unsuited);
-            require_refused<S>(c, source, Error::planner_unsuited);
+    AccelerationPlanner<S> acceleration_planner(window);
+    OptimalPlanner<S> optimal_planner(window, {cells, nodes});
+    BoundedPlanner<S> bounded_planner(window, {smooth_cells, places});
+    const std::array<Planner<S>*, 3> planners{&acceleration_planner, &optimal_planner, &bounded_planner};
+    const std::array limits{plain, optimal, bounded};
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        for (std::size_t j = 0; j < planners.size(); ++j) {
+            CAPTURE(i, j);
+            CHECK(refusal<S>(source, limits[i], *planners[j]) == (i == j ? Error::none : Error::planner_unsuited));
         }
     }
     const MotionLimits<S> none{};
-    Trajectory<S> nothing(source, none, window);
-    require_refused<S>(nothing, source, Error::axes_out_of_range);
+    CHECK(refusal<S>(source, none, acceleration_planner) == Error::axes_out_of_range);
 }
 
 TEST_CASE("storage that is too small is refused and not written to", "[stream][refusal]") {
@@ -122,27 +99,29 @@ TEST_CASE("storage that is too small is refused and not written to", "[stream][r
         return std::span(storage).first(n);
     };
     for (const std::size_t size : {0U, 1U, 9U}) {
-        Trajectory<S> trajectory(source, plain, first(window, size));
-        require_refused<S>(trajectory, source, Error::window_too_small);
+        AccelerationPlanner<S> planner(first(window, size));
+        CHECK(refusal<S>(source, plain, planner) == Error::window_too_small);
+        BoundedPlanner<S> other(first(window, size), {smooth_cells, places});
+        CHECK(refusal<S>(source, bounded, other) == Error::window_too_small);
     }
     for (const std::size_t size : {0U, 15U}) {
-        JerkTrajectory<S> trajectory(source, optimal, window, {first(cells, size), nodes});
-        require_refused<S>(trajectory, source, Error::window_too_small);
+        OptimalPlanner<S> planner(window, {first(cells, size), nodes});
+        CHECK(refusal<S>(source, optimal, planner) == Error::window_too_small);
     }
     for (const std::size_t size : {std::size_t{0}, nodes.size() - 1}) {
-        JerkTrajectory<S> trajectory(source, optimal, window, {cells, first(nodes, size)});
-        require_refused<S>(trajectory, source, Error::storage_too_small);
+        OptimalPlanner<S> planner(window, {cells, first(nodes, size)});
+        CHECK(refusal<S>(source, optimal, planner) == Error::storage_too_small);
     }
     for (const std::size_t size : {0U, 11U}) {
-        SmoothTrajectory<S> trajectory(source, bounded, window, {first(smooth_cells, size), places});
-        require_refused<S>(trajectory, source, Error::window_too_small);
+        BoundedPlanner<S> planner(window, {first(smooth_cells, size), places});
+        CHECK(refusal<S>(source, bounded, planner) == Error::window_too_small);
     }
     for (const std::size_t size : {std::size_t{0}, places.size() - 1}) {
-        SmoothTrajectory<S> trajectory(source, bounded, window, {smooth_cells, first(places, size)});
-        require_refused<S>(trajectory, source, Error::storage_too_small);
+        BoundedPlanner<S> planner(window, {smooth_cells, first(places, size)});
+        CHECK(refusal<S>(source, bounded, planner) == Error::storage_too_small);
     }
-    SmoothTrajectory<S> least(source, bounded, first(window, 10), {smooth_cells, places});
-    CHECK(least.status().ok());
+    BoundedPlanner<S> least(first(window, 10), {smooth_cells, places});
+    CHECK(refusal<S>(source, bounded, least) == Error::none);
 }
 
 TEMPLATE_TEST_CASE("a curve of other axes than the machine's is refused", "[stream][refusal]", double, float, Fixed) {
@@ -153,7 +132,7 @@ TEMPLATE_TEST_CASE("a curve of other axes than the machine's is refused", "[stre
             ListSource<S> source = line_source<S>(axes, {10.0, 5.0, 5.0});
             AnyTrajectory<S> any(source, limits, 64);
             FeedSegment segment;
-            CHECK_FALSE(any.trajectory().next(segment));
+            CHECK(any.trajectory().next(segment) != Pull::item);
             CHECK(any.trajectory().state() == Pull::finished);
             CHECK(any.trajectory().status().error() == Error::axes_differ);
             CHECK_FALSE(any.trajectory().stand(segment));
@@ -192,15 +171,15 @@ TEMPLATE_TEST_CASE("a new program begins where the machine stands, or is refused
         FeedSegment segment;
         CHECK_FALSE(trajectory.stand(segment)); // nowhere yet
         for (int i = 0; i < 50; ++i) {
-            REQUIRE(trajectory.next(segment));
+            REQUIRE(trajectory.next(segment) == Pull::item);
         }
         CHECK_FALSE(trajectory.stand(segment));
         ListSource<S> elsewhere = line_source<S>(2, {1.0, 0.0}, {10.0, 5.0001});
         CHECK(trajectory.start(elsewhere).error() == Error::still_moving);
-        while (trajectory.next(segment)) {
+        while (trajectory.next(segment) == Pull::item) {
         }
         REQUIRE(trajectory.start(elsewhere).ok());
-        CHECK_FALSE(trajectory.next(segment));
+        CHECK(trajectory.next(segment) != Pull::item);
         CHECK(trajectory.state() == Pull::finished);
         CHECK(trajectory.status().error() == Error::start_elsewhere);
         const auto stood = segment.end;
@@ -213,11 +192,11 @@ TEMPLATE_TEST_CASE("a new program begins where the machine stands, or is refused
         REQUIRE(trajectory.start(here).ok());
         CHECK(trajectory.status().ok());
         CHECK(trajectory.activity() == Activity::held);
-        CHECK_FALSE(trajectory.next(segment));
+        CHECK(trajectory.next(segment) != Pull::item);
         CHECK(trajectory.state() == Pull::held);
         trajectory.resume();
         int count = 0;
-        while (trajectory.next(segment)) {
+        while (trajectory.next(segment) == Pull::item) {
             ++count;
         }
         CHECK(trajectory.state() == Pull::finished);

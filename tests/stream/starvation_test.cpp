@@ -61,7 +61,8 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
         ListSource<S> list(segments_of<S>(path, {}), 0, 0);
         GatedSource<S> source(list, path.size());
         std::vector<PlannedCell<S>> window(window_size);
-        Trajectory<S> trajectory(source, *limits, window);
+        AccelerationPlanner<S> planner(window);
+        auto trajectory = Trajectory<S>::make(source, *limits, planner).value();
         SteeredRun run;
         FeedSegment segment;
         const double pace =
@@ -72,7 +73,7 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
             if (random.chance(std::min(1.0, pace))) {
                 source.release(static_cast<std::size_t>(random.integer(1, 3)));
             }
-            if (trajectory.next(segment, UnderrunPolicy::drain)) {
+            if (trajectory.next(segment, UnderrunPolicy::drain) == Pull::item) {
                 stood = false;
             } else if (trajectory.state() == Pull::starved) {
                 if (!run.segments.empty()) {
@@ -126,7 +127,7 @@ TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known,
             FeedSegment segment;
             std::size_t rests = 0;
             const auto travel = [&] {
-                while (any.trajectory().next(segment, UnderrunPolicy::drain)) {
+                while (any.trajectory().next(segment, UnderrunPolicy::drain) == Pull::item) {
                     const bool moved = segment.start != segment.end;
                     run.segments.push_back(segment);
                     rests += moved && ends_at_rest(segment, 2) ? 1U : 0U;
@@ -154,7 +155,7 @@ TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known,
             AnyTrajectory<S> other(in_time, limits, 512);
             SteeredRun smooth;
             std::size_t made = 0;
-            while (other.trajectory().next(segment, UnderrunPolicy::drain)) {
+            while (other.trajectory().next(segment, UnderrunPolicy::drain) == Pull::item) {
                 smooth.segments.push_back(segment);
                 if (++made == least.segments.size() / 2) {
                     in_time.release(path.size());
@@ -189,19 +190,19 @@ TEMPLATE_TEST_CASE("a hold while the input is late stops the motion", "[stream][
         FeedSegment segment;
         source.release(1);
         while (run.segments.size() < 150) { // waits in the middle of the path, at speed
-            if (any.trajectory().next(segment)) {
+            if (any.trajectory().next(segment) == Pull::item) {
                 run.segments.push_back(segment);
             } else {
                 source.release(1);
             }
         }
-        while (any.trajectory().next(segment)) {
+        while (any.trajectory().next(segment) == Pull::item) {
             run.segments.push_back(segment);
         }
         REQUIRE(any.trajectory().state() == Pull::starved);
         const bool moves = !ends_at_rest(run.segments.back(), 2);
         any.trajectory().hold();
-        while (any.trajectory().next(segment)) {
+        while (any.trajectory().next(segment) == Pull::item) {
             run.segments.push_back(segment);
         }
         CAPTURE(i, moves, run.segments.size());

@@ -227,7 +227,8 @@ TEMPLATE_TEST_CASE("after an abort a new program starts where the machine stands
         }
         ListSource<S> source(segments_of<S>(made.path, {}), 0, 0);
         std::vector<PlannedCell<S>> window(64);
-        Trajectory<S> trajectory(source, *limits, window);
+        AccelerationPlanner<S> planner(window);
+        auto trajectory = Trajectory<S>::make(source, *limits, planner).value();
         SteeredRun run;
         const bool held = random.chance(0.3);
         const auto at = static_cast<std::size_t>(random.integer(1, 2000));
@@ -246,7 +247,7 @@ TEMPLATE_TEST_CASE("after an abort a new program starts where the machine stands
         REQUIRE(ends_at_rest(run.segments.back(), axes));
         trajectory.resume(); // does not bring the program back
         FeedSegment segment;
-        REQUIRE_FALSE(trajectory.next(segment));
+        REQUIRE(trajectory.next(segment) != Pull::item);
         PerAxis<double> start{};
         for (unsigned k = 0; k < axes; ++k) {
             start[k] = to_mm(run.position[k]);
@@ -284,11 +285,12 @@ TEMPLATE_TEST_CASE("what the motion does about its steering", "[stream][steering
     const BezierPath path{line_shape(1, 3, {50.0})};
     ListSource<S> source(segments_of<S>(path, {}), 0, 0);
     std::vector<PlannedCell<S>> window(32);
-    Trajectory<S> trajectory(source, limits, window);
+    AccelerationPlanner<S> planner(window);
+    auto trajectory = Trajectory<S>::make(source, limits, planner).value();
     FeedSegment segment;
     const auto run = [&](int segments) {
         for (int i = 0; i < segments; ++i) {
-            if (!trajectory.next(segment)) {
+            if (trajectory.next(segment) != Pull::item) {
                 return;
             }
         }

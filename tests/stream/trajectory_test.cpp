@@ -135,14 +135,15 @@ TEMPLATE_TEST_CASE("next takes no memory", "[stream][trajectory]", double, float
     const auto limits = MotionLimits<TestType>::make({}).value();
     std::vector<PlannedCell<TestType>> window(64);
     G2Spline<TestType> curve({.axes = 3});
-    Trajectory<TestType> trajectory(curve, limits, window);
+    AccelerationPlanner<TestType> planner(window);
+    auto trajectory = Trajectory<TestType>::make(curve, limits, planner).value();
     const Program program = loop_program();
     Feeder<TestType, G2Spline<TestType>> feeder(curve, program);
     FeedSegment segment;
     std::size_t count = 0;
     const std::size_t before = allocations();
     while (trajectory.state() != Pull::finished) {
-        if (trajectory.next(segment)) {
+        if (trajectory.next(segment) == Pull::item) {
             ++count;
         } else if (trajectory.state() == Pull::starved) {
             feeder.feed(5);
@@ -158,27 +159,28 @@ TEMPLATE_TEST_CASE("the state tells why there is no segment", "[stream][trajecto
     const auto limits = MotionLimits<TestType>::make({.axes = 1}).value();
     std::vector<PlannedCell<TestType>> window(16);
     Polyline<TestType> curve({.axes = 1});
-    Trajectory<TestType> trajectory(curve, limits, window);
+    AccelerationPlanner<TestType> planner(window);
+    auto trajectory = Trajectory<TestType>::make(curve, limits, planner).value();
     FeedSegment segment;
     CHECK(trajectory.state() == Pull::starved);
-    CHECK_FALSE(trajectory.next(segment));
+    CHECK(trajectory.next(segment) != Pull::item);
     CHECK(trajectory.state() == Pull::starved);
     Waypoint<TestType> waypoint;
     REQUIRE(curve.push(waypoint).ok());
     waypoint.position[0] = position_from_mm(3.0);
     REQUIRE(curve.push(waypoint).ok());
-    CHECK_FALSE(trajectory.next(segment));
+    CHECK(trajectory.next(segment) != Pull::item);
     CHECK(trajectory.state() == Pull::starved);
     REQUIRE(curve.finish().ok());
     std::size_t count = 0;
-    while (trajectory.next(segment)) {
+    while (trajectory.next(segment) == Pull::item) {
         CHECK(trajectory.state() == Pull::item);
         REQUIRE(segment.index == count++);
         REQUIRE(segment.waypoint == 1);
     }
     CHECK(count > 100);
     CHECK(trajectory.state() == Pull::finished);
-    CHECK_FALSE(trajectory.next(segment));
+    CHECK(trajectory.next(segment) != Pull::item);
     CHECK(trajectory.state() == Pull::finished);
     CHECK(trajectory.arc_length().segments() == 1);
     CHECK(length_to_mm(trajectory.arc_length().travelled()) == Approx(3.0).epsilon(1e-6));

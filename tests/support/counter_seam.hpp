@@ -13,9 +13,10 @@ struct CounterSeam {
     template <class Trajectory>
     static void travelled(Trajectory& trajectory, Wide length, std::uint64_t curve_segments,
                           std::uint64_t feed_segments) {
-        trajectory.arc_length_.travelled_ = length;
-        trajectory.arc_length_.segments_ = curve_segments;
-        trajectory.stream_.index_ = feed_segments;
+        auto& planner = *trajectory.planner_;
+        planner.arc_length_->travelled_ = length;
+        planner.arc_length_->segments_ = curve_segments;
+        planner.stream_->index_ = feed_segments;
     }
     /// A host's Motion: ticks and feed segments that its machine has executed, and rows that were read.
     template <class Motion>

@@ -4,12 +4,14 @@
 #pragma once
 
 #include "cell_reference.hpp"
-#include "splinefeed/jerk_trajectory.hpp"
-#include "splinefeed/smooth_trajectory.hpp"
+#include "splinefeed/acceleration_planner.hpp"
+#include "splinefeed/bounded_planner.hpp"
+#include "splinefeed/optimal_planner.hpp"
+#include "splinefeed/trajectory.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
+#include <optional>
 #include <span>
 
 namespace splinefeed_test {
@@ -108,22 +110,22 @@ public:
             fill_bytes(places_, left_over);
         }
         if (limits.jerk_limited && limits.jerk_tier == JerkTier::bounded) {
-            smooth_ =
-                std::make_unique<SmoothTrajectory<S>>(curve, limits, window_, SmoothStorage<S>{smooth_cells_, places_});
+            trajectory_ =
+                Trajectory<S>::make(curve, limits, bounded_.emplace(window_, SmoothStorage<S>{smooth_cells_, places_}))
+                    .value();
         } else if (limits.jerk_limited) {
-            jerk_limited_ = std::make_unique<JerkTrajectory<S>>(curve, limits, window_, JerkStorage<S>{cells_, nodes_});
+            trajectory_ =
+                Trajectory<S>::make(curve, limits, optimal_.emplace(window_, JerkStorage<S>{cells_, nodes_})).value();
         } else {
-            plain_ = std::make_unique<Trajectory<S>>(curve, limits, window_);
+            trajectory_ = Trajectory<S>::make(curve, limits, acceleration_.emplace(window_)).value();
         }
     }
-    [[nodiscard]] Trajectory<S>& trajectory() {
-        return plain_ ? *plain_ : smooth_ ? static_cast<Trajectory<S>&>(*smooth_) : *jerk_limited_;
-    }
+    [[nodiscard]] Trajectory<S>& trajectory() { return trajectory_; }
     /// Of the leg that the machine is on, in 1/256 of a tick; 0: it is not averaged.
     [[nodiscard]] std::uint32_t smoothing_q8() const {
-        return smooth_ && !smooth_->smooth_plan().empty() ? smooth_->smooth_plan().oldest().smoothing_q8 : 0;
+        return bounded_ && !bounded_->plan().empty() ? bounded_->plan().oldest().smoothing_q8 : 0;
     }
-    [[nodiscard]] std::uint64_t slow_legs() const { return jerk_limited_ ? jerk_limited_->jerk_plan().slow_legs() : 0; }
+    [[nodiscard]] std::uint64_t slow_legs() const { return optimal_ ? optimal_->plan().slow_legs() : 0; }
 
 private:
     std::vector<PlannedCell<S>> window_;
@@ -131,9 +133,10 @@ private:
     std::vector<JerkNode> nodes_;
     std::vector<SmoothCell<S>> smooth_cells_;
     std::vector<PathPosition> places_;
-    std::unique_ptr<Trajectory<S>> plain_;
-    std::unique_ptr<SmoothTrajectory<S>> smooth_;
-    std::unique_ptr<JerkTrajectory<S>> jerk_limited_;
+    std::optional<AccelerationPlanner<S>> acceleration_;
+    std::optional<BoundedPlanner<S>> bounded_;
+    std::optional<OptimalPlanner<S>> optimal_;
+    Trajectory<S> trajectory_;
 };
 
 /// A path of smooth runs and corners, with feeds of its own.

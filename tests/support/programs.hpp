@@ -154,7 +154,7 @@ Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& li
         if (interleaving != nullptr && interleaving->chance(0.02)) {
             feeder.feed(interleaving->integer(1, 8));
         }
-        if (trajectory.next(segment)) {
+        if (trajectory.next(segment) == Pull::item) {
             stream.segments.push_back(segment);
             stream.endless = stream.segments.size() >= most_segments;
         } else if (trajectory.state() == Pull::starved) {
@@ -194,7 +194,7 @@ Stream stream_of(const BezierPath& path, const MachineSettings& machine, std::si
     Stream stream;
     FeedSegment segment;
     while (trajectory.state() != Pull::finished && !stream.endless) {
-        if (trajectory.next(segment)) {
+        if (trajectory.next(segment) == Pull::item) {
             stream.segments.push_back(segment);
             stream.endless = stream.segments.size() >= most_segments;
         }

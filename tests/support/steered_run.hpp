@@ -48,7 +48,7 @@ void run_steered(Trajectory<S>& trajectory, const std::vector<Event>& events, St
         while (next < events.size() && events[next].segment <= run.segments.size()) {
             give(trajectory, events[next++]);
         }
-        if (trajectory.next(segment, underrun)) {
+        if (trajectory.next(segment, underrun) == Pull::item) {
             run.segments.push_back(segment);
         } else if (trajectory.state() == Pull::starved && supply) {
             supply();

@@ -6,7 +6,7 @@
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/machine/simulated_machine.hpp"
 #include "host_sim/planning/curve_feeder.hpp"
-#include "host_sim/planning/planner.hpp"
+#include "host_sim/planning/planned_trajectory.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/run/path_tee.hpp"
 
@@ -66,7 +66,7 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
         OptimumTime optimum(machine.settings, to_double(limits->refinement.direction_jump));
         CurveFeeder<S> feeder(input);
         PathTee<S> tee(feeder, input.name(), {.optimum = &optimum});
-        Planner<S> planner(tee, *limits, arguments.motion.window_cells);
+        PlannedTrajectory<S> planner(tee, *limits, arguments.motion.window_cells);
         Trajectory<S>& trajectory = planner.trajectory();
         SimulatedMachine simulated(machine, limits->segments_per_sample);
         const auto events =
@@ -78,7 +78,7 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
             for (; obeyed < events.size() && events[obeyed].time_s <= simulated.cycle_time_s() + 1e-9; ++obeyed) {
                 obey(trajectory, events[obeyed]);
             }
-            const bool moves = trajectory.next(segment);
+            const bool moves = trajectory.next(segment) == Pull::item;
             if (!moves && trajectory.state() == Pull::held) {
                 if (obeyed == events.size() || !trajectory.stand(segment)) {
                     run.fault = "held without an order, or where it has not begun";

@@ -45,8 +45,8 @@ const char* describe(Error error) noexcept {
         return "the window is too small: a feed plan needs at least 10 cells, a smooth plan 12 and a jerk plan 16 of "
                "their own";
     case Error::planner_unsuited:
-        return "these limits need another planner: Trajectory without max_jerk_mm_s3, with it SmoothTrajectory "
-               "(bounded) or JerkTrajectory (optimal)";
+        return "these limits need another planner: AccelerationPlanner without max_jerk_mm_s3, with it BoundedPlanner "
+               "(bounded) or OptimalPlanner (optimal)";
     case Error::axes_differ: return "the curve and the machine must have the same number of axes";
     case Error::start_elsewhere: return "a new program must begin where the machine stands";
     case Error::still_moving: return "a new program can start only when the machine is at rest";

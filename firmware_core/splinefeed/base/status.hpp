@@ -103,6 +103,11 @@ public:
     constexpr const T& operator*() const& noexcept { return value(); }
     constexpr T operator*() && noexcept { return std::move(*this).value(); }
     constexpr const T* operator->() const noexcept { return &value(); }
+    constexpr T& operator*() & noexcept {
+        SPLINEFEED_ASSERT(has_value());
+        return value_;
+    }
+    constexpr T* operator->() noexcept { return &**this; }
 
 private:
     T value_{};

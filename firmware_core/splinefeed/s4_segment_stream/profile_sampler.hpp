@@ -16,9 +16,6 @@ class ProfileSampler final : public Sampler<S> {
 public:
     ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept;
 
-    /// Another plan to follow. @pre nothing was asked of it yet
-    void follow(MotionPlan<S>& plan) noexcept { plan_ = &plan; }
-
     Pull next(UnderrunPolicy underrun) noexcept override;
     [[nodiscard]] bool at_rest() const noexcept override { return !in_segment_ && repeats_ == 0 && !advanced_; }
     void clear() noexcept override {}

@@ -20,9 +20,6 @@ class SegmentStream {
 public:
     SegmentStream(Sampler<S>& sampler, const MotionLimits<S>& limits) noexcept;
 
-    /// Other samples. @pre nothing was written yet
-    void follow(Sampler<S>& sampler) noexcept { sampler_ = &sampler; }
-
     /// Writes the next feed segment. `starved`: the plan has none yet; nothing was lost. `held`: the machine stands.
     Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept;
     /// Writes a segment in which the machine stands where it is. false: it moves, or nothing is known of where it is,

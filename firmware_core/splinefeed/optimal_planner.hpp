@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// OptimalPlanner: the planner for limits with jerk and JerkTier::optimal. Near the least time, in double.
+#pragma once
+
+#include "splinefeed/planner.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"
+#include "splinefeed/s4_segment_stream/profile_sampler.hpp"
+
+namespace splinefeed {
+
+/// It plans in double whatever the scalar of the pipeline is; for hosts.
+template <Scalar S>
+class OptimalPlanner final : public Planner<S> {
+public:
+    /// @param window   of the acceleration-limited plan that it refines
+    /// @param storage  JerkPlan::smallest_window cells or more, with their nodes
+    OptimalPlanner(std::span<PlannedCell<S>> window, const JerkStorage<S>& storage) noexcept
+        : Planner<S>(window), storage_(storage) {}
+
+    /// @pre a trajectory was made of it
+    [[nodiscard]] const JerkPlan<S>& plan() const noexcept { return *plan_; }
+
+private:
+    using typename Planner<S>::Stages;
+
+    [[nodiscard]] Status fits(const MotionLimits<S>& limits) const noexcept override {
+        if (!limits.jerk_limited || limits.jerk_tier != JerkTier::optimal) {
+            return Error::planner_unsuited;
+        }
+        if (storage_.cells.size() < JerkPlan<S>::smallest_window) {
+            return Error::window_too_small;
+        }
+        return storage_.nodes.size() < JerkStorage<S>::nodes_for(storage_.cells.size()) ? Error::storage_too_small
+                                                                                        : Error::none;
+    }
+    [[nodiscard]] Stages build(FeedPlan<S>& speeds, const MotionLimits<S>& limits) noexcept override {
+        JerkPlan<S>& plan = plan_.build(speeds, limits, storage_);
+        return {&plan, &sampler_.build(plan, limits)};
+    }
+
+    JerkStorage<S> storage_;
+    Slot<JerkPlan<S>> plan_;
+    Slot<ProfileSampler<S>> sampler_;
+};
+
+} // namespace splinefeed

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Planner: which plan a Trajectory follows, and the memory of all its stages.
+#pragma once
+
+#include "splinefeed/base/slot.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
+#include "splinefeed/s4_segment_stream/sampler.hpp"
+#include "splinefeed/s4_segment_stream/segment_stream.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+class Trajectory;
+
+/// The caller chooses one of its kinds, owns it, and passes it to Trajectory::make(): AccelerationPlanner for limits
+/// without jerk, OptimalPlanner and BoundedPlanner for limits with jerk. One planner serves one trajectory at a time.
+/// Size: several kilobytes, with the curve's cells beside them in storage of the caller's; best static.
+template <Scalar S>
+class Planner {
+public:
+    Planner(const Planner&) = delete;
+    Planner& operator=(const Planner&) = delete;
+
+protected:
+    /// The stages that the kinds of planners differ in.
+    struct Stages {
+        MotionPlan<S>* plan = nullptr;
+        Sampler<S>* sampler = nullptr;
+    };
+
+    /// @param window  where the feed plan looks ahead, at least FeedPlan::smallest_window cells; the caller's
+    explicit constexpr Planner(std::span<PlannedCell<S>> window) noexcept : window_(window) {}
+    ~Planner() = default;
+
+private:
+    friend class Trajectory<S>;
+    friend struct CounterSeam;
+
+    /// Whether it is the planner that the limits ask for, with enough storage: planner_unsuited, window_too_small,
+    /// storage_too_small.
+    [[nodiscard]] virtual Status fits(const MotionLimits<S>& limits) const noexcept = 0;
+    [[nodiscard]] virtual Stages build(FeedPlan<S>& speeds, const MotionLimits<S>& limits) noexcept = 0;
+
+    std::span<PlannedCell<S>> window_;
+    Slot<ArcLength<S>> arc_length_;
+    Slot<FeedPlan<S>> feed_plan_;
+    Slot<SegmentStream<S>> stream_;
+    Stages stages_{};
+    Pull state_ = Pull::starved; // what the last next() answered
+};
+
+} // namespace splinefeed
