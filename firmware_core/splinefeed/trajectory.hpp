@@ -51,13 +51,15 @@ public:
     /// @param underrun  drain: for a machine that moves and has no segment left, while the input is late. The motion
     ///                  goes on with what is known, brakes to rest at its end, and starts again when more comes.
     [[nodiscard]] Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept {
+        steering().poll();
         planner_->state_ = planner_->stream_->next(out, underrun);
         return planner_->state_;
     }
     /// What the last next() answered; `starved` before the first.
     [[nodiscard]] Pull state() const noexcept { return planner_->state_; }
 
-    /// Steering, at any time between two next(): it acts with the next segment. The path in space stays the same.
+    /// Steering, at any time, from an interrupt or another thread, too, one of them at a time: it acts with the next
+    /// segment. The path in space stays the same.
     /// Factor of the programmed feed, 0 to 2, taken as the nearest of these; 0 stops. The machine's limits stay.
     void override_feed(S ratio) noexcept { steering().override_feed(ratio); }
     /// Brakes to rest on the path, as hard as the axes allow.
@@ -68,12 +70,13 @@ public:
     void abort() noexcept { steering().abort(); }
     /// What the motion does about all that.
     [[nodiscard]] Activity activity() const noexcept {
-        const Steering<S>& steering = planner_->stages_.plan->steering();
-        if (!steering.stops()) {
+        Steering<S>& asked = steering();
+        asked.poll();
+        if (!asked.stops()) {
             return Activity::running;
         }
-        return steering.aborts() ? (stands() ? Activity::aborted : Activity::aborting)
-                                 : (stands() ? Activity::held : Activity::holding);
+        return asked.aborts() ? (stands() ? Activity::aborted : Activity::aborting)
+                              : (stands() ? Activity::held : Activity::holding);
     }
     /// Writes a segment of standing still, for a machine that is to have one: held, aborted, finished or at a stop.
     /// false: it moves, or where it stands is not known, since no motion has begun.
@@ -103,7 +106,7 @@ private:
 
     explicit Trajectory(Planner<S>& planner) noexcept : planner_(&planner) {}
 
-    [[nodiscard]] Steering<S>& steering() noexcept { return planner_->stages_.plan->steering(); }
+    [[nodiscard]] Steering<S>& steering() const noexcept { return planner_->stages_.plan->steering(); }
     [[nodiscard]] bool stands() const noexcept {
         return planner_->stages_.plan->standing() && planner_->stream_->at_rest();
     }

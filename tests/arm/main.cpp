@@ -116,15 +116,11 @@ private:
     std::uint64_t state_ = 0xcbf29ce484222325U;
 };
 
-constexpr std::int64_t units(std::int32_t um) {
-    return um * (std::int64_t{1} << Position::fraction_bits) / 1000;
-}
-
 [[gnu::noinline]] bool push(G2Spline<Real>& curve, const Point& point) {
     Waypoint<Real> waypoint;
-    waypoint.position[0].raw = units(point.x_um);
-    waypoint.position[1].raw = units(point.y_um);
-    waypoint.position[2].raw = units(point.z_um);
+    waypoint.position[0] = position_from_um(point.x_um);
+    waypoint.position[1] = position_from_um(point.y_um);
+    waypoint.position[2] = position_from_um(point.z_um);
     return curve.push(waypoint).ok();
 }
 

@@ -91,8 +91,8 @@ TEMPLATE_TEST_CASE("a part of a cell has the shape of the whole", "[feed_plan][c
                 // And dq/ds changes by its integral, but for what it leaves it by
                 const Real change = (exact(b.bend[0]) + exact(b.bend[1]) + exact(b.bend[2])) / 6.0L;
                 REQUIRE(std::fabs(exact(b.tangent[1]) - exact(b.tangent[0]) - change) <=
-                        exact(a.spread) + 1e-8L / unit);
-                REQUIRE(std::fabs(exact(b.spread) - exact(a.spread) / 2.0L) * unit <= 1e-9L);
+                        exact(a.error_bound) + 1e-8L / unit);
+                REQUIRE(std::fabs(exact(b.error_bound) - exact(a.error_bound) / 2.0L) * unit <= 1e-9L);
             }
         }
     }

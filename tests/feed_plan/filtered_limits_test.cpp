@@ -84,8 +84,8 @@ TEMPLATE_TEST_CASE("what a bound allows keeps both inequalities, and uses them",
         const Smoothing<S> smoothing(c.smoothing_q8, limits->segments_per_s);
         const FilteredLimits<S> bound(demand, *limits, smoothing);
         const S most = from_integer<S>(40000);
-        const S level = bound.level(most);
-        const S steepest = bound.steepest();
+        const S level = bound.max_steady(most);
+        const S steepest = bound.max_path_acceleration();
         const Real v = std::sqrt(exact(level));
         CAPTURE(seed, trial, static_cast<double>(v));
         const auto checked = [&](Real speed, Real a, bool braking, bool capped) {

@@ -28,7 +28,7 @@ template <Scalar S>
 SteeringTarget<S> aim_of(double from, double entry, double level, double exit, double most) {
     return {.from = from_double<S>(from),
             .entry_sq = from_double<S>(entry),
-            .level_sq = from_double<S>(level),
+            .max_steady_sq = from_double<S>(level),
             .exit_sq = from_double<S>(exit),
             .most_sq = from_double<S>(most),
             .known_sq = from_integer<S>(-1)};
@@ -51,11 +51,11 @@ public:
             REQUIRE(profile_segments < 40);
             if (profile_segments < 16) {
                 aim.rest = random.chance(holds);
-                aim.level_sq = cap_ * all_or_part(random);
-                aim.exit_sq = smaller(aim.level_sq, most_sq) * all_or_part(random);
+                aim.max_steady_sq = cap_ * all_or_part(random);
+                aim.exit_sq = smaller(aim.max_steady_sq, most_sq) * all_or_part(random);
             } else { // on at this speed
                 aim.rest = false;
-                aim.level_sq = cap_;
+                aim.max_steady_sq = cap_;
                 aim.exit_sq = smaller(aim.entry_sq, most_sq);
             }
             const ProfileSegment<S> profile_segment = steered_segment(*cell_, *limits_, aim);
@@ -77,7 +77,7 @@ private:
     void require_what_was_asked(const ProfileSegment<S>& profile_segment, const SteeringTarget<S>& aim) const {
         const bool to_end = profile_segment.stretch.to == from_integer<S>(1);
         CAPTURE(to_double(aim.from), to_double(profile_segment.stretch.to), to_double(aim.entry_sq),
-                to_double(aim.level_sq), to_double(aim.exit_sq), to_double(aim.most_sq), aim.rest,
+                to_double(aim.max_steady_sq), to_double(aim.exit_sq), to_double(aim.most_sq), aim.rest,
                 to_double(profile_segment.exit_sq));
         REQUIRE(profile_segment.stretch.from == aim.from);
         REQUIRE(profile_segment.stretch.to >= aim.from); // a small change may take less than the last digit
@@ -87,7 +87,7 @@ private:
         REQUIRE((!to_end || profile_segment.exit_sq <= aim.most_sq));
         REQUIRE((!profile_segment.stops || (aim.rest && profile_segment.exit_sq == S{})));
         if (!to_end && !aim.rest) { // it ends before the cell where what was wanted is reached
-            REQUIRE(profile_segment.exit_sq == (aim.entry_sq > aim.level_sq ? aim.level_sq : aim.exit_sq));
+            REQUIRE(profile_segment.exit_sq == (aim.entry_sq > aim.max_steady_sq ? aim.max_steady_sq : aim.exit_sq));
         }
     }
 
@@ -105,7 +105,7 @@ private:
             half_planes_of(*cell_, *limits_, exact(profile_segment.stretch.from), exact(profile_segment.stretch.to));
         for (std::size_t i = 0; i < planes.size(); ++i) {
             const HalfPlane& plane = planes[i];
-            const Real spread = std::ldexp(exact(cell_->shape[i / 8].spread), -limits_->refinement.shape_log2);
+            const Real spread = std::ldexp(exact(cell_->shape[i / 8].error_bound), -limits_->refinement.shape_log2);
             const Real excess = plane.entry * b0 + plane.exit * b1 - plane.limit;
             CAPTURE(i, to_double(profile_segment.stretch.from), to_double(profile_segment.stretch.to),
                     static_cast<double>(b0), static_cast<double>(b1));

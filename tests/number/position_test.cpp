@@ -180,6 +180,19 @@ TEST_CASE("scaled positions are rounded to nearest or saturate", "[number][posit
     REQUIRE(scaled(p, std::uint64_t{80} << 32, 72) == 2);
 }
 
+TEST_CASE("positions and micrometres", "[number][position]") {
+    STATIC_REQUIRE(position_from_um(1000).raw == std::int64_t{1} << 40);
+    STATIC_REQUIRE(position_from_um(-2500).raw == -(std::int64_t{5} << 39));
+    Random random(2205);
+    for (int i = 0; i < 1000; ++i) {
+        const std::int64_t um = random.signed_below(30);
+        const std::int64_t nearest = position_from_mm(static_cast<double>(um) / 1000.0).raw;
+        REQUIRE(std::abs(position_from_um(um).raw - nearest) <= 1);
+        REQUIRE(position_from_um(-um).raw == -position_from_um(um).raw);
+    }
+    REQUIRE(position_from_um(8'388'607'999).raw > position_from_um(8'388'607'998).raw);
+}
+
 TEST_CASE("positions and millimetres", "[number][position]") {
     REQUIRE(position_from_mm(1.0).raw == std::int64_t{1} << 40);
     REQUIRE(to_mm(Position{-(std::int64_t{5} << 38)}) == -1.25);

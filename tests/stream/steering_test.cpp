@@ -6,6 +6,9 @@
 #include "support/random_steering.hpp"
 #include "support/rounds.hpp"
 
+#include <atomic>
+#include <thread>
+
 using namespace splinefeed_test;
 
 namespace {
@@ -332,4 +335,44 @@ TEMPLATE_TEST_CASE("what the motion does about its steering", "[stream][steering
     run(1000);
     CHECK(trajectory.activity() == Activity::aborted);
     CHECK(trajectory.state() == Pull::finished);
+}
+
+TEMPLATE_TEST_CASE("another thread may steer at any time", "[stream][steering]", double, Fixed) {
+    using S = TestType;
+    Random random(seed);
+    Case made = random_case(random);
+    const auto limits = MotionLimits<S>::make(made.machine).value();
+    ListSource<S> source(segments_of<S>(made.path, {}), 0, 0);
+    AnyTrajectory<S> any(source, limits, 64);
+    std::atomic<bool> over{false};
+    std::thread operating([&] {
+        for (int i = 0; !over.load(); ++i) {
+            any.trajectory().override_feed(literal<S>(i % 3 == 0 ? 0.0 : 1.7));
+            any.trajectory().hold();
+            std::this_thread::yield();
+            any.trajectory().resume();
+            any.trajectory().override_feed(from_integer<S>(1));
+        }
+    });
+    SteeredRun run;
+    FeedSegment segment;
+    std::size_t held = 0;
+    while (run.segments.size() < 100'000) {
+        if (run.segments.size() >= 2000) {
+            over = true; // then it goes to its end
+        }
+        const Pull pull = any.trajectory().next(segment);
+        if (pull == Pull::finished) {
+            break;
+        }
+        if (pull == Pull::held) {
+            ++held;
+            REQUIRE(any.trajectory().stand(segment));
+        }
+        run.segments.push_back(segment);
+    }
+    over = true;
+    operating.join();
+    CAPTURE(held, run.segments.size());
+    require_limits(run, made.machine);
 }

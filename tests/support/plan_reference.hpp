@@ -25,7 +25,7 @@ Cell<S> random_cell(Random& random, const MotionLimits<S>& limits) {
         }
         shape.tangent = {from_double<S>(unit * tangent),
                          from_double<S>(unit * (tangent + bend * random.between(-0.5, 0.5)))};
-        shape.spread = from_double<S>(unit * random.decades(1e-8, 1e-5));
+        shape.error_bound = from_double<S>(unit * random.decades(1e-8, 1e-5));
     }
     return cell;
 }
@@ -93,7 +93,7 @@ std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>
         const std::array<Real, 4> exit{0.0L, c[0] / 3.0L, 2.0L * c[1] / 3.0L, c[2]};
         for (unsigned j = 0; j < 4; ++j) {
             for (const Real sign : {1.0L, -1.0L}) {
-                const Real spread = exact(shape.spread) * unit * (to - from);
+                const Real spread = exact(shape.error_bound) * unit * (to - from);
                 const Real most = static_cast<Real>(way) * sign > 0.0L   ? speeding
                                   : static_cast<Real>(way) * sign < 0.0L ? braking
                                                                          : std::min(speeding, braking);

@@ -66,6 +66,13 @@ template <Scalar S>
     return mm >= -1048576.0 && mm <= 1048576.0;
 }
 
+/// From whole micrometres, without arithmetic in double: for a target. Rounded towards zero, by less than 2^-40 mm.
+/// @pre less than 2^23 mm
+[[nodiscard]] constexpr Position position_from_um(std::int64_t um) noexcept {
+    constexpr std::int64_t mm = std::int64_t{1} << Position::fraction_bits;
+    return Position{um / 1000 * mm + um % 1000 * mm / 1000};
+}
+
 /// The nearest position, ties away from zero, for the host. Precondition position_representable(mm).
 [[nodiscard]] constexpr Position position_from_mm(double mm) noexcept {
     SPLINEFEED_ASSERT(position_representable(mm));

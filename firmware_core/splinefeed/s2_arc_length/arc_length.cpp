@@ -66,8 +66,8 @@ bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
 }
 
 // The speed changes near joints, most of all near stops. Halving grades cells geometrically away from a stop. Where
-// nothing stops three halvings do, lest a slow feed cut every segment into crumbs. Between two stops there are at least
-// eight cells: room to start and to brake even in the shortest move.
+// nothing stops three halvings do, lest a slow feed cut every segment into degenerate cells. Between two stops there
+// are at least eight cells: room to start and to brake even in the shortest move.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
     if (m_.length_mm > refinement_.longest_mm || (stop_before_ && stop_after_ && piece.level < 3)) {
@@ -234,8 +234,8 @@ AxisShape<S> ArcLength<S>::shape_of(unsigned axis, S rounding, const Cell<S>& ce
     const S turn = twice * cell.curvature_max[axis];
     const bool sharp = turn > literal<S>(Cell<S>::sharp_turn);
     AxisShape<S> shape = sharp ? largest_shape(axis, cell) : m_.shape(axis, refinement_.shape_log2);
-    shape.spread = sharp ? scale2(smaller(turn, from_integer<S>(2)), refinement_.shape_log2)
-                         : shape.spread + scale2(twice, refinement_.shape_log2) * rounding;
+    shape.error_bound = sharp ? scale2(smaller(turn, from_integer<S>(2)), refinement_.shape_log2)
+                              : shape.error_bound + scale2(twice, refinement_.shape_log2) * rounding;
     return shape;
 }
 

@@ -17,7 +17,7 @@ template <Scalar S>
 struct AxisShape {
     std::array<S, 2> tangent{}; ///< dq/ds at both ends
     std::array<S, 3> bend{};    ///< Bezier points of 2 L d2q/ds2
-    S spread{};                 ///< what either leaves its polynomial by, per v0^2 + v1^2 in 2 L times an acceleration
+    S error_bound{};            ///< what either leaves its polynomial by, per v0^2 + v1^2 in 2 L times an acceleration
 };
 
 template <Scalar S>

@@ -53,7 +53,7 @@ Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
         for (S& b : shape.bend) {
             b = b * length;
         }
-        shape.spread = shape.spread * length;
+        shape.error_bound = shape.error_bound * length;
     }
     // inverse[i] belongs to x^(i+1)
     std::array<S, 7> inverse{};

@@ -47,7 +47,7 @@ struct PieceMeasure {
     void measure_curvature(int axes, int unit_log2) noexcept;
     /// Largest |d2q/ds2| of an axis at the three points.
     [[nodiscard]] S sharpest_bend(int axes) const noexcept;
-    /// The shape of one axis, without its spread.
+    /// The shape of one axis, without its error bound.
     [[nodiscard]] AxisShape<S> shape(unsigned axis, int log2) const noexcept;
     /// Largest magnitude over the piece of a function known at its three points.
     [[nodiscard]] static S bound(const std::array<PerAxis<S>, points>& f, unsigned axis) noexcept;

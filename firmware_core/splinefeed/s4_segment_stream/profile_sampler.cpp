@@ -138,7 +138,7 @@ bool ProfileSampler<S>::arrive() noexcept {
 // It can be interrupted by underrun anywhere and goes on where it was.
 template <Scalar S>
 Pull ProfileSampler<S>::next(UnderrunPolicy underrun) noexcept {
-    if (in_segment_ && !advanced_ && plan_->steering().news()) {
+    if (in_segment_ && !advanced_ && plan_->steering().pending()) {
         follow_steering();
     }
     if (repeats_ > 0) {

@@ -112,7 +112,7 @@ Pull SmoothSampler<S>::tick(UnderrunPolicy underrun) noexcept {
         begin();
     }
     if (!in_tick_) {
-        if (in_segment_ && plan_->steering().news()) {
+        if (in_segment_ && plan_->steering().pending()) {
             follow_steering();
         }
         tick_start_ = place_;

@@ -76,9 +76,9 @@ inline void AxisCrossings::solve() noexcept {
         return;
     }
     const auto size = static_cast<std::uint32_t>(correction < 0 ? -correction : correction);
-    const auto spread = static_cast<std::uint32_t>(change < 0 ? -change : change) + size;
-    if (static_cast<std::int32_t>(spread) >= interval >> 2 ||
-        static_cast<std::uint64_t>(size) * spread >
+    const auto error_bound = static_cast<std::uint32_t>(change < 0 ? -change : change) + size;
+    if (static_cast<std::int32_t>(error_bound) >= interval >> 2 ||
+        static_cast<std::uint64_t>(size) * error_bound >
             static_cast<std::uint64_t>(static_cast<std::uint32_t>(interval)) * near_) {
         search(u);
         return;

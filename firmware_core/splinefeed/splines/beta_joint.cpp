@@ -134,8 +134,9 @@ Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>& before, const BezierP
     }
     // |second derivative| <= 4 N (N-1) coordinates: below 2^30, so that norm may square it.
     const int highest = n > m ? n : m;
-    const int steepest = highest > 1 ? highest * (highest - 1) : 1;
-    const S coordinate_most = scale2(from_integer<S>(1), std::same_as<S, Fixed> ? 28 : 50) / from_integer<S>(steepest);
+    const int max_path_acceleration = highest > 1 ? highest * (highest - 1) : 1;
+    const S coordinate_most =
+        scale2(from_integer<S>(1), std::same_as<S, Fixed> ? 28 : 50) / from_integer<S>(max_path_acceleration);
     Point<S> q1{};
     Point<S> r1{};
     Point<S> q2{};

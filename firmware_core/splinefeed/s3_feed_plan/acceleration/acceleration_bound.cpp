@@ -13,12 +13,12 @@
 //
 // A polynomial stays between its Bezier points, so
 //
-//   | entry_j b0 + exit_j b1 | + spread (b0 + b1) <= 2 L A        j = 0 ... 3, every axis
+//   | entry_j b0 + exit_j b1 | + e (b0 + b1) <= 2 L A        j = 0 ... 3, every axis
 //
-// holds A at every point of the cell; spread covers what q' and q'' leave their polynomials by. j = 0 and 3 are the two
-// ends of the cell (the interpolation scheme of TOPP-RA: H. Pham, Q.-C. Pham, IEEE T-RO 34 (2018)); 1 and 2 close the
-// gap between them. Where the axis does not turn round one sign of f is braking, and A is the braking limit for it. The
-// signs matter where an axis turns round: there |q'| |a| + |q''| b would give away several per cent.
+// holds A at every point of the cell; the error bound e covers what q' and q'' leave their polynomials by. j = 0 and 3
+// are the two ends of the cell (the interpolation scheme of TOPP-RA: H. Pham, Q.-C. Pham, IEEE T-RO 34 (2018)); 1 and 2
+// close the gap between them. Where the axis does not turn round one sign of f is braking, and A is the braking limit
+// for it. The signs matter where an axis turns round: there |q'| |a| + |q''| b would give away several per cent.
 //
 // The polygon P of these half-planes is convex and holds (0, 0). Hence
 // - the entries from which an exit up to K can be reached are all from 0 to some largest one, a concave function of K
@@ -71,10 +71,10 @@ void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
     const S third = literal<S>(1.0 / 3.0);
     for (unsigned k = 0; k < static_cast<unsigned>(cell_->axes); ++k) {
         const AxisShape<S>& shape = cell_->shape[k];
-        const S spread = stretch_.whole() ? shape.spread : shape.spread * stretch_.length();
+        const S error_bound = stretch_.whole() ? shape.error_bound : shape.error_bound * stretch_.length();
         const auto both = [&](S entry, S exit) {
-            visit(Row{spread + entry, spread + exit, upwards_[k]}, spread);
-            visit(Row{spread - entry, spread - exit, downwards_[k]}, spread);
+            visit(Row{error_bound + entry, error_bound + exit, upwards_[k]}, error_bound);
+            visit(Row{error_bound - entry, error_bound - exit, downwards_[k]}, error_bound);
         };
         std::array<S, 3> bend = shape.bend;
         std::array<S, 4> t{shape.tangent[0], shape.tangent[0] + scale2(third * bend[0], -1),
@@ -121,13 +121,14 @@ S AccelerationBound<S>::largest_entry(S exit_sq, S at_most) const noexcept {
     return lowered<&Row::exit, &Row::entry>(exit_sq, at_most);
 }
 
-// What violates a half-plane is added to the exit. The spread goes with |v^2|: below zero it takes from the other side.
+// What violates a half-plane is added to the exit. The error bound goes with |v^2|: below zero it takes from the other
+// side.
 template <Scalar S>
 S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept {
     const bool below_zero = exit_sq < S{};
     S best = exit_sq;
-    each_row([&](const Row& row, S spread) {
-        const S exit = below_zero ? row.exit - (spread + spread) : row.exit;
+    each_row([&](const Row& row, S error_bound) {
+        const S exit = below_zero ? row.exit - (error_bound + error_bound) : row.exit;
         const S excess = row.entry * entry_sq + exit * best - row.limit;
         if (excess > S{} && exit < S{}) {
             best = best + smaller(quotient_or_max(excess, -exit), at_most - best);

@@ -44,7 +44,7 @@ private:
 
     [[nodiscard]] static S crossing_of(const Row& first, const Row& second, S weight) noexcept;
     template <class Visit>
-    void each_row(Visit&& visit) const noexcept; // visit(row, spread)
+    void each_row(Visit&& visit) const noexcept; // visit(row, error_bound)
     template <auto Given, auto Asked>            // members of Row
     [[nodiscard]] S lowered(S given_sq, S at_most) const noexcept;
     [[nodiscard]] S lifted(S entry_sq, S exit_sq, S at_most) const noexcept;

@@ -106,42 +106,42 @@ S FeedPlan<S>::programmed_sq(const Cell<S>& cell) const noexcept {
 // Backward over the window: entry_sq becomes the largest entry from which the machine's K behind the cell can be
 // reached, exit_sq the wish's K there. Returns the last final node of the wish, or 0.
 template <Scalar S>
-std::size_t FeedPlan<S>::look_back(bool open_end) noexcept {
+std::size_t FeedPlan<S>::backward_pass(bool open_end) noexcept {
     std::size_t last_final = 0;
-    S hard{}; // at rest
-    S soft{};
+    S machine_sq{}; // at rest
+    S override_sq{};
     S wanted = size_ > 0 ? wanted_sq(at(size_ - 1)) : S{};
     open_ = open_end;
     if (open_end && size_ > 0 && !at(size_ - 1).cell.stop_at_end) {
-        hard = at(size_ - 1).cap_sq;
-        soft = wanted;
+        machine_sq = at(size_ - 1).cap_sq;
+        override_sq = wanted;
     }
     for (std::size_t i = size_; i-- > 0;) {
         PlannedCell<S>& here = at(i);
-        S hard_cap = here.cap_sq;
-        S soft_cap = wanted;
+        S machine_cap = here.cap_sq;
+        S override_cap = wanted;
         S wanted_before{};
         if (i > 0) {
             const PlannedCell<S>& before = at(i - 1);
             wanted_before = wanted_sq(before);
             const bool stop = before.cell.stop_at_end;
-            hard_cap = stop ? S{} : smaller(hard_cap, before.cap_sq);
-            soft_cap = stop ? S{} : smaller(soft_cap, wanted_before);
+            machine_cap = stop ? S{} : smaller(machine_cap, before.cap_sq);
+            override_cap = stop ? S{} : smaller(override_cap, wanted_before);
         }
         const AccelerationBound<S> bound(here.cell, limits_);
         const auto reached_from = [&](S beyond, S at_most) {
             return beyond >= here.peak.exit_sq ? at_most : bound.largest_entry(beyond, at_most);
         };
-        const S hard_reach = reached_from(hard, here.peak.entry_sq);
-        const bool alike = soft == hard && wanted == here.cap_sq;
-        const S soft_reach = alike ? hard_reach : reached_from(soft, smaller(wanted, here.peak.entry_sq));
-        if ((soft >= here.peak.exit_sq || soft_reach >= soft_cap) && last_final == 0) {
+        const S machine_reach = reached_from(machine_sq, here.peak.entry_sq);
+        const bool alike = override_sq == machine_sq && wanted == here.cap_sq;
+        const S override_reach = alike ? machine_reach : reached_from(override_sq, smaller(wanted, here.peak.entry_sq));
+        if ((override_sq >= here.peak.exit_sq || override_reach >= override_cap) && last_final == 0) {
             last_final = i;
         }
-        here.entry_sq = hard_reach;
-        here.exit_sq = soft;
-        hard = smaller(hard_reach, hard_cap);
-        soft = smaller(soft_reach, soft_cap);
+        here.entry_sq = machine_reach;
+        here.exit_sq = override_sq;
+        machine_sq = smaller(machine_reach, machine_cap);
+        override_sq = smaller(override_reach, override_cap);
         wanted = wanted_before;
     }
     planned_ = true;
@@ -150,7 +150,7 @@ std::size_t FeedPlan<S>::look_back(bool open_end) noexcept {
 
 template <Scalar S>
 void FeedPlan<S>::commit(bool ended) noexcept {
-    const std::size_t last_final = look_back();
+    const std::size_t last_final = backward_pass();
     committed_ = size_;
     if (!ended) {
         const std::size_t quarter = (size_ + 3) / 4;
@@ -164,9 +164,9 @@ void FeedPlan<S>::commit(bool ended) noexcept {
 // The steering changed. What is committed gets new speeds, or is no longer committed.
 template <Scalar S>
 void FeedPlan<S>::replan() noexcept {
-    steering_.taken();
+    steering_.acknowledge();
     steered_ = true;
-    const std::size_t last_final = look_back();
+    const std::size_t last_final = backward_pass();
     committed_ = size_ == 0 || last_final > 0 ? last_final : 1;
     wanted_exit_ = size_ == 0 ? S{} : smaller(at(0).exit_sq, reachable_exit());
 }
@@ -182,15 +182,15 @@ S FeedPlan<S>::reachable_exit() const noexcept {
 }
 
 template <Scalar S>
-void FeedPlan<S>::choose(S known_sq) noexcept {
+void FeedPlan<S>::forward_step(S known_sq) noexcept {
     PlannedCell<S>& here = at(0);
     const S one = from_integer<S>(1);
     chosen_ = true;
     if (at_ == S{}) {
         here.entry_sq = speed_sq_;
     }
-    if (hopping_) {
-        hopping_ = false;
+    if (rest_to_rest_) {
+        rest_to_rest_ = false;
         profile_segment_ = {{at_}, speed_sq_, {}, here.cell.stop_at_end};
     } else if (steered_ || at_ > S{}) {
         choose_steered(known_sq);
@@ -202,14 +202,14 @@ void FeedPlan<S>::choose(S known_sq) noexcept {
     const bool to_end = stretch.to == one;
     here.exit_sq = to_end ? profile_segment_.exit_sq : wanted_exit_;
     if (to_end && !(profile_segment_.entry_sq + profile_segment_.exit_sq > S{}) && !profile_segment_.stops) {
-        // From rest to rest (a crumb between cusps, as a rule): accelerated over half of the length and braked over the
-        // other. From rest the whole length would reach v^2 = reach, half of it reach / 2; half of that is used, since
-        // a crumb's length has few digits in Fixed.
+        // From rest to rest (a degenerate cell between cusps, as a rule): accelerated over half of the length and
+        // braked over the other. From rest the whole length would reach v^2 = reach, half of it reach / 2; half of that
+        // is used, since the length of a degenerate cell has few digits in Fixed.
         const S reach = smaller(here.reach_from_rest, wanted_sq(here));
         profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
-        hopping_ = stretch.to < one; // a last digit has no half
-        profile_segment_.stops = !hopping_;
+        rest_to_rest_ = stretch.to < one; // a last digit has no half
+        profile_segment_.stops = !rest_to_rest_;
     } else if (to_end && !(profile_segment_.exit_sq > S{})) {
         profile_segment_.stops = profile_segment_.stops || here.cell.stop_at_end || size_ == 1;
     }
@@ -223,7 +223,7 @@ void FeedPlan<S>::choose_steered(S known_sq) noexcept {
         steered_segment(here.cell, limits_,
                         SteeringTarget<S>{.from = at_,
                                           .entry_sq = speed_sq_,
-                                          .level_sq = wanted_sq(here),
+                                          .max_steady_sq = wanted_sq(here),
                                           .exit_sq = wanted_exit_,
                                           .most_sq = reachable,
                                           .known_sq = known_sq < S{} ? known_sq : smaller(known_sq, reachable),
@@ -277,7 +277,8 @@ Pull FeedPlan<S>::fill() noexcept {
 template <Scalar S>
 void FeedPlan<S>::lead() noexcept {
     steering_.override_feed(from_integer<S>(2));
-    steering_.taken();
+    steering_.poll();
+    steering_.acknowledge();
     leads_ = true;
 }
 
@@ -303,8 +304,8 @@ Pull FeedPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
             return pull;
         }
         if (pull == Pull::starved) {
-            if (!planned_ || open_ != leads_ || steering_.news()) {
-                look_back(leads_);
+            if (!planned_ || open_ != leads_ || steering_.pending()) {
+                backward_pass(leads_);
             }
             committed_ = 1;
         } else {
@@ -313,16 +314,16 @@ Pull FeedPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
         if (was_open || open_) { // with an open end it may have become faster than what came behind it allows
             speed_sq_ = smaller(speed_sq_, at(0).entry_sq);
         }
-        steered_ = steered_ || steering_.news();
-        steering_.taken();
+        steered_ = steered_ || steering_.pending();
+        steering_.acknowledge();
         wanted_exit_ = smaller(at(0).exit_sq, reachable_exit());
-    } else if (steering_.news()) {
+    } else if (steering_.pending()) {
         replan();
     } else if (at_ == S{}) {
         wanted_exit_ = smaller(at(0).exit_sq, reachable_exit());
     }
     const S known = at_ == S{} ? known_exit() : from_integer<S>(-1);
-    choose(known);
+    forward_step(known);
     return Pull::item;
 }
 
@@ -332,10 +333,10 @@ bool FeedPlan<S>::steer(const Place<S>& place) noexcept {
     const S known = whole_path ? profile_segment_.exit_sq : from_integer<S>(-1);
     at_ = place.fraction;
     speed_sq_ = place.speed_sq;
-    hopping_ = chosen_ = false;
+    rest_to_rest_ = chosen_ = false;
     replan();
     if (speed_sq_ > S{} || !steering_.stops()) {
-        choose(known);
+        forward_step(known);
     }
     return true;
 }
@@ -363,7 +364,7 @@ void FeedPlan<S>::pop() noexcept {
     SPLINEFEED_ASSERT(committed_ > 0 && chosen_);
     speed_sq_ = front().exit_sq;
     at_ = S{};
-    chosen_ = hopping_ = false;
+    chosen_ = rest_to_rest_ = false;
     head_ = ring_index(head_ + 1, window_.size());
     --size_;
     --committed_;
@@ -381,7 +382,7 @@ void FeedPlan<S>::forget() noexcept {
     size_ = committed_ = 0;
     turning_.clear();
     at_ = speed_sq_ = S{};
-    steered_ = planned_ = open_ = chosen_ = hopping_ = false;
+    steered_ = planned_ = open_ = chosen_ = rest_to_rest_ = false;
 }
 
 template class FeedPlan<double>;

@@ -84,11 +84,11 @@ private:
         return wanted_sq(planned.cell, planned.cap_sq, steering_.ratio());
     }
     Pull fill() noexcept;
-    std::size_t look_back(bool open_end = false) noexcept;
+    std::size_t backward_pass(bool open_end = false) noexcept;
     void commit(bool ended) noexcept;
     void replan() noexcept;
     [[nodiscard]] S reachable_exit() const noexcept;
-    void choose(S known_sq) noexcept;
+    void forward_step(S known_sq) noexcept;
     void choose_steered(S known_sq) noexcept;
     [[nodiscard]] S known_exit() const noexcept;
 
@@ -106,12 +106,12 @@ private:
     S speed_sq_{};    // v^2 there
     S wanted_exit_{}; // at the end of the front cell, once a profile segment is chosen
     std::uint64_t window_limited_ = 0;
-    bool planned_ = false; // the window, as it is
-    bool open_ = false;    // with a free speed at its end: a motion that follows need not rest there
-    bool leads_ = false;   // another plan follows
-    bool chosen_ = false;  // passage_ is the front's
-    bool hopping_ = false; // passage_ is the first half of one from rest to rest
-    bool steered_ = false; // not yet back on the plan that the steering asks for
+    bool planned_ = false;      // the window, as it is
+    bool open_ = false;         // with a free speed at its end: a motion that follows need not rest there
+    bool leads_ = false;        // another plan follows
+    bool chosen_ = false;       // passage_ is the front's
+    bool rest_to_rest_ = false; // passage_ is the first half of one from rest to rest
+    bool steered_ = false;      // not yet back on the plan that the steering asks for
 };
 
 } // namespace splinefeed

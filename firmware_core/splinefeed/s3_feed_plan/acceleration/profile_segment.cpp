@@ -24,7 +24,7 @@ constexpr int most_halvings = 28;
 
 // A rest of a cell shorter than this fraction is left to the profile segment before it: its length would have few
 // digits.
-constexpr double crumb = 1.0 / 1024.0;
+constexpr double negligible_part = 1.0 / 1024.0;
 
 template <Scalar S>
 struct Change {
@@ -40,7 +40,7 @@ Change<S> hardest_change(const Cell<S>& cell, const MotionLimits<S>& limits, con
     ProfileSegment<S> profile_segment{{aim.from}, aim.entry_sq, {}, false};
     S at_most = aim.known_sq < S{} ? aim.most_sq : aim.known_sq;
     S& to = profile_segment.stretch.to;
-    if (aim.rest && aim.from + literal<S>(step + crumb) < to) {
+    if (aim.rest && aim.from + literal<S>(step + negligible_part) < to) {
         to = aim.from + literal<S>(step);
         at_most = larger(at_most, aim.entry_sq);
     }
@@ -72,9 +72,9 @@ template <Scalar S>
 ProfileSegment<S> steered_segment(const Cell<S>& cell, const MotionLimits<S>& limits,
                                   const SteeringTarget<S>& aim) noexcept {
     const S one = from_integer<S>(1);
-    const S last = one - literal<S>(crumb);
-    if (aim.rest || aim.entry_sq > aim.level_sq) {
-        Change<S> change = hardest_change(cell, limits, aim, aim.rest ? S{} : aim.level_sq);
+    const S last = one - literal<S>(negligible_part);
+    if (aim.rest || aim.entry_sq > aim.max_steady_sq) {
+        Change<S> change = hardest_change(cell, limits, aim, aim.rest ? S{} : aim.max_steady_sq);
         if (change.reached && change.profile_segment.stretch.to < last) {
             change.profile_segment.stops = aim.rest;
             return change.profile_segment;

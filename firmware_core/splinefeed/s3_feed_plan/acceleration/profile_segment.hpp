@@ -12,8 +12,8 @@ template <Scalar S>
 struct SteeringTarget {
     S from{};          ///< fraction of the cell's length
     S entry_sq{};      ///< v^2 there
-    S level_sq{};      ///< wanted: nothing faster
-    S exit_sq{};       ///< wanted at the end of the cell; at most level_sq and most_sq
+    S max_steady_sq{}; ///< wanted: nothing faster
+    S exit_sq{};       ///< wanted at the end of the cell; at most max_steady_sq and most_sq
     S most_sq{};       ///< the largest v^2 at the end of the cell with which the path can be travelled to its end
     S known_sq{};      ///< an exit up to most_sq that the cell is known to allow; negative: none is known
     bool rest = false; ///< wanted: rest as soon as possible

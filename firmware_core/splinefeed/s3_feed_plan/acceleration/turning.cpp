@@ -21,8 +21,8 @@ S least_tangent(const Cell<S>& cell, unsigned axis, int shape_log2) noexcept {
     const S sixth = literal<S>(1.0 / 6.0);
     const S t1 = shape.tangent[0] + sixth * shape.bend[0];
     const S t2 = shape.tangent[1] - sixth * shape.bend[2];
-    const S lowest = smaller(smaller(shape.tangent[0], shape.tangent[1]), smaller(t1, t2)) - shape.spread;
-    const S highest = larger(larger(shape.tangent[0], shape.tangent[1]), larger(t1, t2)) + shape.spread;
+    const S lowest = smaller(smaller(shape.tangent[0], shape.tangent[1]), smaller(t1, t2)) - shape.error_bound;
+    const S highest = larger(larger(shape.tangent[0], shape.tangent[1]), larger(t1, t2)) + shape.error_bound;
     return scale2(lowest > S{} ? lowest : highest < S{} ? highest : S{}, -shape_log2);
 }
 

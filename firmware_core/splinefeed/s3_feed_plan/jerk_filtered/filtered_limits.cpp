@@ -118,13 +118,13 @@ S FilteredLimits<S>::excess(S speed_sq, S acceleration) const noexcept {
 }
 
 template <Scalar S>
-S FilteredLimits<S>::level(S at_most) const noexcept {
+S FilteredLimits<S>::max_steady(S at_most) const noexcept {
     return largest_allowed(
         S{}, at_most, [&](S speed_sq) { return excess<false>(speed_sq, S{}); }, level_steps);
 }
 
 template <Scalar S>
-S FilteredLimits<S>::steepest() const noexcept {
+S FilteredLimits<S>::max_path_acceleration() const noexcept {
     S most = scale2(from_integer<S>(1), 22); // more than six axes' limits together
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]),
@@ -136,37 +136,38 @@ S FilteredLimits<S>::steepest() const noexcept {
 
 template <Scalar S>
 template <bool Braking>
-S FilteredLimits<S>::faster_end(S slower_sq, S at_most, S length_mm, S steepest) const noexcept {
+S FilteredLimits<S>::faster_end(S slower_sq, S at_most, S length_mm, S max_path_acceleration) const noexcept {
     if (!(at_most > slower_sq)) {
         return at_most;
     }
     const S twice = length_mm + length_mm;
     // The steepest line is allowed where nothing bends; beyond it nothing is.
     const S change = at_most - slower_sq;
-    const S high = quotient_or_max(change, twice) > steepest ? slower_sq + twice * steepest : at_most;
+    const S high =
+        quotient_or_max(change, twice) > max_path_acceleration ? slower_sq + twice * max_path_acceleration : at_most;
     return largest_allowed(slower_sq, high, [&](S speed_sq) {
-        return excess<Braking>(speed_sq, smaller(quotient_or_max(speed_sq - slower_sq, twice), steepest));
+        return excess<Braking>(speed_sq, smaller(quotient_or_max(speed_sq - slower_sq, twice), max_path_acceleration));
     });
 }
 
 template <Scalar S>
-S FilteredLimits<S>::largest_exit(S entry_sq, S at_most, S length_mm, S steepest) const noexcept {
-    return faster_end<false>(entry_sq, at_most, length_mm, steepest);
+S FilteredLimits<S>::largest_exit(S entry_sq, S at_most, S length_mm, S max_path_acceleration) const noexcept {
+    return faster_end<false>(entry_sq, at_most, length_mm, max_path_acceleration);
 }
 
 template <Scalar S>
-S FilteredLimits<S>::largest_entry(S exit_sq, S at_most, S length_mm, S steepest) const noexcept {
-    return faster_end<true>(exit_sq, at_most, length_mm, steepest);
+S FilteredLimits<S>::largest_entry(S exit_sq, S at_most, S length_mm, S max_path_acceleration) const noexcept {
+    return faster_end<true>(exit_sq, at_most, length_mm, max_path_acceleration);
 }
 
 template <Scalar S>
-S FilteredLimits<S>::acceleration(S speed_sq, S steepest) const noexcept {
-    return largest_allowed(S{}, steepest, [&](S a) { return excess<false>(speed_sq, a); });
+S FilteredLimits<S>::acceleration(S speed_sq, S max_path_acceleration) const noexcept {
+    return largest_allowed(S{}, max_path_acceleration, [&](S a) { return excess<false>(speed_sq, a); });
 }
 
 template <Scalar S>
-S FilteredLimits<S>::braking(S speed_sq, S steepest) const noexcept {
-    return largest_allowed(S{}, steepest, [&](S a) { return excess<true>(speed_sq, a); });
+S FilteredLimits<S>::braking(S speed_sq, S max_path_acceleration) const noexcept {
+    return largest_allowed(S{}, max_path_acceleration, [&](S a) { return excess<true>(speed_sq, a); });
 }
 
 template class FilteredLimits<double>;

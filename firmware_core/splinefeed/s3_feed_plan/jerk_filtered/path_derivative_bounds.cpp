@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A cell says 2 L q'' as a parabola by its Bezier points c0, c1, c2, and `spread`, what q'' leaves it by. q'' stays
-// between its Bezier points, c / (2 L); q''' is linear between (c1 - c0) / L^2 and (c2 - c1) / L^2. The rest of q''' is
-// taken as 10.4 / L times that of q'': a rest x (1-x) (1-2x) has the slope 1 at the ends and reaches 0.096.
+// A cell says 2 L q'' as a parabola by its Bezier points c0, c1, c2, and `error_bound`, what q'' leaves it by. q''
+// stays between its Bezier points, c / (2 L); q''' is linear between (c1 - c0) / L^2 and (c2 - c1) / L^2. The rest of
+// q''' is taken as 10.4 / L times that of q'': a rest x (1-x) (1-2x) has the slope 1 at the ends and reaches 0.096.
 #include "splinefeed/s3_feed_plan/jerk_filtered/path_derivative_bounds.hpp"
 
 namespace splinefeed {
@@ -33,9 +33,9 @@ PathDerivativeBounds<S> PathDerivativeBounds<S>::of(const Cell<S>& cell, const M
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
         const AxisShape<S>& shape = cell.shape[k];
         const auto& c = shape.bend;
-        const S highest = larger(c[0], larger(c[1], c[2])) + shape.spread;
-        const S lowest = smaller(c[0], smaller(c[1], c[2])) - shape.spread;
-        const S rest = literal<S>(ripple / 2.0) * shape.spread;
+        const S highest = larger(c[0], larger(c[1], c[2])) + shape.error_bound;
+        const S lowest = smaller(c[0], smaller(c[1], c[2])) - shape.error_bound;
+        const S rest = literal<S>(ripple / 2.0) * shape.error_bound;
         const S rise = larger(c[1] - c[0], c[2] - c[1]) + rest;
         const S fall = larger(c[0] - c[1], c[1] - c[2]) + rest;
         const auto twice_per_length = [&](S x) {

@@ -12,7 +12,7 @@
 //   nothing: a machine that coasts below K may brake at once if it braked last. Steering can bring K of what is wanted
 //   down in that time: then the motion goes on above it, never above K of the machine, until it may brake.
 //
-// Two K, as in FeedPlan: the machine's (hard), and that of what the steering wants (soft), which is what a motion that
+// Two K, as in FeedPlan: the machine's (`machine`), and that of what the steering wants (`override`), which is what a motion that
 // is not above it keeps below. One that is above it brakes as hard as its cells allow, as soon as it may.
 //
 // From rest either sign is allowed: who averages the motion lets it rest for T.
@@ -25,9 +25,10 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double slowest_sq = 1e-6;    // as FeedPlan's
-constexpr double crumb = 1.0 / 1024.0; // of a cell: a part this short is left to the profile segment before it
-constexpr double gain = 1.0 / 2048.0;  // of v^2, which is not worth a profile segment
+constexpr double slowest_sq = 1e-6; // as FeedPlan's
+constexpr double negligible_part =
+    1.0 / 1024.0;                     // of a cell: a part this short is left to the profile segment before it
+constexpr double gain = 1.0 / 2048.0; // of v^2, which is not worth a profile segment
 constexpr int bisections = 12;
 constexpr int from_rest = 12; // more of them where it starts
 constexpr double spare_time = 1.0 / 16.0;
@@ -58,9 +59,9 @@ Pull SmoothPlan<S>::take(UnderrunPolicy underrun) noexcept {
     if (pull != Pull::item) {
         return pull;
     }
-    const Cell<S>& cell = source_->cell(); // of both halves of a crumb
+    const Cell<S>& cell = source_->cell(); // of both halves of a degenerate cell
     const S cap_sq = source_->cap_sq();
-    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a crumb
+    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a degenerate cell
         source_->advance();
         pull = source_->prepare(underrun);
         SPLINEFEED_ASSERT(pull == Pull::item);
@@ -90,7 +91,7 @@ Pull SmoothPlan<S>::refill(UnderrunPolicy underrun) noexcept {
         window_.prepare(false);
     }
     taken_ = starved_ ? window_.capacity() : 0; // then it is asked again with every profile segment
-    look_back(false);
+    backward_pass(false);
     return pull;
 }
 
@@ -103,45 +104,46 @@ bool SmoothPlan<S>::ends_here() noexcept {
     }
     window_.end_here();
     window_.prepare(false);
-    look_back(true);
+    backward_pass(true);
     return true;
 }
 
 template <Scalar S>
 S SmoothPlan<S>::wanted_sq(const SmoothCell<S>& cell) const noexcept {
     const S ratio = steering_.ratio();
-    return larger(smaller(cell.level_sq, cell.demand.programmed_sq * (ratio * ratio)),
-                  smaller(cell.level_sq, literal<S>(slowest_sq)));
+    return larger(smaller(cell.max_steady_sq, cell.demand.programmed_sq * (ratio * ratio)),
+                  smaller(cell.max_steady_sq, literal<S>(slowest_sq)));
 }
 
 // @param all  else it ends where nothing changes any more
 template <Scalar S>
-void SmoothPlan<S>::look_back(bool all) noexcept {
+void SmoothPlan<S>::backward_pass(bool all) noexcept {
     for (std::size_t i = known(); i-- > 0;) {
         SmoothCell<S>& here = ahead(i);
         const FilteredLimits<S> bound = bound_of(here);
-        const S hard_beyond = hard_exit(i);
-        const S soft_beyond = soft_exit(i);
+        const S machine_beyond = machine_exit(i);
+        const S override_beyond = override_exit(i);
         const S wanted = wanted_sq(here);
         const auto reached_from = [&](S beyond, S at_most) {
-            return bound.largest_entry(beyond, at_most, here.cell.length_mm, here.steepest);
+            return bound.largest_entry(beyond, at_most, here.cell.length_mm, here.max_path_acceleration);
         };
-        S hard = reached_from(hard_beyond, here.level_sq);
-        const bool alike = hard_beyond == soft_beyond && wanted == here.level_sq;
-        const S soft_reach = alike ? hard : reached_from(soft_beyond, wanted);
-        S soft = soft_reach;
+        S machine_sq = reached_from(machine_beyond, here.max_steady_sq);
+        const bool alike = machine_beyond == override_beyond && wanted == here.max_steady_sq;
+        const S override_reach = alike ? machine_sq : reached_from(override_beyond, wanted);
+        S override_sq = override_reach;
         const bool first = window_.front() + i == 0 || window_.ends_leg(window_.front() + i - 1);
         if (first) {
-            hard = soft = S{};
+            machine_sq = override_sq = S{};
         } else {
             const SmoothCell<S>& before = window_.at(window_.front() + i - 1);
-            hard = smaller(hard, smaller(here.bound_sq, before.level_sq));
-            soft = smaller(soft, smaller(here.bound_sq, wanted_sq(before)));
+            machine_sq = smaller(machine_sq, smaller(here.bound_sq, before.max_steady_sq));
+            override_sq = smaller(override_sq, smaller(here.bound_sq, wanted_sq(before)));
         }
-        const bool same = !all && i < looked_ && hard == here.hard_sq && soft == here.soft_sq;
-        here.hard_sq = hard;
-        here.soft_sq = soft;
-        here.soft_reach = soft_reach;
+        const bool same = !all && i < looked_ && machine_sq == here.machine_controllable_sq &&
+                          override_sq == here.override_controllable_sq;
+        here.machine_controllable_sq = machine_sq;
+        here.override_controllable_sq = override_sq;
+        here.override_reach = override_reach;
         if (same) {
             break;
         }
@@ -156,9 +158,9 @@ bool SmoothPlan<S>::coasts(S from, S speed_sq, S speed) const noexcept {
     S left = speed * (ticks / limits_->segments_per_s) + from * length();
     for (std::size_t i = 0; i < known(); ++i) {
         const SmoothCell<S>& here = ahead(i);
-        const S exit = soft_exit(i);
+        const S exit = override_exit(i);
         if (speed_sq > exit) {
-            const S top = here.soft_reach;
+            const S top = here.override_reach;
             return top > speed_sq && !(here.cell.length_mm * ((top - speed_sq) / (top - exit)) < left);
         }
         if (!(here.cell.length_mm < left)) {
@@ -191,8 +193,8 @@ bool SmoothPlan<S>::coast() noexcept {
     }
     const S to = at_ + larger(quotient_or_max(way, length()), literal<S>(least_part<S>));
     // A part in which it has to brake is not left out, however short it is.
-    const bool braked = speed_sq_ > hard_exit(0);
-    const bool whole = !(to < one) || !(braked || to < one - literal<S>(crumb));
+    const bool braked = speed_sq_ > machine_exit(0);
+    const bool whole = !(to < one) || !(braked || to < one - literal<S>(negligible_part));
     profile_segment_to(whole ? one : to, speed_sq_);
     return true;
 }
@@ -201,34 +203,34 @@ bool SmoothPlan<S>::coast() noexcept {
 template <Scalar S>
 void SmoothPlan<S>::brake(S goal_sq) noexcept {
     const S one = from_integer<S>(1);
-    const S a = bound_of(ahead(0)).braking(speed_sq_, ahead(0).steepest);
+    const S a = bound_of(ahead(0)).braking(speed_sq_, ahead(0).max_path_acceleration);
     const S way = length() * (one - at_);
     const S needed = speed_sq_ - goal_sq;
     const S possible = (way + way) * a;
     if (possible > needed) {
         const S to = at_ + (one - at_) * (needed / possible);
-        if (to < one - literal<S>(crumb)) {
+        if (to < one - literal<S>(negligible_part)) {
             profile_segment_to(larger(to, at_ + literal<S>(least_part<S>)), goal_sq);
             return;
         }
     }
-    profile_segment_to(one, smaller(larger(speed_sq_ - possible, goal_sq), hard_exit(0)));
+    profile_segment_to(one, smaller(larger(speed_sq_ - possible, goal_sq), machine_exit(0)));
 }
 
 // Below K: on at this speed, and along K where that comes down to it.
 template <Scalar S>
 void SmoothPlan<S>::follow() noexcept {
     const S one = from_integer<S>(1);
-    const S exit = soft_exit(0);
+    const S exit = override_exit(0);
     const bool may_brake = sign_.last() != AccelerationSign::accelerating || rested();
     const S tolerated = may_brake ? S{} : speed_sq_ * literal<S>(above);
     if (!(speed_sq_ > exit + tolerated)) {
         profile_segment_to(one, speed_sq_);
         return;
     }
-    const S top = ahead(0).soft_reach;
+    const S top = ahead(0).override_reach;
     const S meets = top > speed_sq_ ? (top - speed_sq_) / (top - exit) : S{};
-    const S least = may_brake ? literal<S>(crumb) : literal<S>(0x1p-20);
+    const S least = may_brake ? literal<S>(negligible_part) : literal<S>(0x1p-20);
     if (meets > at_ + least && (!may_brake || meets < one - least)) {
         profile_segment_to(smaller(meets, one), speed_sq_);
     } else if (may_brake) {
@@ -242,8 +244,8 @@ template <Scalar S>
 bool SmoothPlan<S>::accelerate() noexcept {
     const S one = from_integer<S>(1);
     const SmoothCell<S>& here = ahead(0);
-    const S exit = soft_exit(0);
-    const S top = here.soft_reach > exit ? here.soft_reach : smaller(exit, wanted_sq(here));
+    const S exit = override_exit(0);
+    const S top = here.override_reach > exit ? here.override_reach : smaller(exit, wanted_sq(here));
     const S worth = speed_sq_ * literal<S>(gain);
     if (!(top > speed_sq_ + worth)) {
         return false;
@@ -253,11 +255,11 @@ bool SmoothPlan<S>::accelerate() noexcept {
     }
     const FilteredLimits<S> bound = bound_of(here);
     const S way = length() * (one - at_);
-    const S most = bound.largest_exit(speed_sq_, top, way, here.steepest);
+    const S most = bound.largest_exit(speed_sq_, top, way, here.max_path_acceleration);
     const S change = larger(most - speed_sq_, S{});
     S steep = quotient_or_max(change, way + way);
     if (!(most < top)) { // sooner than at the end of the cell
-        steep = larger(steep, bound.acceleration(most, here.steepest));
+        steep = larger(steep, bound.acceleration(most, here.max_path_acceleration));
     }
     // Place where a speed is reached
     const auto reached = [&](S speed_sq) {
@@ -297,12 +299,12 @@ void SmoothPlan<S>::crawl() noexcept {
 }
 
 template <Scalar S>
-void SmoothPlan<S>::choose() noexcept {
+void SmoothPlan<S>::forward_step() noexcept {
     chosen_ = true;
     SmoothCell<S>& here = ahead(0);
     static_cast<void>(bound_of(here));
-    const S exit = soft_exit(0);
-    const S top = here.soft_reach;
+    const S exit = override_exit(0);
+    const S top = here.override_reach;
     const S allowed = top > exit ? top - (top - exit) * at_ : larger(top, exit);
     if (steering_.stops() || speed_sq_ > allowed + allowed * literal<S>(0x1p-14)) {
         const bool waits = sign_.last() == AccelerationSign::accelerating && !rested() && coast();
@@ -345,16 +347,16 @@ Pull SmoothPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
     if (steering_.stops() && stands) {
         return Pull::held;
     }
-    if (steering_.news()) {
-        steering_.taken();
-        look_back(true);
+    if (steering_.pending()) {
+        steering_.acknowledge();
+        backward_pass(true);
     }
     if (stands) {
         sign_ = {};
     }
-    choose();
+    forward_step();
     if (starved_ && underrun == UnderrunPolicy::drain && !steering_.stops() && ends_here()) {
-        choose();
+        forward_step();
     }
     return Pull::item;
 }

@@ -64,14 +64,18 @@ private:
     [[nodiscard]] bool ends(std::size_t i) const noexcept {
         return i + 1 == known() || window_.ends_leg(window_.front() + i);
     }
-    [[nodiscard]] S soft_exit(std::size_t i) const noexcept { return ends(i) ? S{} : ahead(i + 1).soft_sq; }
-    [[nodiscard]] S hard_exit(std::size_t i) const noexcept { return ends(i) ? S{} : ahead(i + 1).hard_sq; }
+    [[nodiscard]] S override_exit(std::size_t i) const noexcept {
+        return ends(i) ? S{} : ahead(i + 1).override_controllable_sq;
+    }
+    [[nodiscard]] S machine_exit(std::size_t i) const noexcept {
+        return ends(i) ? S{} : ahead(i + 1).machine_controllable_sq;
+    }
 
     Pull take(UnderrunPolicy underrun) noexcept;
     Pull refill(UnderrunPolicy underrun) noexcept;
     [[nodiscard]] S wanted_sq(const SmoothCell<S>& cell) const noexcept;
     bool ends_here() noexcept;
-    void look_back(bool all) noexcept;
+    void backward_pass(bool all) noexcept;
     [[nodiscard]] S length() const noexcept { return ahead(0).cell.length_mm; }
     [[nodiscard]] FilteredLimits<S> bound_of(const SmoothCell<S>& cell) noexcept {
         if (cell.smoothing_q8 != smoothing_.duration_q8) {
@@ -80,7 +84,7 @@ private:
         return FilteredLimits<S>(cell.demand, *limits_, smoothing_);
     }
     [[nodiscard]] bool coasts(S from, S speed_sq, S speed) const noexcept;
-    void choose() noexcept;
+    void forward_step() noexcept;
     bool accelerate() noexcept;
     void brake(S goal_sq) noexcept;
     bool coast() noexcept;

@@ -328,7 +328,7 @@ void SmoothWindow<S>::tighten(std::size_t first) noexcept {
             const SmoothCell<S>& here = at(end);
             const FilteredLimits<S> bound(here.own, *limits_, smoothing_);
             S& exit = exit_bound(end);
-            exit = larger(bound.largest_exit(here.bound_sq, exit, here.cell.length_mm, bound.steepest()),
+            exit = larger(bound.largest_exit(here.bound_sq, exit, here.cell.length_mm, bound.max_path_acceleration()),
                           smaller(exit, literal<S>(crawl_sq)));
         }
         if (end + 1 == size_ || ends_leg(end)) {
@@ -345,8 +345,9 @@ void SmoothWindow<S>::tighten(std::size_t first) noexcept {
                 i < high_ ? PathDerivativeBounds<S>::of(here.cell, *limits_, here.own.cap_sq, here.own.programmed_sq)
                           : here.own;
             const FilteredLimits<S> bound(own, *limits_, smoothing_);
-            here.bound_sq = larger(bound.largest_entry(exit, here.bound_sq, here.cell.length_mm, bound.steepest()),
-                                   smaller(here.bound_sq, literal<S>(crawl_sq)));
+            here.bound_sq =
+                larger(bound.largest_entry(exit, here.bound_sq, here.cell.length_mm, bound.max_path_acceleration()),
+                       smaller(here.bound_sq, literal<S>(crawl_sq)));
         }
         measure(i);
     }
@@ -384,10 +385,11 @@ void SmoothWindow<S>::prepare(bool force) noexcept {
         here.demand = demand_of(first_reached(i, smoothing_), last);
         here.smoothing_q8 = smoothing_.duration_q8;
         const FilteredLimits<S> bound(here.demand, *limits_, smoothing_);
-        here.steepest = bound.steepest();
+        here.max_path_acceleration = bound.max_path_acceleration();
         const S fastest_sq = smaller(larger(here.bound_sq, bound_behind(i)), here.demand.cap_sq);
-        here.level_sq = bound.level(here.demand.beyond ? smaller(fastest_sq, literal<S>(crawl_sq)) : fastest_sq);
-        here.hard_sq = here.soft_sq = here.soft_reach = S{};
+        here.max_steady_sq =
+            bound.max_steady(here.demand.beyond ? smaller(fastest_sq, literal<S>(crawl_sq)) : fastest_sq);
+        here.machine_controllable_sq = here.override_controllable_sq = here.override_reach = S{};
         ++prepared_;
     }
 }

@@ -24,11 +24,11 @@ struct SmoothCell {
     PathDerivativeBounds<S> own{};
     PathDerivativeBounds<S> demand{}; ///< of all places where the average can be while the motion is in the cell
     std::uint32_t smoothing_q8 = 0;
-    S steepest{};   ///< FilteredLimits::steepest
-    S level_sq{};   ///< largest that may be kept up in it
-    S hard_sq{};    ///< largest at its start from which the end of what is known can be reached at rest
-    S soft_sq{};    ///< the same with what the steering wants
-    S soft_reach{}; ///< soft_sq as the cell alone would have it
+    S max_path_acceleration{};    ///< FilteredLimits::max_path_acceleration
+    S max_steady_sq{};            ///< largest that may be kept up in it
+    S machine_controllable_sq{};  ///< largest at its start from which the end of what is known can be reached at rest
+    S override_controllable_sq{}; ///< the same with what the steering wants
+    S override_reach{};           ///< override_controllable_sq as the cell alone would have it
 };
 
 /// A ring of cells; all indices count from the oldest.

@@ -143,7 +143,7 @@ void ControllableSet::add_acceleration(const CellPassage& passage) noexcept {
         const AxisEnd& to = passage.exit()[k];
         const AxisPoints q(from, to, passage.direction(), length_mm_, per_length);
         const double* p = q.second;
-        const double spread = larger(from.second_spread, to.second_spread);
+        const double error_bound = larger(from.second_spread, to.second_spread);
         // of b0, m, b1, and of b0', b1'
         const auto add = [&](double b0, double m, double b1, double entry, double exit, const Form& more) {
             const double middle = b0 + m + b1;
@@ -154,10 +154,12 @@ void ControllableSet::add_acceleration(const CellPassage& passage) noexcept {
             row_[rows_++] = {more.middle - middle, more.entry - entry, more.exit - exit,
                              smaller(from.most_backward, to.most_backward)};
         };
-        add(0.5 * p[1], 0.5 * p[0], 0.0, 0.375 * q.first[1], 0.125 * q.first[0], {spread, -0.5 * half * spread, 0.0});
+        add(0.5 * p[1], 0.5 * p[0], 0.0, 0.375 * q.first[1], 0.125 * q.first[0],
+            {error_bound, -0.5 * half * error_bound, 0.0});
         add(p[2] / 6.0, 4.0 * p[1] / 6.0, p[0] / 6.0, 0.25 * q.first[2], 0.25 * q.first[1],
-            {spread, -half * spread / 6.0, half * spread / 6.0});
-        add(0.0, 0.5 * p[2], 0.5 * p[1], 0.125 * q.first[3], 0.375 * q.first[2], {spread, 0.0, 0.5 * half * spread});
+            {error_bound, -half * error_bound / 6.0, half * error_bound / 6.0});
+        add(0.0, 0.5 * p[2], 0.5 * p[1], 0.125 * q.first[3], 0.375 * q.first[2],
+            {error_bound, 0.0, 0.5 * half * error_bound});
     }
 }
 
@@ -388,9 +390,9 @@ void cut_to_node(StatePolygon& states, const CellPassage& before, const CellPass
 }
 
 StatePolygon states_at(const CellPassage& before, const CellPassage& after, double at_most_sq) noexcept {
-    const double steepest =
+    const double max_path_acceleration =
         2.0 * larger(before.cell->cap_sq / before.cell->length_mm, after.cell->cap_sq / after.cell->length_mm);
-    StatePolygon states(smaller(at_most_sq, smaller(before.cell->cap_sq, after.cell->cap_sq)), steepest);
+    StatePolygon states(smaller(at_most_sq, smaller(before.cell->cap_sq, after.cell->cap_sq)), max_path_acceleration);
     cut_to_node(states, before, after, at_most_sq);
     return states;
 }

@@ -64,12 +64,12 @@ double JerkCell::largest_from_rest(unsigned moving) const noexcept {
                                 first[3] + 9.0 * l * at.second + 4.5 * l * l * third[1]};
         const double share[] = {first[0], first[1] + 0.5 * l * rest.second, first[2] + l * middle,
                                 first[3] + 1.5 * l * at.second};
-        double steepest = 0.0;
+        double max_path_acceleration = 0.0;
         for (const double acceleration : share) {
-            steepest = larger(steepest, absolute(acceleration));
+            max_path_acceleration = larger(max_path_acceleration, absolute(acceleration));
         }
-        steepest += 1.5 * l * larger(rest.second_spread, at.second_spread);
-        largest_b = smaller(largest_b, quotient_or_max(1.5 * l * least_acceleration(*this, k), steepest));
+        max_path_acceleration += 1.5 * l * larger(rest.second_spread, at.second_spread);
+        largest_b = smaller(largest_b, quotient_or_max(1.5 * l * least_acceleration(*this, k), max_path_acceleration));
         double per_power = 0.0;
         for (const double jerk : point) {
             per_power = larger(per_power, absolute(jerk) * 2.0 / (9.0 * l * l) + at.third_spread);

@@ -11,9 +11,9 @@ namespace splinefeed {
 
 /// How a cell is travelled.
 enum class Travel : std::uint8_t {
-    curve, ///< from JerkNode::state to the next node's
-    line,  ///< with the other cells of its leg as one straight move
-    hop    ///< from rest to rest as a move of its own
+    curve,       ///< from JerkNode::state to the next node's
+    line,        ///< with the other cells of its leg as one straight move
+    rest_to_rest ///< from rest to rest as a move of its own
 };
 
 /// A node of the window and the cell behind it. The caller's storage.

@@ -41,7 +41,7 @@ Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
     }
     const Cell<S> cell = source_->cell();
     const double most_sq = to_double(source_->cap_sq());
-    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a crumb
+    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a degenerate cell
         source_->advance();
         pull = source_->prepare(underrun);
         SPLINEFEED_ASSERT(pull == Pull::item);
@@ -71,10 +71,10 @@ void JerkPlan<S>::expect_again() noexcept {
     }
 }
 
-// From stop to stop through every cell: crumbs between cusps, and a few cells where there is no better plan; behind
-// them there may be one. Returns where it ends.
+// From stop to stop through every cell: degenerate cells between cusps, and a few cells where there is no better plan;
+// behind them there may be one. Returns where it ends.
 template <Scalar S>
-std::size_t JerkPlan<S>::hop(std::size_t first, std::size_t end) noexcept {
+std::size_t JerkPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
     planned_ = end;
     if (end - first > JerkLeg::fewest_cells) {
         slow_legs_ += hops_ == 1 ? 1U : 0U;
@@ -82,7 +82,7 @@ std::size_t JerkPlan<S>::hop(std::size_t first, std::size_t end) noexcept {
         hops_ = smaller(2 * hops_, window_.size());
     }
     for (std::size_t i = first; i < planned_; ++i) {
-        window_.node(i).travel = Travel::hop;
+        window_.node(i).travel = Travel::rest_to_rest;
         window_.node(i + 1).state = {0.0, 0.0};
     }
     return planned_;
@@ -123,7 +123,7 @@ void JerkPlan<S>::plan(bool ended) noexcept {
             ++slow_legs_;
             at = planned_;
         } else {
-            at = hop(at, end);
+            at = rest_to_rest(at, end);
         }
     }
     committed_ = at;
@@ -132,11 +132,11 @@ void JerkPlan<S>::plan(bool ended) noexcept {
 
 // The next profile segment of a straight move, as far as it lies in the front cell.
 template <Scalar S>
-void JerkPlan<S>::choose_on_line() noexcept {
+void JerkPlan<S>::forward_step_on_line() noexcept {
     const double length = window_.node(0).cell.length_mm;
     const double per_length = 1.0 / length;
     const JerkNode& node = window_.node(0);
-    const bool last = node.travel == Travel::hop || cell().stop_at_end; // the move ends in this cell
+    const bool last = node.travel == Travel::rest_to_rest || cell().stop_at_end; // the move ends in this cell
     const LinePiece piece = last ? line_.next() : line_.next(length - on_line_mm_);
     const S from = profile_segment_.stretch.from;
     on_line_mm_ = smaller(on_line_mm_ + piece.length_mm, length);
@@ -157,11 +157,11 @@ void JerkPlan<S>::choose_on_line() noexcept {
 }
 
 template <Scalar S>
-void JerkPlan<S>::choose() noexcept {
+void JerkPlan<S>::forward_step() noexcept {
     const JerkNode& from = window_.node(0);
     const JerkNode& to = window_.node(1);
     if (!line_.done()) {
-        choose_on_line();
+        forward_step_on_line();
         return;
     }
     profile_segment_ = {};
@@ -170,7 +170,7 @@ void JerkPlan<S>::choose() noexcept {
         const StraightLeg<S> leg(window_);
         line_ = LineTravel(leg.from_rest());
         line_limits_ = leg.limits();
-        choose_on_line();
+        forward_step_on_line();
         return;
     }
     const auto scalar = [](double x) {
@@ -195,7 +195,7 @@ void JerkPlan<S>::choose() noexcept {
 
 template <Scalar S>
 void JerkPlan<S>::want() noexcept {
-    steering_.taken();
+    steering_.acknowledge();
     for (std::size_t i = 0; i < window_.size(); ++i) {
         JerkNode& node = window_.node(i);
         node.wanted_sq = wanted_sq(window_.cell(i), node.most_sq);
@@ -315,7 +315,7 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
         const Pull pull = window_.size() == 0 ? fill(underrun) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
-    if (steering_.news() || unanswered_) {
+    if (steering_.pending() || unanswered_) {
         follow_steering();
     }
     if (committed_ == 0 && steering_.stops()) {
@@ -336,7 +336,7 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
             plan(pull == Pull::finished);
         }
     }
-    choose();
+    forward_step();
     chosen_ = true;
     return Pull::item;
 }

@@ -50,10 +50,10 @@ private:
     bool change_curve(double from, const SpeedState& state) noexcept;
     void follow_steering() noexcept;
     void plan(bool ended) noexcept;
-    std::size_t hop(std::size_t first, std::size_t end) noexcept;
+    std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
     void expect_again() noexcept;
-    void choose() noexcept;
-    void choose_on_line() noexcept;
+    void forward_step() noexcept;
+    void forward_step_on_line() noexcept;
 
     FeedPlan<S>* source_;
     const MotionLimits<S>* limits_;

@@ -35,7 +35,7 @@ JerkCell jerk_cell_of(const Cell<S>& cell, const MotionLimits<S>& limits, double
             at.first = to_double(shape.tangent[e]) * unit;
             at.second = 0.5 * per_length * unit * to_double(shape.bend[2 * e]);
             at.third = per_length * per_length * unit * to_double(shape.bend[1 + e] - shape.bend[e]);
-            at.second_spread = 0.5 * per_length * unit * to_double(shape.spread);
+            at.second_spread = 0.5 * per_length * unit * to_double(shape.error_bound);
             at.third_spread = ripple * at.second_spread * per_length;
             at.most_forward = at.most_backward =
                 to_double(smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]));

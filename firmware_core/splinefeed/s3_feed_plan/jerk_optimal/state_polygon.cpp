@@ -22,11 +22,11 @@ StatePolygon::StatePolygon(std::span<const SpeedState> corners) noexcept {
     }
 }
 
-StatePolygon::StatePolygon(double largest_b, double steepest) noexcept {
-    append({0.0, -steepest});
-    append({largest_b, -steepest});
-    append({largest_b, steepest});
-    append({0.0, steepest});
+StatePolygon::StatePolygon(double largest_b, double max_path_acceleration) noexcept {
+    append({0.0, -max_path_acceleration});
+    append({largest_b, -max_path_acceleration});
+    append({largest_b, max_path_acceleration});
+    append({0.0, max_path_acceleration});
 }
 
 std::size_t StatePolygon::cut(const StateBound& bound) noexcept {

@@ -37,7 +37,7 @@ public:
     /// @pre convex and counter-clockwise, at most `capacity`
     explicit StatePolygon(std::span<const SpeedState> corners) noexcept;
     /// All states with 0 <= b <= largest and |slope| <= steepest.
-    StatePolygon(double largest_b, double steepest) noexcept;
+    StatePolygon(double largest_b, double max_path_acceleration) noexcept;
 
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
     [[nodiscard]] bool full() const noexcept { return size_ + 2 > capacity; } ///< one more cut might not fit

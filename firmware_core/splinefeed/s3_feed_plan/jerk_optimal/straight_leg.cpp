@@ -46,7 +46,8 @@ template <Scalar S>
 StraightLeg<S>::StraightLeg(JerkWindow<S>& window) noexcept : window_(&window) {
     find_cells();
     const JerkNode& front = window.node(0);
-    limits_ = front.travel == Travel::hop ? front.cell.move_limits(front.most_sq) : limits_of(window.nodes(0, cells_));
+    limits_ = front.travel == Travel::rest_to_rest ? front.cell.move_limits(front.most_sq)
+                                                   : limits_of(window.nodes(0, cells_));
 }
 
 template <Scalar S>
@@ -57,7 +58,7 @@ StraightLeg<S>::StraightLeg(JerkWindow<S>& window, const MoveLimits& limits) noe
 
 template <Scalar S>
 void StraightLeg<S>::find_cells() noexcept {
-    while (window_->node(0).travel != Travel::hop && !window_->cell(cells_ - 1).stop_at_end) {
+    while (window_->node(0).travel != Travel::rest_to_rest && !window_->cell(cells_ - 1).stop_at_end) {
         ++cells_;
     }
 }

@@ -7,7 +7,7 @@
 
 namespace splinefeed {
 
-/// From the front cell to the next stop; of Travel::hop the front cell alone.
+/// From the front cell to the next stop; of Travel::rest_to_rest the front cell alone.
 template <Scalar S>
 class StraightLeg {
 public:

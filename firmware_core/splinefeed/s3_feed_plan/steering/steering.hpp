@@ -4,6 +4,7 @@
 
 #include "splinefeed/number/scalar.hpp"
 
+#include <atomic>
 #include <cstdint>
 
 namespace splinefeed {
@@ -17,43 +18,74 @@ enum class Activity : std::uint8_t {
     aborted,  ///< standing; nothing comes but a new program
 };
 
-/// The requests, and whether one of them is news to the plan.
+/// What is asked of a motion, and what the plan has taken up of it. The requests may come from another thread or an
+/// interrupt, one of them at a time: each is one store, which poll() takes up.
 template <Scalar S>
 class Steering {
 public:
-    /// Factor of the programmed feed, 0 to 2 (taken as the nearest of these). 0 stops, like a hold of its own.
+    /// Factor of the programmed feed, 0 to 2 (taken as the nearest of these), to 2^-30. 0 stops, like a hold of its
+    /// own.
     void override_feed(S ratio) noexcept {
-        ratio = smaller(larger(ratio, S{}), from_integer<S>(2));
-        news_ = news_ || !(ratio == ratio_);
-        ratio_ = ratio;
+        asked_ratio_q30_.store(to_q30(smaller(larger(ratio, S{}), from_integer<S>(2))), std::memory_order_relaxed);
     }
-    void hold() noexcept {
-        news_ = news_ || !hold_;
-        hold_ = true;
-    }
-    void resume() noexcept {
-        news_ = news_ || hold_;
-        hold_ = false;
-    }
-    void abort() noexcept {
-        news_ = news_ || !abort_;
-        abort_ = true;
+    void hold() noexcept { asked_hold_.store(true, std::memory_order_relaxed); }
+    void resume() noexcept { asked_hold_.store(false, std::memory_order_relaxed); }
+    void abort() noexcept { asked_abort_.store(true, std::memory_order_relaxed); }
+
+    /// The planning side's, as all that follows: takes up what is asked. Between two calls nothing changes.
+    void poll() noexcept {
+        const std::uint32_t ratio_q30 = asked_ratio_q30_.load(std::memory_order_relaxed);
+        const bool hold = asked_hold_.load(std::memory_order_relaxed);
+        const bool abort = asked_abort_.load(std::memory_order_relaxed);
+        pending_ = pending_ || ratio_q30 != ratio_q30_ || hold != hold_ || abort != abort_;
+        if (ratio_q30 != ratio_q30_) {
+            ratio_q30_ = ratio_q30;
+            ratio_ = from_q30(ratio_q30);
+        }
+        hold_ = hold;
+        abort_ = abort;
     }
     /// For a new program: no longer aborted. The override stays, and so does a hold: only resume() ends it.
-    void start() noexcept { abort_ = news_ = false; }
+    void start() noexcept {
+        asked_abort_.store(false, std::memory_order_relaxed);
+        poll();
+        pending_ = false;
+    }
 
     [[nodiscard]] S ratio() const noexcept { return ratio_; }
     /// The motion is to come to rest, or to stay there.
-    [[nodiscard]] bool stops() const noexcept { return hold_ || abort_ || !(ratio_ > S{}); }
+    [[nodiscard]] bool stops() const noexcept { return hold_ || abort_ || ratio_q30_ == 0; }
     [[nodiscard]] bool aborts() const noexcept { return abort_; }
-    [[nodiscard]] bool news() const noexcept { return news_; }
-    void taken() noexcept { news_ = false; }
+    /// Something was taken up that the plan does not know of yet.
+    [[nodiscard]] bool pending() const noexcept { return pending_; }
+    void acknowledge() noexcept { pending_ = false; }
 
 private:
+    static constexpr std::uint32_t one_q30 = 1U << 30U;
+
+    [[nodiscard]] static std::uint32_t to_q30(S ratio) noexcept {
+        if constexpr (std::same_as<S, Fixed>) {
+            return static_cast<std::uint32_t>(ratio.raw() >> (detail::fixed_fraction_bits - 30));
+        } else {
+            return static_cast<std::uint32_t>(ratio * static_cast<S>(one_q30));
+        }
+    }
+    [[nodiscard]] static S from_q30(std::uint32_t ratio) noexcept {
+        if constexpr (std::same_as<S, Fixed>) {
+            return Fixed::from_raw(std::int64_t{ratio} << (detail::fixed_fraction_bits - 30));
+        } else {
+            return static_cast<S>(ratio) / static_cast<S>(one_q30);
+        }
+    }
+
+    std::atomic<std::uint32_t> asked_ratio_q30_{one_q30};
+    std::atomic<bool> asked_hold_{false};
+    std::atomic<bool> asked_abort_{false};
+    std::uint32_t ratio_q30_ = one_q30;
     S ratio_ = from_integer<S>(1);
     bool hold_ = false;
     bool abort_ = false;
-    bool news_ = false;
+    bool pending_ = false;
 };
 
 } // namespace splinefeed
