@@ -12,10 +12,11 @@ BEGIN {
     library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
     root = "_ZN12_GLOBAL__N_18on_resetEv"
     # Virtual calls: the arc length asks the curve, which is a G2Spline here, the stream its samples, and those their
-    # plan: a FeedPlan, or where motions are averaged a SmoothPlan.
+    # plan: a FeedPlan, or where motions are averaged a SmoothPlan. What makes the trajectory asks its planner.
     of = "I" (scalar == "float" ? "f" : "NS_5FixedE") "E"
     plan = "^_ZNK?10splinefeed" (smooth ? "10SmoothPlan" : "8FeedPlan") of "(4cell|5clear|5steer|7advance|7prepare|7rest_at|8standing)E"
-    sampler = "^_ZNK?10splinefeed" (smooth ? "13SmoothSampler" : "14PassageSampler") of "(4next|5clear|7at_rest)E"
+    sampler = "^_ZNK?10splinefeed" (smooth ? "13SmoothSampler" : "14ProfileSampler") of "(4next|5clear|7at_rest)E"
+    planner = "^_ZNK?10splinefeed" (smooth ? "14BoundedPlanner" : "19AccelerationPlanner") of "(4fits|5build)E"
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
                               : "_ZN10splinefeed18ControlPointStreamINS_5FixedENS_11PlainJointsIS1_EEE4nextERNS_12CurveSegmentIS1_EE"
 }
@@ -37,10 +38,14 @@ function quoted(line, key) {
     from = quoted($0, "sourcename")
     to = quoted($0, "targetname")
     if (to == "__indirect_call" && from ~ /ArcLength|CheckedSource/) { to = curve }
-    if (to == "__indirect_call" && from ~ /SegmentStream|Trajectory/) {
+    makes = from ~ /make/
+    if (to == "__indirect_call" && makes) {
+        asks_planner[from] = 1
+    } else if (to == "__indirect_call" && from ~ /SegmentStream|Trajectory/) {
         asks_sampler[from] = 1
     }
-    if (to == "__indirect_call" && from ~ /Sampler|Trajectory/) {
+    if (to == "__indirect_call" && makes) {
+    } else if (to == "__indirect_call" && from ~ /Sampler|Trajectory/) {
         asks_plan[from] = 1
     } else if (to == "__indirect_call" && from ~ /SegmentStream/) {
     } else if (!((from, to) in known)) {
@@ -78,13 +83,24 @@ function depth(name, targets, count, i, d, deepest) {
 
 END {
     if (failed) { exit 1 }
+    plans = samplers = planners = 0
     for (name in frame) {
         if (name ~ plan) {
+            ++plans
             for (from in asks_plan) { calls[from] = calls[from] name "\n" }
         }
         if (name ~ sampler) {
+            ++samplers
             for (from in asks_sampler) { calls[from] = calls[from] name "\n" }
         }
+        if (name ~ planner) {
+            ++planners
+            for (from in asks_planner) { calls[from] = calls[from] name "\n" }
+        }
+    }
+    # Seven functions of a plan, three of a sampler, two of a planner: those that were renamed would be left out.
+    if (plans < 5 || samplers < 2 || planners < 2) {
+        fail(plans " functions of plans, " samplers " of samplers and " planners " of planners have the names that are known here")
     }
     print "stack bound " depth(root) " bytes:"
     for (name = root; name != ""; name = way[name]) {

@@ -78,11 +78,11 @@ private:
         }
     }
 
+    S ratio_ = from_integer<S>(1);
+    std::uint32_t ratio_q30_ = one_q30;
     std::atomic<std::uint32_t> asked_ratio_q30_{one_q30};
     std::atomic<bool> asked_hold_{false};
     std::atomic<bool> asked_abort_{false};
-    std::uint32_t ratio_q30_ = one_q30;
-    S ratio_ = from_integer<S>(1);
     bool hold_ = false;
     bool abort_ = false;
     bool pending_ = false;
