@@ -376,7 +376,7 @@ TEMPLATE_TEST_CASE("whatever is asked of an optimal jerk-limited motion", "[stre
     // 350: a hold ended inside a straight move that had been planned as a curve before, whose speed was kept there
     // 2053: a hold cut a straight move, and a resume took the jerk that the short piece knows itself to have
     // 2170: the last two waypoints are one
-    // 1763: with cells behind the rest that are too long, the next hold stops late
+    // 1763: with cells behind the rest that are too long, the next hold stopped late
     // 2274, 3874: a hold in a small window had too few cells left to stop soon, for it cut those behind the rest, too
     run_rounds<TestType>(PlanKind::optimal, rounds(64, 2900), seed + 1'000'000, {350, 1763, 2053, 2170, 2274, 3874});
 }

@@ -21,11 +21,13 @@ constexpr double part_before = 0.4;         // of the distance to the rest: the 
 constexpr double part_from_start = 0.6;     // of the distance from a start
 constexpr double sliver = 1e-3;             // of a piece: less is not cut off
 constexpr double longer = 1.25;             // pieces, where there is no room for all of them
-constexpr double coarsest_behind = 2.0;     // part_behind, before those that are stopped in become longer
+constexpr double part_behind = 0.6;         // and behind it
+constexpr double far_behind = 10.0;         // where a rest that is late for want of room would be the other one
+constexpr double late = 1.4;                // times the distance that is expected
 constexpr double close = 0.004;             // relative error of a distance that is close enough
 constexpr double farther = 1.4;             // than a guess that was too near
 constexpr double roomy = 1.5;               // of what braking takes, where it need not be the least
-constexpr int most_steps = 56;
+constexpr int most_steps = 40;
 
 } // namespace
 
@@ -147,8 +149,7 @@ void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visi
     }
 }
 
-// Longer pieces where the window has too little room for all of them; first those behind the rest, which is where the
-// machine starts again, but only after it has stopped.
+// Longer pieces where the window has too little room for all of them.
 template <Scalar S>
 bool JerkChange<S>::fit(Cuts& cuts) noexcept {
     for (int step = 0; step < most_steps; ++step) {
@@ -162,12 +163,8 @@ bool JerkChange<S>::fit(Cuts& cuts) noexcept {
         if (pieces_ <= cells_ + window_->room() && pieces_ < window_->scratch().size()) {
             return true;
         }
-        if (cuts.part_behind < coarsest_behind) {
-            cuts.part_behind *= longer;
-        } else {
-            cuts.coarsest_mm *= longer;
-            cuts.finest_mm *= longer;
-        }
+        cuts.coarsest_mm *= longer;
+        cuts.finest_mm *= longer;
     }
     return false;
 }
@@ -259,39 +256,44 @@ void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
     }
 }
 
-// Finds the least distance that there is a motion for, and adopts it.
+// Finds the least distance that there is a motion for. 0: none.
 template <Scalar S>
 template <class CutsAt>
-bool JerkChange<S>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
-    const auto possible = [&](double distance_mm, Cuts& cuts) {
-        cuts = cuts_at(distance_mm);
-        return fit(cuts) && attempt(cuts);
+double JerkChange<S>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
+    const auto possible_at = [&](double distance_mm) {
+        Cuts cuts = cuts_at(distance_mm);
+        return possible(cuts);
     };
-    Cuts cuts;
     double low = 0.0;
     double high = smaller(guess_mm, known_mm_);
-    while (!possible(high, cuts)) {
+    while (!possible_at(high)) {
         if (!(high < known_mm_)) {
-            return false;
+            return 0.0;
         }
         low = high;
         high = smaller(high * farther, known_mm_);
     }
     while (high - low > close * high) {
         const double middle = 0.5 * (low + high);
-        (possible(middle, cuts) ? high : low) = middle;
+        (possible_at(middle) ? high : low) = middle;
     }
     // What is as near as can be leaves no room to brake as hard as can be: a little farther may be sooner.
     double best = high;
     auto least_s = largest<double>();
     for (const double more : {1.0, 1.005, 1.01, 1.02, 1.04, 1.08}) {
         const double distance = smaller(high * more, known_mm_);
-        if (possible(distance, cuts) && seconds_ < least_s) {
+        if (possible_at(distance) && seconds_ < least_s) {
             least_s = seconds_;
             best = distance;
         }
     }
-    if (!possible(best, cuts)) {
+    return best;
+}
+
+// Plans once more what nearest() has found, and adopts it.
+template <Scalar S>
+bool JerkChange<S>::take(Cuts cuts) noexcept {
+    if (!(cuts.end_mm > 0.0) || !possible(cuts)) {
         return false;
     }
     adopt(cuts);
@@ -305,11 +307,24 @@ bool JerkChange<S>::to_rest() noexcept {
     const double peak = v + 0.5 * a * a / along_.jerk_mm_s3; // the acceleration falls to zero first
     peak_sq_ = peak * peak;
     const double guess = larger(ramp_mm(peak, 0.0) + v * a / along_.jerk_mm_s3, pieces * JerkWindow<S>::shortest_mm);
-    return nearest(guess, [&](double end_mm) {
+    const auto cuts_at = [&](double end_mm, double behind) {
         const double longest = guess / pieces;
-        return Cuts{end_mm, largest<double>(), end_mm + guess, longest,
-                    larger(longest * next_to_rest, JerkWindow<S>::shortest_mm)};
-    });
+        const double finest = larger(longest * next_to_rest, JerkWindow<S>::shortest_mm);
+        return Cuts{end_mm, largest<double>(), end_mm + guess, longest, finest, behind};
+    };
+    const auto nearest_rest = [&](double behind) {
+        return nearest(guess, [&](double end_mm) { return cuts_at(end_mm, behind); });
+    };
+    // The machine starts again in the cells behind the rest, and what is steered then is better off with short ones.
+    // But a window that is small or has been cut before may lack room for them and for those that it is to stop in.
+    const double rest_mm = nearest_rest(part_behind);
+    if (!(rest_mm > 0.0) || rest_mm > late * guess) {
+        const double nearer_mm = nearest_rest(far_behind);
+        if (nearer_mm > 0.0 && (!(rest_mm > 0.0) || nearer_mm < rest_mm)) {
+            return take(cuts_at(nearer_mm, far_behind));
+        }
+    }
+    return rest_mm > 0.0 && take(cuts_at(rest_mm, part_behind));
 }
 
 template <Scalar S>
@@ -320,14 +335,14 @@ bool JerkChange<S>::to_wanted() noexcept {
     const double longest = larger(larger(ramp / pieces, sliver * known_mm_), JerkWindow<S>::shortest_mm);
     const double stop = roomy * ramp_mm(larger(v, wanted), 0.0);
     const auto cuts_at = [&](double change_mm) {
-        return Cuts{smaller(change_mm + ramp + stop, known_mm_), change_mm, change_mm + ramp, longest, longest};
+        return Cuts{
+            smaller(change_mm + ramp + stop, known_mm_), change_mm, change_mm + ramp, longest, longest, part_behind};
     };
-    Cuts cuts = cuts_at(0.0);
-    if (fit(cuts) && attempt(cuts)) {
-        adopt(cuts);
+    if (take(cuts_at(0.0))) {
         return true;
     }
-    return nearest(larger(ramp, longest), cuts_at);
+    const double change_mm = nearest(larger(ramp, longest), cuts_at);
+    return change_mm > 0.0 && take(cuts_at(change_mm));
 }
 
 template class JerkChange<double>;

@@ -43,7 +43,7 @@ private:
         double fine_mm = 0.0;     ///< up to here no piece is longer than
         double coarsest_mm = 0.0; ///< this
         double finest_mm = 0.0;   ///< and next to the rest than this; coarsest_mm: they are not graded
-        double part_behind = 0.6; ///< of the distance from the rest: the longest piece behind it
+        double part_behind = 0.0; ///< of the distance from the rest: the longest piece behind it
 
         [[nodiscard]] bool graded() const noexcept { return finest_mm < coarsest_mm; }
     };
@@ -56,8 +56,10 @@ private:
     bool fit(Cuts& cuts) noexcept;
     bool attempt(const Cuts& cuts) noexcept;
     void adopt(const Cuts& cuts) noexcept;
+    bool possible(Cuts& cuts) noexcept { return fit(cuts) && attempt(cuts); }
     template <class CutsAt>
-    bool nearest(double guess_mm, CutsAt&& cuts_at) noexcept;
+    [[nodiscard]] double nearest(double guess_mm, CutsAt&& cuts_at) noexcept;
+    bool take(Cuts cuts) noexcept;
     [[nodiscard]] bool knows(std::size_t cell) const noexcept;
     [[nodiscard]] SpeedState known_state(std::size_t cell, double fraction) const noexcept;
     [[nodiscard]] double braking_sq(double distance_mm) const noexcept;
