@@ -38,10 +38,7 @@ public:
         const bool hold = asked_hold_.load(std::memory_order_relaxed);
         const bool abort = asked_abort_.load(std::memory_order_relaxed);
         pending_ = pending_ || ratio_q30 != ratio_q30_ || hold != hold_ || abort != abort_;
-        if (ratio_q30 != ratio_q30_) {
-            ratio_q30_ = ratio_q30;
-            ratio_ = from_q30(ratio_q30);
-        }
+        ratio_q30_ = ratio_q30;
         hold_ = hold;
         abort_ = abort;
     }
@@ -52,7 +49,7 @@ public:
         pending_ = false;
     }
 
-    [[nodiscard]] S ratio() const noexcept { return ratio_; }
+    [[nodiscard]] S ratio() const noexcept { return from_q30(ratio_q30_); }
     /// The motion is to come to rest, or to stay there.
     [[nodiscard]] bool stops() const noexcept { return hold_ || abort_ || ratio_q30_ == 0; }
     [[nodiscard]] bool aborts() const noexcept { return abort_; }
@@ -78,7 +75,6 @@ private:
         }
     }
 
-    S ratio_ = from_integer<S>(1);
     std::uint32_t ratio_q30_ = one_q30;
     std::atomic<std::uint32_t> asked_ratio_q30_{one_q30};
     std::atomic<bool> asked_hold_{false};
