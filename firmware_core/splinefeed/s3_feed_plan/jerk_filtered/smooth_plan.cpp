@@ -12,8 +12,8 @@
 //   nothing: a machine that coasts below K may brake at once if it braked last. Steering can bring K of what is wanted
 //   down in that time: then the motion goes on above it, never above K of the machine, until it may brake.
 //
-// Two K, as in FeedPlan: the machine's (`machine`), and that of what the steering wants (`override`), which is what a motion that
-// is not above it keeps below. One that is above it brakes as hard as its cells allow, as soon as it may.
+// Two K, as in FeedPlan: the machine's (`machine`), and that of what the steering wants (`override`), which is what a
+// motion that is not above it keeps below. One that is above it brakes as hard as its cells allow, as soon as it may.
 //
 // From rest either sign is allowed: who averages the motion lets it rest for T.
 #include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
