@@ -65,9 +65,9 @@ TEST_CASE("the last of hold and resume is what is taken, once") {
         return asked;
     };
     REQUIRE(kill(getpid(), SIGUSR1) == 0);
-    CHECK(acknowledge() == UserSteering::hold);
+    CHECK(taken() == UserSteering::hold);
     REQUIRE(kill(getpid(), SIGUSR2) == 0);
-    CHECK(acknowledge() == UserSteering::resume);
+    CHECK(taken() == UserSteering::resume);
     CHECK(watch.take_steering() == UserSteering::none);
     CHECK(SignalWatch::interrupts() == 0);
 }

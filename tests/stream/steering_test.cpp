@@ -347,7 +347,7 @@ TEMPLATE_TEST_CASE("another thread may steer at any time", "[stream][steering]",
     std::atomic<bool> over{false};
     std::thread operating([&] {
         for (int i = 0; !over.load(); ++i) {
-            any.trajectory().override_feed(literal<S>(i % 3 == 0 ? 0.0 : 1.7));
+            any.trajectory().override_feed(from_double<S>(i % 3 == 0 ? 0.0 : 1.7));
             any.trajectory().hold();
             std::this_thread::yield();
             any.trajectory().resume();
