@@ -5,6 +5,7 @@
 
 #include "random_operands.hpp"
 
+#include <cmath>
 #include <algorithm>
 #include <concepts>
 
@@ -186,8 +187,8 @@ TEST_CASE("positions and micrometres", "[number][position]") {
     Operands random;
     for (int i = 0; i < 1000; ++i) {
         const std::int64_t um = random.signed_below(29);
-        const std::int64_t nearest = position_from_mm(static_cast<double>(um) / 1000.0).raw;
-        REQUIRE(std::abs(position_from_um(um).raw - nearest) <= 1);
+        const long double wanted = static_cast<long double>(um) * 0x1p40L / 1000.0L;
+        REQUIRE(std::fabs(static_cast<long double>(position_from_um(um).raw) - wanted) < 1.01L);
         REQUIRE(position_from_um(-um).raw == -position_from_um(um).raw);
     }
     REQUIRE(position_from_um(8'388'607'999).raw > position_from_um(8'388'607'998).raw);
