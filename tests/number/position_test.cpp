@@ -5,8 +5,8 @@
 
 #include "random_operands.hpp"
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 
 using namespace splinefeed;
