@@ -25,7 +25,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double slowest_sq = 1e-6; // as FeedPlan's
 constexpr double negligible_part =
     1.0 / 1024.0;                     // of a cell: a part this short is left to the profile segment before it
 constexpr double gain = 1.0 / 2048.0; // of v^2, which is not worth a profile segment
@@ -106,13 +105,6 @@ bool SmoothPlan<S>::ends_here() noexcept {
     window_.prepare(false);
     backward_pass(true);
     return true;
-}
-
-template <Scalar S>
-S SmoothPlan<S>::wanted_sq(const SmoothCell<S>& cell) const noexcept {
-    const S ratio = steering_.ratio();
-    return larger(smaller(cell.max_steady_sq, cell.demand.programmed_sq * (ratio * ratio)),
-                  smaller(cell.max_steady_sq, literal<S>(slowest_sq)));
 }
 
 // @param all  else it ends where nothing changes any more
@@ -391,18 +383,6 @@ bool SmoothPlan<S>::steer(const Place<S>& place) noexcept {
     speed_ = speed;
     chosen_ = false;
     return true;
-}
-
-template <Scalar S>
-void SmoothPlan<S>::clear() noexcept {
-    SPLINEFEED_ASSERT(standing());
-    source_->forget();
-    window_.clear();
-    steering_.start();
-    taken_ = looked_ = 0;
-    at_ = speed_sq_ = speed_ = S{};
-    sign_ = {};
-    chosen_ = starved_ = false;
 }
 
 template class SmoothPlan<double>;

@@ -11,6 +11,7 @@
 // Derivation: smooth_plan.cpp, filtered_limits.cpp.
 #pragma once
 
+#include "splinefeed/base/assertion.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
 #include "splinefeed/s3_feed_plan/jerk_filtered/sign_memory.hpp"
 #include "splinefeed/s3_feed_plan/jerk_filtered/smooth_window.hpp"
@@ -42,7 +43,16 @@ public:
     }
     bool steer(const Place<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
-    void clear() noexcept override;
+    void clear() noexcept override {
+        SPLINEFEED_ASSERT(standing());
+        source_->forget();
+        window_.clear();
+        steering_.start();
+        taken_ = looked_ = 0;
+        at_ = speed_sq_ = speed_ = S{};
+        sign_ = {};
+        chosen_ = starved_ = false;
+    }
 
     /// How the motion is averaged from its rest on. @pre standing(), the last prepare() answered item
     [[nodiscard]] std::uint32_t smoothing_q8() const noexcept { return window_.at(window_.front()).smoothing_q8; }
@@ -55,6 +65,8 @@ public:
     [[nodiscard]] bool empty() const noexcept { return window_.size() == 0; }
 
 private:
+    static constexpr double slowest_sq = 1e-6; // as FeedPlan's
+
     using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
@@ -73,7 +85,11 @@ private:
 
     Pull take(UnderrunPolicy underrun) noexcept;
     Pull refill(UnderrunPolicy underrun) noexcept;
-    [[nodiscard]] S wanted_sq(const SmoothCell<S>& cell) const noexcept;
+    [[nodiscard]] S wanted_sq(const SmoothCell<S>& cell) const noexcept {
+        const S ratio = steering_.ratio();
+        return larger(smaller(cell.max_steady_sq, cell.demand.programmed_sq * (ratio * ratio)),
+                      smaller(cell.max_steady_sq, literal<S>(slowest_sq)));
+    }
     bool ends_here() noexcept;
     void backward_pass(bool all) noexcept;
     [[nodiscard]] S length() const noexcept { return ahead(0).cell.length_mm; }

@@ -308,13 +308,6 @@ PathDerivativeBounds<S> SmoothWindow<S>::demand_of(std::size_t first, std::size_
     return out;
 }
 
-template <Scalar S>
-void SmoothWindow<S>::measure(std::size_t i) noexcept {
-    SmoothCell<S>& here = at(i);
-    here.bound_ticks = quotient_or_max(here.cell.length_mm * limits_->segments_per_s,
-                                       square_root(larger(here.bound_sq, bound_behind(i))));
-}
-
 // Bounds of the leg's cells that are not prepared, from the demands of each alone: what has to keep larger ones is no
 // faster. Forward once, backward from what is known by now.
 template <Scalar S>

@@ -75,7 +75,11 @@ private:
     [[nodiscard]] bool last_reached(std::size_t i, const Smoothing<S>& smoothing, std::size_t& last) const noexcept;
     [[nodiscard]] std::size_t first_reached(std::size_t i, const Smoothing<S>& smoothing) const noexcept;
     void slow_down(std::size_t first) noexcept;
-    void measure(std::size_t i) noexcept;
+    void measure(std::size_t i) noexcept {
+        SmoothCell<S>& here = at(i);
+        here.bound_ticks = quotient_or_max(here.cell.length_mm * limits_->segments_per_s,
+                                           square_root(larger(here.bound_sq, bound_behind(i))));
+    }
     void tighten(std::size_t first) noexcept;
     [[nodiscard]] PathDerivativeBounds<S> demand_of(std::size_t first, std::size_t last) noexcept;
 
