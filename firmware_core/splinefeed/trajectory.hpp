@@ -26,12 +26,14 @@ public:
     /// limits without jerk), window_too_small, storage_too_small. Then nothing was written.
     [[nodiscard]] static Result<Trajectory> make(CurveSource<S>& curve, const MotionLimits<S>& limits,
                                                  Planner<S>& planner) noexcept {
-        const Status fits = limits.axes < 1 || limits.axes > max_axes               ? Error::axes_out_of_range
-                            : !planner.fits(limits).ok()                            ? planner.fits(limits).error()
-                            : planner.window_.size() < FeedPlan<S>::smallest_window ? Error::window_too_small
-                                                                                    : Error::none;
-        if (!fits.ok()) {
+        if (limits.axes < 1 || limits.axes > max_axes) {
+            return Error::axes_out_of_range;
+        }
+        if (const Status fits = planner.fits(limits); !fits.ok()) {
             return fits.error();
+        }
+        if (planner.window_.size() < FeedPlan<S>::smallest_window) {
+            return Error::window_too_small;
         }
         ArcLength<S>& cells = planner.arc_length_.build(curve, limits.refinement);
         FeedPlan<S>& speeds = planner.feed_plan_.build(cells, limits, planner.window_);

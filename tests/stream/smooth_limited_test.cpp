@@ -212,6 +212,25 @@ TEMPLATE_TEST_CASE("an averaged motion that cannot wait for its input keeps ever
     }
 }
 
+TEMPLATE_TEST_CASE("a leg that comes into view piece by piece is averaged like one that is seen at once",
+                   "[stream][jerk][smooth]", double, Fixed) {
+    // T was chosen when the first cell behind a stop was known: a tick, for all of the leg
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+    machine.jerk_tier = JerkTier::bounded;
+    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 3e4;
+    BezierPath path;
+    for (int i = 0; i < 10; ++i) {
+        path.push_back(line_shape(2, 3, {i % 2 == 0 ? 20.0 : -18.0, 8.0}));
+    }
+    const Stream at_once = stream_of<TestType>(path, machine, 1024);
+    for (const std::size_t window : {24U, 48U, 64U}) {
+        CAPTURE(window);
+        const Stream in_pieces = stream_of<TestType>(path, machine, window);
+        require_limits(in_pieces, machine);
+        CHECK(100 * in_pieces.segments.size() <= 101 * at_once.segments.size());
+    }
+}
+
 TEST_CASE("averaged motions in Fixed are those in double", "[stream][jerk][smooth]") {
     Random random(seed);
     for (int round = 0; round < rounds(10); ++round) {

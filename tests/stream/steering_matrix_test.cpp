@@ -185,8 +185,8 @@ Real speed_at(const FeedSegment& segment, const MachineSettings& machine) {
 
 /// Longest time from an order to rest, with a start at the sample before: that of braking as hard as the axes'
 /// accelerations allow; with a jerk limit that of a straight move of the softest axis with half of its jerk, the other
-/// half being for bends. Averaged over the leg's T, with the acceleration J T at most and half of that in bends, there
-/// are T before it may brake, T for the mean, and what the motion is faster than the mean by then, J T^2 at most.
+/// half being for bends; averaged over T, with the acceleration J T at most, T later, and T for the mean. The leg's T
+/// where it is shorter than that of the limits: there was less of the path in view.
 template <Scalar S>
 Real stop_bound_s(const Track<S>& track, const typename Track<S>::Place& place, const FeedSegment& segment,
                   const MachineSettings& machine, std::uint32_t smoothing_q8) {
@@ -207,8 +207,10 @@ Real stop_bound_s(const Track<S>& track, const typename Track<S>::Place& place, 
     if (machine.jerk_tier == JerkTier::optimal) {
         return 1.5L * braking + 3.0L * rise + late;
     }
-    const Real smoothing = static_cast<Real>(smoothing_q8) / 256.0L * segment_s;
-    return 2.0L * braking * std::max(1.0L, rise / smoothing) + 6.0L * smoothing + late;
+    const Real ticks = 256.0L;
+    const Real bends = static_cast<Real>(std::min(limits.smoothing_q8, smoothing_q8)) / ticks * segment_s;
+    const Real straight = static_cast<Real>(limits.most_smoothing_q8) / ticks * segment_s;
+    return 1.5L * braking * std::max(1.0L, rise / bends) + 3.0L * straight + late;
 }
 
 /// Every sample is on the path, and none is farther along it than the machine can come in the time, or behind the one

@@ -7,6 +7,7 @@
 #include "support/rounds.hpp"
 
 #include <atomic>
+#include <limits>
 #include <thread>
 
 using namespace splinefeed_test;
@@ -309,6 +310,12 @@ TEMPLATE_TEST_CASE("what the motion does about its steering", "[stream][steering
     CHECK(trajectory.activity() == Activity::holding);
     run(1000);
     CHECK(trajectory.activity() == Activity::held);
+    if constexpr (!std::same_as<S, Fixed>) {
+        trajectory.override_feed(std::numeric_limits<S>::quiet_NaN()); // no number is no way to go on
+        trajectory.resume();
+        run(10);
+        CHECK(trajectory.activity() == Activity::held);
+    }
     trajectory.override_feed(S{});
     trajectory.resume(); // the override still says 0
     run(10);

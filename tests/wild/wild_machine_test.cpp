@@ -9,6 +9,9 @@
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 using namespace splinefeed_test;
 using splinefeed::Fixed;
 using splinefeed::host::RunArguments;
@@ -16,6 +19,8 @@ using splinefeed::host::RunArguments;
 namespace {
 
 constexpr std::uint64_t seed = 60818;
+constexpr std::uint64_t slow_rounds[] = {1607,
+                                         1811}; // of an averaged motion beside hairpins (docs/explanation/feed.md)
 constexpr std::uint64_t most_segments = 15'000; // of a run in double: then it is left
 
 /// @return  what the run was; false: it was refused
@@ -44,7 +49,6 @@ double ratio(const RunArguments& arguments, const WildRun& wanted) {
 TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") {
     const TemporaryFolder folder;
     int compared = 0;
-    int slow_averaged = 0; // hairpins of nanometres (docs/explanation/feed.md)
     int slow_in_float = 0; // where cells of long moves have few digits (docs/explanation/numbers.md)
     for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(20, 2000)); ++round) {
         CAPTURE(seed, round);
@@ -60,8 +64,8 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
                 INFO(printed(arguments, "double"));
                 CAPTURE(run.seconds, run.least_s, run.most_s);
                 const bool slow = run.ended && run.seconds > 4.0 * run.most_s;
-                slow_averaged += slow && plan == WildPlan::bounded ? 1 : 0;
-                CHECK((!slow || plan == WildPlan::bounded));
+                const bool known = std::ranges::find(slow_rounds, round) != std::end(slow_rounds);
+                CHECK((!slow || (known && plan == WildPlan::bounded)));
                 CHECK((!run.ended || !plain || run.short_window ||
                        run.seconds <= 3.0 * run.least_s + 20.0 * run.sample_s));
                 CHECK(ratio<Fixed>(arguments, run) <= (plain ? 1.02 : 1.6));
@@ -80,9 +84,8 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
             }
         }
     }
-    CAPTURE(compared, slow_averaged, slow_in_float);
+    CAPTURE(compared, slow_in_float);
     CHECK(4 * compared > rounds(20, 2000)); // else nothing is compared
-    CHECK(slow_averaged <= rounds(20, 2000) / 500);
     CHECK(slow_in_float <= 1 + compared / 10);
 }
 

@@ -24,9 +24,10 @@ template <Scalar S>
 class Steering {
 public:
     /// Factor of the programmed feed, 0 to 2 (taken as the nearest of these), to 2^-30. 0 stops, like a hold of its
-    /// own.
+    /// own, and so does what is no number.
     void override_feed(S ratio) noexcept {
-        asked_ratio_q30_.store(to_q30(smaller(larger(ratio, S{}), from_integer<S>(2))), std::memory_order_relaxed);
+        const S positive = ratio > S{} ? ratio : S{};
+        asked_ratio_q30_.store(to_q30(smaller(positive, from_integer<S>(2))), std::memory_order_relaxed);
     }
     void hold() noexcept { asked_hold_.store(true, std::memory_order_relaxed); }
     void resume() noexcept { asked_hold_.store(false, std::memory_order_relaxed); }
