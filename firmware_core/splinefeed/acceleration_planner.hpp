@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// AccelerationPlanner: the planner for limits without jerk. The fastest speeds within velocities and accelerations.
+// AccelerationPlanner: the planner for limits without jerk. It plans the highest speeds that keep the limits of
+// velocity and acceleration.
 #pragma once
 
 #include "splinefeed/planner.hpp"
@@ -7,11 +8,11 @@
 
 namespace splinefeed {
 
-/// Cost: constant per cell of the path, FeedPlan's.
+/// Cost: constant per cell of the path (see FeedPlan).
 template <Scalar S>
 class AccelerationPlanner final : public Planner<S> {
 public:
-    /// @param window  FeedPlan::smallest_window cells or more: how far it looks ahead
+    /// @param window  the look-ahead window, at least FeedPlan::smallest_window cells
     explicit constexpr AccelerationPlanner(std::span<PlannedCell<S>> window) noexcept : Planner<S>(window) {}
 
 private:

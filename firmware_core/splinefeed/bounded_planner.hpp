@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// BoundedPlanner: the planner for limits with jerk and JerkTier::bounded. A moving average of a motion of limited
-// acceleration, in the scalar of the pipeline: for microcontrollers.
+// BoundedPlanner: the planner for limits with jerk and JerkTier::bounded. It keeps the jerk limits by a moving average
+// over an acceleration-limited motion. It computes in the scalar of the pipeline: for microcontrollers.
 #pragma once
 
 #include "splinefeed/planner.hpp"
@@ -8,23 +8,23 @@
 
 namespace splinefeed {
 
-/// Memory of a BoundedPlanner, the caller's.
+/// Memory of a BoundedPlanner, owned by the caller.
 template <Scalar S>
 struct SmoothStorage {
     std::span<SmoothCell<S>> cells;
-    std::span<PathPosition> places; ///< SmoothSampler::places_for() the limits
+    std::span<PathPosition> places; ///< at least SmoothSampler::places_for(limits)
 };
 
 /// Cost: constant per cell of the path and per feed segment.
 template <Scalar S>
 class BoundedPlanner final : public Planner<S> {
 public:
-    /// @param window   of the acceleration-limited plan that bounds its speeds
-    /// @param storage  SmoothPlan::smallest_window cells or more, and the places
+    /// @param window   window of the acceleration-limited plan that bounds its speeds
+    /// @param storage  at least SmoothPlan::smallest_window cells, and the places
     constexpr BoundedPlanner(std::span<PlannedCell<S>> window, const SmoothStorage<S>& storage) noexcept
         : Planner<S>(window), storage_(storage) {}
 
-    /// @pre a trajectory was made of it
+    /// @pre a trajectory was made with this planner
     [[nodiscard]] const SmoothPlan<S>& plan() const noexcept { return *plan_; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OptimalPlanner: the planner for limits with jerk and JerkTier::optimal. Near the least time, in double.
+// OptimalPlanner: the planner for limits with jerk and JerkTier::optimal. Its motion takes close to the least time.
 #pragma once
 
 #include "splinefeed/planner.hpp"
@@ -8,16 +8,16 @@
 
 namespace splinefeed {
 
-/// It plans in double whatever the scalar of the pipeline is; for hosts.
+/// It plans in double, whatever the scalar of the pipeline: for hosts.
 template <Scalar S>
 class OptimalPlanner final : public Planner<S> {
 public:
-    /// @param window   of the acceleration-limited plan that it refines
-    /// @param storage  JerkPlan::smallest_window cells or more, with their nodes
+    /// @param window   window of the acceleration-limited plan that it refines
+    /// @param storage  at least JerkPlan::smallest_window cells, and JerkStorage::nodes_for() as many nodes
     OptimalPlanner(std::span<PlannedCell<S>> window, const JerkStorage<S>& storage) noexcept
         : Planner<S>(window), storage_(storage) {}
 
-    /// @pre a trajectory was made of it
+    /// @pre a trajectory was made with this planner
     [[nodiscard]] const JerkPlan<S>& plan() const noexcept { return *plan_; }
 
 private:

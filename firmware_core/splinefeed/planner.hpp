@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planner: which plan a Trajectory follows, and the memory of all its stages.
+// Planner: decides which plan a Trajectory follows, and holds the memory of all its stages.
 #pragma once
 
 #include "splinefeed/base/slot.hpp"
@@ -12,9 +12,10 @@ namespace splinefeed {
 template <Scalar S>
 class Trajectory;
 
-/// The caller chooses one of its kinds, owns it, and passes it to Trajectory::make(): AccelerationPlanner for limits
-/// without jerk, OptimalPlanner and BoundedPlanner for limits with jerk. One planner serves one trajectory at a time.
-/// Size: several kilobytes, with the curve's cells beside them in storage of the caller's; best static.
+/// The caller chooses one of the derived classes, owns it, and passes it to Trajectory::make(): AccelerationPlanner for
+/// limits without jerk, OptimalPlanner or BoundedPlanner for limits with jerk. One planner serves one trajectory at a
+/// time.
+/// Size: several kilobytes, so static memory is the best place. The window of cells is separate storage of the caller.
 template <Scalar S>
 class Planner {
 public:
@@ -22,13 +23,13 @@ public:
     Planner& operator=(const Planner&) = delete;
 
 protected:
-    /// The stages that the kinds of planners differ in.
+    /// The stages that differ between the planners.
     struct Stages {
         MotionPlan<S>* plan = nullptr;
         Sampler<S>* sampler = nullptr;
     };
 
-    /// @param window  where the feed plan looks ahead, at least FeedPlan::smallest_window cells; the caller's
+    /// @param window  where the feed plan looks ahead, at least FeedPlan::smallest_window cells, owned by the caller
     explicit constexpr Planner(std::span<PlannedCell<S>> window) noexcept : window_(window) {}
     ~Planner() = default;
 
@@ -36,7 +37,7 @@ private:
     friend class Trajectory<S>;
     friend struct CounterSeam;
 
-    /// Whether it is the planner that the limits ask for, with enough storage: planner_unsuited, window_too_small,
+    /// Checks that this planner suits the limits and has enough storage. Errors: planner_unsuited, window_too_small,
     /// storage_too_small.
     [[nodiscard]] virtual Status fits(const MotionLimits<S>& limits) const noexcept = 0;
     [[nodiscard]] virtual Stages build(FeedPlan<S>& speeds, const MotionLimits<S>& limits) noexcept = 0;
@@ -46,7 +47,7 @@ private:
     Slot<FeedPlan<S>> feed_plan_;
     Slot<SegmentStream<S>> stream_;
     Stages stages_{};
-    Pull state_ = Pull::starved; // what the last next() answered
+    Pull state_ = Pull::starved; // the answer of the last next()
 };
 
 } // namespace splinefeed

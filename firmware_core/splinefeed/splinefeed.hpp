@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All of the core that a program needs to stream waypoints into feed segments, and those into steps. What sees all
-// points at once (splines/) and surfaces are not in it.
+// Everything of the core that a program needs to turn a stream of waypoints into feed segments, and feed segments into
+// steps. It does not include the curves that need all points at once (splines/), nor surfaces.
 #pragma once
 
 // Waypoints to curves.

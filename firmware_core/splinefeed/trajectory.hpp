@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Trajectory: the pipeline: curve source -> arc length -> planner -> segment stream.
+// Trajectory: the whole pipeline: curve source -> arc length -> planner -> segment stream.
 #pragma once
 
 #include "splinefeed/planner.hpp"
 
 namespace splinefeed {
 
-/// Pulls feed segments out of a curve. A reference to its planner, which has all of its memory; copies are the same
-/// trajectory.
+/// Delivers the feed segments of a curve, one by one. It is a reference to its planner, which holds all the memory; a
+/// copy refers to the same trajectory.
 ///
 ///     static PlannedCell<Fixed> window[64];
 ///     static AccelerationPlanner<Fixed> planner(window);
@@ -18,12 +18,12 @@ namespace splinefeed {
 template <Scalar S>
 class Trajectory {
 public:
-    /// One that may only be assigned to.
+    /// An empty trajectory. Assign to it before any other call.
     constexpr Trajectory() noexcept = default;
 
-    /// `curve`, `limits` and `planner` must outlive the trajectory; what the planner did before is forgotten. Errors:
-    /// axes_out_of_range (the limits are none), planner_unsuited (a jerk limit without a planner for it, or one for
-    /// limits without jerk), window_too_small, storage_too_small. Then nothing was written.
+    /// `curve`, `limits` and `planner` must outlive the trajectory. The planner forgets what it did before. Errors:
+    /// axes_out_of_range (the limits were not made), planner_unsuited (a jerk limit without a jerk planner, or a jerk
+    /// planner without a jerk limit), window_too_small, storage_too_small. After an error nothing has changed.
     [[nodiscard]] static Result<Trajectory> make(CurveSource<S>& curve, const MotionLimits<S>& limits,
                                                  Planner<S>& planner) noexcept {
         if (limits.axes < 1 || limits.axes > max_axes) {
@@ -44,33 +44,37 @@ public:
     }
     static Result<Trajectory> make(CurveSource<S>& curve, const MotionLimits<S>&& limits, Planner<S>& planner) = delete;
 
-    /// Why the motion did not go to the end of the program: the first segment of the curve that does not fit, before
-    /// which the machine came to rest. axes_differ, counts_out_of_range, start_elsewhere.
+    /// Why the motion ended before the end of the program. A segment of the curve did not fit, and the machine stopped
+    /// before it. Errors: axes_differ, counts_out_of_range, start_elsewhere.
     [[nodiscard]] Status status() const noexcept { return planner_->arc_length_->status(); }
 
-    /// Writes the next segment, or answers why there is none: `starved` (push waypoints or finish), `held` (stands
-    /// until resume() or a larger override) or `finished` (also: aborted, or refused: see status()).
-    /// @param underrun  drain: for a machine that moves and has no segment left, while the input is late. The motion
-    ///                  goes on with what is known, brakes to rest at its end, and starts again when more comes.
+    /// Writes the next segment, or says why there is none: `starved` (push waypoints or finish the input), `held` (the
+    /// machine stands until resume() or a larger override) or `finished` (also after an abort, and after a refused
+    /// segment: see status()).
+    /// @param underrun  drain: for a machine that moves and has no segment left while the input is late. The motion
+    ///                  continues along the known path, brakes to standstill at its end, and starts again when more
+    ///                  input comes.
     [[nodiscard]] Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept {
         steering().poll();
         planner_->state_ = planner_->stream_->next(out, underrun);
         return planner_->state_;
     }
-    /// What the last next() answered; `starved` before the first.
+    /// The answer of the last next(); `starved` before the first call.
     [[nodiscard]] Pull state() const noexcept { return planner_->state_; }
 
-    /// Steering, at any time, from an interrupt or another thread, too, one of them at a time: it acts with the next
-    /// segment. The path in space stays the same.
-    /// Factor of the programmed feed, 0 to 2, taken as the nearest of these; 0 stops. The machine's limits stay.
+    /// Steering. These calls are allowed at any time, also from an interrupt or another thread, but only from one at a
+    /// time. They take effect with the next segment. The path in space does not change.
+    /// Factor of the programmed feed. Values outside 0 to 2 are limited to that range; 0 stops the motion. The
+    /// machine's limits still apply.
     void override_feed(S ratio) noexcept { steering().override_feed(ratio); }
-    /// Brakes to rest on the path, as hard as the axes allow.
+    /// Brakes to standstill on the path, as hard as the axes allow.
     void hold() noexcept { steering().hold(); }
-    /// Goes on from where it was held; before it stands, at once.
+    /// Continues from where the motion was held. If the machine is still braking, it accelerates again at once.
     void resume() noexcept { steering().resume(); }
-    /// Brakes like hold(), for good: what is left of the program is not travelled. Then start() takes another.
+    /// Brakes like hold(), and ends the program: the rest of it is not travelled. After that start() accepts another
+    /// program.
     void abort() noexcept { steering().abort(); }
-    /// What the motion does about all that.
+    /// How far the motion has followed these requests.
     [[nodiscard]] Activity activity() const noexcept {
         Steering<S>& asked = steering();
         asked.poll();
@@ -80,14 +84,14 @@ public:
         return asked.aborts() ? (stands() ? Activity::aborted : Activity::aborting)
                               : (stands() ? Activity::held : Activity::holding);
     }
-    /// Writes a segment of standing still, for a machine that is to have one: held, aborted, finished or at a stop.
-    /// false: it moves, or where it stands is not known, since no motion has begun.
+    /// Writes a segment of standstill, for a machine that needs a segment all the time: held, aborted, finished or at a
+    /// stop. false: the machine moves, or its position is not known because no motion has begun.
     [[nodiscard]] bool stand(FeedSegment& out) noexcept { return planner_->stream_->stand(out); }
-    /// Where the machine stands once it is at rest.
+    /// The position where the machine stands, once it is at standstill.
     [[nodiscard]] const PerAxis<Position>& position() const noexcept { return planner_->stream_->position(); }
-    /// A new program; what is left of the one before is forgotten. Once it moved, the first waypoint must be
-    /// position(), else it is refused when it comes: see status(). The override and a hold stay as they are. Error:
-    /// still_moving (nothing was changed).
+    /// Starts a new program and forgets what is left of the one before. After a motion, the first waypoint must be
+    /// position(); otherwise the segment is refused when it comes: see status(). The override and a hold stay in force.
+    /// Error: still_moving (nothing was changed).
     Status start(CurveSource<S>& curve) noexcept {
         if (!stands()) {
             return Error::still_moving;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compile-time capacities. Axis count and degree are chosen at run time up to these; a small target lowers them
-// (CMake: SPLINEFEED_MAX_AXES, SPLINEFEED_MAX_DEGREE) to shrink every window. See DESIGN.md, "Axes".
+// Compile-time capacities. The number of axes and the degree are chosen at run time, up to these values. A small target
+// lowers them (CMake: SPLINEFEED_MAX_AXES, SPLINEFEED_MAX_DEGREE): every window then needs less memory. See DESIGN.md,
+// "Axes".
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ static_assert(max_degree >= 3 && max_degree <= 9, "the curve methods emit cubics
 template <class T>
 using PerAxis = std::array<T, static_cast<unsigned>(max_axes)>;
 
-/// Bezier points or polynomial coefficients of one axis, index 0 to degree.
+/// Bezier points or polynomial coefficients of one axis; the index is 0 to degree.
 template <class T>
 using PerDegree = std::array<T, static_cast<unsigned>(max_degree) + 1U>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Slot: room for an object that is built later.
+// Slot: memory for an object that is constructed later.
 #pragma once
 
 #include <new>
@@ -8,7 +8,7 @@
 
 namespace splinefeed {
 
-/// Holds no flag for whether the object was built: its owner knows. Building again replaces the object.
+/// There is no flag that says whether the object exists: the owner knows. A second build() replaces the object.
 template <class T>
 class Slot {
     static_assert(std::is_trivially_destructible_v<T>);
@@ -22,7 +22,7 @@ public:
     T& build(Arguments&&... arguments) noexcept {
         return *::new (static_cast<void*>(&value_)) T(std::forward<Arguments>(arguments)...);
     }
-    /// @pre it was built, as for the next
+    /// @pre build() was called; the same for the next three
     [[nodiscard]] T& operator*() noexcept { return value_; }
     [[nodiscard]] const T& operator*() const noexcept { return value_; }
     [[nodiscard]] T* operator->() noexcept { return &value_; }

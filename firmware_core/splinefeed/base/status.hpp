@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How the core reports bad data: a Status where nothing is returned, a Result<T> where something is.
-// Programmers' errors are assertions (assertion.hpp); after construction the hot path cannot fail.
+// How the core reports bad data: with a Status where a function returns nothing else, with a Result<T> where it returns
+// a value. Programming errors are assertions (assertion.hpp). After construction, the functions of the motion itself
+// cannot fail.
 #pragma once
 
 #include "splinefeed/base/assertion.hpp"
@@ -10,7 +11,7 @@
 
 namespace splinefeed {
 
-/// What was wrong with the data. `describe` gives the sentence.
+/// What is wrong with the data. `describe` gives the sentence for it.
 enum class Error : std::uint8_t {
     none,
     axes_out_of_range,
@@ -68,10 +69,10 @@ enum class Error : std::uint8_t {
     direction_change_too_long,
 };
 
-/// One sentence: what is wrong and what would be right.
+/// One sentence: what is wrong, and which values are right.
 [[nodiscard]] const char* describe(Error error) noexcept;
 
-/// Success, or the reason of a refusal.
+/// Success, or the error.
 class [[nodiscard]] Status {
 public:
     constexpr Status() noexcept = default;
@@ -83,7 +84,7 @@ private:
     Error error_ = Error::none;
 };
 
-/// A value or the reason why there is none. Members are named as in std::expected, which C++20 lacks.
+/// A value, or the error. The members have the names of std::expected, which C++20 does not have.
 template <class T>
 class [[nodiscard]] Result {
 public:
@@ -91,7 +92,8 @@ public:
     constexpr Result(Error error) noexcept : error_(error) {}        // NOLINT(google-explicit-constructor)
     [[nodiscard]] constexpr bool has_value() const noexcept { return error_ == Error::none; }
     [[nodiscard]] constexpr Error error() const noexcept { return error_; }
-    /// Of a temporary the value itself: a reference into it would dangle. @pre has_value(); else a T{}
+    /// The value. A temporary Result returns it by value, because a reference into the temporary would dangle. @pre
+    /// has_value(); otherwise the result is T{}
     [[nodiscard]] constexpr const T& value() const& noexcept {
         SPLINEFEED_ASSERT(has_value());
         return value_;
@@ -114,12 +116,12 @@ private:
     Error error_ = Error::none;
 };
 
-/// What a stage answers when it is asked for its next item.
+/// The answer of a stage when it is asked for its next item.
 enum class Pull : std::uint8_t {
-    item,     ///< one was delivered
-    starved,  ///< none now: push more waypoints, or finish
-    held,     ///< none now: the machine stands until it is resumed (FeedPlan and what comes after it)
-    finished, ///< none ever again
+    item,     ///< one item was written
+    starved,  ///< none now: push more waypoints, or finish the input
+    held,     ///< none now: the machine stands until it is resumed (only FeedPlan and the stages after it)
+    finished, ///< none, and there will be no more
 };
 
 } // namespace splinefeed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The binary exponent of a scalar, for choosing a power-of-two unit.
+// The binary exponent of a number, used to choose a power of two as unit.
 #pragma once
 
 #include "splinefeed/number/scalar.hpp"
@@ -8,7 +8,7 @@
 
 namespace splinefeed {
 
-/// floor(log2(x)) for x > 0 (normal numbers for float and double). Exact. Cost: a shift or a count of leading zeros.
+/// floor(log2(x)) for x > 0 (float and double: normal numbers). Exact. Cost: a shift, or a count of leading zeros.
 template <Scalar S>
 [[nodiscard]] constexpr int exponent_of(S x) noexcept {
     SPLINEFEED_ASSERT(x > S{});

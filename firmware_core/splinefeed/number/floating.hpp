@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// float and double as bits: powers of two, conversions to and from 64 bit integers and square roots without the C
-// library. The compiler's own conversions between float and int64 call double routines on a processor with single
-// precision hardware, which is why they are spelled out here.
+// float and double at the level of bits: powers of two, conversions to and from 64-bit integers, and square roots
+// without the C library. They exist because on a processor with single-precision hardware the compiler's own
+// conversions between float and int64 call routines in double.
 #pragma once
 
 #include "splinefeed/number/magnitude.hpp"
@@ -30,7 +30,7 @@ struct FloatLayout {
     static constexpr int exponent_mask = 2 * bias + 1;
 };
 
-/// significand * 2^exponent, without the sign.
+/// The number significand * 2^exponent; the sign is separate.
 struct Decomposed {
     std::uint64_t significand = 0;
     int exponent = 0;
@@ -45,7 +45,7 @@ template <Floating S>
     const auto bits = std::bit_cast<Bits>(value);
     const int field = static_cast<int>(bits >> Layout::fraction_bits) & Layout::exponent_mask;
     const Bits fraction = bits & ((Bits{1} << Layout::fraction_bits) - 1U);
-    // A subnormal number has the exponent of the smallest normal one, but no hidden bit.
+    // A subnormal number has the exponent of the smallest normal number and no hidden bit.
     const Bits hidden = field == 0 ? Bits{0} : Bits{1} << Layout::fraction_bits;
     return {fraction | hidden, (field == 0 ? 1 : field) - Layout::bias - Layout::fraction_bits,
             (bits >> (sizeof(Bits) * 8U - 1U)) != 0, field != Layout::exponent_mask};
@@ -75,8 +75,8 @@ template <Floating S>
     if constexpr (std::same_as<S, double>) {
         return static_cast<double>(value) * power_of_two<double>(exponent);
     } else {
-        // Shorten to 31 bits by hand, then let the int32 conversion round to 24. The lost bits are kept as a sticky
-        // last bit, far below the 24, so that they can break a tie, but nothing is rounded twice.
+        // Shorten the value to 31 bits; the conversion from int32 then rounds it to 24. If bits are lost, the last bit
+        // is set (a sticky bit). It lies far below the 24 bits: it can break a tie, but the value is not rounded twice.
         const std::uint64_t whole = magnitude(value);
         const int width = 64 - std::countl_zero(whole);
         const int excess = width > 31 ? width - 31 : 0;
@@ -87,7 +87,8 @@ template <Floating S>
     }
 }
 
-/// sqrt(value) in integer arithmetic, correctly rounded: for constants and for processors without the instruction.
+/// sqrt(value) in integer arithmetic, correctly rounded. For constants, and for processors without a square root
+/// instruction.
 template <Floating S>
 [[nodiscard]] constexpr S square_root_by_integers(S value) noexcept {
     using Layout = FloatLayout<S>;
@@ -96,21 +97,22 @@ template <Floating S>
     if (parts.significand == 0 || parts.negative || !parts.finite) {
         return value > S{0} ? value : S{0}; // +infinity is its own root; NaN and negative numbers give zero
     }
-    // The radicand significand * 2^shift * 2^(exponent - shift) gets an even exponent and 2p or 2p-1 bits, so that its
-    // root has exactly the p bits of the format and is rounded once.
+    // The radicand is significand * 2^shift * 2^(exponent - shift). The shift makes the exponent even and the
+    // significand 2p or 2p-1 bits long. The root then has exactly the p bits of the format and is rounded once.
     constexpr int precision = Layout::fraction_bits + 1;
     int shift = 2 * precision - (64 - std::countl_zero(parts.significand));
     shift -= (parts.exponent - shift) & 1;
     const std::uint64_t root = square_root_rounded(shift_left(Wide{0U, parts.significand}, shift));
-    // The root of a finite number is normal. Adding the integer 2^(p-1) ... 2^p to the exponent field carries into it
-    // when rounding reaches 2^p, which is the right number again.
+    // The root of a finite number is a normal number. Adding the integer 2^(p-1) ... 2^p to the exponent field carries
+    // into that field if rounding reaches 2^p, and the result is again the right number.
     const int field = (parts.exponent - shift) / 2 + Layout::bias + Layout::fraction_bits - 1;
     const Bits base = static_cast<Bits>(field) << Layout::fraction_bits;
     return std::bit_cast<S>(static_cast<Bits>(base + static_cast<Bits>(root)));
 }
 
-/// sqrt(value) by the instruction where there is one. __builtin_sqrt would do, but unless the math-errno option is off
-/// it comes with a call of the library's sqrt for negative arguments, which a freestanding program does not have.
+/// sqrt(value) by the processor's instruction, if it has one. __builtin_sqrt is not used: without the option
+/// -fno-math-errno the compiler adds a call of the library's sqrt for negative arguments, and a freestanding program
+/// has no such library.
 template <Floating S>
 [[nodiscard]] constexpr S hardware_square_root(S value) noexcept {
     if (!std::is_constant_evaluated()) {
@@ -131,7 +133,7 @@ template <Floating S>
         }
         return root;
 #elif defined(__ARM_FP)
-        // Bit 2 of __ARM_FP: single precision in hardware, bit 3: double precision.
+        // Bit 2 of __ARM_FP means single precision in hardware, bit 3 double precision.
         if constexpr (std::same_as<S, double>) {
 #if (__ARM_FP & 8) != 0
             double root;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Signed 64 bit arithmetic on sign and magnitude with saturation. Rounding is done on the magnitude, which makes it
-// symmetric: a motion and its mirror image give mirrored numbers, and rounding has no drift.
+// Signed 64-bit arithmetic on sign and magnitude, with saturation. Rounding acts on the magnitude, so it is symmetric:
+// a mirrored motion gives mirrored numbers, and rounding causes no drift.
 #pragma once
 
 #include "splinefeed/number/wide.hpp"
@@ -10,21 +10,21 @@
 
 namespace splinefeed::detail {
 
-/// A result and whether it is the true one. If not, `raw` is the nearest limit of std::int64_t.
+/// A result, and whether it fits. If it does not, `raw` is the nearest limit of std::int64_t.
 struct Checked {
     std::int64_t raw = 0;
     bool fits = true;
 };
 
-/// |value|, also for the lowest value, whose magnitude 2^63 does not fit in the signed type.
+/// value|. It is unsigned because the magnitude of the lowest value, 2^63, does not fit in the signed type.
 [[nodiscard]] constexpr std::uint64_t magnitude(std::int64_t value) noexcept {
-    // Conditional negation as complement and carry, here and in with_sign: the sign of a product is unpredictable, and
-    // compilers tend to make it a branch.
+    // Negates by complement and carry, here and in with_sign: the sign of a product is unpredictable, and compilers
+    // would often turn a condition into a branch.
     const auto mask = static_cast<std::uint64_t>(value >> 63);
     return (static_cast<std::uint64_t>(value) ^ mask) - mask;
 }
 
-/// The limit on the side of the sign, marked as not fitting.
+/// The limit with this sign, marked as not fitting.
 [[nodiscard]] constexpr Checked saturated(bool negative) noexcept {
     return {negative ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max(), false};
 }
@@ -32,7 +32,7 @@ struct Checked {
 /// +magnitude or -magnitude.
 [[nodiscard]] constexpr Checked with_sign(std::uint64_t magnitude, bool negative) noexcept {
     const std::uint64_t mask = 0U - static_cast<std::uint64_t>(negative);
-    const std::uint64_t limit = (std::uint64_t{1} << 63) - 1U - mask; // one more on the negative side
+    const std::uint64_t limit = (std::uint64_t{1} << 63) - 1U - mask; // larger by one for negative numbers
     if (magnitude > limit) [[unlikely]] {
         return saturated(negative);
     }
@@ -49,7 +49,7 @@ struct Checked {
     return __builtin_sub_overflow(a, b, &difference) ? saturated(a < 0) : Checked{difference, true};
 }
 
-/// magnitude * 2^exponent rounded to nearest, ties up; all bits set if it does not fit. Any exponent.
+/// magnitude * 2^exponent rounded to nearest, ties up; all bits are set if it does not fit. Any exponent is allowed.
 [[nodiscard]] constexpr std::uint64_t shift_rounded(std::uint64_t magnitude, int exponent) noexcept {
     if (exponent >= 0) {
         if (magnitude == 0 || exponent <= std::countl_zero(magnitude)) {
@@ -60,11 +60,11 @@ struct Checked {
     if (exponent < -64) {
         return 0; // below 2^64 / 2^65 = 1/2
     }
-    // Halving first leaves room for the carry of adding one half.
+    // Shifting by one bit less first leaves room for the carry when one half is added.
     return ((magnitude >> (-exponent - 1)) >> 1) + ((magnitude >> (-exponent - 1)) & 1U);
 }
 
-/// value * 2^exponent rounded to nearest, ties away from zero. Any exponent.
+/// value * 2^exponent rounded to nearest, ties away from zero. Any exponent is allowed.
 [[nodiscard]] constexpr Checked checked_shift(std::int64_t value, int exponent) noexcept {
     return with_sign(shift_rounded(magnitude(value), exponent), value < 0);
 }

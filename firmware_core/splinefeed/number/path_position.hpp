@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Positions along a path that may be endless: its arc length modulo 2^24 mm. Only differences are ever looked at, and
-// they are exact while two positions are less than 2^23 mm apart, which is much more than any window holds.
+// Positions along a path that may have no end: its arc length modulo 2^24 mm. Only differences are used. They are exact
+// while two positions are less than 2^23 mm apart, which is much more than any window holds.
 #pragma once
 
 #include "splinefeed/number/position.hpp"
 
 namespace splinefeed {
 
-/// Arc length in units of 2^-40 mm, modulo 2^64. Nothing depends on where it begins: it begins 1 mm before it wraps, so
-/// that every path that is longer passes the end of its range.
+/// Arc length in units of 2^-40 mm, modulo 2^64. The start value does not matter. It is 1 mm before the wrap-around, so
+/// every path longer than 1 mm crosses it.
 struct PathPosition {
     std::uint64_t raw = ~std::uint64_t{0} << Position::fraction_bits;
 
@@ -33,7 +33,7 @@ template <Scalar S>
     return {origin.raw + static_cast<std::uint64_t>(displaced(Position{}, offset, unit_log2).raw)};
 }
 
-/// A length that was summed in units of 2^-40 mm, in mm, for the host: 2^128 of them are 3e26 mm. Error: 2 roundings.
+/// Converts a length, summed in units of 2^-40 mm, to mm, for the host; 2^128 units are 3e26 mm. Error: 2 roundings.
 [[nodiscard]] constexpr double length_to_mm(Wide units) noexcept {
     return static_cast<double>(units.high) * 0x1p24 + static_cast<double>(units.low) * 0x1p-40;
 }
