@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The numbers a controller can be built with - double, float or Fixed - behind one set of functions. An algorithm
-// written as a template over Scalar uses these, + - * / and comparisons, and nothing else.
+// The number types that a controller can be built with - double, float or Fixed - behind one set of functions. An
+// algorithm that is a template over Scalar uses these functions, + - * / and comparisons, and nothing else.
 #pragma once
 
 #include "splinefeed/number/fixed.hpp"
@@ -12,7 +12,7 @@ namespace splinefeed {
 template <class S>
 concept Scalar = Floating<S> || std::same_as<S, Fixed>;
 
-/// The largest number of S. For float and double it is far below the accuracy of anything it is compared with.
+/// The largest number of S. For float and double it is rounded by far less than matters to anything compared with it.
 template <Scalar S>
 [[nodiscard]] constexpr S largest() noexcept {
     if constexpr (std::same_as<S, Fixed>) {
@@ -25,7 +25,7 @@ template <Scalar S>
 // ---- square roots
 
 /// sqrt(x) for x >= 0, correctly rounded: error <= 1/2 ulp. Cost: one instruction, or about ten multiplies and a divide
-/// where the processor has none.
+/// if the processor has no such instruction.
 template <Floating S>
 [[nodiscard]] constexpr S square_root(S x) noexcept {
     SPLINEFEED_ASSERT(x >= S{0});
@@ -43,23 +43,23 @@ template <Floating S>
     return Fixed::from_raw(static_cast<std::int64_t>(square_root_rounded(Wide{raw >> 32, raw << 32})));
 }
 
-/// 1/sqrt(x) for x > 0: error < 3/2 ulp. Half an ulp of a root just above 1 is a whole one of its reciprocal just below
-/// 1, and the division adds one half.
+/// 1/sqrt(x) for x > 0: error < 3/2 ulp. The root may be off by 1/2 ulp. If the root is just above 1, that is a whole
+/// ulp of the reciprocal just below 1; the division adds another half.
 template <Floating S>
 [[nodiscard]] constexpr S reciprocal_square_root(S x) noexcept {
     SPLINEFEED_ASSERT(x > S{0});
     return S{1} / square_root(x);
 }
 
-/// 1/sqrt(x) for x > 0, correctly rounded: error <= 1/2 ulp. The result is at most 2^16 and never saturates, except
-/// that x <= 0 gives the largest number. Cost: a square root and up to four divides.
+/// 1/sqrt(x) for x > 0, correctly rounded: error <= 1/2 ulp. The result is at most 2^16, so it never saturates; x <= 0
+/// gives the largest number. Cost: a square root and up to four divides.
 [[nodiscard]] constexpr Fixed reciprocal_square_root(Fixed x) noexcept {
     SPLINEFEED_ASSERT(x.raw() > 0);
     if (x.raw() <= 0) {
         return Fixed::max();
     }
-    // The result is r = 2^48/sqrt(raw). floor(2r) = floor(sqrt(2^98/raw)) = floor(sqrt(floor(2^98/raw))), and adding
-    // one before halving rounds it.
+    // The result is r = 2^48/sqrt(raw). floor(2r) = floor(sqrt(2^98/raw)) = floor(sqrt(floor(2^98/raw))). Adding one
+    // before halving rounds it.
     const auto raw = static_cast<std::uint64_t>(x.raw());
     const std::uint64_t upper = (std::uint64_t{1} << 34) / raw;
     const std::uint64_t rest = (std::uint64_t{1} << 34) - upper * raw;
@@ -67,8 +67,8 @@ template <Floating S>
     return Fixed::from_raw(static_cast<std::int64_t>((twice + 1U) >> 1));
 }
 
-/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6. With components that are zero or between 2^-50 and 2^50 in
-/// magnitude the error is at most (n+1)/2 ulp, n/2 of it from summing the squares.
+/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6. The error is at most (n+1)/2 ulp if every component is zero or
+/// between 2^-50 and 2^50 in magnitude; n/2 ulp of it come from the sum of squares.
 template <Floating S>
 [[nodiscard]] constexpr S norm(const S* v, int n) noexcept {
     SPLINEFEED_ASSERT(n >= 0 && n <= 6);
@@ -79,8 +79,8 @@ template <Floating S>
     return square_root(sum);
 }
 
-/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6, |v[i]| < 2^30. The sum of squares is exact and the root rounded
-/// once: error <= 1/2 ulp. A length of 2^31 or more, possible from n = 5 on, gives the largest number. Cost: four
+/// Length of the vector v[0] ... v[n-1], 0 <= n <= 6, |v[i]| < 2^30. The sum of squares is exact and the root is
+/// rounded once: error <= 1/2 ulp. A length of 2^31 or more, possible from n = 5, gives the largest number. Cost: four
 /// multiplies per component and a square root.
 [[nodiscard]] constexpr Fixed norm(const Fixed* v, int n) noexcept {
     SPLINEFEED_ASSERT(n >= 0 && n <= 6);
@@ -95,19 +95,19 @@ template <Floating S>
 
 // ---- exact operations and comparisons
 
-/// x * 2^exponent for |exponent| <= 100. Exact unless the result is too small or too large for a normal number.
+/// x * 2^exponent for |exponent| <= 100. Exact if the result is a normal number.
 template <Floating S>
 [[nodiscard]] constexpr S scale2(S x, int exponent) noexcept {
     SPLINEFEED_ASSERT(exponent >= -100 && exponent <= 100);
     return x * detail::power_of_two<S>(exponent);
 }
 
-/// x * 2^exponent rounded to nearest, ties away from zero: error <= 1/2 ulp. Saturates. Any exponent.
+/// x * 2^exponent rounded to nearest, ties away from zero: error <= 1/2 ulp. Saturates. Any exponent is allowed.
 [[nodiscard]] constexpr Fixed scale2(Fixed x, int exponent) noexcept {
     return Fixed::from_raw(detail::checked_shift(x.raw(), exponent).raw);
 }
 
-/// |x|, exact. Fixed::lowest() has no counterpart and overflows to the largest number.
+/// x|, exact. Fixed::lowest() has no positive counterpart: it overflows to the largest number.
 template <Scalar S>
 [[nodiscard]] constexpr S absolute(S x) noexcept {
     return x < S{} ? -x : x;
@@ -127,20 +127,21 @@ requires Scalar<S> || std::integral<S>
     return a < b ? b : a;
 }
 
-/// a / b for a >= 0 and b >= 0, or the largest number if b is zero or the quotient does not fit. Error <= 1/2 ulp,
-/// except that a quotient within 1 ulp of the largest number may become it.
+/// a / b for a >= 0 and b >= 0; the largest number if b is zero or the quotient does not fit. Error <= 1/2 ulp, except
+/// that a quotient within 1 ulp of the largest number may become the largest number.
 template <Floating S>
 [[nodiscard]] constexpr S quotient_or_max(S a, S b) noexcept {
     SPLINEFEED_ASSERT(a >= S{0} && b >= S{0});
-    // Not left to infinity: a division that overflows is not a constant expression, and 0/0 would be NaN. For b >= 1
-    // nothing overflows; for b < 1 the product does not, nor does rounding it matter at this size.
+    // Not left to the rules of infinity: a division that overflows is not a constant expression, and 0/0 would be NaN.
+    // For b >= 1 nothing overflows. For b < 1 the product does not overflow, and its rounding does not matter at this
+    // size.
     if (b < S{1} && a >= b * largest<S>()) {
         return largest<S>();
     }
     return a / b;
 }
 
-/// a / b for a >= 0 and b >= 0, or the largest number if b is zero or the quotient does not fit. Error <= 1/2 ulp.
+/// a / b for a >= 0 and b >= 0; the largest number if b is zero or the quotient does not fit. Error <= 1/2 ulp.
 [[nodiscard]] constexpr Fixed quotient_or_max(Fixed a, Fixed b) noexcept {
     SPLINEFEED_ASSERT(a.raw() >= 0 && b.raw() >= 0);
     return Fixed::from_raw(detail::checked_quotient(a.raw(), b.raw()).raw);
@@ -148,14 +149,14 @@ template <Floating S>
 
 // ---- conversions
 
-/// A whole number. Exact; in float from 2^24 on rounded to nearest.
+/// An integer as a number of S. Exact, except in float from 2^24 on: rounded to nearest.
 template <Scalar S>
 [[nodiscard]] constexpr S from_integer(std::int32_t value) noexcept {
     return static_cast<S>(value);
 }
 
-/// The nearest number of S, for the host: on a target it would pull in double arithmetic. The value must be in the
-/// range of S.
+/// The nearest number of S, for the host only: on a microcontroller it would need arithmetic in double. @pre value is
+/// in the range of S
 template <Scalar S>
 [[nodiscard]] constexpr S from_double(double value) noexcept {
     if constexpr (std::same_as<S, Fixed>) {
@@ -165,7 +166,7 @@ template <Scalar S>
     }
 }
 
-/// The value as a double, for the host. Exact; for Fixed from 2^21 on rounded to nearest.
+/// The value as a double, for the host. Exact, except for Fixed from 2^21 on: rounded to nearest.
 template <Scalar S>
 [[nodiscard]] constexpr double to_double(S value) noexcept {
     if constexpr (std::same_as<S, Fixed>) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Unsigned 128 bit integers for the products and quotients of 64 bit numbers. Built from 32x32->64 multiplies and
-// 64/64 divides only, because neither __int128 nor a 64x64->128 multiply exists on the 32 bit targets.
+// Unsigned 128-bit integers for the products and quotients of 64-bit numbers. They need only 32x32->64 multiplies and
+// 64/64 divides, because 32-bit targets have neither __int128 nor a 64x64->128 multiply.
 #pragma once
 
 #include "splinefeed/base/assertion.hpp"
@@ -12,7 +12,7 @@
 
 namespace splinefeed {
 
-/// The number high * 2^64 + low. Plain data; the member order makes the default comparison the numeric one.
+/// The number high * 2^64 + low. The order of the members makes the default comparison numeric.
 struct Wide {
     std::uint64_t high = 0;
     std::uint64_t low = 0;
@@ -39,7 +39,7 @@ inline constexpr std::uint64_t low_half = 0xffffffffU;
     const std::uint64_t a1 = a >> 32;
     const std::uint64_t b0 = b & detail::low_half;
     const std::uint64_t b1 = b >> 32;
-    // A digit product is at most (2^32-1)^2 = 2^64 - 2^33 + 1, so that two more digits can be added without a carry.
+    // The product of two digits is at most (2^32-1)^2 = 2^64 - 2^33 + 1: two more digits can be added without a carry.
     const std::uint64_t bottom = a0 * b0;
     const std::uint64_t middle = a1 * b0 + (bottom >> 32);
     const std::uint64_t cross = a0 * b1 + (middle & detail::low_half);
@@ -57,7 +57,7 @@ inline constexpr std::uint64_t low_half = 0xffffffffU;
     return {a.high - b.high - (a.low < b.low ? 1U : 0U), a.low - b.low};
 }
 
-/// a * 2^count modulo 2^128, 0 <= count; zero from 128 on.
+/// a * 2^count modulo 2^128, 0 <= count; zero if count >= 128.
 [[nodiscard]] constexpr Wide shift_left(Wide a, int count) noexcept {
     SPLINEFEED_ASSERT(count >= 0);
     if (count <= 0) {
@@ -69,7 +69,7 @@ inline constexpr std::uint64_t low_half = 0xffffffffU;
     return {count < 128 ? a.low << (count - 64) : 0U, 0U};
 }
 
-/// floor(a / 2^count), 0 <= count; zero from 128 on.
+/// floor(a / 2^count), 0 <= count; zero if count >= 128.
 [[nodiscard]] constexpr Wide shift_right(Wide a, int count) noexcept {
     SPLINEFEED_ASSERT(count >= 0);
     if (count <= 0) {
@@ -88,17 +88,17 @@ inline constexpr std::uint64_t low_half = 0xffffffffU;
 
 namespace detail {
 
-/// One digit of Knuth's algorithm D: (remainder * 2^32 + digit) / denominator with a normalised denominator
-/// (top bit set) and remainder < denominator. Returns the 32 bit quotient digit, leaves the new remainder.
+/// One digit of Knuth's algorithm D: (remainder * 2^32 + digit) / denominator, for a normalised denominator (top bit
+/// set) and remainder < denominator. Returns the 32-bit digit of the quotient and updates the remainder.
 constexpr std::uint64_t divide_digit(std::uint64_t& remainder, std::uint64_t digit,
                                      std::uint64_t denominator) noexcept {
     const std::uint64_t top = denominator >> 32;
     const std::uint64_t bottom = denominator & low_half;
     std::uint64_t quotient = remainder / top;
     std::uint64_t rest = remainder - quotient * top;
-    // The estimate from the leading digit alone is never too small and, the denominator being normalised, at most 2
-    // too large: 2^32 + 1 at most, so that the product below fits, (2^32+1) (2^32-1) < 2^64. `rest` beyond 32 bits
-    // means that the estimate is right: the comparison could only be false.
+    // The estimate from the leading digit is never too small. Because the denominator is normalised it is at most 2 too
+    // large: at most 2^32 + 1, so the product below fits: (2^32+1) (2^32-1) < 2^64. If `rest` has more than 32 bits,
+    // the estimate is right: the comparison could only be false.
     while (quotient * bottom > ((rest << 32) | digit)) {
         --quotient;
         rest += top;
@@ -106,16 +106,16 @@ constexpr std::uint64_t divide_digit(std::uint64_t& remainder, std::uint64_t dig
             break;
         }
     }
-    // The exact result is below 2^64, so that the wrapped intermediate values do not matter.
+    // The exact result is below 2^64, so the overflow of the intermediate values does not matter.
     remainder = ((remainder << 32) | digit) - quotient * denominator;
     return quotient;
 }
 
 } // namespace detail
 
-/// numerator / denominator with remainder. Precondition numerator.high < denominator, which makes the quotient fit in
-/// 64 bits; otherwise all bits of the quotient are set and the remainder is zero. Cost: one 64 bit divide if the
-/// numerator has 64 bits, else two 64/32 divides and four multiplies.
+/// numerator / denominator with remainder. Precondition: numerator.high < denominator, so that the quotient fits in 64
+/// bits; otherwise all bits of the quotient are set and the remainder is zero. Cost: one 64-bit divide if the numerator
+/// has 64 bits, otherwise two 64/32 divides and four multiplies.
 [[nodiscard]] constexpr WideQuotient divide(Wide numerator, std::uint64_t denominator) noexcept {
     SPLINEFEED_ASSERT(numerator.high < denominator);
     if (numerator.high >= denominator) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Square roots of 128 bit integers, exact to the last bit. A table of 192 bytes and two iterations give the upper
-// half of the root, one division gives the lower half; every step is integer arithmetic, the same on every target.
+// Square roots of 128-bit integers, exact to the last bit. A table of 192 bytes and two iterations give the upper half
+// of the root, one division gives the lower half. Every step is integer arithmetic: the same on every target.
 #pragma once
 
 #include "splinefeed/number/wide.hpp"
@@ -13,7 +13,7 @@ namespace splinefeed {
 
 namespace detail {
 
-/// Entry i belongs to x in [(i+64)/256, (i+65)/256): 256/sqrt of the middle of that interval, rounded, less 256.
+/// Entry i is for x in [(i+64)/256, (i+65)/256): 256/sqrt of the middle of that interval, rounded, minus 256.
 consteval std::array<std::uint8_t, 192> make_reciprocal_root_table() {
     std::array<std::uint8_t, 192> table{};
     std::uint32_t root = 512;
@@ -29,13 +29,14 @@ consteval std::array<std::uint8_t, 192> make_reciprocal_root_table() {
 
 inline constexpr std::array<std::uint8_t, 192> reciprocal_root_table = make_reciprocal_root_table();
 
-/// floor(sqrt(n)) for a normalised n >= 2^62, a root of exactly 32 bits. Cost: seven multiplies, no division.
+/// floor(sqrt(n)) for a normalised n >= 2^62; the root has exactly 32 bits. Cost: seven multiplies, no division.
 ///
-/// With x = n / 2^64 in [1/4, 1): y0 from the table is 1/sqrt(x) to a relative 2^-7.7, one Newton step makes that y1
-/// with 2^-14.6, one third order step on s1 = x y1 makes the root with 2^-38, far less than its last bit of 2^-32.
+/// With x = n / 2^64 in [1/4, 1): the table gives y0 = 1/sqrt(x) with a relative error of 2^-7.7; one Newton step gives
+/// y1 with an error of 2^-14.6; one step of third order on s1 = x y1 gives the root with an error of 2^-38, much less
+/// than its last bit, 2^-32.
 constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
-    // Both residuals h = 1 - x y^2 are below 1/2 and computed modulo 1: the leading bits of the product, which would
-    // need a wider word, are known to cancel.
+    // Both residuals h = 1 - x y^2 are below 1/2 and are computed modulo 1. The leading bits of the product would need
+    // a wider word, but they are known to cancel.
     const auto y0 = 256U + static_cast<std::uint32_t>(reciprocal_root_table[static_cast<std::size_t>((n >> 56) - 64)]);
     const auto h0 = static_cast<std::int32_t>(0U - static_cast<std::uint32_t>(n >> 48) * (y0 * y0)); // Q32
     // y1 = y0 + y0 h0 / 2 in Q16: y0 is Q8 with 9 bits, h0 >> 10 is Q22 with 17 bits.
@@ -43,12 +44,12 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
     const auto y1 = static_cast<std::uint64_t>((static_cast<std::int32_t>(y0) << 8) + step);
     const std::uint64_t s1 = (n >> 18) * y1;                                               // Q62
     const auto h1 = static_cast<std::int64_t>((std::uint64_t{1} << 63) - (s1 >> 15) * y1); // Q63
-    // 1/sqrt(1 - h) = 1 + h/2 + 3 h^2/8 + ... ; what is left out, 5 h^3/16 with |h| < 2^-13.6, is below 2^-42. It makes
-    // s too large if h < 0; taking one unit of 2^-40 off makes s too small always, as the truncations do.
+    // 1/sqrt(1 - h) = 1 + h/2 + 3 h^2/8 + ... The first omitted term, 5 h^3/16 with |h| < 2^-13.6, is below 2^-42. It
+    // makes s too large if h < 0. Subtracting one unit of 2^-40 makes s always too small, as the truncations do.
     const std::int64_t h = h1 >> 23;                       // Q40
     const std::int64_t c = (h >> 1) + ((3 * h * h) >> 43); // Q40
     const std::int64_t s = static_cast<std::int64_t>(s1 >> 22) + ((static_cast<std::int64_t>(s1 >> 30) * c) >> 32) - 1;
-    // The integer part is right or, just above an integer, one too small; the exact square decides.
+    // The integer part is right, or one too small just above an integer; the exact square decides.
     const std::uint64_t root = static_cast<std::uint64_t>(s) >> 8;
     return root + (n - root * root > 2 * root ? 1U : 0U);
 }
@@ -63,9 +64,9 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
     // Scaling by a power of four scales the root by a power of two, and floor(floor(r) / 2^k) = floor(r / 2^k).
     const int shift = leading_zeros(a) & ~1;
     const Wide n = shift_left(a, shift);
-    // Zimmermann's step ("Karatsuba square root"): with the exact root s and remainder r of the upper half, the lower
-    // digit q = (r 2^32 + next digit) / 2s is right or one too large. The numerator has 65 bits, so that it is halved
-    // beforehand. q = 2^32 arises only if 2^32 - 1 is the digit.
+    // Zimmermann's step ("Karatsuba square root"): from the exact root s and remainder r of the upper half, the lower
+    // digit q = (r 2^32 + next digit) / 2s is right or one too large. The numerator has 65 bits, so it is halved first.
+    // q = 2^32 is possible only if the digit is 2^32 - 1.
     const std::uint64_t upper = detail::normalised_root(n.high);
     const std::uint64_t rest = n.high - upper * upper;
     const std::uint64_t half = (rest << 31) | (n.low >> 33);
@@ -80,8 +81,8 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
     return root >> (shift >> 1);
 }
 
-/// sqrt(a) rounded to nearest, for a < 2^127 (a larger one could round up to 2^64). There are no ties: the square of
-/// k + 1/2 is not an integer.
+/// sqrt(a) rounded to nearest, for a < 2^127 (a larger a could round up to 2^64). There are no ties: the square of k +
+/// 1/2 is not an integer.
 [[nodiscard]] constexpr std::uint64_t square_root_rounded(Wide a) noexcept {
     SPLINEFEED_ASSERT((a.high >> 63) == 0);
     if ((a.high >> 62) == 0) {

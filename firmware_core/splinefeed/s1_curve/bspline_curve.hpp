@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BSplineCurve: a uniform B-spline whose control points are the waypoints; it approximates them.
+// BSplineCurve: a uniform B-spline with the waypoints as control points. It approximates the waypoints.
 #pragma once
 
 #include "splinefeed/s1_curve/waypoint_curve.hpp"
@@ -7,17 +7,19 @@
 
 namespace splinefeed {
 
-/// Degree 3: C2 in the knot parameter; degree 2: C1; broken at corners. A cubic joint with d_{i+1} = d_{i-1} is a cusp
-/// (r' = 0). The curve stays in the hull of degree + 1 successive waypoints and passes only the ends of a run.
+/// Degree 3 is C2 in the knot parameter, degree 2 is C1; corners break the curve. A cubic joint with d_{i+1} = d_{i-1}
+/// is a cusp (r' = 0). The curve stays in the convex hull of degree + 1 successive waypoints and passes only through
+/// the ends of a run.
 ///
-/// A run ends at a corner, clamped: the curve passes the corner and stops there. A run with fewer than degree + 1
-/// waypoints gets the degree that it has waypoints for: a parabola, a line. Coincident waypoints are merged by the
-/// base, so that doubling one does not draw the curve towards it. The parameterization is uniform whatever the options
-/// say. The curve of a run with n + 1 waypoints has n + 1 - degree segments; a segment reports the waypoint where the
-/// side that it runs along ends (degree 2: the one at its corner), the last one that of the corner.
+/// A run ends at a corner: the curve is clamped there, passes through the corner and stops. A run with fewer than
+/// degree + 1 waypoints gets a lower degree: a parabola or a line. The base class merges coincident waypoints, so a
+/// waypoint that is given twice does not pull the curve towards it. The parameterization is always uniform, whatever
+/// the options say. The curve of a run with n + 1 waypoints has n + 1 - degree segments. A segment runs along one side
+/// of the polygon and reports the waypoint where that side ends (degree 2: the waypoint at the segment's vertex); the
+/// last segment reports the waypoint of the corner.
 ///
-/// Local: a cubic segment sees three waypoints past the side that it runs along, a quadratic one two past its vertex.
-/// Source: handbook 4.1 (splines/boehm.hpp); cost per waypoint: three divisions per axis.
+/// Local: a cubic segment needs three waypoints after the side that it runs along, a quadratic segment two after its
+/// vertex. Source: handbook 4.1 (splines/boehm.hpp). Cost per waypoint: three divisions per axis.
 template <Scalar S>
 class BSplineCurve final : public WaypointCurve<S> {
 public:

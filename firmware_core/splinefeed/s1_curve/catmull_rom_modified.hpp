@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CatmullRomModified: the modified Catmull-Rom curve, streaming.
+// CatmullRomModified: the streaming form of the modified Catmull-Rom curve.
 #pragma once
 
 #include "splinefeed/s1_curve/waypoint_curve.hpp"
@@ -7,11 +7,11 @@
 
 namespace splinefeed {
 
-/// Tangents are derivatives by chord length of the parabola through three waypoints: Borysenko & Ustenko as corrected
-/// in splines/catmull_rom_modified.hpp, whose arithmetic it shares: bit by bit the same curve. Runs end at corners with
-/// one-sided differences. Class within a run: C1 by chord length, G1 by the segment's parameter (ChordFactor::chord),
-/// C1 (constant); the curvature jumps at waypoints. Interpolates; local: one waypoint of look-ahead.
-/// CurveOptions::parameterization has no meaning here: it is chord length.
+/// Each tangent is the derivative by chord length of the parabola through three waypoints: Borysenko & Ustenko, as
+/// corrected in splines/catmull_rom_modified.hpp. It shares that arithmetic, and the curve is the same bit for bit.
+/// Runs end at corners with one-sided differences. Class within a run: C1 by chord length, G1 by the segment's
+/// parameter (ChordFactor::chord), C1 (constant); the curvature jumps at waypoints. Interpolates. Local: one waypoint
+/// of look-ahead. CurveOptions::parameterization is ignored: this curve always uses chord length.
 template <Scalar S>
 class CatmullRomModified final : public WaypointCurve<S> {
 public:
@@ -23,7 +23,7 @@ public:
 
 private:
     [[nodiscard]] Chord<S> chord(std::uint64_t i) const noexcept;
-    /// R'(s) at an end of segment i, seen from it.
+    /// R'(s) at one end of segment i, computed from that segment.
     [[nodiscard]] Point<S> start_slope(std::uint64_t i) const noexcept;
     [[nodiscard]] Point<S> end_slope(std::uint64_t i) const noexcept;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// CurveSource: what the rest of the pipeline sees of a curve method: a source of Bezier segments in travel order.
-// Virtual, because it is called once per segment (a cost far below the segment's own) and because a new method then
-// touches its own files and one line of the host's option table.
+// CurveSource: the interface between a curve method and the rest of the pipeline: a source of Bezier segments in the
+// order of travel. The call is virtual: it happens once per segment and costs far less than the segment itself. A new
+// method touches only its own files and one line of the host's option table.
 #pragma once
 
 #include "splinefeed/base/status.hpp"
@@ -12,7 +12,7 @@ namespace splinefeed {
 template <Scalar S>
 class CurveSource {
 public:
-    /// Writes the next segment. `starved`: none until more waypoints are pushed or the input is finished.
+    /// Writes the next segment. `starved`: there is none until more waypoints are pushed or the input is finished.
     virtual Pull next(CurveSegment<S>& out) noexcept = 0;
 
 protected:
@@ -21,7 +21,7 @@ protected:
     CurveSource(CurveSource&&) = default;
     CurveSource& operator=(const CurveSource&) = default;
     CurveSource& operator=(CurveSource&&) = default;
-    // Protected and not virtual: nobody deletes through the interface, and firmware stays free of operator delete.
+    // Protected and not virtual: nobody deletes through this interface, and firmware needs no operator delete.
     ~CurveSource() = default;
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Polyline: straight lines through the waypoints, a full stop at every corner (collinear points are passed).
+// Polyline: straight lines through the waypoints, with a full stop at every corner. Collinear points cause no stop.
 #pragma once
 
 #include "splinefeed/s1_curve/waypoint_curve.hpp"
 
 namespace splinefeed {
 
-/// Class C0; interpolates; local. Cost per waypoint: constant, no look-ahead beyond the next point.
+/// Class C0. Interpolates. Local: no look-ahead beyond the next point. Cost per waypoint: constant.
 template <Scalar S>
 class Polyline final : public WaypointCurve<S> {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ArcLength: cuts Bezier segments into cells and measures each: u(s), and bounds of dq/ds and d2q/ds2.
+// ArcLength: divides Bezier segments into cells and measures each cell: u(s), and bounds of dq/ds and d2q/ds2.
 #pragma once
 
 #include "splinefeed/s1_curve/curve_source.hpp"
@@ -8,11 +8,11 @@
 
 namespace splinefeed {
 
-/// Stage 2. A segment is halved until each piece is fine enough to be a cell: its metric is inverted well, its
-/// direction and curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp the
-/// pieces shrink until next to nothing is left, or until they bend more than any speed above that of crawling allows,
-/// and the machine passes their chord from stop to stop. Memory: two segments and a stack of pieces. Cost per cell:
-/// three evaluations with two derivatives.
+/// Stage 2. It halves a segment until every piece is fine enough to be a cell: its metric can be inverted accurately,
+/// its direction and curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp
+/// the pieces shrink until almost nothing is left, or until they bend more than any speed above crawling allows; the
+/// machine then passes the chord of these pieces from stop to stop. Memory: two segments and a stack of pieces. Cost
+/// per cell: three evaluations with two derivatives.
 template <Scalar S>
 class ArcLength {
 public:
@@ -21,8 +21,9 @@ public:
         : source_(source, refinement), refinement_(refinement) {}
     ArcLength(CurveSource<S>& source, const Refinement<S>&& refinement) = delete;
 
-    /// Forgets the source before, and begins with this one. @param from  where it must begin, to 2^-26 mm (a closed
-    /// curve meets its waypoints to rounding only); must outlive the call that writes the first cell. null: anywhere
+    /// Forgets the previous source and begins with this one.
+    /// @param from  where it must begin, to 2^-26 mm (a closed curve meets its waypoints only to rounding); must
+    ///              outlive the call that writes the first cell. null: anywhere
     void start(CurveSource<S>& source, const PerAxis<Position>* from = nullptr) noexcept {
         source_.start(source, from);
         travelled_ = {};
@@ -31,7 +32,7 @@ public:
         has_current_ = has_ahead_ = in_cusp_ = after_cusp_ = false;
         stop_before_ = stop_after_ = true;
     }
-    /// Writes the next cell in travel order. Before a segment that does not fit the machine the path ends: see
+    /// Writes the next cell in the order of travel. The path ends before a segment that does not fit the machine: see
     /// status().
     Pull next(Cell<S>& out) noexcept;
     /// Why the path ended before the end of its source: axes_differ, counts_out_of_range or start_elsewhere.
@@ -44,7 +45,7 @@ public:
 private:
     friend struct CounterSeam; // a test starts counters near their ends
 
-    static constexpr int deepest = 18; ///< halvings of a segment; then a piece is taken as it is
+    static constexpr int deepest = 18; ///< halvings of a segment; after that a piece is accepted as it is
 
     enum class Verdict : std::uint8_t { fine, coarse, cusp };
 
@@ -71,20 +72,20 @@ private:
     CheckedSource<S> source_;
     const Refinement<S>& refinement_;
     std::array<CurveSegment<S>, 2> slots_{};
-    std::array<Piece<S>, deepest + 1> stack_{}; // one of each level at the most
+    std::array<Piece<S>, deepest + 1> stack_{}; // at most one of each level
     PieceMeasure<S> m_{};                       // of the piece that is being judged
     Wide travelled_{};
     S grade_mm_{};
     PerAxis<S> cusp_from_{}; // in units of the current segment, from its origin
     PerAxis<S> cusp_to_{};
-    S nothing_{}; // in units of the current segment
+    S nothing_{}; // lengths below count as zero, in units of the current segment
     std::uint64_t segments_ = 0;
     int depth_ = 0;            // pieces on the stack
-    std::uint8_t current_ = 0; // of slots_
+    std::uint8_t current_ = 0; // index in slots_
     bool has_current_ = false;
     bool has_ahead_ = false;
-    bool in_cusp_ = false;    // pieces from cusp_from_ to cusp_to_ are to be passed as one chord
-    bool after_cusp_ = false; // the cell before was such a chord
+    bool in_cusp_ = false;    // pieces from cusp_from_ to cusp_to_ will be passed as one chord
+    bool after_cusp_ = false; // the previous cell was such a chord
     bool stop_before_ = true;
     bool stop_after_ = true;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cell: a piece of the curve short enough that one polynomial inverts its arc length and one bound each describes its
-// direction and curvature. It carries its own geometry, so nothing downstream looks back at the curve.
+// Cell: a piece of the curve, so short that one polynomial inverts its arc length and one bound each is enough for its
+// direction and its curvature. It holds its own geometry: later stages never need the curve.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -11,13 +11,14 @@
 
 namespace splinefeed {
 
-/// How an axis moves along a cell of length L, all times 2^k, k being `Refinement::shape_log2`: dq/ds, a cubic known by
-/// its ends and their slopes, and 2 L d2q/ds2, a parabola.
+/// How an axis moves along a cell of length L: dq/ds, a cubic given by its values and slopes at both ends, and 2 L
+/// d2q/ds2, a parabola. All numbers are multiplied by 2^k, with k = `Refinement::shape_log2`.
 template <Scalar S>
 struct AxisShape {
     std::array<S, 2> tangent{}; ///< dq/ds at both ends
     std::array<S, 3> bend{};    ///< Bezier points of 2 L d2q/ds2
-    S error_bound{};            ///< what either leaves its polynomial by, per v0^2 + v1^2 in 2 L times an acceleration
+    S error_bound{};            ///< largest error of either polynomial, as a part of v0^2 + v1^2, in units of 2 L times
+                                ///< an acceleration
 };
 
 template <Scalar S>
@@ -27,26 +28,27 @@ struct Cell {
     int axes = 0;
     int degree = 0;
     int unit_log2 = 0;
-    /// Which way an axis moves in it and near it, 1 or -1; else it may turn round (Turning).
+    /// Direction in which an axis moves in the cell and near it, 1 or -1; otherwise it may turn round there (Turning).
     PerAxis<std::int8_t> heading{};
     PerAxis<Position> origin{};
-    PerAxis<Position> end{};       ///< the exact target, meaningful where stop_at_end
+    PerAxis<Position> end{};       ///< the exact end point; meaningful if stop_at_end
     PerAxis<PerDegree<S>> power{}; ///< offset = sum power[axis][i] w^i, w in [0, 1], in units of 2^unit_log2 mm
     std::array<S, 6> inverse{};    ///< w = sum inverse[i] x^(i+1), x = s / length_mm
     S length_mm{};
     PerAxis<S> tangent_max{};   ///< bound of |dq/ds| over the cell, at most 1
     PerAxis<S> curvature_max{}; ///< bound of |d2q/ds2| over the cell [1/mm]
     PerAxis<AxisShape<S>> shape{};
-    S feed_mm_s{};            ///< programmed feed; 0: the machine's
-    S max_feed_mm_s{};        ///< that no feed override goes beyond; 0: none
-    S steady_mm_s{};          ///< largest speed at which rounding at its ends keeps Refinement::jump_mm_s
-    bool stop_before = false; ///< a cusp lies before it: the cell before has to end at rest
+    S feed_mm_s{};            ///< programmed feed; 0: the machine's feed
+    S max_feed_mm_s{};        ///< upper limit for every feed override; 0: none
+    S steady_mm_s{};          ///< largest speed at which rounding at the cell's ends causes no jump above
+                              ///< Refinement::jump_mm_s
+    bool stop_before = false; ///< a cusp lies before this cell: the cell before has to end at standstill
     bool stop_at_end = false;
     std::uint32_t waypoint = 0;
 
     /// Position at the fraction x in [0, 1] of the cell's length. Cost: 6 + degree * axes products.
     void position_at(S x, PerAxis<Position>& out) const noexcept;
-    /// dq/ds there, by the polynomial. Cost: a root and as many products again.
+    /// dq/ds at the same place, by the polynomial. Cost: a root, and as many products again.
     void direction_at(S x, PerAxis<S>& out) const noexcept;
     /// Curve parameter w at the fraction x of the cell's length.
     [[nodiscard]] S parameter_at(S x) const noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CellInterval: a part of a cell, and what is left of a polynomial on it.
+// CellInterval: a part of a cell, and the polynomials of the cell restricted to it.
 #pragma once
 
 #include "splinefeed/number/scalar.hpp"
@@ -9,7 +9,7 @@
 
 namespace splinefeed {
 
-/// From one fraction of a cell's length to another.
+/// A part of a cell, between two fractions of the cell's length.
 template <Scalar S>
 struct CellInterval {
     S from{};
@@ -19,8 +19,9 @@ struct CellInterval {
     [[nodiscard]] bool whole() const noexcept { return from == S{} && to == from_integer<S>(1); }
 };
 
-/// Bezier points on the stretch of the polynomial with these on the cell: the blossom at its ends (de Casteljau).
-/// Convex combinations: what holds for the points of the cell holds for those of a stretch.
+/// Given the Bezier points of a polynomial on the cell, returns its Bezier points on a part of it: the blossom at the
+/// ends of the part (de Casteljau). These are convex combinations: a bound that holds for the points of the cell also
+/// holds for those of the part.
 template <Scalar S, std::size_t N>
 [[nodiscard]] std::array<S, N> points_on(const CellInterval<S>& stretch, const std::array<S, N>& points) noexcept {
     std::array<S, N> out{};

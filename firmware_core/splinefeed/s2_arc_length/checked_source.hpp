@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CheckedSource: the segments of a curve, up to the first one that does not fit the machine.
+// CheckedSource: delivers the segments of a curve up to the first one that does not fit the machine.
 #pragma once
 
 #include "splinefeed/s1_curve/curve_source.hpp"
@@ -8,30 +8,29 @@
 
 namespace splinefeed {
 
-/// Hull of an axis's control points.
+/// Range of an axis's control points.
 template <Scalar S>
 [[nodiscard]] PositionRange hull(const PerDegree<S>& control, int degree, Position origin, int unit_log2) noexcept;
 
-/// Whether the direction jumps by more than `most` between two segments; also where one of them starts or ends with a
-/// vanishing tangent.
+/// Whether the direction jumps by more than `most` between two segments. Also true if a tangent vanishes at the joint.
 template <Scalar S>
 [[nodiscard]] bool direction_jumps(const CurveSegment<S>& before, const CurveSegment<S>& after, S most) noexcept;
 
 template <Scalar S>
 class CheckedSource {
 public:
-    /// Both must outlive it.
+    /// `source` and `refinement` must outlive it.
     CheckedSource(CurveSource<S>& source, const Refinement<S>& refinement) noexcept
         : source_(&source), refinement_(&refinement) {}
 
-    /// Another source. @param from  where it must begin, to 2^-26 mm; must outlive the call that writes the first
-    /// segment. null: anywhere
+    /// Begins with another source. @param from  where it must begin, to 2^-26 mm; must outlive the call that writes the
+    /// first segment. null: anywhere
     void start(CurveSource<S>& source, const PerAxis<Position>* from) noexcept {
         source_ = &source;
         from_ = from;
         status_ = {};
     }
-    /// The source's next segment. `finished` where it does not fit.
+    /// Writes the source's next segment. `finished` if that segment does not fit.
     Pull next(CurveSegment<S>& out) noexcept;
     /// Why the path ended before the end of its source: axes_differ, counts_out_of_range or start_elsewhere.
     [[nodiscard]] Status status() const noexcept { return status_; }

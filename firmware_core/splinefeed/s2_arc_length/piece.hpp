@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Piece: a part of a Bezier segment on its way to becoming a cell, and what is measured of it at w = 0, 1/2 and 1.
+// Piece: a part of a Bezier segment that may become a cell, and its measures at w = 0, 1/2 and 1.
 #pragma once
 
 #include "splinefeed/s1_curve/curve_segment.hpp"
@@ -7,21 +7,21 @@
 
 namespace splinefeed {
 
-/// Part of a segment, in the segment's units and from its origin.
+/// A part of a segment, in the segment's units and from its origin.
 template <Scalar S>
 struct Piece {
     PerAxis<PerDegree<S>> control{};
-    int level = 0;         ///< halvings of the segment
-    bool at_start = false; ///< touches the start of its segment
+    int level = 0;         ///< number of halvings of the segment
+    bool at_start = false; ///< it begins at the start of its segment
     bool at_end = false;
 };
 
-/// Derivatives, length and inverse of a piece. The members are filled in this order, each from those before it.
+/// Derivatives, length and inverse of a piece. The members are computed in this order, each from earlier ones.
 /// Derivation: piece.cpp. Cost: one de Casteljau triangle, three roots, 3 + 3 + 3 divisions per axis count.
 template <Scalar S>
 struct PieceMeasure {
     static constexpr int points = 3;         // w = 0, 1/2, 1
-    static constexpr int sharpest = 1 << 24; ///< curvatures beyond are as good as infinite [1/mm]
+    static constexpr int sharpest = 1 << 24; ///< curvatures above this count as infinite [1/mm]
 
     PerAxis<PerDegree<S>> left{}; ///< the halves, by de Casteljau at 1/2
     PerAxis<PerDegree<S>> right{};
@@ -32,14 +32,14 @@ struct PieceMeasure {
     S slowest{};                             ///< smallest sigma
     S fastest{};                             ///< largest sigma
     S length{};                              ///< in units of the segment
-    S low_order_length{};                    ///< the same by a rule two orders lower
+    S low_order_length{};                    ///< the length by a rule two orders lower
     S length_mm{};
     std::array<S, 6> inverse{}; ///< w = sum inverse[i] x^(i+1), x = fraction of the length
-    S shape_error{};            ///< 2^12 times the inverse's relative error as the shape of sigma tells it
+    S shape_error{};            ///< 2^12 times the relative error of the inverse, estimated from the shape of sigma
     S middle{};                 ///< x at w = 1/2
-    S middle_slope{};           ///< dw/dx of the inverse there; times sigma/length it should be 1
+    S middle_slope{};           ///< dw/dx of the inverse at `middle`; times sigma/length it should be 1
 
-    /// Halves the piece and takes dr/dw, d2r/dw2 and sigma.
+    /// Halves the piece and computes dr/dw, d2r/dw2 and sigma.
     void differentiate(const Piece<S>& piece, int degree, int axes) noexcept;
     /// @pre slowest > 0
     void measure_length(int axes, int unit_log2) noexcept;
@@ -49,7 +49,7 @@ struct PieceMeasure {
     [[nodiscard]] S sharpest_bend(int axes) const noexcept;
     /// The shape of one axis, without its error bound.
     [[nodiscard]] AxisShape<S> shape(unsigned axis, int log2) const noexcept;
-    /// Largest magnitude over the piece of a function known at its three points.
+    /// Largest magnitude over the piece of a function that is known at the three points.
     [[nodiscard]] static S bound(const std::array<PerAxis<S>, points>& f, unsigned axis) noexcept;
 };
 

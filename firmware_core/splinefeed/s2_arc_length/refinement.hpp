@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Refinement: how fine the cells of arc length are, and where their segments may lead.
+// Refinement: how fine the cells are, and where segments may lead.
 #pragma once
 
 #include "splinefeed/s2_arc_length/piece.hpp"
@@ -8,36 +8,38 @@
 
 namespace splinefeed {
 
-/// Where an axis may be.
+/// Range of positions of an axis.
 struct PositionRange {
     Position low{std::numeric_limits<std::int64_t>::min()};
     Position high{std::numeric_limits<std::int64_t>::max()};
 };
 
-/// How fine the cells are. Thresholds are odd numbers on purpose: no exact input sits on one, so that all scalars
-/// decide alike and their traces stay comparable.
+/// How fine the cells are. The thresholds are deliberately not round numbers: no exact input lies on one, so all scalar
+/// types decide alike and their traces stay comparable.
 template <Scalar S>
 struct Refinement {
-    S longest_mm{};        ///< longest cell (the resolution of the parameter w in Fixed and float)
-    S max_feed_mm_s{};     ///< feed of segments that program none
-    S grade_per_feed_sq{}; ///< cells next to a joint are at most feed^2 times this: a fraction of the braking distance
-    int finest_grade_log2 = 0;          ///< next to a stop cells are 2^-this of that: jerk-limited motion starts slowly
+    S longest_mm{};        ///< longest cell (limited by the resolution of the parameter w in Fixed and float)
+    S max_feed_mm_s{};     ///< feed of segments without a programmed feed
+    S grade_per_feed_sq{}; ///< a cell next to a joint is at most feed^2 times this: a fraction of the braking distance
+    int finest_grade_log2 = 0;          ///< next to a stop it is 2^-this of that length: jerk-limited motion starts
+                                        ///< slowly
     int shape_log2 = 0;                 ///< unit of AxisShape: 2^-shape_log2
-    int axes = 0;                       ///< that a segment must have; 0: any number
-    PerAxis<PositionRange> countable{}; ///< where the control points of a segment must be
-    PerAxis<PositionRange> open{};      ///< where an axis may go at full speed; near the ends of its travel it may not
-    S end_piece_mm{};                   ///< longest cell across an end of open travel; 0: no axis has one
-    PerAxis<S> jump_mm_s{};             ///< largest jump of an axis's speed that rounding may cause at a joint of cells
-    S direction_jump{};                 ///< a larger change of dq/ds at a joint is a corner, and a stop
+    int axes = 0;                       ///< number of axes that a segment must have; 0: any
+    PerAxis<PositionRange> countable{}; ///< range in which the control points of a segment must be
+    PerAxis<PositionRange> open{};      ///< range in which an axis may move at full speed; outside it is near the ends
+                                        ///< of its travel
+    S end_piece_mm{};                   ///< longest cell across a border of `open`; 0: no axis has one
+    PerAxis<S> jump_mm_s{};             ///< largest jump of an axis's speed at a joint of cells that rounding may cause
+    S direction_jump{};                 ///< a larger change of dq/ds at a joint is a corner: the machine stops
     S turn = literal<S>(0.0613);        ///< largest change of direction within a cell [rad]
     S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
     S curvature_bend = literal<S>(0.0037);   ///< the same for the second difference of curvature
     S metric_ratio = literal<S>(1.2173);     ///< largest ratio of two |dr/dw| within a cell
-    /// largest |d2q/ds2| of an axis [1/mm]: what bends more is passed as a cusp
+    /// largest |d2q/ds2| of an axis [1/mm]; a piece that bends more is passed as a cusp
     S sharpest = from_integer<S>(PieceMeasure<S>::sharpest);
-    /// largest relative difference of a 4th and a 6th order length; float cannot tell less
+    /// largest relative difference of a 4th and a 6th order length; float cannot resolve less
     S metric_error = literal<S>(std::same_as<S, float> ? 1.13e-5 : 1.13e-6);
-    /// largest relative error of the inverse's slope in the middle of a cell: a bound of the feed fluctuation
+    /// largest relative error of the inverse's slope in the middle of a cell: it bounds the fluctuation of the feed
     S inverse_error = literal<S>(std::same_as<S, float> ? 3.1e-5 : 3.1e-6);
 };
 
