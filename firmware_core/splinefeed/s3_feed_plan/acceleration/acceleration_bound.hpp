@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// AccelerationBound: which v^2 at the two ends of a cell keep every axis within its acceleration, with signs, at every
-// point of the cell. Derivation: acceleration_bound.cpp.
+// AccelerationBound: the values of v^2 at the two ends of a cell that keep every axis within its signed acceleration
+// limits at every point of the cell. Derivation: acceleration_bound.cpp.
 #pragma once
 
 #include "splinefeed/s2_arc_length/cell.hpp"
@@ -16,23 +16,23 @@ struct EndSpeeds {
     S exit_sq{};
 };
 
-/// The convex polygon of the pairs (entry_sq, exit_sq) that a cell, or a stretch of one, allows: eight half-planes an
-/// axis. It holds (0, 0).
-/// Half of them bound accelerations in the axis's own direction, half those against it, each by a limit of its own.
-/// Cost of a function: two products for each of four points and axis, and a division for every time one of them bites.
+/// The convex polygon of the pairs (entry_sq, exit_sq) that a cell, or a part of it, allows: eight half-planes per
+/// axis. It contains (0, 0). Half of the half-planes bound accelerations in the axis's own direction, the other half
+/// those against it; each half has its own limit. Cost of a function: two products for each of four points and axis,
+/// and a division for each half-plane that limits the result.
 template <Scalar S>
 class AccelerationBound {
 public:
     AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits, const CellInterval<S>& stretch = {}) noexcept;
 
-    /// Largest exit_sq up to at_most. @pre some exit_sq up to at_most is allowed together with entry_sq
+    /// Largest exit_sq up to at_most. @pre an exit_sq up to at_most is allowed together with entry_sq
     [[nodiscard]] S largest_exit(S entry_sq, S at_most) const noexcept;
-    /// Smallest exit_sq from at_least to at_most; at_most where there is none below it. Below zero it is the slope of a
-    /// line that is to end where it meets zero. @pre at_least <= at_most, at_least >= -entry_sq
+    /// Smallest exit_sq from at_least to at_most; at_most if none is allowed below it. A negative result is the slope
+    /// of a line of v^2 that reaches zero before the end of the cell. @pre at_least <= at_most, at_least >= -entry_sq
     [[nodiscard]] S smallest_exit(S entry_sq, S at_least, S at_most) const noexcept;
     /// Largest entry_sq up to at_most. @pre exit_sq < peak().exit_sq
     [[nodiscard]] S largest_entry(S exit_sq, S at_most) const noexcept;
-    /// The largest entry_sq of all where no end is faster than cap_sq, with the smallest exit_sq that goes with it.
+    /// The largest possible entry_sq if neither end is faster than cap_sq, with the smallest exit_sq that it needs.
     [[nodiscard]] EndSpeeds<S> peak(S cap_sq) const noexcept;
 
 private:
@@ -52,7 +52,7 @@ private:
     const Cell<S>* cell_;
     CellInterval<S> stretch_;
     PerAxis<S> upwards_{};   // 2 L A of accelerations > 0
-    PerAxis<S> downwards_{}; // and of those < 0
+    PerAxis<S> downwards_{}; // 2 L A of accelerations < 0
 };
 
 } // namespace splinefeed

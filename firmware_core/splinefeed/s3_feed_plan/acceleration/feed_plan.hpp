@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FeedPlan: how fast each cell may be travelled: b = v^2 at the nodes between cells, linear in s within a cell.
+// FeedPlan: how fast each cell may be travelled: b = v^2 at the nodes between cells; b is linear in s within a cell.
 //
 //      b |        ______            caps: feed, axis velocity, curvature
 //        |   ____/      \___        backward pass: from rest at the end of the window
@@ -21,55 +21,58 @@
 
 namespace splinefeed {
 
-/// A cell with its speeds. `entry_sq`, `exit_sq` are v^2 at its ends, valid once it is the front of the plan.
+/// A cell with its speeds. `entry_sq` and `exit_sq` are v^2 at its ends; they are valid once it is the front of the
+/// plan.
 template <Scalar S>
 struct PlannedCell {
     Cell<S> cell{};
     S entry_sq{};
     S exit_sq{};
-    S cap_sq{};          ///< largest v^2 anywhere in the cell that the machine allows, whatever feed is programmed
-    EndSpeeds<S> peak{}; ///< the fastest entry whatever comes after the cell, and the exit that it asks for
-    S reach_from_rest{}; ///< an exit_sq that can be reached from rest, and with it all that is below
+    S cap_sq{};          ///< largest v^2 anywhere in the cell that the machine allows, whatever the programmed feed
+    EndSpeeds<S> peak{}; ///< the fastest entry, whatever comes after the cell, and the exit that it needs
+    S reach_from_rest{}; ///< every exit_sq up to this value can be reached from standstill
 };
 
-/// Stage 3. The window is the caller's storage. The plan in the window always ends at rest, so whatever is travelled
-/// can stop within what is known. Cost: amortised at most four visits a cell, each two products and sums per axis;
-/// independent of the program's length. A change of the steering, and a cell that comes in while the input is starved,
-/// cost a visit to every cell of the window.
+/// Stage 3. The window is the caller's storage. The plan in the window always ends at standstill, so the machine can
+/// always stop within the known path. Cost: amortised at most four visits per cell, each with two products and sums per
+/// axis; independent of the program's length. A change of the steering costs a visit to every cell of the window, and
+/// so does a cell that arrives while the input is starved.
 template <Scalar S>
 class FeedPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 10;
 
     /// `limits` must outlive the plan: on a microcontroller they stay in ROM.
-    /// A window below smallest_window is a broken precondition of all that follows.
+    /// @pre the window has at least smallest_window cells; this also holds for all other functions
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept;
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
 
     Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
     [[nodiscard]] const PlannedCell<S>& front() const noexcept { return at(0); }
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return at(0).cell; }
-    /// Largest v^2 in the front cell, whatever is programmed and comes before and after it.
+    /// Largest v^2 in the front cell, whatever the programmed feed and the cells before and after it.
     [[nodiscard]] S cap_sq() const noexcept { return at(0).cap_sq; }
     /// Largest v^2 that is wanted in a cell with this cap, for a factor of the programmed feed.
     [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept;
-    /// v^2 of the feed that is programmed for a cell, or of the machine's.
+    /// v^2 of the feed that is programmed for a cell; if none is programmed, of the machine's feed.
     [[nodiscard]] S programmed_sq(const Cell<S>& cell) const noexcept;
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
-    /// The cell is done.
+    /// Removes the front cell.
     void pop() noexcept;
 
     bool steer(const Place<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override;
-    /// Another plan takes the cells, and these speeds as bounds of its own, whatever the override: the end of what is
-    /// known is where that plan rests, and no bound. @pre nothing was asked of it yet
+    /// Prepares this plan to be refined: another plan takes its cells and uses its speeds as upper bounds, without the
+    /// override. The other plan stops at the end of the known path; this plan sets no bound there. @pre first call
+    /// after construction
     void lead() noexcept;
-    /// Forgets every cell, wherever the plan is: another plan travelled them.
+    /// Forgets every cell, wherever the plan is, because another plan has travelled them.
     void forget() noexcept;
 
-    /// How often the window was too short to tell the plan from that of an unlimited one (0: the plan is the same).
+    /// How often the window was too short to know that the plan equals the plan of an unlimited window (0: always
+    /// equal).
     [[nodiscard]] std::uint64_t window_limited() const noexcept { return window_limited_; }
 
 private:
@@ -104,13 +107,13 @@ private:
     std::size_t committed_ = 0;
     S at_{};          // where the next profile segment starts in the front cell
     S speed_sq_{};    // v^2 there
-    S wanted_exit_{}; // at the end of the front cell, once a profile segment is chosen
+    S wanted_exit_{}; // v^2 wanted at the end of the front cell, once a profile segment is chosen
     std::uint64_t window_limited_ = 0;
-    bool planned_ = false;      // the window, as it is
-    bool open_ = false;         // with a free speed at its end: a motion that follows need not rest there
-    bool leads_ = false;        // another plan follows
-    bool chosen_ = false;       // passage_ is the front's
-    bool rest_to_rest_ = false; // passage_ is the first half of one from rest to rest
+    bool planned_ = false;      // the cells in the window have a plan
+    bool open_ = false;         // the speed at the end of the window is free: a motion that follows need not stop there
+    bool leads_ = false;        // another plan refines this one
+    bool chosen_ = false;       // profile_segment_ belongs to the front cell
+    bool rest_to_rest_ = false; // profile_segment_ is the first half of a move from standstill to standstill
     bool steered_ = false;      // not yet back on the plan that the steering asks for
 };
 

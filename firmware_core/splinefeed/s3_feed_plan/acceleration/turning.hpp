@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Turning: where an axis that brakes with another limit than it accelerates with may turn round. Derivation:
-// turning.cpp.
+// Turning: finds where an axis may reverse, for axes whose braking limit differs from their acceleration limit.
+// Derivation: turning.cpp.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 
 namespace splinefeed {
 
-/// Takes cells in travel order and tells each of them, once enough of the path behind it is known, which way such axes
-/// move in it and near it (Cell::heading). Cost: nothing where no axis has two limits; else a few products a cell, and
-/// as much again for every cell within two or three segment durations.
+/// Takes cells in the order of travel. As soon as enough of the path after a cell is known, it writes into the cell
+/// which way each such axis moves in it and near it (Cell::heading). Cost: nothing if no axis has two limits; otherwise
+/// a few products per cell, and as much again for every cell within two or three segment durations.
 template <Scalar S>
 class Turning {
 public:
     explicit Turning(const MotionLimits<S>& limits) noexcept : limits_(&limits) { clear(); }
 
-    /// Which way an axis moves all along a cell: 1, -1, or 0 where it may turn round in it.
+    /// Which way an axis moves all along a cell: 1, -1, or 0 if it may turn round in it.
     [[nodiscard]] static int way_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
 
-    /// Looks at the newest of `count` cells and at those before it. @param cell_at  the cell of an index, `settled` is
-    /// told the indices of cells whose headings have changed
+    /// Looks at the newest of `count` cells and at those before it.
+    /// @param cell_at  returns the cell of an index; `settled` is called with the index of every cell whose heading
+    ///                 changed
     template <class CellAt, class Settled>
     void take(std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
         for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
@@ -28,7 +29,7 @@ public:
             }
         }
     }
-    /// The path ends with the newest of `count` cells, at rest.
+    /// Call it if the path ends at standstill with the newest of `count` cells.
     template <class CellAt, class Settled>
     void end(std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
         for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
@@ -37,13 +38,14 @@ public:
             }
         }
     }
-    /// The next cell begins a path, at rest.
+    /// Call it if the next cell begins a path at standstill.
     void clear() noexcept;
 
 private:
-    static constexpr std::int8_t unsettled = 2; // times the way: it may turn round behind what is known
+    static constexpr std::int8_t unsettled = 2; // factor of the heading: the axis may still turn round beyond the known
+                                                // path
 
-    /// So far an axis travels before it can turn round; 0: it has one limit.
+    /// The distance near a turn within which an axis has no heading; 0: the axis has only one limit.
     [[nodiscard]] S near_mm_of(unsigned axis) const noexcept;
     [[nodiscard]] static S travel_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
 
@@ -62,7 +64,7 @@ private:
         }
     }
 
-    // Those that are far enough before the newest, or before where it is going to turn round
+    // Sets the heading of those cells that are far enough before the newest, or before the place of the turn.
     template <class CellAt, class Settled>
     void settle(unsigned k, S near_mm, std::size_t count, S ahead_mm, const CellAt& cell_at,
                 const Settled& settled) noexcept {
@@ -80,8 +82,8 @@ private:
     }
 
     const MotionLimits<S>* limits_;
-    PerAxis<S> travelled_mm_{};  // since it may have turned round
-    PerAxis<std::int8_t> way_{}; // in the newest cell
+    PerAxis<S> travelled_mm_{};  // since the axis may have turned round
+    PerAxis<std::int8_t> way_{}; // direction in the newest cell
 };
 
 } // namespace splinefeed

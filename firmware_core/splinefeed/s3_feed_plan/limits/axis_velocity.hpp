@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// axis_velocity: how fast an axis may be in a cell: its own limit, and near the ends of its travel another.
+// axis_velocity: the velocity limit of an axis in a cell; near the ends of its travel another limit applies.
 #pragma once
 
 #include "splinefeed/s2_arc_length/cell.hpp"
@@ -7,8 +7,8 @@
 
 namespace splinefeed {
 
-/// The velocity limit of the axis in all of the cell. Where some part of the cell may lie beyond Refinement::open it is
-/// MotionLimits::end_velocity_mm_s; how far the axis goes is judged by its ends and the bound of |dq/ds|.
+/// The velocity limit of the axis in the whole cell: MotionLimits::end_velocity_mm_s if some part of the cell may lie
+/// outside Refinement::open. Where the axis goes is computed from its ends and the bound of |dq/ds|.
 template <Scalar S>
 [[nodiscard]] S axis_velocity(const Cell<S>& cell, const MotionLimits<S>& limits, unsigned axis) noexcept;
 

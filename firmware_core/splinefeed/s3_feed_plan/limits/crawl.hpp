@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// crawl: a way so short that a motion from rest to rest has no digits for its speed.
+// crawl: travels a distance that is so short that a move from standstill to standstill has no digits for its speed.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 
 namespace splinefeed {
 
-/// Segment durations, at least one, in which a way is travelled at one speed, so slow that no axis breaks its
-/// acceleration or its jerk whatever the path does. @pre way_mm is a micrometre or less, and `limits` have a jerk limit
+/// Number of segment durations, at least one, in which a distance is travelled at one speed. The speed is so low that
+/// no axis exceeds its acceleration or its jerk, whatever the path does. @pre way_mm is a micrometre or less, and
+/// `limits` have a jerk limit
 template <Scalar S>
 [[nodiscard]] S crawling_ticks(S way_mm, const MotionLimits<S>& limits) noexcept;
 

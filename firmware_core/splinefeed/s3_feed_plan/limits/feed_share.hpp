@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// feed_share: how much of the speed along the path the feed counts, where some axes are rotary.
+// feed_share: the part of the speed along the path that counts as feed, if some axes are rotary.
 #pragma once
 
 #include "splinefeed/s2_arc_length/cell.hpp"
@@ -7,10 +7,9 @@
 
 namespace splinefeed {
 
-/// The largest |dq/ds| over the cell of the axes that the feed is measured on: the linear ones where any of them moves,
-/// else the rotary ones, as NIST's RS274/NGC and LinuxCNC have it. In (0, 1]; 1 where all axes are of one kind.
-/// A linear axis moves where the linear axes are more than 2^-17 of the path's length.
-/// Cost: where the axes are mixed, four norms.
+/// The largest |dq/ds| over the cell of the axes that define the feed: the linear axes if any of them moves, otherwise
+/// the rotary axes, as in NIST's RS274/NGC and LinuxCNC. In (0, 1]; 1 if all axes are of one kind. A linear axis counts
+/// as moving if the linear axes travel more than 2^-17 of the path's length. Cost: four norms if the axes are mixed.
 template <Scalar S>
 [[nodiscard]] S feed_share(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept;
 

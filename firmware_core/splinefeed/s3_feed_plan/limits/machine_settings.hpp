@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MachineSettings: what a machine file states, unchecked; MotionLimits::make checks it.
+// MachineSettings: the numbers of a machine file, not yet checked; MotionLimits::make checks them.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -8,18 +8,19 @@
 
 namespace splinefeed {
 
-/// One axis as the machine file states it.
+/// One axis, as the machine file states it.
 struct AxisSettings {
     double max_velocity_mm_s = 100.0;
     double max_acceleration_mm_s2 = 1000.0;
     double max_jerk_mm_s3 = 0.0; ///< 0: acceleration-limited
     double steps_per_mm = 1000.0;
     double max_braking_mm_s2 = 0.0; ///< acceleration against the velocity; 0: max_acceleration_mm_s2
-    bool rotary = false;            ///< in degrees where the names say mm; the feed does not count it
-    double travel_low_mm = 0.0;     ///< of use with an end zone only
+    bool rotary = false;            ///< the unit is degrees where the names say mm; the feed does not count this axis
+    double travel_low_mm = 0.0;     ///< only used with an end zone
     double travel_high_mm = 0.0;
-    double travel_end_zone_mm = 0.0;       ///< as near to the ends of the travel the axis has another limit; 0: nowhere
-    double travel_end_velocity_mm_s = 0.0; ///< this one
+    double travel_end_zone_mm = 0.0;       ///< length of the zone at each end of the travel where another velocity
+                                           ///< limit applies; 0: none
+    double travel_end_velocity_mm_s = 0.0; ///< velocity limit in that zone
 
     [[nodiscard]] constexpr double braking_mm_s2() const noexcept {
         return max_braking_mm_s2 == 0.0 ? max_acceleration_mm_s2 : max_braking_mm_s2;
@@ -38,7 +39,7 @@ enum class JerkTier : std::uint8_t {
     optimal  ///< JerkPlan: in double
 };
 
-/// A machine as its file states it. Zero means "no such limit" for the optional ones.
+/// A machine, as its file states it. For the optional limits zero means "no such limit".
 struct MachineSettings {
     int axes = 3;
     PerAxis<AxisSettings> axis{};
@@ -46,12 +47,12 @@ struct MachineSettings {
     double centripetal_mm_s2 = 0.0;
     double chord_error_mm = 0.0;
     int sample_period_us = 1000;
-    /// 1 to 8, each a whole number of ticks of 1/8 us; 0: as many as keep the smoothing of the path below 0.35 um
+    /// 1 to 8, each a whole number of ticks of 1/8 us. 0: chosen so that the smoothing of the path stays below 0.35 um
     int segments_per_sample = 0;
     JerkTier jerk_tier = JerkTier::optimal;
 };
 
-/// What all axes of a machine have together.
+/// Values that all axes of a machine have together.
 struct AxisTotals {
     double acceleration_sq = 0.0; ///< sum of squares
     double softest = 1e9;         ///< smallest acceleration

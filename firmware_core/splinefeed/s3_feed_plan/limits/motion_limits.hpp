@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MotionLimits: what the machine can do, checked once, in the scalar of the pipeline.
+// MotionLimits: what the machine can do: checked once, in the scalar of the pipeline.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -15,108 +15,110 @@ namespace splinefeed {
 /// One tick of a feed segment's duration is 1/8 us.
 inline constexpr int ticks_per_us = 8;
 
-/// The checked limits. A plain aggregate: a microcontroller can build it at compile time.
+/// The checked limits. A plain aggregate: for a microcontroller the compiler can build it.
 template <Scalar S>
 struct MotionLimits {
     int axes = 0;
     PerAxis<S> velocity_mm_s{};
-    PerAxis<S> acceleration_mm_s2{};           ///< along the axis's velocity
-    PerAxis<S> braking_mm_s2{};                ///< against it
+    PerAxis<S> acceleration_mm_s2{};           ///< in the direction of the axis's velocity
+    PerAxis<S> braking_mm_s2{};                ///< against the axis's velocity
     PerAxis<std::uint64_t> steps_per_mm_q32{}; ///< counts per mm, 32 fraction bits
-    S feed_mm_s{};                             ///< what planning may use of max_feed_mm_s
-    S path_mm_s{}; ///< no speed along the path, over all axes, is above; without rotary axes feed_mm_s
+    S feed_mm_s{};                             ///< the part of max_feed_mm_s that planning may use
+    S path_mm_s{}; ///< upper limit of the speed along the path, over all axes; without rotary axes feed_mm_s
     PerAxis<bool> rotary{};
-    PerAxis<S> end_velocity_mm_s{}; ///< of an axis beyond Refinement::open; 0: no such limit
+    PerAxis<S> end_velocity_mm_s{}; ///< of an axis outside Refinement::open; 0: no such limit
     bool mixed = false;             ///< some axes are rotary and some are not
     PerAxis<S> jerk_mm_s3{};        ///< meaningful where jerk_limited
-    bool jerk_limited = false;      ///< some axis's jerk is limited: the speeds want a JerkPlan or a SmoothPlan
+    bool jerk_limited = false;      ///< some axis has a jerk limit: the motion needs a JerkPlan or a SmoothPlan
     JerkTier jerk_tier = JerkTier::optimal;
-    std::uint32_t smoothing_q8 = 0;      ///< of JerkTier::bounded: time to average over, in 1/256 of a segment
-    std::uint32_t most_smoothing_q8 = 0; ///< and the longest that a straight move may ask for
-    S usable{};                          ///< the part of a limit that planning may use, but for the noise of positions
+    std::uint32_t smoothing_q8 = 0;      ///< JerkTier::bounded: time of the moving average, in 1/256 of a segment
+    std::uint32_t most_smoothing_q8 = 0; ///< the longest time that a straight move may ask for
+    S usable{};                          ///< the part of a limit that planning may use, before the noise of positions
+                                         ///< is subtracted
     S feed_noise_mm_s{};
     S centripetal_mm_s2{};           ///< 0: none
     S chord_mm_s2{};                 ///< 8 e / T^2, to be divided by the curvature; 0: none
-    S segments_per_s{};              ///< feed segments a second
+    S segments_per_s{};              ///< feed segments per second
     std::uint32_t segment_ticks = 0; ///< duration of a feed segment
     int segments_per_sample = 1;     ///< feed segments per sample period
     Refinement<S> refinement{};
 
-    /// What planning may use of a programmed feed; at least half of it.
+    /// The part of a programmed feed that planning may use; at least half of it.
     [[nodiscard]] constexpr S usable_feed(S feed) const noexcept {
         return larger(feed * usable - feed_noise_mm_s, scale2(feed, -1));
     }
 
-    /// Checks every number (Error names the first that is out of range) and derives the rest.
+    /// Checks every number (Error names the first one that is out of range) and computes the rest.
     [[nodiscard]] static constexpr Result<MotionLimits> make(const MachineSettings& settings) noexcept;
 };
 
 namespace detail {
 
-/// Relative resolution of the curve parameter within a cell, with what the polynomials add to it.
+/// Relative resolution of the curve parameter within a cell, with the rounding that the polynomials add.
 template <Scalar S>
-inline constexpr double parameter_error = 9.4e-10; // 4 ulp of Q31.32; double takes the same cells, to stay comparable
+inline constexpr double parameter_error = 9.4e-10; // 4 ulp of Q31.32; double takes the same cells, so that results are
+                                                   // comparable
 template <>
 inline constexpr double parameter_error<float> = 2.4e-7; // 4 x 2^-24
 
-/// The part of every limit that planning leaves to relative rounding.
+/// The part of every limit that planning leaves for relative rounding.
 template <Scalar S>
 inline constexpr double usable_margin = 6e-6; // twice the feed fluctuation that arc length tolerates
 template <>
 inline constexpr double usable_margin<float> = 1e-3;
 
-/// How much of an acceleration limit rounding may use up before cells are made shorter.
+/// The part of an acceleration limit that rounding may use before cells are made shorter.
 template <Scalar S>
 inline constexpr double rounding_share = 2e-5;
 template <>
 inline constexpr double rounding_share<float> = 2e-3;
 
-/// The same of an axis's own limit, for the jumps of its speed that rounding causes where cells meet. Less of it makes
-/// float slow: its cells of long segments have few digits for a direction.
+/// The same part of an axis's own limit, for jumps of its speed that rounding causes where cells meet. With a smaller
+/// part float would be slow: its cells of long segments have few digits for a direction.
 template <Scalar S>
 inline constexpr double jump_share = 4e-5;
 template <>
 inline constexpr double jump_share<float> = 2e-2;
 
-/// And for joints whose change of direction is tolerated as none (Refinement::direction_jump).
+/// The same part for joints whose change of direction is tolerated (Refinement::direction_jump).
 inline constexpr double corner_share = 2e-5;
 
-/// Segments that a mean may take in.
+/// Largest number of segments that the moving average may contain.
 inline constexpr int most_smoothing = 1024;
 
-/// Time to average over, for the time A / J of the axis that takes longest to its acceleration: shorter, it leaves
-/// acceleration unused, longer, bends are smoothed away (docs/explanation/feed.md).
+/// Time of the moving average, given the largest time A / J of an axis. A shorter average leaves acceleration unused, a
+/// longer one smooths bends away (docs/explanation/feed.md).
 constexpr double smoothing_s(double rise_s) noexcept {
     const double most = 0.7 * rise_s < 0.0175 ? 0.7 * rise_s : 0.0175;
     return most > 0.35 * rise_s ? most : 0.35 * rise_s;
 }
 
-/// A time in 1/256 of a segment, from one segment to the most.
+/// A time in 1/256 of a segment, limited to the range from one segment to most_smoothing.
 constexpr std::uint32_t smoothing_q8(double time_s, double segment_s) noexcept {
     const double q8 = 256.0 * time_s / segment_s + 0.5;
     return q8 < 256.0 ? 256U : q8 > 256.0 * most_smoothing ? 256U * most_smoothing : static_cast<std::uint32_t>(q8);
 }
 
-/// Rounding of a position, e, becomes the acceleration 4 e / T^2 in the second difference of control points.
+/// Rounding of a position by e becomes the acceleration 4 e / T^2 in the second difference of control points.
 constexpr double acceleration_noise(double error_mm, double segment_s) noexcept {
     return 4.0 * error_mm / (segment_s * segment_s);
 }
 
-/// The part of a jerk limit that planning leaves to jumps of the curvature.
+/// The part of a jerk limit that planning leaves for jumps of the curvature.
 inline constexpr double jerk_reserve = 5e-4;
 
-/// The jerk 8 e / T^3 in the third.
+/// Rounding of a position by e becomes the jerk 8 e / T^3 in the third difference.
 constexpr double jerk_noise(double error_mm, double segment_s) noexcept {
     return 8.0 * error_mm / (segment_s * segment_s * segment_s);
 }
 
-/// And the speed 2 e / T in the first difference.
+/// Rounding of a position by e becomes the speed 2 e / T in the first difference.
 constexpr double speed_noise(double error_mm, double segment_s) noexcept {
     return 2.0 * error_mm / segment_s;
 }
 
-/// Longest cell [mm]: its parameter resolves `error` of it, which must stay below `share` of the acceleration and ten
-/// times that of the feed; and below a thousandth of the jerk, if that is limited (not 0).
+/// Length of the longest cell [mm]. The parameter resolves `error` of it. That must stay below `share` of the
+/// acceleration and ten times `share` of the feed, and below a thousandth of the jerk if the jerk is limited (not 0).
 constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double jerk,
                                  double segment_s) noexcept {
     const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
@@ -140,17 +142,17 @@ constexpr int segments_per_sample(double period_s, double acceleration_sq) noexc
     return n;
 }
 
-/// Rounding of a direction at a joint, which is no corner.
+/// Change of direction at a joint that counts as rounding, not as a corner.
 template <Scalar S>
 inline constexpr double direction_noise = 2e-9;
 template <>
 inline constexpr double direction_noise<float> = 2e-6;
 
-/// Largest curvature of a cell [1/mm]. No plan is slower than v = 1e-3 mm/s away from stops, and there the curvature
-/// k asks for the acceleration k v^2, which may be an eighth of the softest limit, and for the jerk q''' v^3, which may
-/// be a quarter of one. A hairpin that cells resolve has |q'''| up to some 5 k^2. @param jerk  0: not limited
+/// Largest curvature of a cell [1/mm]. Away from stops no plan is slower than v = 1e-3 mm/s. At that speed the
+/// curvature k needs the acceleration k v^2, at most an eighth of the smallest limit, and the jerk q''' v^3, at most a
+/// quarter of a limit. A hairpin that cells resolve has |q'''| up to some 5 k^2. @param jerk  0: not limited
 constexpr double sharpest_curvature(double acceleration, double jerk) noexcept {
-    constexpr double most = 16e6; // that a cell tells from infinite
+    constexpr double most = 16e6; // largest curvature that a cell can tell from infinite
     const double by_acceleration = 1e6 / 8.0 * acceleration;
     double sharpest = by_acceleration < most ? by_acceleration : most;
     if (jerk > 0.0 && 5e-9 * sharpest * sharpest > 0.25 * jerk) {
@@ -163,14 +165,15 @@ constexpr double sharpest_curvature(double acceleration, double jerk) noexcept {
     return sharpest;
 }
 
-/// Chord error e at the sample period T: v^2 <= 8 e / (kappa T^2), capped to what Fixed holds (no limit in practice).
+/// Limit from the chord error e at the sample period T: v^2 <= 8 e / (kappa T^2). Limited to the range of Fixed, where
+/// it is no limit in practice.
 constexpr double chord_limit(double error_mm, double period_s) noexcept {
     const double limit = 8.0 * error_mm / (period_s * period_s);
     return limit < 1e9 ? limit : 1e9;
 }
 
-/// Numbers made of a shape are at most 3, and times v^2 they must stay below 2^29; what is left of that Fixed has for
-/// digits.
+/// Numbers made from a shape are at most 3. Multiplied by v^2 they must stay below 2^29; the rest of the range is for
+/// the digits of Fixed.
 constexpr int shape_log2(double feed) noexcept {
     int n = 0;
     while (n < 16 && 3.0 * feed * feed * (2 << n) <= 400e6) {
@@ -179,8 +182,8 @@ constexpr int shape_log2(double feed) noexcept {
     return n;
 }
 
-/// Speed of a path along which the linear axes keep the feed and each rotary axis its velocity; at most what fits into
-/// Fixed, squared, with the numbers of a shape.
+/// Speed of a path along which the linear axes keep the feed and each rotary axis its velocity. At most the value whose
+/// square, times the numbers of a shape, fits in Fixed.
 constexpr double fastest_path(double feed, double turning_sq) noexcept {
     constexpr double fastest = 10000.0;
     double root = fastest; // Newton's steps end above the root
@@ -201,8 +204,8 @@ constexpr bool travel_end_valid(const AxisSettings& axis) noexcept {
            axis.travel_low_mm < axis.travel_high_mm;
 }
 
-/// Travel at full speed. What is emitted averages the plan over two segments to either side, which the axis passes at
-/// its end velocity, and the position is off by T^2 A / 6: the zone begins that much earlier.
+/// The range of full speed. The emitted motion averages the plan over two segments to either side, which the axis
+/// passes at its end velocity, and the position deviates by T^2 A / 6: the zone begins earlier by that distance.
 constexpr PositionRange open_travel(const AxisSettings& axis, double segment_s) noexcept {
     const double zone = axis.travel_end_zone_mm + 2.0 * segment_s * axis.travel_end_velocity_mm_s +
                         segment_s * segment_s * axis.larger_acceleration_mm_s2() / 6.0;
@@ -212,17 +215,17 @@ constexpr PositionRange open_travel(const AxisSettings& axis, double segment_s) 
     return {position(axis.travel_low_mm + zone), position(axis.travel_high_mm - zone)};
 }
 
-/// Largest count of an axis, either way.
+/// Largest count of an axis, in either direction.
 inline constexpr double most_counts = 2147483647.0;
 
-/// Where the counter of an axis reaches; 2^21 mm is beyond all waypoints and what a curve overshoots them by.
+/// The range of an axis's counter; 2^21 mm is beyond all waypoints and the overshoot of a curve.
 constexpr PositionRange countable(const AxisSettings& axis) noexcept {
     const double mm = most_counts / axis.steps_per_mm;
     const Position reach = displaced(Position{}, mm < 2097152.0 ? mm : 2097152.0, 0);
     return {Position{-reach.raw}, reach};
 }
 
-/// What is wrong with the numbers that are no axis's; none if nothing.
+/// What is wrong with the numbers that belong to no single axis; Error::none if nothing is.
 constexpr Error machine_error(const MachineSettings& settings) noexcept {
     if (settings.axes < 1 || settings.axes > max_axes) {
         return Error::axes_out_of_range;
@@ -246,7 +249,7 @@ constexpr Error machine_error(const MachineSettings& settings) noexcept {
     return Error::none;
 }
 
-/// What is wrong with an axis's numbers; none if nothing.
+/// What is wrong with the numbers of an axis; Error::none if nothing is.
 template <Scalar S>
 constexpr Error axis_error(const AxisSettings& axis) noexcept {
     if (!within(axis.max_velocity_mm_s, 0.001, 10000.0)) {
@@ -294,7 +297,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     const AxisTotals totals = axis_totals(settings);
     const double softest = totals.softest;
     const double smoothest = totals.smoothest;
-    double rise_s = 0.0; // longest time to the acceleration of an axis
+    double rise_s = 0.0; // longest time in which an axis reaches its acceleration
     limits.mixed = totals.rotary > 0 && totals.rotary < settings.axes;
     const double path =
         limits.mixed ? detail::fastest_path(settings.max_feed_mm_s, totals.turning_sq) : settings.max_feed_mm_s;
@@ -308,8 +311,8 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
                                                    settings.max_feed_mm_s, smoothest, segment_s);
     for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
         const AxisSettings& axis = settings.axis[k];
-        // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30).
-        // Where the jerk is limited v^2 is a parabola of s: the parameter is the sum of a series.
+        // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30). With a
+        // jerk limit v^2 is a parabola of s, and the parameter is the sum of a series.
         const double parameter_error = (smoothest > 0.0 ? 4.0 : 1.0) * detail::parameter_error<S>;
         const double error_mm = longest * parameter_error + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
         const double noise = detail::acceleration_noise(error_mm, segment_s);
@@ -332,7 +335,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
             longest_piece = longest_piece > S{} ? smaller(longest_piece, piece) : piece;
         }
         limits.velocity_mm_s[k] = from_double<S>(axis.max_velocity_mm_s * usable - speed_noise);
-        // Jumps of the speed and of the direction that are tolerated at joints are accelerations, too.
+        // Tolerated jumps of the speed and of the direction at joints are accelerations, too.
         const auto planned = [&](double acceleration) {
             return from_double<S>(acceleration * usable - noise -
                                   detail::jump_share<S> * axis.smaller_acceleration_mm_s2() -
@@ -350,7 +353,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
                 return Error::period_too_short;
             }
             limits.jerk_limited = true;
-            // The softest axis holds the others back to about as much
+            // The axis with the smallest acceleration limits the others to about this value.
             const double acceleration =
                 axis.smaller_acceleration_mm_s2() < 2.0 * softest ? axis.smaller_acceleration_mm_s2() : 2.0 * softest;
             const double rise = acceleration / axis.max_jerk_mm_s3;
@@ -385,9 +388,10 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         refinement.finest_grade_log2 = settings.jerk_tier == JerkTier::optimal ? 5 : 1;
         refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors
         refinement.inverse_error = scale2(refinement.inverse_error, -3);
-        refinement.curvature_change = scale2(refinement.curvature_change, -1); // a rest that goes with its cube
+        refinement.curvature_change = scale2(refinement.curvature_change, -1); // a remainder that is proportional to
+                                                                               // its cube
     }
-    // A jump of direction d asks for the acceleration v d / T: tolerated below a share of the limit, plus rounding.
+    // A jump of direction d needs the acceleration v d / T: tolerated below a share of the limit, plus rounding.
     refinement.direction_jump =
         from_double<S>(detail::corner_share * softest * segment_s / path) + from_double<S>(detail::direction_noise<S>);
     return limits;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MotionPlan: what the segment stream follows: a plan that says, profile segment by profile segment, how the path is
+// MotionPlan: the plan that the segment stream follows. It says, one profile segment after another, how the path is
 // travelled.
 #pragma once
 
@@ -23,10 +23,10 @@ struct ProfileSegment {
     CellInterval<S> stretch{};
     S entry_sq{};
     S exit_sq{};
-    bool stops = false; ///< the machine comes to rest at its end and dwells
+    bool stops = false; ///< the machine stops at its end and dwells
     SpeedShape shape = SpeedShape::line;
     S middle_sq{};   ///< parabola
-    S duration_ms{}; ///< cubic; its length after the fraction y of the time is that times
+    S duration_ms{}; ///< cubic: its length after the fraction y of the time is the profile segment's length times
     S linear{};      ///< linear y + quadratic y^2 + (1 - linear - quadratic) y^3
     S quadratic{};
 };
@@ -34,15 +34,15 @@ struct ProfileSegment {
 /// Where the machine is on its profile segment.
 template <Scalar S>
 struct Place {
-    S fraction{};   ///< of the cell's length
-    S speed_sq{};   ///< v^2, or what a hold may take it for (SegmentStream)
+    S fraction{};   ///< fraction of the cell's length
+    S speed_sq{};   ///< v^2, or the value that a hold may take for it (SegmentStream)
     S time_share{}; ///< fraction of the profile segment's time
 };
 
-/// What the plan does where the input is starved.
+/// What the plan does while the input is starved.
 enum class UnderrunPolicy : std::uint8_t {
-    wait, ///< it asks for more: what is planned does not depend on when the input comes
-    drain ///< it goes on with what is known, and to rest at its end: for a machine that cannot wait
+    wait, ///< it asks for more input: the plan does not depend on when the input comes
+    drain ///< it continues along the known path and brakes to standstill at its end: for a machine that cannot wait
 };
 
 template <Scalar S>
@@ -51,25 +51,25 @@ public:
     MotionPlan(const MotionPlan&) = delete;
     MotionPlan& operator=(const MotionPlan&) = delete;
 
-    /// Makes sure that there is a profile_segment(), through cell(). `starved`: the window is not full and nothing is
-    /// committed (UnderrunPolicy::drain: there is nothing at all). `held`: the machine stands and is to stand.
+    /// Makes profile_segment() and cell() available. `starved`: the window is not full and nothing is committed
+    /// (UnderrunPolicy::drain: there is nothing at all). `held`: the machine stands and must not move.
     virtual Pull prepare(UnderrunPolicy underrun) noexcept = 0;
-    /// @pre the last prepare() answered item, as for the next three
+    /// @pre the last prepare() answered item; the same for the next three
     [[nodiscard]] virtual const Cell<S>& cell() const noexcept = 0;
     [[nodiscard]] const ProfileSegment<S>& profile_segment() const noexcept { return profile_segment_; }
-    /// The profile segment is done.
+    /// The profile segment is done; go on to the next one.
     virtual void advance() noexcept = 0;
-    /// The machine stopped there, on its last profile segment.
+    /// The machine stopped at this fraction of the cell, on its last profile segment.
     virtual void rest_at(S fraction) noexcept = 0;
 
     [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
     [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
-    /// Takes a change of the steering into account at once, from where the machine is on its profile segment. Without
-    /// the call it is taken into account with the next profile segment. false: the profile segment stays as it is.
+    /// Applies a change of the steering at once, from where the machine is on its profile segment. Without this call
+    /// the change applies from the next profile segment on. false: the profile segment stays as it is.
     virtual bool steer(const Place<S>& place) noexcept = 0;
-    /// The machine stands where its last profile segment ended.
+    /// Whether the machine stands where its last profile segment ended.
     [[nodiscard]] virtual bool standing() const noexcept = 0;
-    /// Forgets every cell: for a new program. @pre standing()
+    /// Forgets every cell, for a new program. @pre standing()
     virtual void clear() noexcept = 0;
 
 protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Steering: what an operator asks of a motion that runs: feed override, hold, resume, abort.
+// Steering: the requests of an operator to a running motion: feed override, hold, resume, abort.
 #pragma once
 
 #include "splinefeed/number/scalar.hpp"
@@ -9,22 +9,22 @@
 
 namespace splinefeed {
 
-/// What a motion does about its steering.
+/// How far a motion has followed its steering.
 enum class Activity : std::uint8_t {
-    running,  ///< or ready to, or at its end
+    running,  ///< moving, or ready to move, or at its end
     holding,  ///< braking for a hold or an override of 0
     held,     ///< standing, until resume() or a larger override
     aborting, ///< braking for an abort
-    aborted,  ///< standing; nothing comes but a new program
+    aborted,  ///< standing; only a new program moves the machine
 };
 
-/// What is asked of a motion, and what the plan has taken up of it. The requests may come from another thread or an
-/// interrupt, one of them at a time: each is one store, which poll() takes up.
+/// The requests to a motion, and the part of them that the plan has taken over. Requests may come from another thread
+/// or an interrupt, but only from one at a time. Each is a single store; poll() takes it over.
 template <Scalar S>
 class Steering {
 public:
-    /// Factor of the programmed feed, 0 to 2 (taken as the nearest of these), to 2^-30. 0 stops, like a hold of its
-    /// own, and so does what is no number.
+    /// Factor of the programmed feed, 0 to 2 (other values are limited to that range), with a resolution of 2^-30. 0
+    /// stops the motion, independently of hold(); so does NaN.
     void override_feed(S ratio) noexcept {
         const S positive = ratio > S{} ? ratio : S{};
         asked_ratio_q30_.store(to_q30(smaller(positive, from_integer<S>(2))), std::memory_order_relaxed);
@@ -33,7 +33,8 @@ public:
     void resume() noexcept { asked_hold_.store(false, std::memory_order_relaxed); }
     void abort() noexcept { asked_abort_.store(true, std::memory_order_relaxed); }
 
-    /// The planning side's, as all that follows: takes up what is asked. Between two calls nothing changes.
+    /// Takes over the requests. Only the planning side calls this and the functions below. Between two calls nothing
+    /// changes.
     void poll() noexcept {
         const std::uint32_t ratio_q30 = asked_ratio_q30_.load(std::memory_order_relaxed);
         const bool hold = asked_hold_.load(std::memory_order_relaxed);
@@ -43,7 +44,7 @@ public:
         hold_ = hold;
         abort_ = abort;
     }
-    /// For a new program: no longer aborted. The override stays, and so does a hold: only resume() ends it.
+    /// For a new program: ends an abort. The override stays, and so does a hold: only resume() ends it.
     void start() noexcept {
         asked_abort_.store(false, std::memory_order_relaxed);
         poll();
@@ -51,10 +52,10 @@ public:
     }
 
     [[nodiscard]] S ratio() const noexcept { return from_q30(ratio_q30_); }
-    /// The motion is to come to rest, or to stay there.
+    /// Whether the motion has to come to standstill, or to stay there.
     [[nodiscard]] bool stops() const noexcept { return hold_ || abort_ || ratio_q30_ == 0; }
     [[nodiscard]] bool aborts() const noexcept { return abort_; }
-    /// Something was taken up that the plan does not know of yet.
+    /// Whether a request was taken over that the plan does not know of yet.
     [[nodiscard]] bool pending() const noexcept { return pending_; }
     void acknowledge() noexcept { pending_ = false; }
 
