@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FilteredLimits: which speeds and accelerations of a motion keep every axis within its acceleration and its jerk once
-// that motion is averaged over a time. Derivation: filtered_limits.cpp.
+// FilteredLimits: the speeds and accelerations of a motion with which every axis keeps its acceleration and its jerk
+// after the motion was averaged over a time. Derivation: filtered_limits.cpp.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/jerk_filtered/path_derivative_bounds.hpp"
@@ -8,8 +8,9 @@
 
 namespace splinefeed {
 
-/// What a part of the path allows. It is monotone: what is allowed is allowed with less speed and less acceleration,
-/// too. Cost of a function: eleven products an axis where its first guess is allowed, at most eight times that.
+/// What a part of the path allows. The limits are monotone: if a speed and an acceleration are allowed, smaller ones
+/// are allowed too. Cost of a function: eleven products per axis if its first guess is allowed, at most eight times
+/// that.
 template <Scalar S>
 class FilteredLimits {
 public:
@@ -17,17 +18,18 @@ public:
                    const Smoothing<S>& smoothing) noexcept
         : demand_(&demand), limits_(&limits), smoothing_(&smoothing) {}
 
-    /// Largest v^2 up to at_most that may be kept up.
+    /// Largest v^2 up to at_most that may be held constant.
     [[nodiscard]] S max_steady(S at_most) const noexcept;
-    /// Largest acceleration along the path, at rest.
+    /// Largest acceleration along the path from standstill.
     [[nodiscard]] S max_path_acceleration() const noexcept;
-    /// Largest exit_sq from entry_sq to at_most over a length, accelerated evenly. @param max_path_acceleration  of
-    /// this bound
-    /// @pre entry_sq may be kept up
+    /// Largest exit_sq, from entry_sq to at_most, with constant acceleration over a length.
+    /// @param max_path_acceleration  the result of max_path_acceleration()
+    /// @pre entry_sq may be held constant
     [[nodiscard]] S largest_exit(S entry_sq, S at_most, S length_mm, S max_path_acceleration) const noexcept;
-    /// Largest entry_sq from exit_sq to at_most over a length, braked evenly. @pre exit_sq may be kept up
+    /// Largest entry_sq, from exit_sq to at_most, with constant braking over a length. @pre exit_sq may be held
+    /// constant
     [[nodiscard]] S largest_entry(S exit_sq, S at_most, S length_mm, S max_path_acceleration) const noexcept;
-    /// Largest acceleration up to a v^2, largest braking from it on. @pre speed_sq may be kept up
+    /// Largest acceleration up to speed_sq, and largest braking from speed_sq. @pre speed_sq may be held constant
     [[nodiscard]] S acceleration(S speed_sq, S max_path_acceleration) const noexcept;
     [[nodiscard]] S braking(S speed_sq, S max_path_acceleration) const noexcept;
 

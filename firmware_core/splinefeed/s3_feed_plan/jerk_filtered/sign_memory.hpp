@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SignMemory: which way a motion accelerated last, and how long ago.
+// SignMemory: in which direction a motion accelerated last, and how long ago.
 #pragma once
 
 #include "splinefeed/number/scalar.hpp"
@@ -8,11 +8,12 @@ namespace splinefeed {
 
 enum class AccelerationSign : std::int8_t { braking, none, accelerating };
 
-/// A motion whose accelerations are averaged over a time changes their sign only after that time at constant speed.
+/// A motion that is averaged over a time may change the sign of its acceleration only after that time at constant
+/// speed.
 template <Scalar S>
 class SignMemory {
 public:
-    /// v^2 went from one value to the other in so many ticks.
+    /// Records that v^2 went from one value to the other in this number of ticks.
     void pass(S from_sq, S to_sq, S ticks) noexcept {
         if (!changes(from_sq, to_sq)) {
             since_ = smaller(since_ + smaller(ticks, from_integer<S>(long_ago)), from_integer<S>(long_ago));
@@ -21,12 +22,12 @@ public:
             since_ = S{};
         }
     }
-    /// The sign of the last acceleration; none: it has not accelerated since it stood.
+    /// The sign of the last acceleration; none: it has not accelerated since standstill.
     [[nodiscard]] AccelerationSign last() const noexcept { return last_; }
-    /// Ticks at constant speed that a change of sign still waits for.
-    /// @param ticks  that are averaged over
+    /// Ticks at constant speed that are still missing before the sign may change.
+    /// @param ticks  length of the average
     [[nodiscard]] S left(std::int32_t ticks) const noexcept { return from_integer<S>(ticks) - since_; }
-    /// Long enough at constant speed for a change of sign.
+    /// Whether the speed was constant for long enough to change the sign.
     [[nodiscard]] bool rested(std::int32_t ticks) const noexcept {
         constexpr double same = 0x1p-14; // of a tick
         return !(since_ < from_integer<S>(ticks) - literal<S>(same));
@@ -35,7 +36,7 @@ public:
 private:
     static constexpr std::int32_t long_ago = 1 << 20; // ticks; longer than any average
 
-    /// By more than rounding.
+    /// Whether the speeds differ by more than rounding.
     static bool changes(S from_sq, S to_sq) noexcept {
         const S least = std::same_as<S, Fixed> ? literal<S>(0x1p-30) : from_sq * literal<S>(0x1p-44);
         return absolute(to_sq - from_sq) > least;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// SmoothPlan: the feed plan once more, so that its average over a time keeps every axis's jerk, too. It takes its cells
-// from an acceleration-limited plan, whose speeds bound its own. All of it is in the scalar of the pipeline.
+// SmoothPlan: a speed profile whose moving average keeps every axis's jerk limit. It takes its cells from an
+// acceleration-limited plan; the speeds of that plan are upper bounds. It computes in the scalar of the pipeline.
 //
-//      b |      ____            backward: the largest b from which what is known can be ended at rest
-//        |     /    \           forward: as fast as that allows, where an acceleration never changes its sign
-//        |    /      \          but after the time that is averaged over
+//      b |      ____            backward: the largest b from which the end of the known path can be
+//        |     /    \           reached at standstill; forward: as fast as that allows, where the
+//        |    /      \          acceleration changes its sign only after the time of the average
 //        |___/        \___
 //        +----------------> s
 //
@@ -18,20 +18,21 @@
 
 namespace splinefeed {
 
-/// Stage 3b of bounded cost. The motion that it plans is to be averaged (SmoothSampler); the machine follows the mean,
-/// and cells are kept until that has passed them. Cost: amortised at most four visits a cell of FilteredLimits.
+/// Stage 3b with bounded cost. SmoothSampler averages the motion that is planned here. The machine follows the average;
+/// cells are kept until the machine has passed them. Cost: amortised at most four visits per cell, each with
+/// FilteredLimits.
 template <Scalar S>
 class SmoothPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 12;
 
-    /// Fewer cells than smallest_window are a broken precondition of all that follows.
+    /// @pre at least smallest_window cells; this also holds for all other functions
     SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept;
 
     Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
-    /// Of the profile segment.
+    /// The cell of the profile segment.
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.at(window_.front()).cell; }
-    /// What the profile segment takes, in ticks.
+    /// Duration of the profile segment, in ticks.
     [[nodiscard]] S ticks() const noexcept { return ticks_; }
     /// Path length at the start of the profile segment's cell.
     [[nodiscard]] PathPosition cell_start() const noexcept { return window_.at(window_.front()).start; }
@@ -54,18 +55,18 @@ public:
         chosen_ = starved_ = false;
     }
 
-    /// How the motion is averaged from its rest on. @pre standing(), the last prepare() answered item
+    /// The length of the average, from this standstill on. @pre standing(), the last prepare() answered item
     [[nodiscard]] std::uint32_t smoothing_q8() const noexcept { return window_.at(window_.front()).smoothing_q8; }
 
-    /// The oldest cell that is kept, and its place on the path; the machine goes on to the next one.
+    /// The oldest cell that is kept, and its place on the path; release() moves on to the next one.
     [[nodiscard]] const SmoothCell<S>& oldest() const noexcept { return window_.at(0); }
-    /// There is one behind the oldest.
+    /// Whether there is a cell after the oldest one.
     [[nodiscard]] bool can_release() const noexcept { return window_.front() > 0 && window_.size() > 1; }
     void release() noexcept { window_.release(); }
     [[nodiscard]] bool empty() const noexcept { return window_.size() == 0; }
 
 private:
-    static constexpr double slowest_sq = 1e-6; // as FeedPlan's
+    static constexpr double slowest_sq = 1e-6; // as in FeedPlan
 
     using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
@@ -106,7 +107,7 @@ private:
     bool coast() noexcept;
     void follow() noexcept;
     void crawl() noexcept;
-    /// Long enough at constant speed for a change of sign.
+    /// Whether the speed was constant for long enough to change the sign of the acceleration.
     [[nodiscard]] bool rested() const noexcept { return sign_.rested(smoothing_.ticks()); }
     void profile_segment_to(S to, S exit_sq) noexcept;
 
@@ -114,16 +115,16 @@ private:
     const MotionLimits<S>* limits_;
     SmoothWindow<S> window_;
     Smoothing<S> smoothing_{}; // of the cell that was looked at last
-    std::size_t taken_ = 0;    // cells that were left since the window was filled
-    std::size_t looked_ = 0;   // cells from the front on when it was looked back last
+    std::size_t taken_ = 0;    // cells that the motion left since the window was filled
+    std::size_t looked_ = 0;   // cells from the front on at the last backward pass
     S at_{};                   // where the next profile segment starts in the front cell
     S speed_sq_{};             // v^2 there
     S speed_{};                // v there
     S exit_speed_{};           // v at the end of the profile segment
     S ticks_{};                // of the profile segment
-    SignMemory<S> sign_{};     // of the acceleration before
+    SignMemory<S> sign_{};     // of the acceleration so far
     bool chosen_ = false;
-    bool starved_ = false; // when it was filled last
+    bool starved_ = false; // the input was starved when the window was filled last
 };
 
 } // namespace splinefeed

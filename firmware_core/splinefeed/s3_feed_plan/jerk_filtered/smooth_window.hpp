@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SmoothWindow: the cells that a smoothed plan knows, and what each asks of the motion through it.
+// SmoothWindow: the cells that a SmoothPlan knows, with the limits of each.
 //
 //        behind            front           prepared            back
 //      |___|___|___|___|___|___|___|___|___|___|___|___|___|___|
@@ -14,21 +14,23 @@
 
 namespace splinefeed {
 
-/// A cell of the window, the caller's storage. Speeds are v^2 [mm^2/s^2].
+/// A cell of the window, in storage of the caller. Speeds are v^2 [mm^2/s^2].
 template <Scalar S>
 struct SmoothCell {
     Cell<S> cell{};
     PathPosition start{}; ///< where it starts on the path
-    S bound_sq{};         ///< at its start: no motion is faster, whatever the steering
-    S bound_ticks{};      ///< least time in it
+    S bound_sq{};         ///< at its start: upper bound for every motion, whatever the steering
+    S bound_ticks{};      ///< least time for the cell
     PathDerivativeBounds<S> own{};
-    PathDerivativeBounds<S> demand{}; ///< of all places where the average can be while the motion is in the cell
+    PathDerivativeBounds<S> demand{}; ///< bounds over all places where the average can be while the motion is in this
+                                      ///< cell
     std::uint32_t smoothing_q8 = 0;
     S max_path_acceleration{};    ///< FilteredLimits::max_path_acceleration
-    S max_steady_sq{};            ///< largest that may be kept up in it
-    S machine_controllable_sq{};  ///< largest at its start from which the end of what is known can be reached at rest
-    S override_controllable_sq{}; ///< the same with what the steering wants
-    S override_reach{};           ///< override_controllable_sq as the cell alone would have it
+    S max_steady_sq{};            ///< largest v^2 that may be held constant in it
+    S machine_controllable_sq{};  ///< largest v^2 at its start from which the end of the known path can be reached at
+                                  ///< standstill
+    S override_controllable_sq{}; ///< the same, with the speeds that the steering wants
+    S override_reach{};           ///< override_controllable_sq if only this cell counted
 };
 
 /// A ring of cells; all indices count from the oldest.
@@ -46,21 +48,22 @@ public:
     [[nodiscard]] std::size_t front() const noexcept { return front_; }
     [[nodiscard]] std::size_t prepared() const noexcept { return prepared_; }
     [[nodiscard]] std::size_t capacity() const noexcept { return storage_.size(); }
-    /// append() may be called.
+    /// Whether append() may be called.
     [[nodiscard]] bool has_room() const noexcept { return size_ + 2 < storage_.size(); }
-    /// The motion is at rest at the end of the cell, whatever is wanted.
+    /// Whether the motion comes to standstill at the end of the cell, whatever the steering wants.
     [[nodiscard]] bool ends_leg(std::size_t i) const noexcept { return !(bound_behind(i) > S{}); }
 
-    /// Appends a cell, and a stop before it where q'' jumps. @param exit_bound_sq  bound of v^2 at its end
+    /// Appends a cell, with a stop before it if q'' jumps there. @param exit_bound_sq  upper bound of v^2 at its end
     void append(const Cell<S>& cell, S cap_sq, S programmed_sq, S exit_bound_sq) noexcept;
-    /// The motion is at rest at the end of what is known, whatever comes behind it.
+    /// The motion comes to standstill at the end of the known path, whatever comes after it.
     void end_here() noexcept;
-    /// Prepares the cells of which enough is known behind them. @param force  at least half of them, up to the next
-    /// leg: what there is no room to know is not needed by a motion that is slow enough
+    /// Prepares the cells after which enough of the path is known.
+    /// @param force  prepares at least half of the cells, up to the next leg. If there is no room to know more of the
+    ///               path, the motion becomes so slow that it needs no more.
     void prepare(bool force) noexcept;
-    /// The motion that is averaged leaves the front cell.
+    /// Call it when the motion (not its average) leaves the front cell.
     void pass_front() noexcept { ++front_; }
-    /// The machine leaves the oldest cell. @pre front() > 0
+    /// Call it when the machine leaves the oldest cell. @pre front() > 0
     void release() noexcept;
     void clear() noexcept;
 
@@ -89,12 +92,12 @@ private:
     std::size_t size_ = 0;
     std::size_t front_ = 0;
     std::size_t prepared_ = 0; // cells from the oldest on
-    PathPosition end_{};       // of the path as it is known
-    S end_bound_sq_{};         // there
+    PathPosition end_{};       // end of the known path
+    S end_bound_sq_{};         // bound of v^2 there
     Smoothing<S> smoothing_{}; // of the leg that is being prepared
-    std::size_t bounded_ = 0;  // cells with a bound of the leg's own, from the oldest on
-    // Largest demands over a part of the path that only moves on: `own` of the cells from low_ to middle_ holds that of
-    // all from there to middle_, joined_ that of the cells from middle_ to high_.
+    std::size_t bounded_ = 0;  // cells from the oldest on that have a bound from the leg itself
+    // Maxima over a window of cells that only moves forward: `own` of each cell from low_ to middle_ holds the maximum
+    // of all cells from there to middle_; joined_ holds that of the cells from middle_ to high_.
     std::size_t low_ = 0;
     std::size_t middle_ = 0;
     std::size_t high_ = 0;

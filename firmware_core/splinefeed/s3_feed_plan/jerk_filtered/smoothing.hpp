@@ -8,26 +8,28 @@
 
 namespace splinefeed {
 
-/// The mean over a number of ticks (segment durations) that need not be whole: the oldest counts in part.
+/// The mean over a number of ticks (segment durations). The number need not be whole: the oldest tick then counts in
+/// part.
 template <Scalar S>
 struct Smoothing {
     static constexpr int fraction_bits = 8;
 
     std::uint32_t duration_q8 = 0; ///< in 1/256 of a tick
     S seconds{};
-    S half_s{}; ///< what the speed averaged over it may differ by from the speed at an instant in it, per acceleration
+    S half_s{}; ///< largest difference between the averaged speed and the speed at an instant in the average, per
+                ///< acceleration
 
     Smoothing() noexcept = default;
     Smoothing(std::uint32_t q8, S segments_per_s) noexcept : duration_q8(q8) {
         const S per_s = scale2(segments_per_s, fraction_bits);
         const S duration = from_integer<S>(static_cast<std::int32_t>(q8));
         seconds = duration / per_s;
-        // A mean over N + f ticks reaches over n = N or N + 1: n^2 / (2 (N + f))
+        // An average over N + f ticks reaches over n = N or N + 1 ticks: n^2 / (2 (N + f))
         const S reach = from_integer<S>(ticks());
         half_s = scale2(reach * (scale2(reach, fraction_bits) / duration) / segments_per_s, -1);
     }
 
-    /// Ticks that it reaches over.
+    /// Number of ticks that the average reaches over.
     [[nodiscard]] std::int32_t ticks() const noexcept {
         return static_cast<std::int32_t>((duration_q8 + (1U << fraction_bits) - 1U) >> fraction_bits);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ControllableSet: from which states at the entry of a cell a set of states at its exit can be reached within the
-// limits. Derivation: controllable_set.cpp.
+// ControllableSet: the states at the entry of a cell from which a given set of states at its exit can be reached within
+// the limits. Derivation: controllable_set.cpp.
 #pragma once
 
 #include "splinefeed/number/scalar.hpp"
@@ -8,23 +8,23 @@
 
 namespace splinefeed {
 
-/// What b is expected to be at the ends of a cell: exact there, a little too careful elsewhere. At least smallest.
+/// Expected values of b at the ends of a cell. The limits are exact there and slightly too careful elsewhere. At least
+/// `smallest`.
 struct ExpectedSpeeds {
     static constexpr double smallest = 1e-6;
     double entry_sq = 0.0;
     double exit_sq = 0.0;
 };
 
-/// The limits inside of a cell, as half-planes of the parabola b in it. Cost of building one: about 150 products an
-/// axis.
+/// The limits inside a cell, as half-planes of the parabola b in it. Construction costs about 150 products per axis.
 class ControllableSet {
 public:
     ControllableSet(const CellPassage& passage, const ExpectedSpeeds& expected) noexcept;
 
-    /// States from which some u leads to one of the exits: a part of all of them, nearly all. Cost: about 10 products a
-    /// corner and limit that matters.
+    /// The states from which some u leads to one of the exits. The result is a subset of all such states and contains
+    /// nearly all of them. Cost: about 10 products per corner and limit that matters.
     [[nodiscard]] StatePolygon from(const StatePolygon& exits) const noexcept;
-    /// The u that lead from an entry to one of the exits; low > high if there is none.
+    /// The values of u that lead from an entry to one of the exits; low > high if there is none.
     [[nodiscard]] CurvatureRange range(const SpeedState& entry, const StatePolygon& exits) const noexcept;
 
 private:
@@ -54,10 +54,11 @@ private:
         [[nodiscard]] std::size_t closest(const SpeedState& state, double sign, std::size_t guess) const noexcept;
     };
 
-    /// Where between two states one line takes over from another, as a share of the way; 1: nowhere.
+    /// The point between two states at which one line becomes the active one instead of another, as a fraction of the
+    /// distance; 1: there is none.
     [[nodiscard]] static double crossing(const Line& first, const Line& second, const SpeedState& from,
                                          const SpeedState& to) noexcept {
-        constexpr double least = 1e-6; // to be worth a corner
+        constexpr double least = 1e-6; // smallest value that is worth a corner
         const double at_from = absolute(first.at(from) - second.at(from));
         const double at_to = absolute(first.at(to) - second.at(to));
         const double share = at_from > 0.0 && at_to > 0.0 ? at_from / (at_from + at_to) : 1.0;
@@ -71,12 +72,12 @@ private:
     std::array<Row, most> row_;
 };
 
-/// Keeps the states allowed at a node by themselves: speeds between 0 and the caps all along both cells, and every
-/// axis's acceleration. @param before, after  the cells that meet there
-/// @param at_most_sq  bound of b that is known from elsewhere
+/// Removes the states that a node itself does not allow. It keeps speeds between 0 and the caps all along both cells,
+/// and the acceleration of every axis. @param before, after  the cells that meet there
+/// @param at_most_sq  upper bound of b that is known from elsewhere
 void cut_to_node(StatePolygon& states, const CellPassage& before, const CellPassage& after, double at_most_sq) noexcept;
 
-/// All of them.
+/// All states that a node itself allows.
 [[nodiscard]] StatePolygon states_at(const CellPassage& before, const CellPassage& after, double at_most_sq) noexcept;
 
 /// The state at the exit.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JerkChange: the jerk-limited motion from where the machine is that answers a change of the steering.
+// JerkChange: plans the jerk-limited motion that answers a change of the steering, from where the machine is.
 //
 //      v |----.                          v |----.            .----  wanted before
 //        |     '.                          |     '.
@@ -12,38 +12,38 @@
 
 namespace splinefeed {
 
-/// Tries motions out beside the plan; the window is changed only by one that was found: its first cells are cut at the
-/// places that it was planned for, from where the machine is. Derivation: jerk_change.cpp.
+/// Tries motions without changing the plan. Only when a motion is found, the window changes: its first cells are split
+/// at the places that the motion was planned for. Derivation: jerk_change.cpp.
 template <Scalar S>
 class JerkChange {
 public:
-    /// @param from  fraction of the front cell where the machine is, in `state`, b > 0
-    /// @param planned  cells that have a plan, from the front on
+    /// @param from  fraction of the front cell where the machine is, with motion `state`, b > 0
+    /// @param planned  number of cells from the front on that have a plan
     /// @pre window.forget_travelled()
     JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, double from, const SpeedState& state,
                std::size_t planned) noexcept;
 
-    /// The nearest rest; its end is where cell planned() - 1 ends. false: there is none in the window.
-    /// Cost: about twenty JerkLeg::plan of the cells within the braking distance, some twenty at least.
+    /// The nearest standstill; it is where cell planned() - 1 ends. false: there is none in the window. Cost: about
+    /// twenty JerkLeg::plan of the cells within the braking distance, of twenty cells at least.
     bool to_rest() noexcept;
-    /// JerkNode::wanted_sq becomes the cap of the cells, from as near as can be. To a rest beyond; beyond changed() the
-    /// plan may be made anew. false: nowhere in the window.
+    /// Makes JerkNode::wanted_sq the cap of the cells, from the nearest possible place on. The motion ends at a
+    /// standstill beyond that place; beyond changed() the plan may be made anew. false: not possible in the window.
     bool to_wanted() noexcept;
 
-    /// Cells from the front on that have a motion, to rest.
+    /// Cells from the front on that have a motion which ends at standstill.
     [[nodiscard]] std::size_t planned() const noexcept { return planned_; }
     /// Those of them that belong to the change; at least one.
     [[nodiscard]] std::size_t changed() const noexcept { return changed_; }
 
 private:
-    /// Where the cells are cut: distances from the machine.
+    /// Where the cells are split: distances from the machine.
     struct Cuts {
-        double end_mm = 0.0;      ///< rest
-        double change_mm = 0.0;   ///< the caps are those that are wanted from here on
-        double fine_mm = 0.0;     ///< up to here no piece is longer than
-        double coarsest_mm = 0.0; ///< this
-        double finest_mm = 0.0;   ///< and next to the rest than this; coarsest_mm: they are not graded
-        double part_behind = 0.0; ///< of the distance from the rest: the longest piece behind it
+        double end_mm = 0.0;      ///< place of standstill
+        double change_mm = 0.0;   ///< from here on the caps are those that are wanted
+        double fine_mm = 0.0;     ///< up to here no piece is longer than coarsest_mm
+        double coarsest_mm = 0.0; ///< longest piece up to fine_mm
+        double finest_mm = 0.0;   ///< longest piece next to the standstill; equal to coarsest_mm: pieces are not graded
+        double part_behind = 0.0; ///< longest piece after the standstill, as a part of the distance from it
 
         [[nodiscard]] bool graded() const noexcept { return finest_mm < coarsest_mm; }
     };
@@ -71,12 +71,12 @@ private:
     SpeedState state_;
     std::size_t old_planned_;
     MoveLimits along_;        // of the front cell
-    double start_mm_ = 1e9;   // since a start with constant jerk
-    double peak_sq_ = 0.0;    // of the way to rest
-    double known_mm_ = 0.0;   // to the next stop, or to the end of the window
-    double seconds_ = 0.0;    // of the last attempt that succeeded
-    std::size_t pieces_ = 0;  // of the cuts that fit
-    std::size_t cells_ = 0;   // that they are pieces of
+    double start_mm_ = 1e9;   // distance since a start with constant jerk
+    double peak_sq_ = 0.0;    // largest b on the way to standstill
+    double known_mm_ = 0.0;   // distance to the next stop, or to the end of the window
+    double seconds_ = 0.0;    // duration of the last attempt that succeeded
+    std::size_t pieces_ = 0;  // pieces of the cuts that fit
+    std::size_t cells_ = 0;   // cells that these pieces belong to
     std::size_t planned_ = 0; // pieces of the last attempt that succeeded
     std::size_t changed_ = 0;
 };

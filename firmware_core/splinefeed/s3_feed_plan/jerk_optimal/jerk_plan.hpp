@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// JerkPlan: the feed plan once more, with every axis's jerk limited. It takes its cells from an acceleration-limited
-// plan, whose speeds bound its own.
+// JerkPlan: the feed plan with the jerk of every axis limited. It takes its cells from an acceleration-limited plan;
+// the speeds of that plan are upper bounds.
 //
-//      b |    __/ \__         acceleration-limited: kinks are jumps of the acceleration
-//        |   / .---. \        jerk-limited: below, b and db/ds continuous, at rest with a = 0,
-//        |  /./     \.\       and at rest at the end of what is known
+//      b |    __/ \__         acceleration-limited: a kink is a jump of the acceleration
+//        |   / .---. \        jerk-limited: lower; b and db/ds are continuous; at standstill a = 0;
+//        |  /./     \.\       it ends at standstill at the end of the known path
 //        |_//         \\_
 //        +-----------------> s
 #pragma once
@@ -16,14 +16,14 @@
 
 namespace splinefeed {
 
-/// Stage 3b. What is planned in the window always ends at rest. Cost: a cell is planned about twice (JerkLeg::plan); a
-/// change of the steering while the machine moves plans what lies ahead about twelve times (JerkChange).
+/// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (JerkLeg::plan). A
+/// change of the steering while the machine moves plans the path ahead about twelve times (JerkChange).
 template <Scalar S>
 class JerkPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 16;
 
-    /// Less storage than smallest_window and nodes_for() it is a broken precondition of all that follows.
+    /// @pre storage has at least smallest_window cells and nodes_for() nodes; this also holds for all other functions
     JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
     Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
@@ -34,7 +34,8 @@ public:
     [[nodiscard]] bool standing() const noexcept override;
     void clear() noexcept override;
 
-    /// How often a leg could not be planned as fast as it should be: it is travelled slower, within all limits.
+    /// How often a leg could not be planned as fast as possible. Such a leg is travelled more slowly, within all
+    /// limits.
     [[nodiscard]] std::uint64_t slow_legs() const noexcept { return slow_legs_; }
 
 private:
@@ -58,17 +59,18 @@ private:
     FeedPlan<S>* source_;
     const MotionLimits<S>* limits_;
     JerkWindow<S> window_;
-    LineTravel line_{};         // while a straight leg is travelled
-    MoveLimits line_limits_{};  // of it
+    LineTravel line_{};         // used while a straight leg is travelled
+    MoveLimits line_limits_{};  // limits of that leg
     std::size_t committed_ = 0; // cells from the front on
-    std::size_t planned_ = 0;   // cells from the front on that have a plan, at rest at its end
+    std::size_t planned_ = 0;   // cells from the front on that have a plan, which ends at standstill
     std::size_t halt_ = 0;      // cells from the front on to the stop that a hold made; 0: none
-    std::size_t hops_ = 1;      // cells that are hopped where no plan is found; twice as many each time
+    std::size_t hops_ = 1;      // cells that are passed from standstill to standstill if no plan is found; doubled each
+                                // time
     std::uint64_t slow_legs_ = 0;
-    double on_line_mm_ = 0.0; // of the cell, already travelled
+    double on_line_mm_ = 0.0; // part of the cell that is already travelled
     bool chosen_ = false;
-    bool planned_all_ = false; // nothing came in since the last plan
-    bool unanswered_ = false;  // the steering, for which no motion was found yet
+    bool planned_all_ = false; // no cell came in since the last plan
+    bool unanswered_ = false;  // no motion was found yet for the latest change of the steering
 };
 
 } // namespace splinefeed

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// LineTravel: a straight move, passed piece by piece: each ends where a phase of constant jerk or a cell does.
+// LineTravel: travels a straight move piece by piece. A piece ends where a phase of constant jerk or a cell ends.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/jerk_optimal/s_curve_profile.hpp"
 
 namespace splinefeed {
 
-/// Part of a straight move with constant jerk.
+/// A part of a straight move, with constant jerk.
 struct LinePiece {
     double length_mm = 0.0;
     double duration_s = 0.0;
-    double linear = 0.0; ///< of its length after the fraction y of its time: linear y + quadratic y^2 + ...
+    double linear = 0.0; ///< part of its length after the fraction y of its time: linear y + quadratic y^2 + ...
     double quadratic = 0.0;
     double entry_mm_s = 0.0;
     double exit_mm_s = 0.0;
@@ -25,10 +25,10 @@ public:
     [[nodiscard]] bool done() const noexcept { return phase_ >= SCurveProfile::phases; }
     /// The motion at the end of the last piece.
     [[nodiscard]] const MoveState& reached() const noexcept { return state_; }
-    /// The next piece, at most as long as told. @pre not done. Cost: a division, and where it does not end with a phase
-    /// a dozen more.
+    /// The next piece, not longer than at_most_mm. @pre not done. Cost: a division, and a dozen more if it does not end
+    /// with a phase.
     LinePiece next(double at_most_mm) noexcept;
-    /// The next piece, to the end of its phase: where the move ends in this cell.
+    /// The next piece, to the end of its phase: for the cell in which the move ends.
     LinePiece next() noexcept;
 
 private:

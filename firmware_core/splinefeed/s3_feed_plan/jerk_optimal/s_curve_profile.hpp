@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SCurveProfile: to rest along a straight line in the least time, with limited speed, acceleration and jerk.
+// SCurveProfile: the time-optimal motion along a straight line to standstill, with limited speed, acceleration and
+// jerk.
 #pragma once
 
 #include <array>
@@ -28,22 +29,24 @@ struct MoveState {
     [[nodiscard]] MoveState after(double time_s, double jerk_mm_s3) const noexcept;
 };
 
-/// Seven phases, some of them empty: the acceleration rises to its limit, stays there and falls, the speed stays, and
-/// all that backward.
+/// Seven phases, some of which may be empty: the acceleration rises to its limit, stays there and falls; the speed
+/// stays; then the same in reverse.
 class SCurveProfile {
 public:
     SCurveProfile() noexcept = default;
-    /// From rest. Cost: up to two roots and a handful of divisions. @pre all positive
+    /// From standstill. Cost: up to two roots and a handful of divisions. @pre all positive
     SCurveProfile(double length_mm, const MoveLimits& limits) noexcept;
-    /// To the nearest rest. @pre start.speed_mm_s >= 0; its acceleration can be taken back before the speed is 0
+    /// To the nearest standstill. @pre start.speed_mm_s >= 0; its acceleration can be brought to 0 before the speed is
+    /// 0
     [[nodiscard]] static SCurveProfile to_rest(const MoveState& start, const MoveLimits& limits) noexcept;
-    /// To rest at a distance; length_mm() is that of the nearest rest where it is too short. A speed above the limit is
-    /// taken back first. Cost: about fifty times that of to_rest(), unless the speed limit is reached.
+    /// To standstill at a distance. If the distance is too short, length_mm() is that of the nearest standstill. A
+    /// speed above the limit is reduced first. Cost: about fifty times that of to_rest(), unless the speed limit is
+    /// reached.
     [[nodiscard]] static SCurveProfile to_length(const MoveState& start, double length_mm,
                                                  const MoveLimits& limits) noexcept;
 
     [[nodiscard]] const MoveState& start() const noexcept { return start_; }
-    /// What the phases add up to.
+    /// The length of all phases together.
     [[nodiscard]] double length_mm() const noexcept;
 
     static constexpr std::size_t phases = 7;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// StatePolygon: a convex set of states of motion along the path, of those from which a cell and all behind it can be
-// travelled within the limits.
+// StatePolygon: a convex set of states of motion along the path. It is used for the states from which a cell and the
+// path after it can be travelled within the limits.
 #pragma once
 
 #include <array>
@@ -9,34 +9,34 @@
 
 namespace splinefeed {
 
-/// How the path is travelled at a node: b = v^2 and its slope db/ds, twice the acceleration along the path.
+/// The motion at a node: b = v^2 and its slope db/ds, which is twice the acceleration along the path.
 struct SpeedState {
     double b;     ///< [mm^2/s^2]
     double slope; ///< [mm/s^2]
 };
 
-/// of_b * b + of_slope * slope <= limit.
+/// The half-plane of_b * b + of_slope * slope <= limit.
 struct StateBound {
     double of_b;
     double of_slope;
     double limit;
 
-    /// How far a state is beyond the bound; negative: within it.
+    /// How far a state is outside the bound; negative: inside it.
     [[nodiscard]] constexpr double excess(const SpeedState& state) const noexcept {
         return of_b * state.b + of_slope * state.slope - limit;
     }
 };
 
-/// Corners in counter-clockwise order; one or two corners are a point or a line. A plain value.
+/// The corners are in counter-clockwise order; one or two corners are a point or a line. A plain value.
 class StatePolygon {
 public:
     static constexpr std::size_t capacity = 96; ///< corners while it is being cut
     static constexpr std::size_t kept = 20;     ///< corners that simplify() leaves
 
-    StatePolygon() noexcept = default; // its corners are nothing yet
+    StatePolygon() noexcept = default; // the corners have no values yet
     /// @pre convex and counter-clockwise, at most `capacity`
     explicit StatePolygon(std::span<const SpeedState> corners) noexcept;
-    /// All states with 0 <= b <= largest and |slope| <= steepest.
+    /// All states with 0 <= b <= largest_b and |slope| <= max_path_acceleration.
     StatePolygon(double largest_b, double max_path_acceleration) noexcept;
 
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
@@ -46,15 +46,17 @@ public:
     void clear() noexcept { size_ = 0; }
     /// @pre fewer corners than capacity; the corners stay convex and counter-clockwise
     void append(const SpeedState& state) noexcept { corner_[size_++] = state; }
-    /// Keeps what is within the bound. Returns how many corners before the first that is beyond it, which stay where
-    /// they are. Cost: two products a corner.
+    /// Keeps the part inside the bound. Returns the number of corners before the first one outside it; these stay where
+    /// they are. Cost: two products per corner.
     std::size_t cut(const StateBound& bound) noexcept;
-    /// Leaves out the corners that cost the least area until no more than `kept` are left: a part of what it was.
+    /// Removes the corners that cost the least area until at most `kept` are left. The result is a part of the old
+    /// polygon.
     void simplify() noexcept;
-    /// The smallest polygon that holds this one and the state. @pre three corners or more, fewer than capacity
+    /// The smallest convex polygon that contains this one and the state. @pre three corners or more, fewer than
+    /// capacity
     void include(const SpeedState& state) noexcept;
-    /// The half-planes that it is made of: one a side, and one at each end of a line, four for a point. Returns
-    /// how many.
+    /// The half-planes that bound it: one per side; for a line also one at each end; four for a point. Returns their
+    /// number.
     [[nodiscard]] std::size_t bounds(std::span<StateBound> out) const noexcept;
 
 private:
