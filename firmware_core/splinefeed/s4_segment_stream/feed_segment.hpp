@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FeedSegment: what a drive can execute without asking back. The only core type that the HAL knows.
+// FeedSegment: a piece of motion that a drive can execute without further questions. It is the only core type that the
+// HAL knows.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -8,13 +9,13 @@
 
 namespace splinefeed {
 
-/// Position units per count. Divisible by 6 (and 2^30 by nothing else of it), so that the joints of a cubic B-spline
-/// whose control points are multiples of 6 units are whole numbers, and every whole count is such a multiple.
+/// Position units per count. It is divisible by 6, so the joints of a cubic B-spline are whole numbers if its control
+/// points are multiples of 6 units; and every whole count is such a multiple.
 inline constexpr std::int64_t units_per_count = std::int64_t{3} << 30;
 
-/// A cubic in time per axis, in integers: positions in units, velocities in units per segment, duration in ticks of
-/// 1/8 us. The start of one is exactly the end of the one before, in position and velocity (and acceleration:
-/// start_velocity and end_velocity are three times differences of the control points; see segment_stream.cpp).
+/// A cubic in time for each axis, in integers: positions in units, velocities in units per segment, duration in ticks
+/// of 1/8 us. A segment starts exactly where the previous one ends, in position, velocity and acceleration
+/// (start_velocity and end_velocity are three times differences of the control points; see segment_stream.cpp).
 struct FeedSegment {
     std::uint64_t index = 0;
     std::uint32_t duration_ticks = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ProfileMotion: how far along its profile segment the machine is after a part of the time that the profile segment
-// takes. Derivation: profile_motion.cpp.
+// ProfileMotion: the distance along a profile segment after a fraction of its time. Derivation: profile_motion.cpp.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/steering/motion_plan.hpp"
@@ -15,8 +14,8 @@ public:
     ProfileMotion(const ProfileSegment<S>& profile_segment, S cell_length_mm, S per_s) noexcept;
 
     [[nodiscard]] S duration() const noexcept { return duration_; }
-    /// Fraction of the profile segment's length after the fraction y of its time, both 0 to 1. Cost: 2 products; of a
-    /// parabola with a rounded top or bottom 50.
+    /// Fraction of the profile segment's length after the fraction y of its time, both 0 to 1. Cost: 2 products; 50 for
+    /// a parabola with a rounded top or bottom.
     [[nodiscard]] S at(S y) const noexcept;
 
 private:
@@ -24,10 +23,10 @@ private:
 
     SpeedShape shape_ = SpeedShape::line;
     S duration_{};
-    S linear_{};    // as in ProfileSegment; of a parabola the entry speed
-    S quadratic_{}; // of a parabola the acceleration at the entry
-    S curvature_{}; // of a parabola half of the curvature of v^2
-    S time_{};      // of a parabola the duration, in its own units
+    S linear_{};    // as in ProfileSegment; parabola: the entry speed
+    S quadratic_{}; // parabola: the acceleration at the entry
+    S curvature_{}; // parabola: half of the curvature of v^2
+    S time_{};      // parabola: the duration, in its own units
 };
 
 } // namespace splinefeed

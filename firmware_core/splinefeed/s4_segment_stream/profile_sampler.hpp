@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ProfileSampler: samples of a motion that is planned as it is travelled, profile segment by profile segment.
+// ProfileSampler: samples of a motion that is travelled exactly as planned, profile segment after profile segment.
 // Derivation: profile_sampler.cpp.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace splinefeed {
 
-/// Memory: constant. Cost of next(): one evaluation of the curve, plus one division per cell that is passed: amortised
-/// constant, at most the cells of the window; and after a change of the steering a visit to every cell of the window.
+/// Memory: constant. Cost of next(): one evaluation of the curve, and one division per cell that is passed: amortised
+/// constant, at most the cells of the window. After a change of the steering also a visit to every cell of the window.
 template <Scalar S>
 class ProfileSampler final : public Sampler<S> {
 public:
@@ -36,9 +36,9 @@ private:
     S segments_per_s_{};
     S elapsed_{}; // time since the start of the profile segment [segment durations]
     ProfileMotion<S> motion_;
-    PerAxis<Position> previous_{}; // the sample before
+    PerAxis<Position> previous_{}; // the previous sample
     int axes_ = 0;
-    int repeats_ = 0; // samples still to repeat at a stop
+    int repeats_ = 0; // samples that are still to be repeated at a stop
     bool started_ = false;
     bool in_segment_ = false;
     bool advanced_ = false; // elapsed_ already holds the next sample's time

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sampler: where the machine is, once per segment duration.
+// Sampler: the position of the machine, once per segment duration.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -9,22 +9,22 @@
 
 namespace splinefeed {
 
-/// The samples of a planned motion. At a stop there are three that are the same, or more.
+/// The samples of a planned motion. At a stop three or more samples are equal.
 template <Scalar S>
 class Sampler {
 public:
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
 
-    /// Takes the next sample. `starved`, `held` and `finished`: there is none, and nothing was lost.
+    /// Computes the next sample. `starved`, `held` and `finished`: there is none, and nothing was lost.
     virtual Pull next(UnderrunPolicy underrun) noexcept = 0;
-    /// The sample is the last of a motion.
+    /// Whether this sample is the last one of a motion.
     [[nodiscard]] virtual bool at_rest() const noexcept = 0;
-    /// The path before is done with: for a new program. @pre at_rest()
+    /// Forgets the path so far, for a new program. @pre at_rest()
     virtual void clear() noexcept = 0;
 
     [[nodiscard]] const PerAxis<Position>& position() const noexcept { return position_; }
-    /// Where the first motion started. @pre next() answered item or held
+    /// The position where the first motion started. @pre next() answered item or held
     [[nodiscard]] const PerAxis<Position>& origin() const noexcept { return origin_; }
     /// Index of the waypoint that the sample leads to.
     [[nodiscard]] std::uint32_t waypoint() const noexcept { return waypoint_; }

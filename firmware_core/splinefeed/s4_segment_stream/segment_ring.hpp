@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SegmentRing: feed segments from the thread that plans to the one that moves, or from a main loop to an interrupt.
+// SegmentRing: a queue of feed segments from the thread that plans to the thread that moves, or from a main loop to an
+// interrupt.
 #pragma once
 
 #include "splinefeed/base/assertion.hpp"
@@ -12,8 +13,9 @@
 
 namespace splinefeed {
 
-/// One writer and one reader, which may be an interrupt: no lock, and no read-modify-write, which a Cortex-M0 lacks.
-/// The storage is the caller's, outlives it, and holds one segment less than it has places.
+/// For one writer and one reader; either may be an interrupt. It needs no lock, and no read-modify-write instruction,
+/// which a Cortex-M0 does not have. The storage belongs to the caller and must outlive the ring. The ring holds one
+/// segment less than the storage has places.
 class SegmentRing {
 public:
     /// @pre storage.size() > 1
@@ -21,22 +23,22 @@ public:
         SPLINEFEED_ASSERT(storage.size() > 1);
     }
 
-    /// How many it holds at most.
+    /// Largest number of segments that it holds.
     [[nodiscard]] std::size_t capacity() const noexcept { return segment_.size() - 1; }
-    /// The writer's: how many more fit.
+    /// For the writer: how many more segments fit.
     [[nodiscard]] std::size_t room() const noexcept {
         const std::size_t tail = tail_.load(std::memory_order_acquire);
         const std::size_t head = head_.load(std::memory_order_relaxed);
         return capacity() - (head >= tail ? head - tail : head + segment_.size() - tail);
     }
-    /// The writer's. @pre room() > 0
+    /// For the writer. @pre room() > 0
     void push(const FeedSegment& segment) noexcept {
         SPLINEFEED_ASSERT(room() > 0);
         const std::size_t head = head_.load(std::memory_order_relaxed);
         segment_[head] = segment;
         head_.store(ring_index(head + 1, segment_.size()), std::memory_order_release);
     }
-    /// The reader's. False: it is empty, and `out` stays.
+    /// For the reader. false: the ring is empty, and `out` is unchanged.
     [[nodiscard]] bool pop(FeedSegment& out) noexcept {
         const std::size_t tail = tail_.load(std::memory_order_relaxed);
         if (tail == head_.load(std::memory_order_acquire)) {
@@ -46,16 +48,16 @@ public:
         tail_.store(ring_index(tail + 1, segment_.size()), std::memory_order_release);
         return true;
     }
-    /// The reader's: the next one, which stays. @pre not empty
+    /// For the reader: the next segment, without removing it. @pre not empty
     [[nodiscard]] const FeedSegment& front() const noexcept {
         SPLINEFEED_ASSERT(!empty());
         return segment_[tail_.load(std::memory_order_relaxed)];
     }
-    /// Either one's.
+    /// For both.
     [[nodiscard]] bool empty() const noexcept {
         return tail_.load(std::memory_order_acquire) == head_.load(std::memory_order_acquire);
     }
-    /// @pre neither of them is at it
+    /// @pre neither writer nor reader uses it now
     void clear() noexcept { tail_.store(head_.load()); }
 
 private:

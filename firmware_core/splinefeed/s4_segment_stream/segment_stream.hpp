@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// SegmentStream: turns the planned speed into feed segments of equal duration, cubics in time, in integers.
+// SegmentStream: turns the planned motion into feed segments of equal duration: cubics in time, in integers.
 //
-// The planned motion q(t) is sampled once per segment; the samples are the control points of a uniform cubic B-spline
-// in time. Its velocity, acceleration and jerk are convex combinations of differences of samples, and those are
-// averages of the planned derivatives: whatever limit holds for the plan holds at every instant of what is emitted. The
-// price is a path deviation of at most T^2 |A| / 6 (0.29 um for 1000 mm/s^2 on three axes at 1 ms). Derivation:
-// segment_stream.cpp.
+// The planned motion q(t) is sampled once per segment. The samples are the control points of a uniform cubic B-spline
+// in time. Its velocity, acceleration and jerk are convex combinations of differences of samples, and these differences
+// are averages of the planned derivatives. So a limit that the plan keeps is also kept at every instant of the emitted
+// motion. The price is a path deviation of at most T^2 |A| / 6 (0.29 um for 1000 mm/s^2 on three axes at 1 ms).
+// Derivation: segment_stream.cpp.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
@@ -14,7 +14,7 @@
 
 namespace splinefeed {
 
-/// Stage 4. Memory: constant. Cost of next(): a sample and an integer product an axis.
+/// Stage 4. Memory: constant. Cost of next(): one sample, and one integer product per axis.
 template <Scalar S>
 class SegmentStream {
 public:
@@ -22,15 +22,15 @@ public:
 
     /// Writes the next feed segment. `starved`: the plan has none yet; nothing was lost. `held`: the machine stands.
     Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept;
-    /// Writes a segment in which the machine stands where it is. false: it moves, or nothing is known of where it is,
-    /// since no motion has begun.
+    /// Writes a segment of standstill at the present position. false: the machine moves, or its position is not known
+    /// because no motion has begun.
     [[nodiscard]] bool stand(FeedSegment& out) noexcept;
 
-    /// It is known where the machine is.
+    /// Whether the position of the machine is known.
     [[nodiscard]] bool begun() const noexcept { return started_; }
-    /// The last segment ended at rest, or there was none.
+    /// Whether the last segment ended at standstill, or there was none.
     [[nodiscard]] bool at_rest() const noexcept { return sampler_->at_rest(); }
-    /// Of the last control point: where the machine stands once it is at rest.
+    /// Position of the last control point: where the machine stands, once it is at standstill.
     [[nodiscard]] const PerAxis<Position>& position() const noexcept { return sampler_->position(); }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SmoothSampler: samples of a planned motion that is averaged over a time: what keeps its acceleration keeps its jerk.
-// Derivation: smooth_sampler.cpp.
+// SmoothSampler: samples of a planned motion, averaged over a time. The planned motion keeps the acceleration limits;
+// its average also keeps the jerk limits. Derivation: smooth_sampler.cpp.
 #pragma once
 
 #include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
@@ -9,12 +9,12 @@
 
 namespace splinefeed {
 
-/// Memory: constant, beside the places of the mean. Cost of next(): one evaluation of the curve and one division, and
-/// one for each cell that the motion and its mean pass.
+/// Memory: constant, besides the places of the average. Cost of next(): one evaluation of the curve, one division, and
+/// one more division for each cell that the motion or its average passes.
 template <Scalar S>
 class SmoothSampler final : public Sampler<S> {
 public:
-    /// @param places  the caller's, at least places_for() the limits
+    /// @param places  owned by the caller, at least places_for(limits)
     SmoothSampler(SmoothPlan<S>& plan, std::span<PathPosition> places) noexcept : plan_(&plan), mean_(places) {}
 
     [[nodiscard]] static constexpr std::size_t places_for(const MotionLimits<S>& limits) noexcept {
@@ -42,12 +42,12 @@ private:
     SmoothPlan<S>* plan_;
     MovingAverage mean_;
     PathPosition place_{};      // of the motion
-    PathPosition tick_start_{}; // and at the start of the tick
-    S sum_{};                   // mean over the part of the tick that has passed, times that part, from tick_start_
-    S left_{};                  // part of the tick that is still to come
+    PathPosition tick_start_{}; // of the motion, at the start of the tick
+    S sum_{};                   // average over the elapsed part of the tick, times that part, relative to tick_start_
+    S left_{};                  // part of the tick that is not yet elapsed
     S elapsed_{};               // time since the start of the profile segment [ticks]
-    std::uint32_t rested_ = 0;  // ticks since the motion came to rest
-    std::uint32_t dwell_ = 0;   // until the mean has come to rest, and twice more
+    std::uint32_t rested_ = 0;  // ticks since the motion came to standstill
+    std::uint32_t dwell_ = 0;   // ticks until the average is at standstill, plus two
     bool rests_ = true;
     bool in_segment_ = false;
     bool in_tick_ = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// AnyPulseTrain: a pulse train whose engine is chosen when the machine is known. For hosts: firmware has one engine.
+// AnyPulseTrain: a pulse train whose engine is chosen at run time, from the machine. For hosts: firmware has one
+// engine.
 #pragma once
 
 #include "splinefeed/s5_pulse_train/pulse_train.hpp"
@@ -10,8 +11,8 @@ namespace splinefeed {
 
 using AnyPulseTrain = std::variant<PulseTrain<StepIntervals>, PulseTrain<FixedRate>>;
 
-/// Steps at the ticks of the timing's grid, where it has one; else each at its crossing.
-/// @pre as StepDirSequencer
+/// If the timing has a grid, steps are at its ticks; otherwise each step is at its crossing.
+/// @pre as for StepDirSequencer
 [[nodiscard]] inline AnyPulseTrain make_pulse_train(int axes, const StepTiming& timing) noexcept {
     const StepDirSequencer lines(axes, timing);
     if (timing.grid > 1) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// AxisCubic: the way of one axis over one feed segment, in integers.
+// AxisCubic: the motion of one axis over one feed segment, in integers.
 //
 //   p(u) = first u + second u^2 + third u^3,   u = time / duration, p in position units from the segment's start
 //
-// Horner's products are of 64 and 32 bits and drop what is below a unit: each is less than a unit too small, and so
-// at(u) is less than three units, 2^-30 count, and slope(u) less than two.
+// Horner's products are of 64 and 32 bits and drop the fraction of a unit: each is less than a unit too small. So at(u)
+// is too small by less than three units, 2^-30 count, and slope(u) by less than two.
 #pragma once
 
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -20,8 +20,8 @@ namespace splinefeed {
     return high + static_cast<std::int64_t>(low >> 32);
 }
 
-/// @pre the axis travels less than 2^48 units (87381 counts) in the segment, its velocities are below 2^50 units per
-/// duration: then no coefficient reaches 2^54
+/// @pre in the segment the axis travels less than 2^48 units (87381 counts), and its velocities are below 2^50 units
+/// per duration: no coefficient then reaches 2^54
 struct AxisCubic {
     std::int64_t first = 0;
     std::int64_t second = 0;
@@ -34,7 +34,7 @@ struct AxisCubic {
         return {v0, 3 * way - 2 * v0 - v1, v0 + v1 - 2 * way};
     }
 
-    /// Way at u / 2^32 [units].
+    /// Position at u / 2^32 [units].
     [[nodiscard]] constexpr std::int64_t at(std::uint32_t u) const noexcept {
         return times_q32(times_q32(times_q32(third, u) + second, u) + first, u);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FixedRate: the engine for a timer's interrupt at a fixed rate, on a virtual clock.
+// FixedRate: the step engine for a timer interrupt at a fixed rate, on a virtual clock.
 #pragma once
 
 #include "splinefeed/s5_pulse_train/dda_loader.hpp"
@@ -10,11 +10,11 @@
 
 namespace splinefeed {
 
-/// A StepEngine of DdaLoader and TickDda. Every step at the tick nearest to its crossing. A microcontroller uses the
-/// two without it: the parts in its main loop, the DDA in the interrupt.
+/// A StepEngine made of DdaLoader and TickDda. Every step is at the tick nearest to its crossing. A microcontroller
+/// uses the two classes directly: the loader in its main loop, the DDA in the interrupt.
 class FixedRate {
 public:
-    /// As DdaLoader and TickDda.
+    /// Parameters as for DdaLoader and TickDda.
     constexpr FixedRate(int axes, std::uint32_t tick_ticks) noexcept
         : parts_(axes, tick_ticks), tick_ticks_(tick_ticks) {}
 
@@ -26,7 +26,7 @@ public:
         started_ = true;
     }
 
-    /// A crossing in the last half tick of all motion is a step yet.
+    /// Adds the step of a crossing in the last half tick of all motion.
     void finish() noexcept {
         if (started_) {
             steps_ = dda_.finish(parts_.end_count());
@@ -60,7 +60,7 @@ private:
 
     DdaLoader parts_;
     TickDda<static_cast<unsigned>(max_axes)> dda_{};
-    StepBits steps_{};        // of the tick passed last, not delivered yet
+    StepBits steps_{};        // steps of the last tick that are not delivered yet
     std::int64_t passed_ = 0; // ticks; the first one is at the start of the motion
     std::uint32_t tick_ticks_;
     bool started_ = false;

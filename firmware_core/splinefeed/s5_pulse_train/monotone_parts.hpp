@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MonotoneParts: an axis's segment cut where its velocity passes zero.
+// MonotoneParts: divides an axis's segment where its velocity passes zero.
 #pragma once
 
 #include "splinefeed/s5_pulse_train/axis_cubic.hpp"
@@ -9,19 +9,19 @@
 
 namespace splinefeed {
 
-/// The motion up to some instant of the segment goes one way.
+/// Up to `end` the axis moves in one direction.
 struct MonotonePart {
-    std::uint32_t end = 0;  ///< instant [2^-32 of the duration]; the last part's is 2^32 - 1
-    std::int64_t units = 0; ///< way from the segment's start to there; the last part's is exact
+    std::uint32_t end = 0;  ///< instant [2^-32 of the duration]; 2^32 - 1 in the last part
+    std::int64_t units = 0; ///< distance from the segment's start to that instant; exact in the last part
     bool rising = true;
 };
 
-/// One to three parts, in order of time. Cost: three comparisons where the Bezier points of the velocity have one sign,
-/// which is nearly always; else about a hundred products.
+/// One to three parts, in order of time. Cost: usually three comparisons, if all Bezier points of the velocity have the
+/// same sign; otherwise about a hundred products.
 class MonotoneParts {
 public:
     constexpr MonotoneParts() noexcept = default;
-    /// @param way  of the axis in the whole segment [units]
+    /// @param way  distance of the axis in the whole segment [units]
     MonotoneParts(const AxisCubic& cubic, std::int64_t way) noexcept;
 
     [[nodiscard]] unsigned size() const noexcept { return size_; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PulseTrain: feed segments to edges of step and direction lines, by either engine. Integers only; no allocation.
+// PulseTrain: turns feed segments into edges of step and direction lines, with either engine. It uses integers only and
+// does not allocate.
 #pragma once
 
 #include "splinefeed/s5_pulse_train/fixed_rate.hpp"
@@ -10,17 +11,17 @@
 
 namespace splinefeed {
 
-/// Use: train.take(segment); while (train.next(edge)) {...}; at the end of all motion train.finish() and the same
-/// again. An edge is delivered once no later step can come before it: what is known must reach beyond it by the set-up
-/// time, and beyond a step by turn_gap() or to the next step of its axis.
+/// Use: train.take(segment); while (train.next(edge)) {...}; at the end of all motion train.finish(), and the loop once
+/// more. An edge is delivered as soon as no later step can come before it: the motion must be known beyond it by the
+/// set-up time, and beyond a step also by turn_gap(), or up to the next step of its axis.
 template <StepEngine Engine>
 class PulseTrain {
 public:
-    /// @pre as Engine and StepDirSequencer
+    /// @pre as for Engine and StepDirSequencer
     constexpr PulseTrain(const Engine& engine, const StepDirSequencer& lines) noexcept
         : engine_(engine), lines_(lines) {}
 
-    /// @pre next() has said false
+    /// @pre next() has returned false
     void take(const FeedSegment& segment) noexcept {
         engine_.take(segment);
         known_ = engine_.now();
@@ -30,7 +31,7 @@ public:
         finished_ = true;
     }
 
-    /// The next edge, in order of time. False: a segment is needed, or after finish() nothing is left.
+    /// The next edge, in order of time. false: a segment is needed, or after finish() there are no more edges.
     bool next(Edge& out) noexcept {
         for (;;) {
             if (lines_.next(out, known_)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Step: an axis goes one count on, at an instant; StepEngine: what makes steps of feed segments.
+// Step: an axis moves by one count, at an instant. StepEngine: what turns feed segments into steps.
 #pragma once
 
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -9,15 +9,15 @@
 
 namespace splinefeed {
 
-/// One count of one axis. Ticks are those of feed segments, 1/8 us, from the start of the first one.
+/// A step of one axis by one count. Ticks are those of feed segments, 1/8 us, counted from the start of the first one.
 struct Step {
     std::int64_t tick = 0;
     std::uint8_t axis = 0;
-    bool up = false; ///< to the next larger count
+    bool up = false; ///< true: to the next larger count
 };
 
-/// Use: while (engine.next(step)) {...}; then take the next segment, or finish(), which is followed by the last steps.
-/// Steps come in order of time. now(): what next() delivers from here on is not earlier.
+/// Use: while (engine.next(step)) {...}; then take the next segment, or call finish(), which may give the last steps.
+/// Steps come in order of time. now(): no later call of next() delivers an earlier step.
 template <class E>
 concept StepEngine = requires(E& engine, const E& constant, const FeedSegment& segment, Step& step) {
     { engine.take(segment) }
@@ -30,7 +30,7 @@ concept StepEngine = requires(E& engine, const E& constant, const FeedSegment& s
     noexcept->std::same_as<std::int64_t>;
 };
 
-/// The count that an axis stands at: nearest to its position [units], ties upwards.
+/// The count of an axis at a position: the nearest one [units], ties upwards.
 [[nodiscard]] constexpr std::int64_t nearest_step(std::int64_t units) noexcept {
     constexpr std::int64_t half = units_per_count / 2;
     const std::int64_t count = units / units_per_count;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StepDirSequencer: steps to edges of step and direction lines, in order of time.
+// StepDirSequencer: turns steps into edges of step and direction lines, in order of time.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -12,21 +12,21 @@
 
 namespace splinefeed {
 
-/// No step is ever moved. Of a step and one back closer than turn_gap() neither is made. Memory: constant, 32 steps an
-/// axis. Cost of next(): a look at each axis.
+/// It never moves a step. If a step and the step back are closer than turn_gap(), it makes neither. Memory: constant,
+/// 32 steps per axis. Cost of next(): a look at each axis.
 class StepDirSequencer {
 public:
-    /// @pre 1 <= axes <= max_axes; timing.allows() what the axes do
+    /// @pre 1 <= axes <= max_axes; timing.allows() the motion of the axes
     constexpr StepDirSequencer(int axes, const StepTiming& timing) noexcept
         : timing_(timing), axes_(static_cast<unsigned>(axes)) {}
 
-    /// @pre not earlier than any step before; next() has said false since the step before
+    /// @pre the step is not earlier than any step before; next() has returned false since the last push()
     void push(const Step& step) noexcept;
-    /// The next edge that no later step can precede. False: more steps must be known first.
-    /// @param known  no step before this instant is still to come; std::int64_t's largest: none is
+    /// Writes the next edge that no later step can precede. false: more steps must be known first.
+    /// @param known  no step before this instant will come; the largest std::int64_t: no step will come at all
     bool next(Edge& out, std::int64_t known) noexcept;
 
-    /// Steps that were left out, two at each reversal that barely touched a crossing.
+    /// Number of steps that were left out: two at each reversal that barely touched a crossing.
     [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }
 
 private:
@@ -36,14 +36,14 @@ private:
         std::int64_t tick = 0;
         bool up = false;
     };
-    /// One axis: its lines as they are, and the steps that are still to be made.
+    /// One axis: the state of its lines, and the steps that are still to be made.
     struct Lane {
         std::array<Waiting, capacity> step{};
         unsigned head = 0;
         unsigned size = 0;
-        std::int64_t fall = 0; // of the pulse that is on
+        std::int64_t fall = 0; // end of the pulse that is on
         bool on = false;
-        bool level = false; // with step_on_edge
+        bool level = false; // used with step_on_edge
         bool up = false;
     };
 

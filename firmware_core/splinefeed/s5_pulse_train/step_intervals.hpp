@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StepIntervals: the engine for timers that count to an instant. Each axis's next step is solved ahead.
+// StepIntervals: the step engine for timers that fire at a given instant. The next step of each axis is computed ahead.
 #pragma once
 
 #include "splinefeed/base/assertion.hpp"
@@ -8,14 +8,15 @@
 
 namespace splinefeed {
 
-/// A StepEngine. Every step within a tick of its crossing (AxisCrossings). No drift: instants are counted from the
-/// start of a segment, which is a sum of integers. Cost of next(): a comparison an axis, and one step solved.
+/// A StepEngine. Every step is within a tick of its crossing (AxisCrossings). It does not drift: instants are counted
+/// from the start of a segment, which is a sum of integers. Cost of next(): one comparison per axis, and one step to
+/// solve.
 class StepIntervals {
 public:
     /// @param axes  1 to max_axes
     constexpr explicit StepIntervals(int axes) noexcept : axes_(static_cast<unsigned>(axes)) {}
 
-    /// @pre next() has said false; AxisCrossings::begin's
+    /// @pre next() has returned false; as for AxisCrossings::begin
     void take(const FeedSegment& segment) noexcept {
         SPLINEFEED_ASSERT(segment.duration_ticks > 0);
         start_ += duration_;
@@ -29,7 +30,7 @@ public:
         started_ = true;
     }
 
-    /// Nothing is left: a segment's steps end with it.
+    /// There are no further steps: the steps of a segment end with it.
     void finish() noexcept {}
 
     bool next(Step& out) noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StepTiming: what the drives ask of their step and direction lines, checked once.
+// StepTiming: the timing that drives need on their step and direction lines, checked once.
 #pragma once
 
 #include "splinefeed/base/status.hpp"
@@ -8,64 +8,65 @@
 
 namespace splinefeed {
 
-/// What one axis does at most, for StepTiming::allows.
+/// The largest rate and acceleration of one axis, for StepTiming::allows.
 struct StepDemand {
     double steps_per_s = 0.0;
     double steps_per_s2 = 0.0; ///< acceleration or braking, whichever is larger
 };
 
-/// As a machine file states it [us].
+/// The settings as a machine file states them [us].
 struct StepSettings {
-    double tick_us = 0.0;            ///< of the fixed-rate engine; 0: the engine is StepIntervals
-    double step_length_us = 2.0;     ///< a pulse is at least as long
-    double step_space_us = 2.0;      ///< and so is the time between two
-    double direction_setup_us = 5.0; ///< from a change of direction to the step that needs it
+    double tick_us = 0.0;            ///< tick of the fixed-rate engine; 0: the engine is StepIntervals
+    double step_length_us = 2.0;     ///< least duration of a pulse
+    double step_space_us = 2.0;      ///< least time between two pulses
+    double direction_setup_us = 5.0; ///< least time from a change of direction to the step that needs it
     double direction_hold_us =
-        5.0; ///< from the end of a pulse, or with step_on_edge from its edge, to a change of direction
+        5.0; ///< least time from the end of a pulse (step_on_edge: from its edge) to a change of direction
     bool step_on_edge =
         false; ///< each edge of the line is a step; each level lasts for the longer of step_length_us and step_space_us
 };
 
-/// In ticks of 1/8 us, rounded up; with the fixed-rate engine to multiples of its tick, since all edges come with one.
+/// In ticks of 1/8 us, rounded up. With the fixed-rate engine rounded up to multiples of its tick, because all edges
+/// are at ticks.
 struct StepTiming {
-    std::uint32_t grid = 1; ///< instants are multiples of it
+    std::uint32_t grid = 1; ///< all instants are multiples of it
     std::uint32_t high = 0;
     std::uint32_t low = 0;
     std::uint32_t setup = 0;
     std::uint32_t hold = 0;
     bool step_on_edge = false;
 
-    /// Checks the ranges: times 0.125 to 1000 us (set-up and hold may be 0), tick_us a multiple of 0.25 from 0.25 to
-    /// 1000.
+    /// Checks the ranges: times are 0.125 to 1000 us (set-up and hold may be 0), tick_us is 0.25 to 1000 and a multiple
+    /// of 0.25.
     [[nodiscard]] static constexpr Result<StepTiming> make(const StepSettings& settings) noexcept;
 
-    /// Least time between two steps of one direction.
+    /// Least time between two steps in one direction.
     [[nodiscard]] constexpr std::uint32_t step_gap() const noexcept {
         if (!step_on_edge) {
             return high + low;
         }
         const std::uint32_t level = high > low ? high : low;
-        return grid > 1 && level < 2 * grid ? 2 * grid : level; // the DDA: at most half a count a tick
+        return grid > 1 && level < 2 * grid ? 2 * grid : level; // the DDA makes at most half a count per tick
     }
-    /// Least time from a step to one back.
+    /// Least time between a step and a step back.
     [[nodiscard]] constexpr std::uint32_t turn_gap() const noexcept {
         const std::uint32_t turn = (step_on_edge ? 0U : high) + hold + setup;
         return turn > step_gap() ? turn : step_gap();
     }
-    /// The highest rate of steps that keeps step_gap() [1/s]: an instant may be a tick of 1/8 us off, on a grid it is
-    /// the nearest.
+    /// The highest step rate that keeps step_gap() [1/s]. An instant may be wrong by a tick of 1/8 us; on a grid it is
+    /// the nearest instant of the grid.
     [[nodiscard]] constexpr double most_steps_per_s() const noexcept {
         return 8e6 / (step_gap() + (grid > 1 ? 1.0 : 2.0));
     }
-    /// How far beyond half a step an axis may be when a reversal's two steps, closer than turn_gap(), are left out:
-    /// out and back in that time [steps].
+    /// How far an axis may be beyond half a step when the two steps of a reversal, closer than turn_gap(), are left
+    /// out: the way out and back in that time [steps].
     [[nodiscard]] constexpr double most_left_out(double steps_per_s2) const noexcept {
         const double seconds = (turn_gap() + 2.0 * grid) / 8e6;
         return steps_per_s2 * seconds * seconds / 8.0;
     }
 
-    /// Whether a plan can be stepped without moving any step: the rate, and at most 1/64 of a step that a reversal
-    /// leaves out, and direction times of at most 24 steps (what StepDirSequencer holds).
+    /// Whether a plan can be stepped without moving any step: the rate must be kept, a reversal may leave out at most
+    /// 1/64 of a step, and the direction times may last at most 24 steps (the capacity of StepDirSequencer).
     [[nodiscard]] constexpr Status allows(const StepDemand& demand) const noexcept {
         if (!(demand.steps_per_s <= most_steps_per_s())) {
             return Error::step_rate_too_high;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TickDda: what the timer's interrupt does: three additions an axis and tick.
+// TickDda: the work of the timer interrupt: three additions per axis and tick.
 //
 //   position += first,   first += second,   second += third
 //
@@ -15,7 +15,7 @@
 
 namespace splinefeed {
 
-/// The steps of a tick: of axis k bit 2k, if there is one, and bit 2k + 1, if it goes down.
+/// The steps of one tick: bit 2k is set if axis k steps, bit 2k + 1 if it steps down.
 struct StepBits {
     std::uint32_t bits = 0;
 
@@ -23,22 +23,22 @@ struct StepBits {
     [[nodiscard]] constexpr bool up(unsigned axis) const noexcept { return ((bits >> (2 * axis)) & 3U) == 1; }
 };
 
-/// Needs a part that is ready when left() is zero; it is made elsewhere, meanwhile (DdaLoader). No branch depends on
-/// the motion. Cost: docs/explanation/pulse_train.md.
-/// @tparam Axes  those that are computed
+/// Needs a new part when left() is zero; DdaLoader makes it meanwhile, outside the interrupt. No branch depends on the
+/// motion. Cost: docs/explanation/pulse_train.md.
+/// @tparam Axes  number of axes that are computed
 template <unsigned Axes>
 class TickDda {
 public:
     static_assert(Axes >= 1 && Axes <= static_cast<unsigned>(max_axes));
 
-    /// Where the machine stands before the first part.
+    /// Sets the position before the first part.
     constexpr void stand(const PerAxis<std::int32_t>& count) noexcept {
         for (unsigned k = 0; k < Axes; ++k) {
             table_[k].position = top(count[k]);
         }
     }
 
-    /// Ticks that the part still has.
+    /// Ticks that are left in the part.
     [[nodiscard]] std::uint32_t left() const noexcept { return left_; }
 
     /// The first tick of a part. @pre left() == 0
@@ -53,14 +53,14 @@ public:
         return steps;
     }
 
-    /// Any other tick. @pre left() > 0
+    /// Every other tick. @pre left() > 0
     StepBits tick() noexcept {
         SPLINEFEED_ASSERT(left_ > 0);
         --left_;
         return all(std::make_integer_sequence<unsigned, Axes>{});
     }
 
-    /// The step that is left to whole counts, at the end of all motion. @pre each is at most one away
+    /// At the end of all motion: the steps that are missing to whole counts. @pre each axis is at most one count away
     StepBits finish(const PerAxis<std::int32_t>& count) noexcept {
         StepBits steps;
         for (unsigned k = 0; k < Axes; ++k) {
@@ -90,7 +90,7 @@ private:
         table.second = second + table.third;
         return difference(position + first, position);
     }
-    // Written out, for compilers that do not unroll loops where they optimise for size.
+    // Written out, for compilers that do not unroll loops when they optimise for size.
     template <unsigned... K>
     [[nodiscard]] constexpr StepBits all(std::integer_sequence<unsigned, K...> /*axes*/) noexcept {
         StepBits steps;

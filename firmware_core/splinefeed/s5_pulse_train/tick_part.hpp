@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TickPart: up to 1024 ticks of a feed segment, for an interrupt that only adds.
+// TickPart: up to 1024 ticks of a feed segment, in the form that an interrupt can travel by additions alone.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -8,13 +8,13 @@
 
 namespace splinefeed {
 
-/// A cubic at successive ticks, in 2^-62 count and modulo 4 counts: the two highest bits of `position`, which half a
-/// count is added to, are those of the count that the axis stands at.
+/// The difference table of a cubic at successive ticks, in 2^-62 count and modulo 4 counts. Half a count is added to
+/// `position`: its two highest bits then belong to the count at which the axis stands.
 struct DifferenceTable {
     static constexpr int count_shift = 62;
 
     std::uint64_t position = 0; ///< at the part's first tick
-    std::uint64_t first = 0;    ///< from there to the next one
+    std::uint64_t first = 0;    ///< difference from there to the next tick
     std::uint64_t second = 0;
     std::uint64_t third = 0;
 };

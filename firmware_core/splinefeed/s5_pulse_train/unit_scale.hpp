@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// UnitScale: a factor with 64 good bits, whatever its size.
+// UnitScale: a factor with 64 significant bits, whatever its size.
 #pragma once
 
 #include "splinefeed/number/wide.hpp"
@@ -9,12 +9,12 @@
 
 namespace splinefeed {
 
-/// mantissa * 2^-shift, the mantissa's highest bit set; 0 < shift < 128.
+/// The number mantissa * 2^-shift; the highest bit of the mantissa is set; 0 < shift < 128.
 struct UnitScale {
     std::uint64_t mantissa = std::uint64_t{1} << 63;
     int shift = 63;
 
-    /// numerator / denominator, within 2^-62 of itself. @pre both are from 1 to 2^32 - 1
+    /// numerator / denominator, with a relative error below 2^-62. @pre both are from 1 to 2^32 - 1
     [[nodiscard]] static constexpr UnitScale ratio(std::uint32_t numerator, std::uint32_t denominator) noexcept {
         const int zeros_n = std::countl_zero(numerator);
         const int zeros_d = std::countl_zero(denominator);
@@ -28,13 +28,13 @@ struct UnitScale {
         return {mantissa << up, shift + up};
     }
 
-    /// Within 2^-62 of the product of both.
+    /// The product of both, with a relative error below 2^-62.
     [[nodiscard]] constexpr UnitScale times(UnitScale other) const noexcept {
         return UnitScale{multiply(mantissa, other.mantissa).high, shift + other.shift - 64}.normalised();
     }
 };
 
-/// Nearest to a * scale; modulo 2^64 where that is beyond 64 bits.
+/// The nearest integer to a * scale, modulo 2^64 if it does not fit in 64 bits.
 [[nodiscard]] constexpr std::int64_t scaled_by(std::int64_t a, UnitScale scale) noexcept {
     const std::uint64_t size = a < 0 ? 0U - static_cast<std::uint64_t>(a) : static_cast<std::uint64_t>(a);
     const Wide half = shift_left(Wide{0, 1}, scale.shift - 1);
@@ -42,7 +42,7 @@ struct UnitScale {
     return static_cast<std::int64_t>(a < 0 ? 0U - value : value);
 }
 
-/// Nearest to a * fraction / 2^64.
+/// The nearest integer to a * fraction / 2^64.
 [[nodiscard]] constexpr std::int64_t times_q64(std::int64_t a, std::uint64_t fraction) noexcept {
     const std::uint64_t size = a < 0 ? 0U - static_cast<std::uint64_t>(a) : static_cast<std::uint64_t>(a);
     const Wide product = multiply(size, fraction);

@@ -56,8 +56,9 @@ public:
         : nodes_(nodes), start_(start), known_(known) {}
 
     /// Leaves the motion in JerkNode::state. It plans one motion in the direction of travel and one against it, and
-    /// takes their mean. It does this a second time with the first result as expected speeds, and keeps the faster of
-    /// the two results. false: no motion from the start exists with the expected speeds; only expected_sq was changed.
+    /// takes a weighted mean. It does this a second time with the first result as expected speeds, and keeps the faster
+    /// of the two results. false: no motion from the start exists with the expected speeds; only expected_sq was
+    /// changed.
     bool plan() noexcept;
     /// Approximate duration of the motion in JerkNode::state; the state of the first node is that of the start.
     [[nodiscard]] double seconds() const noexcept;
