@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// BandedSystem: linear equations whose row i concerns the unknowns near i only, factored once and solved for many
+// BandedSystem: linear equations in which row i contains only unknowns near i. Factored once and solved for many
 // right-hand sides.
 //
-// Row and column i are numbered 0 ... size-1. In a cyclic system the unknowns near the last are those near the first;
-// it is folded (0, size-1, 1, size-2, ...), which makes a plain band of twice the width of it.
+// Rows and columns are numbered 0 ... size-1. In a cyclic system the unknowns near the last one are next to those near
+// the first one. It is folded (order 0, size-1, 1, size-2, ...) into a plain band of twice the width.
 #pragma once
 
 #include "splinefeed/splines/bezier_piece.hpp"
@@ -17,11 +17,11 @@ namespace splinefeed {
 
 /// How a system is eliminated.
 enum class Elimination : std::uint8_t {
-    in_order, ///< no row interchanges: for totally positive systems, where that is stable (de Boor & Pinkus 1977)
+    in_order, ///< no row interchanges: for totally positive systems, for which this is stable (de Boor & Pinkus 1977)
     pivoting, ///< partial pivoting, for all others
 };
 
-/// Shape of a system: entry (i, j) may differ from zero where |i - j| <= width, in a cyclic one modulo size.
+/// Shape of a system: entry (i, j) may be nonzero if |i - j| <= width; in a cyclic system modulo size.
 struct BandShape {
     std::size_t size = 0;
     std::size_t width = 0;
@@ -33,11 +33,11 @@ struct BandShape {
         const std::size_t folded = cyclic ? 2U * width : width;
         return folded < size ? folded : size - 1U;
     }
-    /// Entries stored of a row: interchanges fill in `band` more to the right.
+    /// Stored entries per row: interchanges add up to `band` entries on the right.
     [[nodiscard]] constexpr std::size_t row_entries() const noexcept {
         return (elimination == Elimination::pivoting ? 3U : 2U) * band() + 1U;
     }
-    /// Scalars of storage.
+    /// Number of scalars of storage.
     [[nodiscard]] constexpr std::size_t entries() const noexcept { return size * row_entries(); }
     /// Bytes for the row interchanges.
     [[nodiscard]] constexpr std::size_t interchanges() const noexcept {
@@ -45,26 +45,26 @@ struct BandShape {
     }
 };
 
-/// The system. Entries are weights (weight.hpp), rows scaled so that their entries sum to about 1 in magnitude.
-/// Cost: factor size * width^2 (in_order) to 8 size * width^2 (cyclic), solve size * width per axis.
+/// The system. Entries are weights (weight.hpp); rows are scaled so that the magnitudes of their entries sum to about
+/// 1. Cost: factor size * width^2 (in_order) to 8 size * width^2 (cyclic), solve size * width per axis.
 template <Scalar S>
 class BandedSystem {
 public:
     BandedSystem() noexcept = default;
-    /// All entries zero. The storage must outlive the system. width <= 127.
-    /// @pre storage as the shape says, size >= 1
+    /// Sets all entries to zero. The storage must outlive the system. width <= 127.
+    /// @pre storage sizes as given by the shape, size >= 1
     BandedSystem(const BandShape& shape, std::span<S> entries, std::span<std::uint8_t> interchanges) noexcept;
 
-    /// Adds to entry (row, column). @pre within the shape, not factored
+    /// Adds to entry (row, column). @pre inside the shape, not factored
     void add(std::size_t row, std::size_t column, S weight) noexcept;
 
-    /// Eliminates. Errors: system_singular: a pivot is below 2^-44 (double), 2^-18 (float), 2^-32 (Fixed; there also if
-    /// a multiplier would exceed 2^15), below which rounding cannot be told from zero.
+    /// Eliminates. Error: system_singular if a pivot is so small that rounding cannot be told from zero: below 2^-44
+    /// (double), 2^-18 (float), 2^-32 (Fixed; in Fixed also if a multiplier would exceed 2^15).
     Status factor() noexcept;
 
-    /// Solves in place: right-hand side i, then unknown i, is values[first + i * stride].
-    /// Errors: result_out_of_range (not finite; in Fixed beyond 2^28, also for an intermediate result).
-    /// @pre factored
+    /// Solves in place. values[first + i * stride] is the right-hand side i before, and the unknown i after. Error:
+    /// result_out_of_range (not finite; in Fixed beyond 2^28, also for an intermediate result).
+    /// @pre factor() succeeded
     Status solve(std::span<Point<S>> values, int axes, std::size_t first = 0, std::size_t stride = 1) const noexcept;
 
     [[nodiscard]] const BandShape& shape() const noexcept { return shape_; }
@@ -80,7 +80,7 @@ private:
     BandShape shape_{};
     std::size_t band_ = 0;
     std::size_t row_entries_ = 0;
-    std::size_t reach_ = 0; ///< columns right of the diagonal that a row of the factors has
+    std::size_t reach_ = 0; ///< columns to the right of the diagonal in a row of the factors
     std::span<S> entries_{};
     std::span<std::uint8_t> interchanges_{};
 };

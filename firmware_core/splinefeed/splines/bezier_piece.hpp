@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// BezierPiece: what the whole-curve methods make: one polynomial piece, in the unit of the points it was made of.
+// BezierPiece: the output of the whole-curve methods: one polynomial piece, in the unit of the input points.
 //
-// These methods see all points at once and compute in plain scalars, in a unit that the caller chooses: mm in double
-// and float; in Fixed a power of two of mm that gives the largest coordinate its digits. Storage is the caller's.
-// Those that stream from waypoints are in s1_curve and share the arithmetic of a segment with the functions here.
+// These methods need all points at once and compute in plain scalars, in a unit that the caller chooses: mm in double
+// and float; in Fixed a power of two of mm that makes good use of the digits for the largest coordinate. The caller
+// owns the storage. The streaming methods are in s1_curve and share the arithmetic of a segment with the functions
+// here.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows of g2_bezier's equations (derived in g2_bezier.cpp) from its points, one at a time.
+// The rows of g2_bezier's equations (derived in g2_bezier.cpp), computed from its points one at a time.
 #pragma once
 
 #include "splinefeed/splines/g2_bezier.hpp"
@@ -15,17 +15,17 @@ template <Scalar S>
 struct Row {
     S beta1 = from_integer<S>(1);
     S r = from_integer<S>(1); ///< 1 / beta1
-    S before{};               ///< omega': weight of what is before the joint
+    S before{};               ///< omega': weight of the side before the joint
     S after{};                ///< omega
     S diagonal = from_integer<S>(2);
 };
 
-/// As many numbers as there are axes, where the compiler knows how many: it then keeps them in registers.
+/// As many numbers as there are axes, if the compiler knows how many: it then keeps them in registers.
 template <Scalar S, int fixed_axes>
 using Numbers = std::array<S, static_cast<std::size_t>(fixed_axes > 0 ? fixed_axes : max_axes)>;
 
-/// f(0), f(1), ... for every axis. Written out for three: g++ unrolls loops too late to keep arrays in registers, which
-/// doubled the time a point.
+/// Calls f(0), f(1), ... for every axis. Written out for three axes: g++ unrolls loops too late to keep arrays in
+/// registers, which doubled the time per point.
 template <int fixed_axes, class Function>
 void each_axis(std::size_t axes, const Function& f) noexcept {
     if constexpr (fixed_axes == 3) {
@@ -39,7 +39,7 @@ void each_axis(std::size_t axes, const Function& f) noexcept {
     }
 }
 
-/// A chord: its components, its length, and 1 / length where division is dear and exact enough (not in Fixed).
+/// A chord: its components, its length, and 1 / length if division is slow and the inverse exact enough (not in Fixed).
 template <Scalar S, int fixed_axes>
 struct ChordOf {
     Numbers<S, fixed_axes> e{};
@@ -47,7 +47,7 @@ struct ChordOf {
     S inverse{};
 };
 
-/// The equations of one input, row by row. `fixed_axes`: the number of axes where it is known to the compiler, else 0;
+/// The equations of one input, row by row. `fixed_axes`: the number of axes if the compiler knows it, otherwise 0;
 /// `plain`: chord ratios without tension at all joints.
 template <Scalar S, int fixed_axes, bool plain>
 class Equations {
@@ -74,7 +74,7 @@ public:
         }
         if constexpr (std::same_as<S, Fixed>) {
             out.length = norm(out.e.data(), static_cast<int>(axes()));
-        } else { // norm, without taking the address of what is in registers
+        } else { // norm, without taking the address of values in registers
             each_axis<fixed_axes>(axes(), [&out](std::size_t k) { out.length += out.e[k] * out.e[k]; });
         }
         if (!(out.length > S{} && out.length <= largest<S>())) {
@@ -116,12 +116,13 @@ public:
         return out;
     }
 
-    /// 3 (omega' e_{i-1} + omega r e_i), axis k. |e r| is refused before it overflows.
+    /// 3 (omega' e_{i-1} + omega r e_i), axis k. Sets an error before |e r| overflows.
     [[nodiscard]] S right_side(const Row<S>& row, const Chord& a, const Chord& b, std::size_t k) noexcept {
         return from_integer<S>(3) * (row.before * a.e[k] + row.after * product(row.r, b.e[k]));
     }
 
-    /// a b; in Fixed refused before it overflows. Floating-point numbers become infinite, and the result shows it.
+    /// a b; in Fixed it sets an error before an overflow. Floating-point numbers become infinite, and the result shows
+    /// it.
     [[nodiscard]] S product(S a, S b) noexcept {
         if constexpr (std::same_as<S, Fixed>) {
             if (!product_fits(scale2(absolute(a), 2), absolute(b))) { // two bits more for the sums

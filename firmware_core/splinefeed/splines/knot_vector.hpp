@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Knot vectors of B-splines of degree k, numbered from 0: basis function i has the support knots[i] to knots[i+k+1].
 //
-// Open curves are clamped: the end knots repeat k + 1 times (Sakude's "k multiple knots" is a misprint, the example
-// there has 4 for degree 3). Closed curves of N points have N + 2k + 1 knots, continued periodically; the domain is
+// Open curves are clamped: the end knots repeat k + 1 times (Sakude's "k multiple knots" is a misprint; the example
+// there has 4 for degree 3). Closed curves of N points have N + 2k + 1 knots, continued periodically. Their domain is
 // knots[k] to knots[k+N], and control points repeat modulo N (the closed example there must end in 8, not 9).
 #pragma once
 
@@ -15,13 +15,13 @@
 
 namespace splinefeed {
 
-/// Where the inner knots of an interpolating spline are put, from the parameters t_0 ... t_n of the points.
+/// How the inner knots of an interpolating spline follow from the parameters t_0 ... t_n of the points.
 enum class KnotRule : std::uint8_t {
-    uniform,          ///< evenly
+    uniform,          ///< at equal distances
     average,          ///< mean of k CONSECUTIVE parameters: (t_j + ... + t_{j+k-1}) / k, j = 1 ... n-k
     average_tangents, ///< the same with two end derivatives: j = 0 ... n-k+1
-    params,           ///< at the points
-    midpoints,        ///< half way between the points; closed curves
+    params,           ///< at the parameters of the points
+    midpoints,        ///< half way between these parameters; for closed curves
 };
 
 /// Number of control points of an open interpolating curve.
@@ -37,35 +37,35 @@ enum class KnotRule : std::uint8_t {
     return points + 2U * static_cast<std::size_t>(degree) + 1U;
 }
 
-/// Clamped knots for open curves through points at `parameters` (first 0, last the domain length), into the first
-/// open_knot_count(open_control_count(...), degree) of `knots`. Source: Sakude, section 2; the mean is of k consecutive
-/// parameters, not of "the k nearest" as printed there, which can make the system singular.
-/// Errors: degree_out_of_range, too_few_points (fewer than degree + 1 control points), storage_too_small,
-/// parameters_invalid, knot_rule_unsuited. Cost: k additions a knot.
+/// Writes clamped knots for an open curve through points at `parameters` (first 0, last the domain length) into the
+/// first open_knot_count(open_control_count(...), degree) entries of `knots`. Source: Sakude, section 2. The mean is of
+/// k consecutive parameters, not of "the k nearest" as printed there, which can make the system singular. Errors:
+/// degree_out_of_range, too_few_points (fewer than degree + 1 control points), storage_too_small, parameters_invalid,
+/// knot_rule_unsuited. Cost: k additions per knot.
 template <Scalar S>
 Status open_knots(KnotRule rule, std::span<const S> parameters, int degree, bool end_derivatives,
                   std::span<S> knots) noexcept;
 
-/// Periodic knots for closed curves through points at `parameters` (first 0, all below the period), into the first
-/// closed_knot_count of `knots`: uniform period * j / N, average (t_j + ... + t_{j+k-1}) / k, params t_j, midpoints
-/// (t_j + t_{j+1}) / 2; taken modulo the period, in order, knots[k] being the smallest.
-/// Errors: as open_knots; average_tangents is knot_rule_unsuited; fewer than 3 points is too_few_points.
+/// Writes periodic knots for a closed curve through points at `parameters` (first 0, all below the period) into the
+/// first closed_knot_count entries of `knots`: uniform period * j / N, average (t_j + ... + t_{j+k-1}) / k, params t_j,
+/// midpoints (t_j + t_{j+1}) / 2; modulo the period, in order, with knots[k] the smallest. Errors: as for open_knots;
+/// average_tangents gives knot_rule_unsuited; fewer than 3 points give too_few_points.
 template <Scalar S>
 Status closed_knots(KnotRule rule, std::span<const S> parameters, int degree, S period, std::span<S> knots) noexcept;
 
-/// Whether knots are those of a B-spline: finite, not decreasing, none more than degree + 1 times, at least 2 degree +
-/// 2 of them, and a domain of length > 0. Errors: degree_out_of_range, knots_invalid.
+/// Checks that these are knots of a B-spline: finite, not decreasing, none more than degree + 1 times, at least 2
+/// degree + 2 of them, and a domain of length > 0. Errors: degree_out_of_range, knots_invalid.
 template <Scalar S>
 Status check_knots(std::span<const S> knots, int degree) noexcept;
 
-/// Up to this far apart a knot of a closed curve and a parameter, or the same knot one turn later, are one: what
-/// rounding makes of multiples and sums.
+/// A knot of a closed curve and a parameter, or a knot and the same knot one period later, count as equal up to this
+/// distance: the rounding of multiples and sums.
 template <Scalar S>
 [[nodiscard]] S closed_knot_tolerance(S period) noexcept {
     return scale2(period, std::same_as<S, double> ? -46 : std::same_as<S, float> ? -18 : -40);
 }
 
-/// Whether knots (closed_knot_count of them) continue periodically. Errors: as check_knots.
+/// Checks that the knots (closed_knot_count of them) continue periodically. Errors: as for check_knots.
 template <Scalar S>
 Status check_closed_knots(std::span<const S> knots, int degree) noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameterization: how the curve parameter is spaced between the points that a curve goes through.
+// Parameterization: how the curve parameter is spaced between the points of a curve.
 #pragma once
 
 #include <cstdint>

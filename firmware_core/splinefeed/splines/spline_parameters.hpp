@@ -9,8 +9,8 @@
 
 namespace splinefeed {
 
-/// Parameters of points. Open: parameters[0] = 0 and the last one is domain_length. Closed: parameters[0] = 0 and the
-/// chord that closes the curve leads to the period domain_length, which is not written; the first point must not be
+/// Parameters of points. Open: parameters[0] = 0 and the last one is domain_length. Closed: parameters[0] = 0; the
+/// chord that closes the curve ends at the period domain_length, which is not written; the first point must not be
 /// repeated as the last one. Source: Sakude, section 2 ("comprimento da poligonal"); centripetal is an extension.
 ///
 /// In Fixed a domain of 2^10 to 2^26 keeps the digits of the differences (2^16 is a good choice); the error of a
