@@ -87,16 +87,16 @@ def panel(tool, csv, title, options, left, top):
 # method, what is proved of a joint, benchmark of its cost, when to use it
 METHODS = [
     ("g2", "", "G2", "C2 in the knot parameter", "g2", "the default: smooth motion through points, endless input"),
-    ("g2-bezier", "--beta2 8", "G2", "G2", "g2_bezier", "through points, with a tension that pulls it to the chords"),
-    ("catmull-rom", "", "G1", "C1 in the knot parameter", "catmull_rom", "local: a point moves four segments; curvature jumps"),
-    ("catmull-rom", "--smooth", "G2", "G2", "catmull_rom_smooth", "local and G2: six segments, degree 5"),
+    ("g2-bezier", "--beta2 8", "G2", "G2", "g2_bezier", "through points, with a tension that pulls the curve towards the chords"),
+    ("catmull-rom", "", "G1", "C1 in the knot parameter", "catmull_rom", "local: a point changes only four segments; the curvature jumps at points"),
+    ("catmull-rom", "--smooth", "G2", "G2", "catmull_rom_smooth", "local and G2: a point changes six segments, degree 5"),
     ("catmull-rom-modified", "", "G1", "C1 by chord length", "catmull_rom_modified",
      "local, unevenly spaced points"),
-    ("bspline", "", "C2", "C2 (degree 2: C1)", "bspline", "the points are a control polygon; stays in its hull"),
-    ("bspline-interpolation", "--degree 3", "G2", "C^(k-1) in t", "interpolate_bspline<3>/1000", "any degree 1 to 9; all points known"),
+    ("bspline", "", "C2", "C2 (degree 2: C1)", "bspline", "the points are a control polygon; the curve stays in its hull"),
+    ("bspline-interpolation", "--degree 3", "G2", "C^(k-1) in t", "interpolate_bspline<3>/1000", "any degree from 1 to 9; all points must be known"),
     ("bspline-interpolation", "--degree 5", "G2", "C^(k-1) in t", "interpolate_bspline<5>/1000", "cams and motions that are differentiated twice"),
-    ("ferguson", "", "G2", "C2 at lambda 1, mu 0; else G2", "ferguson_curve", "tangent length and tension of single joints; evenly spaced points"),
-    ("ferguson", "--curvature-sign -1 --mu 8", "G1+|k|", "G1, only the modulus of the curvature", "ferguson_curve", "hardly ever: the curvature flips at every point"),
+    ("ferguson", "", "G2", "C2 at lambda 1, mu 0; otherwise G2", "ferguson_curve", "tangent length and tension of single joints; evenly spaced points"),
+    ("ferguson", "--curvature-sign -1 --mu 8", "G1+|k|", "G1, only the modulus of the curvature", "ferguson_curve", "almost never: the curvature changes its sign at every point"),
     ("beta-chain", "--degree 5 --beta2 4", "G2", "G2 (order 1: G1)", "beta_chain_curve", "shapes drawn by hand; bias and tension for each joint"),
     ("polyline", "", "C0", "C0, a stop at each corner", "polyline", "straight lines"),
 ]
