@@ -75,9 +75,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--tool", default=os.path.join(ROOT, "build/release/bin/splinefeed"))
     args = parser.parse_args()
-    print("# Results\n\nMade by `bench/results.py > docs/reference/results.md`; every figure is judged from the files of a run"
-          " (trace,\ncurve, machine) by tests/judge, by finite differences of the trace at 1 ms. `over optimum` is the cycle time over the"
-          " least time that is\npossible on the same curve under the same velocity, acceleration and feed limits, at rest at"
+    print("# Results\n\n`bench/results.py > docs/reference/results.md` makes this page. tests/judge computes every figure from the files of a"
+          " run (trace,\ncurve, machine), by finite differences of the trace at 1 ms. `over optimum` is the cycle time divided by the"
+          " least possible time\non the same curve with the same velocity, acceleration and feed limits, with standstill at"
           " every corner of the curve\n(TOPP-RA on a fine grid). 1 in a `use` column is the limit.")
     with tempfile.TemporaryDirectory() as work:
         print("\n## Three axes, 100 mm/s, 1000 mm/s^2 each, feed 100 mm/s, 1 ms")
