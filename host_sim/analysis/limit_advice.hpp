@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// limit_advice: the shares of the limits as text: a table, and what to change to go faster.
+// limit_advice: the shares of the limits as text: a table, and advice which limit to raise.
 #pragma once
 
 #include "host_sim/analysis/limit_share.hpp"
@@ -8,8 +8,8 @@
 
 namespace splinefeed::host {
 
-/// One row per axis and one for each limit of the path, percent of the time; each ends with a line end.
-/// @param names  of the axes, as many as there are in `shares`
+/// One row per axis and one per limit of the path, in percent of the time; each ends with a line end.
+/// @param names  names of the axes, as many as there are in `shares`
 [[nodiscard]] std::string share_table(const std::vector<std::string>& names, const LimitShares& shares);
 
 /// One sentence that names the limit that bound longest, and a line end.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LimitShare: which limit bound, and for what share of the time, on the segments that were emitted.
+// LimitShare: which limits bound, and for which share of the time, measured on the emitted segments.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -13,13 +13,14 @@
 
 namespace splinefeed::host {
 
-/// Shares of the time, 0 to 1. Limits may bind at the same time (an axis and the feed on a straight line), so they can
-/// add up to more than 1; `none` is the time in which none does: at rest, and where the plan stays below all of them.
+/// Shares of the time, 0 to 1. Several limits may bind at the same time (an axis and the feed on a straight line), so
+/// the sum may exceed 1. `none` is the share in which no limit binds: at standstill, and where the plan stays below all
+/// limits.
 struct LimitShares {
     struct Axis {
         double velocity = 0.0;
         double acceleration = 0.0;
-        std::optional<double> jerk; ///< none: the machine file has no such limit; so below
+        std::optional<double> jerk; ///< nothing: the machine file has no such limit; the same below
     };
     std::vector<Axis> axis; ///< in the order of the machine file
     double feed = 0.0;
@@ -29,17 +30,18 @@ struct LimitShares {
     double none = 0.0;
 };
 
-/// A limit binds where at least 95 % of it is used: a plan that is cautious by a few percent is still bound by it.
-/// Looked at in the middle of each segment, with that segment's duration: the resolution is a segment (a sample period
-/// at most). Speed along the path and curvature are taken over all axes, as the plan takes them. Memory: the waypoints
-/// between the curve and the motion. Cost: below 0.1 us a segment.
+/// A limit binds where at least 95 % of it is used: a plan that stays a few percent below a limit is still bound by it.
+/// Measured in the middle of each segment, with the duration of that segment: the resolution is a segment (at most a
+/// sample period). Speed along the path and curvature are taken over all axes, as in the plan. Memory: the waypoints
+/// between the curve and the motion. Cost: below 0.1 us per segment.
 class LimitShare {
 public:
     static constexpr double binding = 0.95;
 
     explicit LimitShare(const MachineSettings& machine);
 
-    /// The feed on the way to a waypoint; 0: the machine's. In travel order, before the segments that lead there.
+    /// The programmed feed on the way to a waypoint; 0: the machine's feed. Call it in the order of travel, before the
+    /// segments that lead there.
     void programmed(std::uint32_t waypoint, double feed_mm_s);
 
     void segment(const FeedSegment& segment);
@@ -60,7 +62,7 @@ private:
 
     MachineSettings machine_;
     unsigned axes_;
-    double chord_mm_s2_; // largest kappa v^2 for the chord error
+    double chord_mm_s2_; // largest kappa v^2 that the chord error allows
     PerAxis<Axis> axis_{};
     std::deque<Feed> feeds_;
     std::uint64_t feed_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OptimumTime: the least time in which the axes can follow the curve, by another way than the plan.
+// OptimumTime: the least time in which the axes can follow the curve, computed in another way than the plan.
 //
 //      b |      /\    ______       the speed limits of the nodes
 //        |  ___/  \__/      \      backward: the largest b from which what follows can be reached
@@ -17,14 +17,14 @@
 
 namespace splinefeed::host {
 
-/// Takes the curve's segments in travel order. The curve starts and ends at rest, and stops where the plan stops
-/// (PathGrid). Velocity, acceleration, programmed feed, centripetal and chord limits in full; jerk is not looked at, so
-/// this is a lower bound for machines with and without a jerk limit.
+/// Takes the curve's segments in the order of travel. The curve starts and ends at standstill, and stops where the plan
+/// stops (PathGrid). Velocity, acceleration, programmed feed, centripetal and chord limits are used in full. Jerk is
+/// ignored, so this is a lower bound for machines with and without a jerk limit.
 ///
-/// Limits are asked for at the nodes of a grid only, and beyond the window nothing is: whatever a machine can do is
-/// allowed here. The grid can make the result too large by 1e-4 of it, and too small by 3e-2 where axes differ by
-/// decades (0.0005 on the butterfly); tests/host measures both. Memory: the window. Cost: about 0.2 us a node, three
-/// axes; each is visited about three times, whatever the window.
+/// Limits are required only at the nodes of a grid, and none after the window: everything that a machine can do is
+/// allowed. The grid can make the result too large by 1e-4 of it, and too small by 3e-2 if the limits of the axes
+/// differ by powers of ten (0.0005 on the butterfly); tests/host measures both. Memory: the window. Cost: about 0.2 us
+/// per node for three axes; each node is visited about three times, whatever the window.
 class OptimumTime {
 public:
     static constexpr std::size_t usual_window = 4096; ///< 1 MB
@@ -36,20 +36,20 @@ public:
     template <Scalar S>
     void segment(const CurveSegment<S>& segment);
 
-    /// The curve ends here, at rest. Idempotent.
+    /// The curve ends here, at standstill. A second call has no effect.
     void finish();
 
     /// @pre finish() was called
     [[nodiscard]] double seconds() const noexcept { return seconds_.value(); }
     [[nodiscard]] std::uint64_t nodes() const noexcept { return nodes_; }
-    /// What all of this took.
+    /// Time that this computation has taken.
     [[nodiscard]] std::chrono::steady_clock::duration spent() const noexcept { return spent_; }
 
 private:
     struct Stage {
         PathInterval interval;
-        double limit_sq = 0.0; ///< of b at its start, from both sides
-        double reach_sq = 0.0; ///< largest b at its start from which all that follows can be done
+        double limit_sq = 0.0; ///< upper bound of b at its start, from both sides
+        double reach_sq = 0.0; ///< largest b at its start from which the rest can be travelled
     };
 
     void add(const PathInterval& interval);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PathGrid: the exact curve cut into short intervals, with what limits the speed at their ends.
+// PathGrid: the exact curve, divided into short intervals, with the limits of the speed at their ends.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -10,30 +10,31 @@
 
 namespace splinefeed::host {
 
-/// Between two neighbouring nodes of the grid. Values at its ends are those of its own side: at a joint of the curve
-/// the curvature may jump. Speeds are squared, b = (ds/dt)^2.
+/// An interval between two neighbouring nodes of the grid. Values at its ends are those of its own side: at a joint of
+/// the curve the curvature may jump. Speeds are squared, b = (ds/dt)^2.
 struct PathInterval {
     PerAxis<double> entry_slope{}; ///< |dq/ds| at its start
     PerAxis<double> exit_slope{};
-    PerAxis<double> travel_mm{}; ///< what the axis travels, to and fro
-    double noise_mm = 0.0;       ///< of each travel, by rounding
+    PerAxis<double> travel_mm{}; ///< distance that the axis travels, in both directions together
+    double noise_mm = 0.0;       ///< error of each travel by rounding
     double length_mm = 0.0;
-    double entry_cap_sq = 0.0; ///< largest b at its start, whatever the acceleration along the path is; finite
+    double entry_cap_sq = 0.0; ///< largest b at its start, for any acceleration along the path; finite
     double exit_cap_sq = 0.0;
-    double middle_cap_sq = 0.0; ///< in its middle, near enough
+    double middle_cap_sq = 0.0; ///< the same in its middle, approximately
     bool stop_before = false;   ///< b = 0 at its start
 };
 
-/// Limits as the machine file states them, without the margins of the plan. The path's length is taken over all axes,
-/// as the plan takes it.
+/// Uses the limits as the machine file states them, without the margins of the plan. The path length is taken over all
+/// axes, as in the plan.
 ///
-/// Stops are the plan's: a corner (CurveSegment::stop_at_end, from --corner-angle or a corner waypoint), a change of
-/// direction at a joint above `direction_jump`, a joint where the tangent of a segment vanishes, and a cusp within a
-/// segment. In doubt there is no stop.
+/// The stops are those of the plan: a corner (CurveSegment::stop_at_end, from --corner-angle or a corner waypoint), a
+/// change of direction at a joint above `direction_jump`, a joint where the tangent of a segment vanishes, and a cusp
+/// within a segment. In doubt there is no stop.
 ///
-/// An interval turns by less than 0.05 rad and its speed limits, at the ends and in the middle, differ by less than
-/// 15 %, as far as 2^-20 and 2^-8 of a segment allow; a curved segment has at least four, or sixteen if it is longer
-/// than a quarter of the braking distance. Cost: an evaluation with two derivatives a node, one with one in between.
+/// In an interval the direction turns by less than 0.05 rad, and the speed limits at the ends and in the middle differ
+/// by less than 15 %, as far as intervals of 2^-20 and 2^-8 of a segment allow. A curved segment has at least four
+/// intervals, or sixteen if it is longer than a quarter of the braking distance. Cost: one evaluation with two
+/// derivatives per node, and one with one derivative in between.
 class PathGrid {
 public:
     /// @param direction_jump  Refinement::direction_jump of the plan
@@ -70,15 +71,15 @@ private:
     double direction_jump_;
     double chord_mm_s2_; ///< largest kappa v^2 for the chord error; 0: no limit
     double softest_mm_s2_;
-    double turning_sq_ = 0.0; ///< of all rotary axes at their velocities
-    // the segment that is being cut
+    double turning_sq_ = 0.0; ///< of all rotary axes at their velocity limits
+    // The segment that is being divided.
     PerAxis<PerDegree<double>> power_{}; ///< position = sum power u^i [mm]
     unsigned degree_ = 1;
     double size_mm_ = 0.0; ///< largest coordinate
     double feed_sq_ = 0.0;
-    double fastest_sq_ = 0.0; ///< above every cap; feed_sq_ where the feed counts all that moves
+    double fastest_sq_ = 0.0; ///< above every cap; feed_sq_ if the feed counts all moving axes
     int least_level_ = 0;     ///< halvings
-    // the end of the one before
+    // The end of the previous segment.
     PerAxis<double> last_direction_{}; ///< zero: the tangent vanishes
     bool stop_ = false;
     bool any_ = false;

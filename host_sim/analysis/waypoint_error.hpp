@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// WaypointError: how far the curve passes from the waypoints that it was made from.
+// WaypointError: how far the curve passes from its waypoints.
 #pragma once
 
 #include "splinefeed/s1_curve/curve_segment.hpp"
@@ -9,11 +9,12 @@
 
 namespace splinefeed::host {
 
-/// Takes waypoints and curve segments as they come, each in order, waypoints ahead of the segments that lead to them.
-/// A waypoint is measured against the nearest points of the segments around it: those that lead to it and the first
-/// after it. One to which no segment leads was merged with its predecessor and is measured where that one is.
-/// Meaningless for a method that does not pass its points (bspline): the summary then says so instead.
-/// Memory: the waypoints that no segment has reached yet (the look-ahead of the curve). Cost: about 1 us a segment.
+/// Takes waypoints and curve segments as they come, each in order, a waypoint before the segments that lead to it. A
+/// waypoint is compared with the nearest points of the segments around it: those that lead to it and the first one
+/// after it. A waypoint to which no segment leads was merged with its predecessor, and is compared with the same
+/// segments. The result has no meaning for a method that does not pass through its points (bspline); the summary then
+/// says so. Memory: the waypoints that no segment has reached yet (the look-ahead of the curve). Cost: about 1 us per
+/// segment.
 class WaypointError {
 public:
     /// Index as in CurveSegment::waypoint, increasing modulo 2^32.
@@ -22,14 +23,14 @@ public:
     template <Scalar S>
     void segment(const CurveSegment<S>& segment);
 
-    /// Largest distance of the waypoints that the curve has reached. 0 without waypoints.
+    /// Largest distance of the waypoints that the curve has reached so far. 0 without waypoints.
     [[nodiscard]] double largest_mm() const noexcept;
 
 private:
     struct Pending {
         std::uint32_t index;
         PerAxis<Position> position;
-        double merged_mm; ///< farthest of the waypoints that were merged into this one
+        double merged_mm; ///< largest distance of the waypoints that were merged into this one
     };
     /// A segment in double: offsets from `origin` in mm.
     struct Piece {

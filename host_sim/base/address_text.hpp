@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// AddressText: the parts of scheme://place?key=value&key=value, as they are written.
+// AddressText: the parts of an address scheme://place?key=value&key=value.
 #pragma once
 
 #include <string_view>
@@ -7,21 +7,21 @@
 
 namespace splinefeed::host {
 
-/// Views of the text that it was split from.
+/// Views of the text that was split.
 struct AddressText {
     struct Setting {
         std::string_view text;  ///< "key=value"
         std::string_view key;   ///< before the first '='
-        std::string_view value; ///< behind it; empty also where there is no '='
+        std::string_view value; ///< after it; empty also if there is no '='
     };
 
-    std::string_view scheme; ///< "gpio"; empty: there is no "://", and then all is the place
-    std::string_view rest;   ///< all behind "://"
-    std::string_view place;  ///< of it, what is before the first '?'
+    std::string_view scheme; ///< "gpio"; empty: there is no "://", and the whole text is the place
+    std::string_view rest;   ///< everything after "://"
+    std::string_view place;  ///< the part of it before the first '?'
     std::vector<Setting> settings;
 };
 
-/// What the parts mean, and which there must be, is the caller's.
+/// Splits an address. The caller decides which parts must be there and what they mean.
 [[nodiscard]] AddressText split_address(std::string_view text);
 
 } // namespace splinefeed::host

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// CompensatedSum: a sum of any number of small steps that is as good as its last digit.
+// CompensatedSum: a sum of any number of small steps, accurate to the last digit.
 #pragma once
 
 namespace splinefeed::host {
 
-/// Kahan's and Babuska's summation: 10^10 steps of a millisecond are off by 2e-16 of their sum, where plain addition
-/// may lose 1e-6 of it. Cost: four additions. @pre steps are not negative
+/// Kahan's and Babuska's summation: the relative error of 10^10 steps of a millisecond is 2e-16, where plain addition
+/// may lose 1e-6. Cost: four additions. @pre steps are not negative
 class CompensatedSum {
 public:
     explicit CompensatedSum(double start = 0.0) noexcept : sum_(start) {}

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT
-// FileClaims: which files one call of the tool reads and writes: no file is both, and no two outputs are one file.
+// FileClaims: records which files one call of the tool reads and writes, so that no output overwrites an input or
+// another output.
 #pragma once
 
 #include <string>
 
 namespace splinefeed::host {
 
-/// While there is one, inputs and outputs are noted as they are opened, by what they are (device and inode), not by
-/// name: a symbolic link, a hard link and another spelling are the same file. Pipes, terminals and devices are not
-/// noted: nothing is lost there. Without one nothing is noted.
-/// For any thread. Cost: a call of the system and a look at every file noted so far.
+/// While an object exists, inputs and outputs are recorded when they are opened. Files are compared by device and
+/// inode, not by name: a symbolic link, a hard link and another spelling are the same file. Pipes, terminals and
+/// devices are not recorded, because nothing can be lost there. Without an object nothing is recorded. For any thread.
+/// Cost: a system call and a comparison with every recorded file.
 class FileClaims {
 public:
-    /// @pre there is no other one
+    /// @pre no other object exists
     FileClaims();
     FileClaims(const FileClaims&) = delete;
     FileClaims& operator=(const FileClaims&) = delete;
     ~FileClaims();
 
-    /// An input that has just been opened. Throws InputError where it is an output, too.
+    /// Records an input that was just opened. Throws InputError if it is also an output.
     static void reads(int descriptor, const std::string& name);
-    /// Where an output is to be put, which may not exist yet; "-" is standard output. Throws OutputError where it is an
+    /// Records the path of an output, which need not exist yet; "-" is standard output. Throws OutputError if it is an
     /// input or another output.
     static void writes(const std::string& path);
-    /// Whether an input has been put at the path since. Before the output takes its place.
+    /// Whether an input has appeared at this path since. Call it before the output replaces the file.
     [[nodiscard]] static bool is_input(const std::string& path) noexcept;
 };
 

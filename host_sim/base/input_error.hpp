@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// InputError and UsageError: bad input and a wrong command line, each told in one line; the tool then exits with 2.
+// InputError and UsageError: bad input and a wrong command line, each reported in one line; the tool then exits with
+// status 2.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace splinefeed::host {
 /// The text on one line of a terminal: control characters become \xNN.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// printable, in single quotes, shortened to what helps to find it.
+/// printable(), in single quotes, shortened to the part that helps to find the place.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// "FILE:LINE: what is wrong, what would be right". Without a line (0) or a file (empty) that part is left out.

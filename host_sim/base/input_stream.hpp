@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// InputStream: a file or a pipe that is read in blocks of what has arrived, and that another thread can stop reading.
+// InputStream: a file or a pipe, read in blocks as data arrives; another thread can stop the reading.
 #pragma once
 
 #include <array>
@@ -8,17 +8,17 @@
 
 namespace splinefeed::host {
 
-/// A failure of reading is thrown as std::ios_base::failure, as std::filebuf does.
+/// A read error is thrown as std::ios_base::failure, as by std::filebuf.
 class InputStream final : public std::streambuf {
 public:
-    /// Opens the file; "-" is standard input. Throws InputError where it cannot be opened or is an output as well.
+    /// Opens the file; "-" is standard input. Throws InputError if it cannot be opened, or is also an output.
     /// @param name  for messages
     InputStream(const std::string& path, const std::string& name);
     InputStream(const InputStream&) = delete;
     InputStream& operator=(const InputStream&) = delete;
     ~InputStream() override;
 
-    /// From any thread: reading that waits, or is to come, finds the end of the file.
+    /// For any thread: a read that waits, and every later read, returns end of file.
     void stop() const noexcept;
 
 protected:

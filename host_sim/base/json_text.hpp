@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// parse_json: a JSON document of bounded depth.
+// parse_json: parses a JSON document of limited depth.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,11 +9,11 @@
 
 namespace splinefeed::host {
 
-/// Arrays and objects within one another. Curves and surfaces need six.
+/// Largest nesting of arrays and objects. Curves and surfaces need six.
 inline constexpr int deepest_json = 64;
 
-/// Throws InputError, with the line, where the text is no JSON, is nested deeper, or has a number beyond double.
-/// @param hint  behind "not JSON"; empty: what the parser says
+/// Throws InputError, with the line, if the text is not JSON, is nested more deeply, or has a number beyond double.
+/// @param hint  text after "not JSON"; empty: the parser's message
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, const std::string& file, std::string_view hint = {});
 
 } // namespace splinefeed::host

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// number_text: a decimal number, whole text or nothing: +1.5, -12, .5, 3e-2; never nan, inf, hexadecimal.
+// number_text: reads a decimal number. The whole text must be a number: +1.5, -12, .5, 3e-2; never nan, inf or
+// hexadecimal.
 #pragma once
 
 #include <charconv>
@@ -11,7 +12,7 @@ namespace splinefeed::host {
 
 enum class NumberText { number, not_a_number, not_finite, out_of_range };
 
-/// Reads the whole text into `out`, correctly rounded, whatever the locale.
+/// Reads the whole text into `out`, correctly rounded, in every locale.
 [[nodiscard]] inline NumberText read_number(std::string_view text, double& out) noexcept {
     const char* first = text.data();
     const char* const last = text.data() + text.size();
@@ -31,7 +32,7 @@ enum class NumberText { number, not_a_number, not_finite, out_of_range };
     return std::isfinite(out) ? NumberText::number : NumberText::not_finite;
 }
 
-/// The whole text, digits with an optional minus alone, as a whole number from `low` to `high`; empty: it is none.
+/// The whole text as an integer from `low` to `high`: digits with an optional minus sign. Nothing if it is not one.
 template <class Whole>
 [[nodiscard]] std::optional<Whole> read_whole(std::string_view text, Whole low, Whole high) noexcept {
     Whole number{};
@@ -41,7 +42,7 @@ template <class Whole>
     return fits ? std::optional(number) : std::nullopt;
 }
 
-/// What to tell about a text that is no number; the text goes before it.
+/// The end of a message about a text that is not a number; the text comes before it.
 [[nodiscard]] constexpr const char* why_no_number(NumberText result) noexcept {
     switch (result) {
     case NumberText::not_finite: return "is not finite; every number must be";

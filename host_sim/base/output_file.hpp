@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// OutputFile: an output that is written whole or not at all.
+// OutputFile: an output that is written completely or not at all.
 //
-// A regular file grows in a nameless (or hidden) temporary in the target's directory and replaces the target in one
-// step in commit(). Until then, and for ever if commit() is not reached, an existing target stays as it is.
+// A regular file is first written to a nameless (or hidden) temporary file in the target's directory; commit() replaces
+// the target with it in one step. Before that, and if commit() is never called, an existing target stays unchanged.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,19 +25,18 @@ public:
 };
 
 /// Use: OutputFile file(path); file.append(...); file.commit();
-/// Path "-" is standard output. It, and an existing target that is no regular file (a pipe, a device), cannot be taken
-/// back: what has left the buffer is written.
-/// Memory: one buffer of 256 KiB. Cost of append: a copy.
+/// Path "-" is standard output. Standard output, and an existing target that is not a regular file (a pipe, a device),
+/// cannot be undone: data that has left the buffer is written. Memory: one buffer of 256 KiB. Cost of append: a copy.
 class OutputFile {
 public:
-    /// Throws OutputError where nothing can be created, and where the file is an input or another output (FileClaims).
+    /// Throws OutputError if the file cannot be created, or is an input or another output (FileClaims).
     explicit OutputFile(std::string path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
-    /// Without commit(): removes what was written.
+    /// Without commit(): removes the temporary file.
     ~OutputFile();
 
-    /// Throws OutputError where the file cannot grow. @pre not committed
+    /// Throws OutputError if the data cannot be written. @pre not committed
     void append(std::string_view text) {
         buffer_.append(text);
         flush_if_large();
@@ -50,15 +49,15 @@ public:
         flush_if_large();
     }
 
-    /// Puts the complete file in its place. Throws OutputError; then the target is untouched.
+    /// Puts the complete file in its place. Throws OutputError; the target is then unchanged.
     void commit();
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
-    /// For a process that is about to end while threads still write: removes what every file without commit() has left,
-    /// and lets no commit() put anything in its place any more: one that is called waits for the end.
+    /// For a process that is about to end while threads still write: removes the temporary files of all objects without
+    /// commit(). From then on a commit() replaces nothing; its call waits for the end of the process.
     static void discard_all() noexcept;
-    /// Calls of the system that took something, of all files: it stands still where writing is blocked.
+    /// Number of successful system calls that wrote data, over all files: it does not change while writing is blocked.
     [[nodiscard]] static std::uint64_t writes() noexcept { return writes_.load(std::memory_order_relaxed); }
 
 private:
@@ -79,12 +78,12 @@ private:
 
     static std::atomic<std::uint64_t> writes_;
 
-    std::string path_;      // as given, for messages
+    std::string path_;      // as given, used in messages
     std::string target_;    // path_ with symbolic links followed
     std::string temporary_; // empty: none, or it has no name
     std::string buffer_;
     int descriptor_ = -1;
-    bool replaces_ = false; // a temporary takes the target's place; else the target itself is open
+    bool replaces_ = false; // a temporary file replaces the target; otherwise the target itself is open
 };
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ScalarKind: what the core computes in, as --scalar names it: fixed, float, double.
+// ScalarKind: the number type of the core, as --scalar names it: fixed, float, double.
 #pragma once
 
 namespace splinefeed::host {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SignalWatch: the signals of a run, taken by a thread of its own.
+// SignalWatch: the signals of a run, received by a thread of its own.
 #pragma once
 
 #include <atomic>
@@ -10,31 +10,31 @@
 
 namespace splinefeed::host {
 
-/// What the user asks for by signals.
+/// What the user requests by signals.
 enum class UserSteering { none, hold, resume };
 
-/// While one lives, SIGINT, SIGTERM and SIGHUP ask for an end, and each of them counts; SIGUSR1 asks for a feed hold
-/// and SIGUSR2 for its end. All five are blocked in the thread that makes it and in every thread that is started from
-/// there, so that no system call of theirs is interrupted. A signal that the process ignored when it was started
-/// (nohup; a shell's background job) stays ignored. One at a time.
+/// While an object exists, SIGINT, SIGTERM and SIGHUP request the end of the run, and each of them counts. SIGUSR1
+/// requests a feed hold and SIGUSR2 its end. All five signals are blocked in the thread that creates the object and in
+/// every thread started from there, so they interrupt none of their system calls. A signal that the process ignored
+/// when it was started (nohup; a shell's background job) stays ignored. Only one object at a time.
 ///
-/// The kernel keeps one pending signal of a kind: two of a kind count as one if they come before the thread was woken
-/// up for the first.
+/// The kernel keeps one pending signal of each kind: two of a kind count as one if both come before the thread was
+/// woken for the first.
 class SignalWatch {
 public:
-    /// Starts the thread. @param at_once  called from it for every request of an end, until supervise(). May be empty.
+    /// Starts the thread. @param at_once  called by it for every request to end, until supervise(). May be empty.
     explicit SignalWatch(std::function<void()> at_once);
     SignalWatch(const SignalWatch&) = delete;
     SignalWatch& operator=(const SignalWatch&) = delete;
-    /// Signals have their former effect again.
+    /// The signals have their former effect again.
     ~SignalWatch();
 
-    /// From here on somebody looks at interrupts(): at_once is not called any more.
+    /// From here on somebody checks interrupts(): at_once is no longer called.
     void supervise() { at_once({}); }
-    /// What is called from here on. Waits for a call that is running.
+    /// Replaces the function that is called. Waits for a call that is running.
     void at_once(std::function<void()> action);
 
-    /// Requests of an end since the one that lives was made.
+    /// Requests to end since the present object was created.
     [[nodiscard]] static int interrupts() noexcept { return interrupts_.load(); }
     [[nodiscard]] static bool interrupted() noexcept { return interrupts() > 0; }
     /// The last of SIGUSR1 and SIGUSR2 that was not taken yet.
@@ -45,10 +45,10 @@ private:
 
     sigset_t taken_{};
     sigset_t before_{};
-    static std::atomic<int> interrupts_; // ports ask for it by a plain function
+    static std::atomic<int> interrupts_; // ports read it through a plain function
     std::atomic<UserSteering> steering_{UserSteering::none};
     std::atomic<bool> ends_{false};
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // protects the members below
     std::function<void()> at_once_;
     std::thread thread_;
 };

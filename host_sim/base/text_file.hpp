@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// text_file: a whole file, or all of standard input, as a string.
+// text_file: reads a whole file, or all of standard input, into a string.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,11 @@
 
 namespace splinefeed::host {
 
-/// Reads the file; "-" is standard input. Throws InputError where it cannot be opened or read or is larger than that.
+/// Reads the file; "-" is standard input. Throws InputError if it cannot be opened or read, or is larger than
+/// `largest`.
 [[nodiscard]] std::string read_text_file(const std::string& path, std::size_t largest);
 
-/// Whether the path names a regular file, which can be read twice; false for a pipe, a terminal, or nothing at all.
+/// Whether the path is a regular file, which can be read twice; false for a pipe, a terminal, or if nothing is there.
 [[nodiscard]] bool is_regular_file(const std::string& path);
 
 } // namespace splinefeed::host

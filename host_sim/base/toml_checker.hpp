@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TomlChecker: takes values out of a TOML file, and refuses each wrong one with its line.
+// TomlChecker: reads values from a TOML file and refuses each wrong value with its line.
 #pragma once
 
 #include "host_sim/base/input_error.hpp"
@@ -14,7 +14,7 @@
 
 namespace splinefeed::host {
 
-/// Whole numbers that a key may hold.
+/// Integers that a key may hold.
 struct WholeRange {
     std::int64_t low = 0;
     std::int64_t high = 0;
@@ -27,7 +27,7 @@ struct NumberRange {
     std::string_view unit; ///< for the message: "mm/s"
 };
 
-/// Every member throws InputError `FILE:LINE: what is wrong, what would be right`. `where` goes into messages:
+/// Every member throws InputError `FILE:LINE: what is wrong, what would be right`. `where` is used in messages:
 /// "[link]".
 class TomlChecker {
 public:
@@ -42,29 +42,29 @@ public:
     void require_known(const toml::table& table, std::initializer_list<std::string_view> known,
                        std::string_view where) const;
 
-    /// Not empty.
+    /// A text that is not empty.
     [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const;
     [[nodiscard]] bool flag(const toml::node& node, std::string_view key) const;
     [[nodiscard]] std::int64_t whole(const toml::node& node, std::string_view key, WholeRange range) const;
     [[nodiscard]] double finite(const toml::node& node, std::string_view key) const;
     [[nodiscard]] double number(const toml::node& node, std::string_view key, const NumberRange& range) const;
-    /// Milliseconds, also with a fraction, as whole microseconds.
+    /// Milliseconds, possibly with a fraction, as whole microseconds.
     [[nodiscard]] std::uint32_t microseconds(const toml::node& node, std::string_view key, double most_ms) const;
-    /// Which of the names it is.
+    /// Index of the name in the list.
     [[nodiscard]] std::size_t choice(const toml::node& node, std::string_view key,
                                      std::span<const std::string_view> names) const;
-    /// Texts, one at least unless `may_be_empty`.
+    /// A list of texts; at least one unless `may_be_empty`.
     [[nodiscard]] std::vector<std::string> texts(const toml::node& node, std::string_view key, bool may_be_empty) const;
 
     [[nodiscard]] const toml::table& table(const toml::node& node, std::string_view key) const;
     [[nodiscard]] const toml::array& array(const toml::node& node, std::string_view key, std::string_view what) const;
-    /// The tables below [[key]]; none where the key is not there.
+    /// The tables of [[key]]; empty if the key is not there.
     [[nodiscard]] std::vector<const toml::table*> tables(const toml::table& root, std::string_view key) const;
 
     [[nodiscard]] const toml::node& required(const toml::table& table, std::string_view key, std::string_view where,
                                              std::string_view what) const;
 
-    // Those that may be left out: then `out` stays as it is.
+    // Optional values: if the key is not there, `out` stays unchanged.
     template <class Whole>
     void take(const toml::table& table, std::string_view key, WholeRange range, Whole& out) const {
         if (const toml::node* node = table.get(key)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// toml_text: what a TOML text must not hold before toml++ may see it.
+// toml_text: refuses text that toml++ must not get.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace splinefeed::host {
 
-/// toml++ 3.3 has undefined behaviour where the name of a table does not start like a key, and where it looks for
-/// blanks among letters beyond ASCII, as it does outside of texts and comments, and where a } stands in place of a
-/// value. None of it is TOML; all are refused here, with their line, and so are such letters in a text that might be
-/// taken for something else. A name of more than 17 parts would be as many tables within one another, for which the
-/// parser calls itself. Throws InputError.
+/// toml++ 3.3 has undefined behaviour if the name of a table does not start like a key, if there are letters beyond
+/// ASCII outside strings and comments where it looks for blanks, and if a } stands in the place of a value. None of
+/// this is valid TOML. All of it is refused here, with its line, and also such letters in a string that might be taken
+/// for something else. A name of more than 17 parts is refused, because it would be nested tables, which the parser
+/// handles by recursion. Throws InputError.
 void require_plain_toml(std::string_view toml, const std::string& file);
 
 } // namespace splinefeed::host

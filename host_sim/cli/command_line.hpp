@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// command_line: what the user typed becomes a job, or the text that was asked for.
+// command_line: turns the command line into a job, or into a text that the user requested.
 #pragma once
 
 #include "host_sim/cli/job.hpp"

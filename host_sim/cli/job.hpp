@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Job: what one call of the tool is to do.
+// Job: the work of one call of the tool.
 #pragma once
 
 #include "host_sim/cli/link_command.hpp"
@@ -13,14 +13,14 @@ enum class Command { run, plan, curve, surface, drive, link };
 
 struct Job {
     Command command = Command::run;
-    RunArguments run; ///< run, plan and curve; of surface the input and the scalar
+    RunArguments run; ///< for run, plan and curve; for surface only the input and the scalar
     SurfaceArguments surface;
     DriveArguments drive;
     LinkArguments link;
 };
 
-/// Returns the exit status: 0 done, 1 the machine did not finish (told on standard error). Throws InputError,
-/// UsageError and OutputError where there is nothing to be done (exit status 2); then no output is left behind.
+/// Returns the exit status: 0 done, 1 the machine did not finish (reported on standard error). Throws InputError,
+/// UsageError and OutputError if the job cannot be done (exit status 2); then no output is left.
 [[nodiscard]] int carry_out(const Job& job);
 
 } // namespace splinefeed::host

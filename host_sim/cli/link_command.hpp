@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// link_command: `splinefeed link`, its options as they were typed and what it does: the report of a target.
+// link_command: the command `splinefeed link`: its options as typed, and its report about a target.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ struct LinkArguments {
 
 void add_link_options(CLI::App& app, LinkArguments& arguments);
 
-/// Measures for so long on every drive of the target, nothing moves, and prints what it found with advice.
-/// Returns the exit status, 0. Throws UsageError, InputError, and TargetError where a drive cannot be used.
+/// Measures every drive of the target for the given time and prints the result with advice; nothing moves. Returns the
+/// exit status, 0. Throws UsageError, InputError, and TargetError if a drive cannot be used.
 [[nodiscard]] int report_link(const LinkArguments& arguments);
 
 } // namespace splinefeed::host

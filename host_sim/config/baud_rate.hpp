@@ -7,7 +7,7 @@
 
 namespace splinefeed::host {
 
-/// That systems have names for; libmodbus silently takes 9600 for another one. [baud], ascending
+/// Rates for which systems have names; for any other rate libmodbus silently uses 9600. [baud], ascending
 inline constexpr std::array<int, 10> baud_rates{1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800};
 
 [[nodiscard]] constexpr bool is_baud_rate(int baud) noexcept {

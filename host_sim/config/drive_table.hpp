@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DriveTable: the drives of a run: where each is, what it speaks, and which of the machine's axes it has.
+// DriveTable: the drives of a run: their addresses, their profiles, and the machine axes of each.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -16,14 +16,14 @@ struct DriveTable {
     struct Drive {
         TargetAddress address;
         hal::modbus::DriveProfile profile;
-        std::vector<int> machine_axis; ///< of each of its axes; -1: none
+        std::vector<int> machine_axis; ///< machine axis of each of its axes; -1: none
     };
-    std::vector<Drive> drives; ///< they all have the map splinefeed-pvt, or none of them
-    bool interpolate = false;  ///< they have it
+    std::vector<Drive> drives; ///< all of them use the map splinefeed-pvt, or none does
+    bool interpolate = false;  ///< they use it
 };
 
-/// The addresses of a target, each with the machine's axes that are there; what an address leaves open is as its
-/// profile has it. Throws UsageError and InputError.
+/// The drives of a target, each with its machine axes. Values that an address does not state come from the profile.
+/// Throws UsageError and InputError.
 [[nodiscard]] DriveTable drive_table(const std::string& target, const MachineDescription& machine);
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GpioAddress: what --target says of a GPIO chip.
+// GpioAddress: the address of a GPIO chip in --target.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 namespace splinefeed::host {
 
 struct GpioAddress {
-    std::string chip; ///< of the lines for which the map file names no other: "/dev/gpiochip0"
+    std::string chip; ///< chip of the lines for which the map file names no other: "/dev/gpiochip0"
     std::string map;  ///< path of the map file
 };
 
-/// Whether a target is meant to be one.
+/// Whether a target has the form of such an address.
 [[nodiscard]] bool is_gpio_address(const std::string& text);
 
-/// gpio:///dev/gpiochip0?map=FILE.toml. Throws AddressError. A path with & in it cannot be given.
+/// Reads gpio:///dev/gpiochip0?map=FILE.toml. Throws AddressError. The path cannot contain &.
 [[nodiscard]] GpioAddress parse_gpio_address(const std::string& text);
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// gpio_map: reads a map file, which says what the lines of GPIO chips are for (docs/reference/gpio.md).
+// gpio_map: reads a map file, which states the use of the lines of GPIO chips (docs/reference/gpio.md).
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -11,9 +11,9 @@
 
 namespace splinefeed::host {
 
-/// Reads and checks the file, every key of it, against the machine's axes, motors and polarities.
-/// @param chip  that of lines for which the file names none
-/// Throws InputError, with the line of what is wrong. Whether a chip has such lines is known when they are requested.
+/// Reads the file and checks every key against the machine's axes, motors and polarities.
+/// @param chip  chip of lines for which the file names none
+/// Throws InputError, with the line of the error. Whether a chip has these lines is only known when they are requested.
 [[nodiscard]] hal::gpio::LineMap read_gpio_map(const std::string& file, const MachineDescription& machine,
                                                const std::string& chip);
 

@@ -13,17 +13,17 @@
 
 namespace splinefeed::host {
 
-/// Fills LineMap::chips. Its members throw InputError, with the line of what is wrong.
+/// Fills LineMap::chips. Its members throw InputError, with the line of the error.
 class GpioMapLines {
 public:
-    /// @param chip  that of lines for which the file names none
+    /// @param chip  chip of lines for which the file names none
     GpioMapLines(const TomlChecker& check, std::string chip, std::vector<hal::gpio::ChipLines>& chips)
         : check_(check), default_chip_(std::move(chip)), chips_(chips) {}
 
     /// @param node  a name, an offset, or a table with chip, offset and name
-    /// @param key  that it stands behind, for messages
+    /// @param key  key of the node, for messages
     hal::gpio::LineBit output(const toml::node& node, std::string_view key, bool safe_level);
-    /// Inputs may share a line, named alike each time and with the same bias.
+    /// Inputs may share a line if all name it in the same way and have the same bias.
     hal::gpio::LineBit input(const toml::node& node, std::string_view key, hal::gpio::Bias bias);
 
 private:
@@ -49,7 +49,7 @@ private:
     const TomlChecker& check_;
     std::string default_chip_;
     std::vector<hal::gpio::ChipLines>& chips_;
-    std::map<std::pair<std::string, std::string>, std::string> used_; ///< chip and line, by which key
+    std::map<std::pair<std::string, std::string>, std::string> used_; ///< key that uses each chip and line
     std::vector<Input> inputs_;
 };
 

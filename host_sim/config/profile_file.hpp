@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// profile_file: reads a drive profile .toml; docs/reference/profiles.md says what each key means.
+// profile_file: reads a drive profile .toml; docs/reference/profiles.md explains every key.
 #pragma once
 
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
@@ -9,7 +9,7 @@
 
 namespace splinefeed::host {
 
-/// Reads and checks the file, every key of it. Throws InputError, with the line of what is wrong.
+/// Reads the file and checks every key. Throws InputError, with the line of the error.
 [[nodiscard]] hal::modbus::DriveProfile read_profile_file(const std::string& path);
 
 /// The same for a text; `file` is its name in messages.

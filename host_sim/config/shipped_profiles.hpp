@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// shipped_profiles: the drive profiles that are part of the program, and those that a user writes.
+// shipped_profiles: the drive profiles that are part of the program, and profiles of the user.
 #pragma once
 
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
@@ -15,14 +15,15 @@ struct ShippedProfile {
     std::string_view text; ///< the file hal/profiles/NAME.toml
 };
 
-/// In order of their names.
+/// Sorted by name.
 [[nodiscard]] std::span<const ShippedProfile> shipped_profiles() noexcept;
 
-/// The shipped profile of that name, or where it ends in .toml the file. Throws InputError for what is wrong in it, and
-/// UsageError where there is no such profile, with the nearest name.
+/// The shipped profile with this name, or the file if the name ends in .toml. Throws InputError for an error in the
+/// file, and UsageError, with the nearest name, if there is no such profile.
 [[nodiscard]] hal::modbus::DriveProfile find_profile(const std::string& name_or_file);
 
-/// What `splinefeed drive --list-profiles` prints: a row for each with its name, how it streams, its wires, its drive.
+/// The text of `splinefeed drive --list-profiles`: a row per profile with its name, its kind of stream, its wires and
+/// its drive.
 [[nodiscard]] std::string list_profiles();
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CurveChoice: which curve goes through the points, and how: what the user asked for, checked against the method.
+// CurveChoice: the curve method and its options, as the user chose them, checked against each other.
 #pragma once
 
 #include "splinefeed/s1_curve/waypoint_curve.hpp"
@@ -17,26 +17,26 @@ enum class Method {
     catmull_rom_modified,
     bspline,
     polyline,
-    // These see all points at once:
+    // These need all points at once:
     bspline_interpolation,
     ferguson,
     beta_chain,
-    bezier, ///< as a curve file has it
+    bezier, ///< segments of a curve file
 };
 
-/// As the command line and the curve files name it.
+/// The name on the command line and in curve files.
 [[nodiscard]] std::string_view method_name(Method method) noexcept;
-/// Whether the curve of that name passes its waypoints; else they are control points, and how far it stays from them
-/// says nothing.
+/// Whether the curve of this name passes through its waypoints. Otherwise they are control points, and their distance
+/// from the curve says nothing.
 [[nodiscard]] constexpr bool passes_waypoints(std::string_view curve_name) noexcept {
     return curve_name != "bspline" && curve_name != "beta-chain";
 }
-/// Whether its points have to be known before it can begin.
+/// Whether all points must be known before the curve can begin.
 [[nodiscard]] constexpr bool needs_all_points(Method method) noexcept {
     return method >= Method::bspline_interpolation && method < Method::bezier;
 }
 
-/// The curve options of the command line as they were typed; no value: not given.
+/// The curve options of the command line as typed; no value: not given.
 struct CurveArguments {
     std::optional<std::string> method;
     std::optional<std::string> degree;
@@ -56,8 +56,8 @@ struct CurveArguments {
     bool smooth = false;
 };
 
-/// A tangent at an end of the curve. g2 and g2-bezier take it in units of the end chord, ferguson and
-/// bspline-interpolation as the derivative itself.
+/// A tangent at an end of the curve. For g2 and g2-bezier it is in units of the end chord; for ferguson and
+/// bspline-interpolation it is the derivative itself.
 struct Tangent {
     int components = 0;
     PerAxis<double> value{};
@@ -66,12 +66,13 @@ struct Tangent {
 struct CurveChoice {
     Method method = Method::g2;
     bool closed = false;
-    bool smooth = false; ///< promote a C1 chain to G2
+    bool smooth = false; ///< turn a C1 chain into a G2 curve
     int degree = 3;
     Parameterization parameterization = Parameterization::chordal;
     std::optional<std::string> knots; ///< bspline-interpolation: uniform or averaged
     double tension = 0.5;
-    bool constant_factor = false; ///< catmull-rom-modified: one factor for all segments, not one times its chord
+    bool constant_factor = false; ///< catmull-rom-modified: one factor for all segments, instead of a factor times the
+                                  ///< chord
     std::optional<double> beta1;  ///< nothing: the ratio of the chords
     double beta2 = 0.0;
     double lambda = 1.0;
@@ -82,12 +83,12 @@ struct CurveChoice {
     std::optional<Tangent> end_tangent;
 };
 
-/// Reads the options and fills in the method's defaults: g2 chordal, catmull-rom centripetal with tension 1/2, corners
-/// from 60 degrees (bspline: none). Throws UsageError where a value is wrong or the method has no such option.
+/// Reads the options and adds the defaults of the method: g2 chordal, catmull-rom centripetal with tension 1/2, corners
+/// from 60 degrees (bspline: none). Throws UsageError if a value is wrong or the method has no such option.
 [[nodiscard]] CurveChoice choose_curve(const CurveArguments& arguments);
 
-/// The option that was given first, without its value; empty: none was. For inputs that bring their own curve;
-/// --smooth goes with these, too, and is not counted.
+/// The first option that was given, without its value; empty: none. For inputs that contain their own curve; --smooth
+/// is allowed with these and is not counted.
 [[nodiscard]] std::string_view first_option(const CurveArguments& arguments) noexcept;
 
 } // namespace splinefeed::host

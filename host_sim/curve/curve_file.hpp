@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CurveFile: a curve .json: Bezier segments that are executed as they stand, or points and the method that joins them.
+// CurveFile: a curve .json: Bezier segments that are executed unchanged, or points and the method that joins them.
 #pragma once
 
 #include "host_sim/base/scalar_kind.hpp"
@@ -20,7 +20,7 @@ struct CurveFile {
         std::size_t first_point = 0;
         int degree = 0;
     };
-    static constexpr double largest_gap_mm = 1e-6; ///< between segments that meet
+    static constexpr double largest_gap_mm = 1e-6; ///< largest gap between segments that meet
 
     std::string method = "bezier"; ///< the name of --curve
     bool described = false;        ///< computed from a description
@@ -38,19 +38,19 @@ struct CurveFile {
     }
 };
 
-/// Reads the file ("-": standard input); a description is computed in `scalar`. Segments from the file are checked:
-/// finite numbers in range, one dimension, segments that meet. Throws InputError.
+/// Reads the file ("-": standard input); a description is computed in `scalar`. Segments of the file are checked:
+/// finite numbers in range, equal dimensions, segments that meet. Throws InputError.
 [[nodiscard]] CurveFile read_curve_file(const std::string& path, ScalarKind scalar);
 
 /// The same for a text; `file` is its name in messages.
 [[nodiscard]] CurveFile parse_curve(std::string_view text, const std::string& file,
                                     ScalarKind scalar = ScalarKind::float64);
 
-/// Computes a description's curve. Throws InputError.
+/// Computes the curve of a description. Throws InputError.
 [[nodiscard]] CurveFile compute_curve(std::string_view method, const nlohmann::json& input, ScalarKind scalar,
                                       const std::string& file);
 
-/// Whether a machine can be sent along a computed curve: positions in range, segments of a length that the core takes.
+/// Checks that a machine can follow a computed curve: positions in range, and segment lengths that the core accepts.
 /// Throws InputError.
 void require_executable(const CurveFile& curve, const std::string& file);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// points_description: what a curve description would say, from waypoints and the options of the command line.
+// points_description: makes a curve description from waypoints and the options of the command line.
 #pragma once
 
 #include "host_sim/curve/curve_choice.hpp"
@@ -9,9 +9,9 @@
 
 namespace splinefeed::host {
 
-/// The "input" for the method of `choice`, as describe_curve takes it. Throws DescriptionError where the points do not
-/// make up what the method needs.
-/// @param axes  numbers a point
+/// The "input" for the method of `choice`, as describe_curve takes it. Throws DescriptionError if the points are not
+/// enough for the method.
+/// @param axes  numbers per point
 [[nodiscard]] nlohmann::json points_description(const CurveChoice& choice, const std::vector<PerAxis<double>>& points,
                                                 int axes);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// gpio_link: what the lines of a machine can do on the host at hand, measured; nothing moves.
+// gpio_link: measures what this host can do with the lines of a machine; nothing moves.
 #pragma once
 
 #include "host_sim/config/gpio_address.hpp"
@@ -9,7 +9,7 @@
 
 namespace splinefeed::host {
 
-/// Takes the lines, with the drives off, measures for so long, and says what that means for the machine.
+/// Requests the lines, with the drives off, measures for the given time, and reports what that means for the machine.
 /// Throws InputError and TargetError.
 [[nodiscard]] std::string gpio_report(const GpioAddress& address, const MachineDescription& machine, double seconds);
 

@@ -8,7 +8,7 @@
 
 namespace splinefeed::host {
 
-/// A line for each bin that has any, with a bar; empty where there is none.
+/// One line with a bar for each bin that is not empty; an empty text if all bins are empty.
 [[nodiscard]] std::string histogram_picture(const hal::TimeHistogram& times);
 
 } // namespace splinefeed::host

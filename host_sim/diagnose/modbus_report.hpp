@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// modbus_report: who answers at an address, how fast and how surely, and what to do about it.
+// modbus_report: which drives answer at an address, how fast and how reliably, and what to do.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -8,10 +8,10 @@
 
 namespace splinefeed::host {
 
-/// Measures for so long on every drive of a target; nothing moves. What it found, with advice. Throws UsageError,
-/// InputError, and TargetError where a drive cannot be used.
+/// Measures every drive of a target for the given time; nothing moves. Returns the result with advice. Throws
+/// UsageError, InputError, and TargetError if a drive cannot be used.
 /// @param target  "modbus", or the address of a drive
-/// @param any_axes  the user named no machine: that of an address has as many axes as the drive
+/// @param any_axes  the user named no machine: the machine of an address has as many axes as the drive
 [[nodiscard]] std::string modbus_report(const std::string& target, MachineDescription machine, bool any_axes,
                                         double seconds);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Description: the "input" of a curve description, read field by field, and the curve that a method makes of it.
+// Description: reads the "input" of a curve description, field by field, and holds the curve that a method computes
+// from it.
 #pragma once
 
 #include "splinefeed/splines/bezier_piece.hpp"
@@ -13,14 +14,14 @@
 
 namespace splinefeed::host {
 
-/// What is wrong with a description and what would be right; the reader of the file adds its name.
+/// What is wrong with a description and what would be right; the code that reads the file adds the file's name.
 struct DescriptionError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 /// A curve that was computed from a description, in mm.
 struct DescribedCurve {
-    /// Part of the curve's own parameter that a piece covers. Without it each piece has [0, 1].
+    /// The part of the curve's own parameter that a piece covers. Without it each piece has [0, 1].
     struct Interval {
         double from = 0.0;
         double to = 1.0;
@@ -28,20 +29,20 @@ struct DescribedCurve {
     int axes = 0;
     bool closed = false;
     std::vector<BezierPiece<double>> pieces;
-    std::vector<Interval> intervals;                                   ///< empty, or one a piece
-    nlohmann::ordered_json results = nlohmann::ordered_json::object(); ///< keyed as the contract names them
-    std::vector<std::string> warnings; ///< sentences: valid input whose curve is hardly what was meant
+    std::vector<Interval> intervals;                                   ///< empty, or one per piece
+    nlohmann::ordered_json results = nlohmann::ordered_json::object(); ///< keys as in docs/reference/files.md
+    std::vector<std::string> warnings; ///< sentences about valid input whose curve is probably not what was meant
 };
 
-/// Throws DescriptionError, with the nearest name, where an object has a key that is not known: a misspelt one would
-/// leave its default without a word. `what` names the object.
+/// Throws DescriptionError, with the nearest name, if an object has an unknown key: otherwise a misspelt key would
+/// silently leave its default. `what` names the object.
 void require_known(const nlohmann::json& object, std::initializer_list<std::string_view> known,
                    std::string_view what = "\"input\"");
 
-/// A finite number, or one as a text, as exact data is written. Throws DescriptionError naming `what`.
+/// A finite number, or a text that is one: exact data is written as text. Throws DescriptionError with `what`.
 [[nodiscard]] double number_of(const nlohmann::json& value, std::string_view what);
 
-/// input[key]; the second form gives `otherwise` where there is no such key or it is null. Throws DescriptionError.
+/// input[key]. The second form returns `otherwise` if there is no such key or it is null. Throws DescriptionError.
 [[nodiscard]] double number_in(const nlohmann::json& input, const char* key);
 [[nodiscard]] double number_in(const nlohmann::json& input, const char* key, double otherwise);
 [[nodiscard]] int integer_in(const nlohmann::json& input, const char* key, int low, int high);
@@ -50,11 +51,11 @@ void require_known(const nlohmann::json& object, std::initializer_list<std::stri
 /// One of `names`, as its index.
 [[nodiscard]] std::size_t choice_in(const nlohmann::json& input, const char* key,
                                     std::initializer_list<std::string_view> names, std::size_t otherwise);
-/// One number a joint: an array of `count`, or one number for all, or `otherwise` for all.
+/// One number per joint: an array of `count`, or one number for all, or `otherwise` for all.
 [[nodiscard]] std::vector<double> numbers_in(const nlohmann::json& input, const char* key, std::size_t count,
                                              double otherwise);
 
-/// Points of one dimension.
+/// Points of equal dimension.
 struct PointList {
     int axes = 0;
     std::vector<PerAxis<double>> points; ///< [mm]
@@ -63,25 +64,25 @@ struct PointList {
     [[nodiscard]] double largest() const noexcept;
 };
 
-/// input[key], or a part of it that `what` names: an array of `fewest` points at least, 1 to max_axes numbers each, all
-/// of one dimension. Throws DescriptionError naming the point.
+/// input[key], or a part of it that `what` names: an array of at least `fewest` points, 1 to max_axes numbers each, all
+/// of equal dimension. Throws DescriptionError with the point.
 [[nodiscard]] PointList points_in(const nlohmann::json& input, const char* key, std::size_t fewest);
 [[nodiscard]] PointList points_of(const nlohmann::json& array, std::string_view what, std::size_t fewest);
-/// For a closed curve: drops the last point where it is the first again, within 1e-12 of the largest coordinate.
+/// For a closed curve: drops the last point if it repeats the first, within 1e-12 of the largest coordinate.
 void drop_repeated_end(PointList& list);
-/// input[key] as a vector of `axes` numbers; nothing where there is no such key or it is null.
+/// input[key] as a vector of `axes` numbers; false if there is no such key or it is null.
 [[nodiscard]] bool vector_in(const nlohmann::json& input, const char* key, int axes, PerAxis<double>& out);
 
-/// The unit a method computes in, and the way there and back. double and float take mm. Fixed takes 2^exponent mm, so
-/// that `largest_mm` times `growth` becomes 2^24 to 2^25: 2^6 of headroom for sums, 57 bits in all.
+/// The unit in which a method computes, and the conversions. double and float use mm. Fixed uses 2^exponent mm, so that
+/// `largest_mm` times `growth` becomes 2^24 to 2^25: 2^6 of headroom for sums, 57 bits in all.
 template <Scalar S>
 class Unit {
 public:
-    /// @param growth  by what the method's results may exceed its input
+    /// @param growth  largest factor by which the method's results may exceed its input
     Unit(double largest_mm, double growth);
 
     [[nodiscard]] int exponent() const noexcept { return exponent_; }
-    /// mm to units. Throws DescriptionError where the number is beyond the range of S.
+    /// mm to units. Throws DescriptionError if the number is beyond the range of S.
     [[nodiscard]] S in(double mm) const;
     /// Units to mm.
     [[nodiscard]] double out(S value) const noexcept;
@@ -97,11 +98,12 @@ private:
     int exponent_ = 0;
 };
 
-/// Throws what the core refused as a DescriptionError.
+/// Throws a refusal of the core as a DescriptionError.
 void require(Status status);
 
-/// How far control points overshoot the input is known when they are: in Fixed a larger unit is taken until they fit.
-/// compute(const Unit<S>&, Error&) returns the result, or leaves the error. Throws DescriptionError.
+/// How far control points overshoot the input is only known after the computation: in Fixed it is repeated with a
+/// larger unit until they fit. compute(const Unit<S>&, Error&) returns the result, or sets the error. Throws
+/// DescriptionError.
 template <Scalar S, class Compute>
 [[nodiscard]] auto in_fitting_unit(double largest_mm, Compute&& compute) {
     Error error = Error::none;
@@ -116,14 +118,14 @@ template <Scalar S, class Compute>
     return decltype(compute(Unit<S>(largest_mm, 1.0), error)){};
 }
 
-/// The unit of a curve's own parameter. Fixed takes a domain of 2^16 whatever that of the description: differences of
-/// parameters keep their digits.
+/// The unit of a curve's own parameter. In Fixed the domain is 2^16, whatever the description states, so that
+/// differences of parameters keep their digits.
 template <Scalar S>
 [[nodiscard]] constexpr double parameter_unit(double domain) noexcept {
     return std::same_as<S, Fixed> ? domain / 65536.0 : 1.0;
 }
 
-/// Parameters in the description's unit.
+/// Converts parameters to the description's unit.
 template <Scalar S>
 [[nodiscard]] std::vector<double> out_of_units(const std::vector<S>& values, double unit) {
     std::vector<double> out;
@@ -134,7 +136,7 @@ template <Scalar S>
     return out;
 }
 
-/// The first `axes` numbers as a JSON array; a list of them.
+/// The first `axes` numbers as a JSON array; below, a list of points.
 [[nodiscard]] nlohmann::ordered_json to_json(const PerAxis<double>& point, int axes);
 template <Scalar S>
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<Point<S>>& points, int axes, const Unit<S>& unit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MethodTable: the methods that a description may name, and the functions that carry them out.
+// MethodTable: the methods that a description may name, and the functions that compute them.
 #pragma once
 
 #include "host_sim/base/scalar_kind.hpp"
@@ -7,7 +7,7 @@
 
 namespace splinefeed::host {
 
-/// A method's own results and its curve, from the "input" of a description. Throws DescriptionError.
+/// A method's own results and its curve, computed from the "input" of a description. Throws DescriptionError.
 template <Scalar S>
 [[nodiscard]] DescribedCurve describe_catmull_rom(const nlohmann::json& input);
 template <Scalar S>
@@ -28,8 +28,8 @@ template <Scalar S>
 /// The option name of --curve for a description's method: catmull_rom is catmull-rom, boehm is bspline.
 [[nodiscard]] std::string curve_name_of(std::string_view method);
 
-/// Computes the curve. Throws DescriptionError, also for a method that there is not.
-/// `results` gets, beside the method's own keys, `joints`: the classes of continuity as measured, and `warnings`.
+/// Computes the curve. Throws DescriptionError, also for an unknown method. `results` also gets `joints`, the measured
+/// classes of continuity, and `warnings`, in addition to the method's own keys.
 [[nodiscard]] DescribedCurve describe_curve(std::string_view method, const nlohmann::json& input, ScalarKind scalar);
 
 } // namespace splinefeed::host
