@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// AxisMove: one axis on its own, with constant accelerations: a stop, or a move from rest to rest.
+// AxisMove: a single axis with constant accelerations: a stop, or a move from standstill to standstill.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ public:
     };
 
     AxisMove() = default;
-    /// Down to rest. @pre acceleration > 0
+    /// Brakes to standstill. @pre acceleration > 0
     [[nodiscard]] static AxisMove stop(State from, double acceleration) noexcept;
     /// A trapezoid or triangle of the velocity. @pre velocity > 0, acceleration > 0
     [[nodiscard]] static AxisMove to(double from, double target, double velocity, double acceleration) noexcept;
 
-    /// After that time; behind the end exactly there, at rest.
+    /// The state after that time; after the end of the move exactly its end, at standstill.
     [[nodiscard]] State at(double time_s) const noexcept;
     [[nodiscard]] double duration_s() const noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// AxisMoves: all axes of a drive on their way, each for itself and off the path: a quick stop, or homing.
+// AxisMoves: moves of all axes of a drive, each by itself and off the path: a quick stop, or homing.
 #pragma once
 
 #include "host_sim/drive/axis_move.hpp"
@@ -11,11 +11,11 @@ namespace splinefeed::host {
 
 class AxisMoves {
 public:
-    /// Each down to rest as hard as it can. @pre axes.size() <= max_axes
+    /// Stops each axis as hard as it can. @pre axes.size() <= max_axes
     void stop(const PvtReference& from, std::span<const PvtAxisParameters> axes) noexcept;
-    /// Each to 0, from rest. @pre axes.size() <= max_axes
+    /// Moves each axis to 0, from standstill. @pre axes.size() <= max_axes
     void home(const PvtReference& from, std::span<const PvtAxisParameters> axes) noexcept;
-    /// Lets time pass; whether all have arrived. Axes that do not move stay as they are.
+    /// Lets time pass; returns whether all axes have arrived. Axes that do not move stay as they are.
     [[nodiscard]] bool pass(double duration_s, PvtReference& reference) noexcept;
 
 private:

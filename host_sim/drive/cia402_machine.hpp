@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cia402Machine: the state machine of CiA 402 between control word, power stage and status word.
+// Cia402Machine: the state machine of CiA 402, with control word, power stage and status word.
 #pragma once
 
 #include "host_sim/drive/positioning_axis.hpp"
@@ -8,23 +8,23 @@
 
 namespace splinefeed::host {
 
-/// What a control word asks for beyond the power stage.
+/// The requests of a control word besides those to the power stage.
 struct Cia402Orders {
     bool start = false; ///< rising edge of bit 4
     bool immediately = false;
     bool relative = false;
     bool halt = false;  ///< rising edge of bit 8
-    bool go_on = false; ///< its falling edge
+    bool go_on = false; ///< falling edge of bit 8
 };
 
 class Cia402Machine {
 public:
     Cia402Orders control(std::uint16_t word, PositioningAxis& axis) noexcept;
-    /// Follows what became of the axis by itself: faults, the end of a quick stop.
+    /// Follows changes of the axis that no command caused: faults, the end of a quick stop.
     void update(PositioningAxis& axis) noexcept;
     void reset() noexcept { *this = Cia402Machine(); }
 
-    /// Without the bits of the motion mode.
+    /// The status word without the bits of the motion mode.
     [[nodiscard]] std::uint16_t status() const noexcept;
     [[nodiscard]] bool in_operation() const noexcept { return state_ == State::operation_enabled; }
     [[nodiscard]] bool halted() const noexcept { return (word_ & halt_bit) != 0; }
@@ -37,7 +37,7 @@ public:
     static constexpr std::uint16_t halt_bit = 0x0100;
 
 private:
-    /// Values: their bits in the status word.
+    /// The values are the bits in the status word.
     enum class State : std::uint16_t {
         quick_stop_active = 0x07,
         fault = 0x08,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DriveArguments: the options of `splinefeed drive` as they were typed, and the command.
+// DriveArguments: the options of `splinefeed drive` as typed, and the command.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,8 @@ struct DriveArguments {
 
 void add_drive_options(CLI::App& app, DriveArguments& arguments);
 
-/// Serves until SIGTERM or SIGINT; records are complete then. Returns the exit status. Throws UsageError, OutputError.
+/// Serves until SIGTERM or SIGINT; then the records are complete. Returns the exit status. Throws UsageError,
+/// OutputError.
 [[nodiscard]] int run_drive(const DriveArguments& arguments);
 
 } // namespace splinefeed::host

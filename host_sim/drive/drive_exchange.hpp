@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DriveExchange: a Modbus request becomes what the drive model does, and libmodbus's reply to it, byte by byte.
+// DriveExchange: applies a Modbus request to the drive model and returns libmodbus's reply to it, byte by byte.
 #pragma once
 
 #include "host_sim/drive/drive_model.hpp"
@@ -19,22 +19,23 @@ struct ModbusContextDeleter {
 };
 using ModbusContext = std::unique_ptr<_modbus, ModbusContextDeleter>;
 
-/// Function codes 03, 06, 16 and 23; exception 1 for any other. The reply is made by libmodbus from a mapping that is
-/// kept in step with the model; it goes through a pair of sockets, so that it can be held back or damaged before it is
+/// Function codes 03, 06, 16 and 23; exception 1 for any other. libmodbus makes the reply from a mapping that is kept
+/// equal to the model. The reply passes through a pair of sockets, so that it can be delayed or damaged before it is
 /// sent.
 class DriveExchange {
 public:
-    /// Throws UsageError where libmodbus refuses the address.
+    /// Throws UsageError if libmodbus refuses the address.
     DriveExchange(DriveModel& model, const ListenAddress& address);
     DriveExchange(const DriveExchange&) = delete;
     DriveExchange& operator=(const DriveExchange&) = delete;
     ~DriveExchange();
 
-    /// The request takes effect; its reply, or nothing where none is due. The request is a whole, intact frame.
+    /// Applies the request. Returns its reply, or nothing if there must be none. The request is a complete, undamaged
+    /// frame.
     [[nodiscard]] std::vector<std::uint8_t> answer(const std::vector<std::uint8_t>& request);
-    /// An exception in place of an effect.
+    /// Replies with an exception and changes nothing.
     [[nodiscard]] std::vector<std::uint8_t> refuse(const std::vector<std::uint8_t>& request, ModbusException exception);
-    /// Bytes before the function code.
+    /// Number of bytes before the function code.
     [[nodiscard]] std::size_t header() const noexcept { return header_; }
 
 private:
@@ -53,7 +54,7 @@ private:
     int far_ = -1;
 };
 
-/// A context for the address. Throws UsageError where libmodbus refuses it.
+/// A context for the address. Throws UsageError if libmodbus refuses it.
 [[nodiscard]] ModbusContext make_modbus_context(const ListenAddress& address);
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DriveFaults: what goes wrong between a simulated drive and its host, and when.
+// DriveFaults: the faults between a simulated drive and its host, and their times.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace splinefeed::host {
 
-/// What `--faults` asks for. Probabilities are per exchange, 0 to 1.
+/// The faults of `--faults`. Probabilities are per exchange, 0 to 1.
 struct DriveFaults {
     struct Delay {
         double duration_ms = 0.0;
@@ -19,18 +19,18 @@ struct DriveFaults {
     enum class EventKind { disconnect, freeze, power_cycle, swap_words };
     struct Event {
         EventKind kind = EventKind::freeze;
-        double time_s = 0.0;      ///< since the drive was started
-        double duration_ms = 0.0; ///< of disconnect and freeze
+        double time_s = 0.0;      ///< since the start of the drive
+        double duration_ms = 0.0; ///< used by disconnect and freeze
     };
 
     double drop = 0.0;
     double corrupt = 0.0;
     double exception = 0.0;
     double duplicate = 0.0;
-    double stale = 0.0; ///< an earlier reply comes instead
+    double stale = 0.0; ///< an earlier reply is sent instead
     std::vector<Delay> delays;
     std::vector<Event> events;   ///< in order of time
-    double clock_skew_ppm = 0.0; ///< the drive's time passes faster by this
+    double clock_skew_ppm = 0.0; ///< the drive's time runs faster by this
     std::optional<std::uint64_t> seed;
 
     /// Whether anything depends on chance.
@@ -40,17 +40,17 @@ struct DriveFaults {
 /// Reads `drop=0.01,delay=50:0.1,freeze@2.5:300,...`. Throws UsageError.
 [[nodiscard]] DriveFaults parse_drive_faults(std::string_view text);
 
-/// What happens to one exchange.
+/// The faults of one exchange.
 struct ExchangeFaults {
-    bool drop_request = false; ///< before it takes effect
+    bool drop_request = false; ///< the request is lost before it has an effect
     bool drop_reply = false;
     bool corrupt = false;
     bool exception = false;
-    bool repeat_request = false; ///< it takes effect twice
+    bool repeat_request = false; ///< the request has its effect twice
     bool repeat_reply = false;
     bool stale = false;
     double delay_ms = 0.0;
-    std::uint64_t bits = 0; ///< for whatever else is left to chance
+    std::uint64_t bits = 0; ///< random bits for other choices
 };
 
 /// The same seed gives the same faults, exchange by exchange.

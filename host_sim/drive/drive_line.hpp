@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DriveLine: where requests come from and replies go: TCP connections, several at once, or one serial line.
+// DriveLine: receives requests and sends replies: over several TCP connections at once, or over one serial line.
 #pragma once
 
 #include "host_sim/drive/drive_exchange.hpp"
@@ -11,27 +11,27 @@ namespace splinefeed::host {
 class DriveLine {
 public:
     struct Request {
-        int channel = 0; ///< where its reply goes
+        int channel = 0; ///< the channel for its reply
         std::vector<std::uint8_t> bytes;
     };
     using Clock = std::chrono::steady_clock;
 
-    /// Listens, or opens the serial line. Throws UsageError where that cannot be done.
+    /// Listens, or opens the serial line. Throws UsageError if that fails.
     explicit DriveLine(const ListenAddress& address);
     DriveLine(const DriveLine&) = delete;
     DriveLine& operator=(const DriveLine&) = delete;
     ~DriveLine();
 
-    /// The address with the port that was free.
+    /// The address, with the port that was chosen.
     [[nodiscard]] const ListenAddress& address() const noexcept { return address_; }
-    /// Until something arrives, a signal comes, or that time has passed; deaf: until the time has passed.
+    /// Waits until something arrives, a signal comes, or the time has passed. deaf: always until the time has passed.
     void wait(std::chrono::microseconds longest, bool deaf);
-    /// Whole, intact frames that have arrived, one of each connection at most. Never waits for TCP; on a serial line
-    /// for the rest of a frame that has begun.
+    /// Complete, undamaged frames that have arrived, at most one per connection. Never waits on TCP; on a serial line
+    /// it waits for the rest of a frame that has begun.
     [[nodiscard]] std::vector<Request> receive();
-    /// A channel that is gone is none.
+    /// Does nothing if the channel no longer exists.
     void send(int channel, const std::vector<std::uint8_t>& bytes);
-    /// Nobody reaches the drive until connect().
+    /// Closes all connections; until connect() nobody can reach the drive.
     void disconnect();
     void connect();
 
@@ -54,9 +54,9 @@ private:
 
     ListenAddress address_;
     ModbusContext context_;
-    int listener_ = -1; // of TCP; of a serial line the line itself
+    int listener_ = -1; // the listening socket (TCP), or the serial line itself
     int channels_ = 0;
-    bool readable_ = false; // the listener
+    bool readable_ = false; // of listener_
     std::vector<Connection> connections_;
 };
 

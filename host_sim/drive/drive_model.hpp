@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DriveModel: a simulated drive as its registers and its time, without any line: what answers, and what the shafts do.
+// DriveModel: a simulated drive with registers and time, but without a line: its answers, and the motion of its shafts.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class ModbusException : std::uint8_t {
     busy = 6,
 };
 
-/// A drive of one or several axes. Its time is that of its own clock, and passes only by advance().
+/// A drive of one or several axes. Its time is that of its own clock, and passes only in advance().
 class DriveModel {
 public:
     DriveModel() = default;
@@ -25,19 +25,19 @@ public:
     DriveModel& operator=(const DriveModel&) = delete;
     virtual ~DriveModel() = default;
 
-    /// Lets its time pass. @pre now_us is not before the last one
+    /// Lets its time pass. @pre now_us is not before that of the last call
     virtual void advance(std::uint64_t now_us) = 0;
     /// Reads holding registers, all or none.
     [[nodiscard]] virtual ModbusException read(int address, std::span<std::uint16_t> out) = 0;
-    /// Writes holding registers, as one frame: all or none.
+    /// Writes holding registers as one frame: all or none.
     [[nodiscard]] virtual ModbusException write(int address, std::span<const std::uint16_t> values) = 0;
-    /// Power off and on: shafts stay where they are; what is not in flash is lost.
+    /// Power off and on: the shafts stay where they are; everything that is not in flash is lost.
     virtual void power_cycle() = 0;
-    /// A fault: from now on the words of numbers of several registers go the other way round. Again: as before.
+    /// A fault: the word order of numbers of several registers is reversed from now on. A second call restores it.
     virtual void swap_words() {}
 
     [[nodiscard]] virtual int axes() const = 0;
-    /// Of the shaft. [counts]
+    /// Position of the shaft. [counts]
     [[nodiscard]] virtual double position_counts(int axis) const = 0;
 };
 

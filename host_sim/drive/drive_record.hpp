@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// DriveRecord: what the shafts of a simulated drive did, a row each millisecond, and what segments it executed.
+// DriveRecord: the positions of the shafts of a simulated drive, one row per millisecond; SegmentRecord: the segments
+// that it executed.
 #pragma once
 
 #include "host_sim/base/output_file.hpp"
@@ -10,10 +11,10 @@
 
 namespace splinefeed::host {
 
-/// Header `t,a0,a1,...`; t in s with 3 decimals, shafts in counts with 6. Cost of a row: about 0.1 us an axis.
+/// Header `t,a0,a1,...`; t in s with 3 decimals, shafts in counts with 6. Cost of a row: about 0.1 us per axis.
 class DriveRecord {
 public:
-    /// @param start_s  CLOCK_MONOTONIC where t = 0. Throws OutputError where the file cannot be created.
+    /// @param start_s  CLOCK_MONOTONIC at t = 0. Throws OutputError if the file cannot be created.
     DriveRecord(const std::string& path, std::string_view profile, int axes, double start_s);
     /// Throws OutputError.
     void row(std::uint64_t time_ms, const DriveModel& drive);
@@ -23,11 +24,11 @@ private:
     OutputFile file_;
 };
 
-/// Header `sequence,duration_ticks,a0_end,a0_v_end,...,t_end`: the map's integers, and the drive's time at the end in
-/// s. The rest mark is not in the duration.
+/// Header `sequence,duration_ticks,a0_end,a0_v_end,...,t_end`: the integers of the map, and the drive's time at the end
+/// in s. The duration does not contain the rest mark.
 class SegmentRecord {
 public:
-    /// Throws OutputError where the file cannot be created.
+    /// Throws OutputError if the file cannot be created.
     SegmentRecord(const std::string& path, int axes);
     void row(const ExecutedSegment& executed);
     void commit() { file_.commit(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DriveServer: a drive model on a line, in real time, with faults.
+// DriveServer: runs a drive model on a line, in real time, with faults.
 #pragma once
 
 #include "host_sim/drive/drive_faults.hpp"
@@ -11,19 +11,18 @@
 
 namespace splinefeed::host {
 
-/// The model's time is CLOCK_MONOTONIC since the server was made (faster or slower by the faults' clock skew); the
-/// model is advanced to each whole millisecond of it, where the record gets its row, and to the present with each
-/// request.
+/// The model's time is CLOCK_MONOTONIC since the server was made, faster or slower by the clock skew of the faults. The
+/// model is advanced to each whole millisecond, for the row of the record, and to the present time at each request.
 class DriveServer {
 public:
-    /// Listens. Throws UsageError where that cannot be done.
+    /// Listens. Throws UsageError if that fails.
     DriveServer(DriveModel& model, const ListenAddress& address, DriveFaults faults, std::uint64_t seed);
 
-    /// The address with the port that was free.
+    /// The address, with the port that was chosen.
     [[nodiscard]] const ListenAddress& address() const noexcept { return line_.address(); }
-    /// CLOCK_MONOTONIC at the model's time 0. [s]
+    /// CLOCK_MONOTONIC at time 0 of the model. [s]
     [[nodiscard]] double start_s() const noexcept;
-    /// Serves until `stop` is set. @param record  may be null; gets its rows, and is committed by the caller
+    /// Serves until `stop` is set. @param record  may be null; gets its rows; the caller commits it
     void run(const volatile std::sig_atomic_t& stop, DriveRecord* record);
 
 private:
@@ -31,7 +30,7 @@ private:
     using Bytes = std::vector<std::uint8_t>;
     struct Due {
         Clock::time_point time;
-        bool request = false; // still to take effect; else a reply to send
+        bool request = false; // a request that must still take effect; otherwise a reply that must be sent
         int channel = 0;
         Bytes bytes;
     };
@@ -55,11 +54,11 @@ private:
     DriveFaults faults_;
     FaultDice dice_;
     Clock::time_point start_;
-    Clock::time_point line_free_; // of a serial line
+    Clock::time_point line_free_; // time at which the serial line is free
     std::optional<Clock::time_point> connects_;
     std::optional<Clock::time_point> thaws_;
     std::size_t event_ = 0;
-    std::uint64_t recorded_ms_ = 0; // rows so far
+    std::uint64_t recorded_ms_ = 0; // rows written so far
     std::vector<Due> due_;
     std::deque<Bytes> sent_; // the latest replies, as they were before any damage
 };

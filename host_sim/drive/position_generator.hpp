@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT
-// PositionGenerator: the reference of one axis of a positioning drive: trapezoids of the velocity whose target, speed
-// and ramps may change while it moves, and cyclic targets.
+// PositionGenerator: the reference of one axis of a positioning drive: velocity trapezoids whose target, speed and
+// ramps may change during the move, and cyclic targets.
 #pragma once
 
 namespace splinefeed::host {
 
 struct MoveLimits {
-    double velocity = 0.0;     ///< [counts/s]; 0: it slows down to rest
+    double velocity = 0.0;     ///< [counts/s]; 0: slows down to standstill
     double acceleration = 1.0; ///< [counts/s^2], above 0
     double deceleration = 1.0; ///< [counts/s^2], above 0
 };
 
-/// Exact between changes, whatever the steps of time: each phase is advanced in closed form.
+/// Exact between changes, for any time steps: each phase is computed in closed form.
 class PositionGenerator {
 public:
-    /// Here, at rest.
+    /// Sets the position, at standstill.
     void place(double position_counts) noexcept;
-    /// To the target from wherever it is and however fast. Where it cannot stop before the target any more it
+    /// Moves to the target from the present position and speed. If it can no longer stop before the target, it
     /// overshoots and comes back.
     void move(double target_counts, const MoveLimits& limits) noexcept;
-    /// On a straight line to the target, there after that time; it stands then unless another one has come.
+    /// Moves on a straight line to the target and arrives after that time; then it stands, unless another target has
+    /// come.
     void follow(double target_counts, double duration_s) noexcept;
-    /// Slows down to rest.
+    /// Slows down to standstill.
     void stop(double deceleration_counts_s2) noexcept;
     void advance(double duration_s) noexcept;
 
@@ -35,7 +36,7 @@ private:
         double duration_s = 0.0;
         double acceleration = 0.0;
         double end_velocity = 0.0;
-        bool at_target = false; // where it ends
+        bool at_target = false; // the phase ends at the target
     };
 
     [[nodiscard]] Phase phase() const noexcept;

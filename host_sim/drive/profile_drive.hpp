@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// ProfileDrive: a simulated drive of one axis that behaves as a drive profile says: CiA 402, or states and commands by
-// masks; positioning moves that may change on the fly, or cyclic targets.
+// ProfileDrive: a simulated drive of one axis that behaves as a drive profile states: CiA 402, or states and commands
+// by masks; positioning moves that may change on the fly, or cyclic targets.
 //
-// What a profile cannot say is assumed: a command is obeyed when its first step is seen; commands that only differ in
-// what the profile leaves open (halt and quick stop by the same bit) are one.
+// Some behaviour is not in a profile and is assumed: a command takes effect when its first step is seen; commands that
+// the profile does not distinguish (halt and quick stop by the same bit) are one.
 #pragma once
 
 #include "host_sim/drive/cia402_machine.hpp"
@@ -20,9 +20,10 @@ namespace splinefeed::host {
 
 struct ProfileDriveParameters {
     PositioningAxisParameters axis;
-    double velocity_counts_s = 1e5;      ///< of moves, where the profile has no field for it
-    double acceleration_counts_s2 = 1e6; ///< of moves and of a halt, likewise
-    std::uint32_t period_us = 0;         ///< over which a cyclic target is approached; 0: the profile's, or 2 ms
+    double velocity_counts_s = 1e5;      ///< speed of moves, if the profile has no field for it
+    double acceleration_counts_s2 = 1e6; ///< acceleration of moves and of a halt, if the profile has no field for it
+    std::uint32_t period_us = 0;         ///< time in which a cyclic target is approached; 0: that of the profile, or 2
+                                         ///< ms
 };
 
 class ProfileDrive final : public DriveModel {
@@ -39,7 +40,7 @@ public:
     [[nodiscard]] double position_counts(int /*axis*/) const override { return axis_.shaft().position_counts(); }
 
     [[nodiscard]] PositioningAxis& axis() noexcept { return axis_; }
-    /// As by an input of its own: a quick stop, or where its profile knows no such state, a fault.
+    /// Acts like an input of the drive itself: a quick stop or, if its profile has no such state, a fault.
     void stop_by_itself();
 
 private:
@@ -74,16 +75,16 @@ private:
     PositioningAxis axis_;
     Cia402Machine machine_;
     std::uint64_t now_us_ = 0;
-    std::uint64_t exchange_us_ = 0; // the last one
+    std::uint64_t exchange_us_ = 0; // time of the last exchange
     bool watchdog_fired_ = false;
     bool written_once_ = false;
     bool halted_ = false;
     bool quick_stopped_ = false;
-    double target_ = 0.0;          // of the move under way
-    std::optional<double> queued_; // behind it
+    double target_ = 0.0;          // of the present move
+    std::optional<double> queued_; // the target after it
 };
 
-/// The model of a profile. Throws UsageError for one that streams pvt: that is PvtDrive.
+/// The model of a profile. Throws UsageError for a profile that streams pvt: use PvtDrive.
 [[nodiscard]] std::unique_ptr<DriveModel> make_drive(hal::modbus::DriveProfile profile,
                                                      const ProfileDriveParameters& parameters);
 

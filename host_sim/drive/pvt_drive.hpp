@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PvtDrive: a drive with the register map splinefeed-pvt (docs/reference/pvt_map.md), written from the document.
+// PvtDrive: a drive with the register map splinefeed-pvt (docs/reference/pvt_map.md), written from that document.
 #pragma once
 
 #include "host_sim/drive/drive_model.hpp"
@@ -8,9 +8,9 @@
 namespace splinefeed::host {
 
 struct PvtDriveParameters {
-    std::vector<PvtAxisParameters> axes = std::vector<PvtAxisParameters>(1); ///< one to max_axes
+    std::vector<PvtAxisParameters> axes = std::vector<PvtAxisParameters>(1); ///< 1 to max_axes
     std::uint16_t ring = 512;                                                ///< at least 16
-    std::uint32_t boot = 1;           ///< boot number; the next one after every power cycle
+    std::uint32_t boot = 1;           ///< boot number; increases by one with every power cycle
     std::uint64_t clock_start_us = 0; ///< what its clock shows at first, and after a power cycle
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PvtMachine: what a drive of the map splinefeed-pvt does in time, without its registers: states, commands, motion.
+// PvtMachine: the behaviour of a drive with the map splinefeed-pvt in time, without its registers: states, commands,
+// motion.
 #pragma once
 
 #include "host_sim/drive/axis_moves.hpp"
@@ -12,26 +13,26 @@
 
 namespace splinefeed::host {
 
-/// Time is in microseconds since the drive was made; its clock is that plus a start value.
+/// Time is in microseconds since the drive was made; the drive's clock is that plus a start value.
 class PvtMachine {
 public:
     PvtMachine(std::vector<PvtAxisParameters> axes, std::uint16_t ring, std::uint64_t clock_start_us);
 
-    /// Lets time pass. Cost: steps of at most 125 us while something moves, else none.
+    /// Lets time pass. Cost: steps of at most 125 us while something moves, otherwise none.
     void advance(std::uint64_t now_us);
-    /// A command but for `begin` and `place`; refused where it does not fit the state.
+    /// Executes a command other than `begin` and `place`; refused if it does not fit the state.
     [[nodiscard]] hal::modbus::PvtRefusal execute(hal::modbus::PvtCommand command, std::uint32_t argument);
     [[nodiscard]] hal::modbus::PvtRefusal begin(std::uint16_t session, std::uint32_t first);
     [[nodiscard]] hal::modbus::PvtRefusal place(std::span<const hal::modbus::PvtSegment> segments);
     [[nodiscard]] hal::modbus::PvtRefusal take(std::uint32_t first, std::span<const hal::modbus::PvtSegment> segments);
-    /// A valid exchange: the watchdog waits anew.
+    /// A valid exchange: restarts the watchdog.
     void feed_watchdog() noexcept { schedule_.feed(now_us_); }
-    /// Power off and on: shafts stay, everything else is as at first, with another start of the clock.
+    /// Power off and on: shafts stay; everything else is as at the beginning, with another start of the clock.
     void power_cycle(std::uint64_t clock_start_us);
 
     void configure(const hal::modbus::PvtConfiguration& configuration) noexcept { configuration_ = configuration; }
     [[nodiscard]] const hal::modbus::PvtConfiguration& configuration() const noexcept { return configuration_; }
-    /// Called with every segment at its end.
+    /// Sets a function that is called at the end of every segment.
     void observe(std::function<void(const ExecutedSegment&)> observer) { path_.observe(std::move(observer)); }
     [[nodiscard]] MotorAxis& shaft(int axis) noexcept { return shafts_[static_cast<unsigned>(axis)]; }
 
@@ -40,7 +41,7 @@ public:
     [[nodiscard]] hal::modbus::PvtState state() const noexcept { return state_; }
     [[nodiscard]] hal::modbus::PvtFault fault() const noexcept { return fault_; }
     [[nodiscard]] int fault_axis() const noexcept { return fault_axis_; }
-    /// None after power-up and where the ring was lost.
+    /// Nothing after power-up and after the ring was lost.
     [[nodiscard]] std::optional<std::uint16_t> session() const noexcept { return session_; }
     [[nodiscard]] const PvtRing& ring() const noexcept { return path_.ring(); }
     [[nodiscard]] double rate() const noexcept { return path_.rate(); }

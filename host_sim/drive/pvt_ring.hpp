@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PvtRing: the segments that a drive holds, and where on them it is (docs/reference/pvt_map.md).
+// PvtRing: the segments that a drive holds, and the present place in them (docs/reference/pvt_map.md).
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt/pvt_map.hpp"
@@ -8,34 +8,37 @@
 
 namespace splinefeed::host {
 
-/// Sequence numbers count modulo 2^32. Positions at the ends of segments are the map's integers, nothing is added up.
+/// Sequence numbers count modulo 2^32. Positions at the ends of segments are the integers of the map: nothing is
+/// summed.
 class PvtRing {
 public:
-    /// A point of the motion, in counts and seconds of the segments' own time.
+    /// A point of the motion, in counts and in seconds of the segments' own time.
     struct Jet {
         double position = 0.0;
         double velocity = 0.0;
         double acceleration = 0.0;
     };
 
-    /// A part of the ring from where the motion is.
+    /// A part of the ring, beginning at the present place.
     struct Left {
         std::size_t segments = 0;
         double way_s = 0.0;
-        bool rests = false; ///< a segment of it ends at rest
+        bool rests = false; ///< one of its segments ends at standstill
     };
 
     /// @pre 1 <= axes <= max_axes, capacity >= 1
     PvtRing(int axes, std::uint16_t capacity);
 
-    /// Empty; the next segment is `first` and starts here, at rest. [1/2^16 count]
+    /// Makes the ring empty; the next segment is `first` and starts at this position, at standstill. [1/2^16 count]
     void begin(std::uint32_t first, const PerAxis<std::int64_t>& position) noexcept;
-    /// Takes those that are new, or none and says why: docs/reference/pvt_map.md. Cost: a copy of each.
+    /// Accepts the segments that are new, or none and returns the reason: docs/reference/pvt_map.md. Cost: a copy of
+    /// each.
     [[nodiscard]] hal::modbus::PvtRefusal take(std::uint32_t first,
                                                std::span<const hal::modbus::PvtSegment> segments) noexcept;
-    /// What would be left if the segments from this one on were dropped, but never the one that is being executed.
+    /// What would be left if the segments from this one on were dropped; the segment that is being executed is never
+    /// dropped.
     [[nodiscard]] Left left_before(std::uint32_t sequence) const noexcept;
-    /// Drops them. Cost of either: their number.
+    /// Drops them. Cost of both functions: the number of segments.
     void end_before(std::uint32_t sequence) noexcept;
 
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
@@ -44,22 +47,22 @@ public:
     [[nodiscard]] std::uint16_t free() const noexcept { return static_cast<std::uint16_t>(ring_.size() - size_); }
     [[nodiscard]] std::uint16_t capacity() const noexcept { return static_cast<std::uint16_t>(ring_.size()); }
 
-    /// To the end of the last segment, at full rate.
+    /// Time to the end of the last segment, at full rate.
     [[nodiscard]] double ahead_s() const noexcept;
-    /// To the end of the segment that is executed. @pre not empty()
+    /// Time to the end of the segment that is being executed. @pre not empty()
     [[nodiscard]] double segment_ahead_s() const noexcept;
-    /// Whether a segment that is left ends at rest.
+    /// Whether a remaining segment ends at standstill.
     [[nodiscard]] bool rests_ahead() const noexcept { return rests_ > 0; }
 
-    /// The segment that is executed. @pre not empty()
+    /// The segment that is being executed. @pre not empty()
     [[nodiscard]] const hal::modbus::PvtSegment& current() const noexcept { return ring_[head_]; }
-    /// Goes on within it. @pre not empty(); way_s is at most segment_ahead_s()
+    /// Advances within the segment. @pre not empty(); way_s is at most segment_ahead_s()
     void pass(double way_s) noexcept;
-    /// Goes to its end exactly, and on to the next one. @pre not empty()
+    /// Advances exactly to its end, and begins the next one. @pre not empty()
     void finish() noexcept;
-    /// Where the current segment, or the next to come, starts. [counts]
+    /// Start position of the current segment, or of the next one. [counts]
     [[nodiscard]] double start(int axis) const noexcept;
-    /// Where the motion is; at rest where the ring is empty.
+    /// The present point of the motion; at standstill if the ring is empty.
     [[nodiscard]] Jet at(int axis) const noexcept;
 
 private:
@@ -70,8 +73,8 @@ private:
     std::size_t rests_ = 0;
     std::uint32_t executed_ = 0;
     std::uint64_t ticks_ = 0;          // of all segments in the ring
-    double passed_ticks_ = 0.0;        // of the current one
-    hal::modbus::PvtSegment before_{}; // its end is where the current one starts
+    double passed_ticks_ = 0.0;        // of the current segment
+    hal::modbus::PvtSegment before_{}; // its end is the start of the current segment
 };
 
 } // namespace splinefeed::host

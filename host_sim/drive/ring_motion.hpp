@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RingMotion: a drive on its path: the segments that it holds, executed at the rate that their end allows.
+// RingMotion: the motion of a drive on its path: it executes the segments of its ring at the rate that the end of the
+// ring allows.
 #pragma once
 
 #include "host_sim/drive/pvt_axis.hpp"
@@ -14,24 +15,24 @@ namespace splinefeed::host {
 struct ExecutedSegment {
     std::uint32_t sequence = 0;
     hal::modbus::PvtSegment segment;
-    double end_us = 0.0; ///< time of the drive
+    double end_us = 0.0; ///< in the time of the drive
 };
 
 class RingMotion {
 public:
-    /// How it stands after some time.
+    /// The state after some time.
     enum class Outcome {
         moves,
-        complete, ///< at the end of the ring, a place to stand
-        held,     ///< at rest on the path: at the end of the ring, or where a hold ended
-        underflow ///< the ring ended with speed
+        complete, ///< at the end of the ring, where the motion is complete
+        held,     ///< at standstill on the path: at the end of the ring, or where a hold ended
+        underflow ///< the ring ended while the axes were moving
     };
 
     RingMotion(int axes, std::uint16_t ring) : ring_(axes, ring), axes_(static_cast<std::size_t>(axes)) {}
 
-    /// Called with every segment at its end.
+    /// Sets a function that is called at the end of every segment.
     void observe(std::function<void(const ExecutedSegment&)> observer) { observer_ = std::move(observer); }
-    /// An empty ring; `first` is to come next, and starts at this reference, at rest.
+    /// Makes the ring empty; `first` is the next segment and starts at this reference, at standstill.
     void begin(std::uint32_t first, const PvtReference& reference) noexcept;
     [[nodiscard]] PvtRing& ring() noexcept { return ring_; }
     [[nodiscard]] const PvtRing& ring() const noexcept { return ring_; }
@@ -39,18 +40,19 @@ public:
 
     /// @pre stop_reserve_s > 0
     void set_stop_reserve(double stop_reserve_s) noexcept { rate_.set_stop_reserve(stop_reserve_s); }
-    /// From rest at a place to stand, at any rate.
+    /// Starts from standstill at a place where the motion is complete, at any rate.
     void start() noexcept;
-    /// The rate may rise (again) from where it is.
+    /// The rate may rise again from its present value.
     void resume() noexcept { holds_ = false; }
     /// The rate falls to 0 from now on.
     void hold() noexcept { holds_ = true; }
-    /// At rest, or another way than along the ring.
+    /// The drive stands, or moves in another way than along the ring.
     void leave() noexcept;
-    /// Treats the ring as ending before this segment; false, and nothing done, where it could not stop there.
+    /// Treats the ring as ending before this segment. Returns false, and changes nothing, if the motion could not stop
+    /// there.
     [[nodiscard]] bool end_before(std::uint32_t sequence) noexcept;
 
-    /// Lets time pass from now on, and says where the axes are to be. Cost: the number of segments that end in it.
+    /// Lets time pass from now on, and writes the new reference. Cost: the number of segments that end in this time.
     [[nodiscard]] Outcome pass(std::uint64_t now_us, double duration_s, PvtReference& reference);
 
 private:

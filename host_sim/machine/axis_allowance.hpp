@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// AxisAllowance: the limits of an axis with the tolerance that the simulated machine grants. Derivation:
+// AxisAllowance: the limits of an axis, with the tolerance that the simulated machine allows. Derivation:
 // axis_allowance.cpp.
 #pragma once
 
@@ -10,14 +10,14 @@
 
 namespace splinefeed::host {
 
-/// A limit with its tolerance: violated above `most` + `noise` (which is per T, T^2 or T^3).
+/// A limit with its tolerance: exceeded above `most` + `noise` (which is per T, T^2 or T^3).
 struct Allowance {
     double limit = 0.0;
     double most = 0.0;
     double noise = 0.0;
 
     Allowance() = default;
-    /// 1e-6 of the limit, and the noise. @param noise  in mm
+    /// Tolerance: 1e-6 of the limit, and the noise. @param noise  in mm
     Allowance(double limit, double noise) noexcept;
 };
 
@@ -27,19 +27,19 @@ struct AxisAllowance {
     Allowance velocity, acceleration, braking, jerk; ///< jerk 0: no limit
     bool brakes_differently = false;
     std::optional<Travel> travel;
-    double lowest = 0.0; ///< travel with its tolerance
+    double lowest = 0.0; ///< lower end of the travel with its tolerance
     double highest = 0.0;
-    Allowance end_velocity; ///< beyond open_low and open_high; 0: none
+    Allowance end_velocity; ///< outside open_low to open_high; 0: none
     double open_low = 0.0;
     double open_high = 0.0;
     bool rotary = false;
-    bool on_path = false; ///< the feed counts it; the machine's matter
+    bool on_path = false; ///< the feed counts this axis; SimulatedMachine sets it
 
     AxisAllowance() = default;
     AxisAllowance(const AxisSettings& settings, const std::optional<Travel>& travel) noexcept;
 
-    /// The largest accelerations from one fraction of a segment to another. Where one limit holds for both signs they
-    /// are all `speeding`.
+    /// The largest accelerations from one fraction of a segment to another. If one limit holds for both signs, all of
+    /// them are `speeding`.
     [[nodiscard]] Accelerations accelerations(const SegmentCubic& cubic, double from, double to) const noexcept;
 };
 

@@ -9,7 +9,7 @@ namespace splinefeed::host {
 
 enum class FaultKind : std::uint8_t {
     chain,    ///< a segment does not start where the last one ended, in position or velocity
-    duration, ///< a segment lasts no time
+    duration, ///< the duration of a segment is zero
     velocity,
     acceleration,
     braking, ///< acceleration against the velocity
@@ -21,10 +21,10 @@ enum class FaultKind : std::uint8_t {
     trace,      ///< the trace could not be written; finish() throws the reason
 };
 
-/// "chain", "velocity", ...
+/// The name of the kind: "chain", "velocity", ...
 [[nodiscard]] const char* fault_name(FaultKind kind) noexcept;
 
-/// The first thing that was wrong.
+/// The first violation.
 struct Fault {
     FaultKind kind{};
     std::string axis;           ///< empty: the path, or the whole machine

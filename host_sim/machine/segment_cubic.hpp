@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SegmentCubic: one axis over one feed segment, u = 0 to 1: positions in integers, derivatives in double.
+// SegmentCubic: the motion of one axis over one feed segment, u = 0 to 1: positions in integers, derivatives in double.
 #pragma once
 
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -13,7 +13,7 @@ __extension__ using Wide128 = __int128;
 /// The whole count nearest to a position, ties upwards. Exact for every position.
 [[nodiscard]] std::int64_t nearest_count(std::int64_t units) noexcept;
 
-/// Largest |acceleration| [mm/s^2] in the direction of the velocity, from rest included, and against it.
+/// Largest |acceleration| [mm/s^2] in the direction of the velocity (including starts from standstill), and against it.
 struct Accelerations {
     double speeding = 0.0;
     double braking = 0.0;
@@ -25,7 +25,7 @@ public:
     /// Exact for every segment; derivatives within 1e-15 of their largest term.
     SegmentCubic(const FeedSegment& segment, unsigned axis, double units_per_mm, double duration_s) noexcept;
 
-    /// Units from the start to u = j / n, rounded once to the nearest, ties upwards; exact at j = n.
+    /// Units from the start to u = j / n, rounded once to nearest, ties upwards; exact at j = n.
     /// @pre 0 <= j <= n <= 1024, and the result fits in 64 bits
     [[nodiscard]] std::int64_t travelled(int j, int n) const noexcept;
 
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] double jerk() const noexcept { return 2.0 * b3_ * per_duration_ * per_duration_; }
     /// The largest accelerations between two places, 0 <= from <= to <= 1.
     [[nodiscard]] Accelerations accelerations(double from, double to) const noexcept;
-    /// Where the velocity has its extreme strictly inside the segment; -1: nowhere.
+    /// Where the velocity has its extremum strictly inside the segment; -1: nowhere.
     [[nodiscard]] double peak_u() const noexcept { return peak_u_; }
 
 private:

@@ -2,7 +2,7 @@
 // SimulatedMachine: a motion port that executes feed segments in virtual time and proves that they keep every limit.
 //
 // It trusts nothing: each segment must start exactly where the last one ended, and velocity, acceleration, jerk, travel
-// and path speed are checked against the machine file. The first violation stops it for good.
+// and path speed are checked against the machine file. It stops permanently at the first violation.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -25,7 +25,7 @@ struct CounterSeam; // of tests
 
 namespace splinefeed::host {
 
-/// Takes what the axes were told, once per sample period.
+/// Receives the planned positions of the axes, once per sample period.
 struct TraceSink {
     /// @param ticks  since the start of the first segment, in 1/8 us
     virtual void row(std::uint64_t ticks, const PerAxis<double>& position_mm, double speed_mm_s) = 0;
@@ -42,27 +42,27 @@ struct LimitUse {
 };
 
 struct SimulationOptions {
-    bool enforce = true; ///< false: limits are measured only (chain, duration and underrun are faults all the same)
-    int ticks_per_segment = 8; ///< rate of its own interpolation, 1 to 1024
-    int queue = 64;            ///< segments that wait at most
+    bool enforce = true;       ///< false: limits are only measured (chain, duration and underrun are still faults)
+    int ticks_per_segment = 8; ///< rate of the machine's own interpolation, 1 to 1024
+    int queue = 64;            ///< largest number of waiting segments
     TraceSink* trace = nullptr;
 };
 
-/// Per segment: velocity, acceleration and jerk of an axis are checked over all of it, not only at ticks (acceleration
-/// is linear, velocity a parabola with a known peak). Acceleration against the velocity of that instant is braking. Per
-/// tick, `ticks_per_segment` times: position, counts, travel and path speed (with its peak between ticks). Tolerance:
-/// what AxisAllowance adds. Memory: the queue. Cost of a segment: about 0.5 us for three axes and 8 ticks; no
-/// allocation but for a fault.
+/// Checked per segment: velocity, acceleration and jerk of each axis, over the whole segment and not only at ticks
+/// (acceleration is linear, velocity a parabola with a known peak). Acceleration against the velocity of that instant
+/// is braking. Checked per tick, `ticks_per_segment` times: position, counts, travel and path speed (with its peak
+/// between ticks). The tolerance is that of AxisAllowance. Memory: the queue. Cost of a segment: about 0.5 us for three
+/// axes and 8 ticks; it allocates only for a fault.
 class SimulatedMachine final : public hal::MotionPort {
 public:
     using Options = SimulationOptions;
 
-    /// `segments_per_sample`: a trace row every so many segments (MotionLimits::segments_per_sample).
-    /// @pre the machine's settings are those MotionLimits::make accepts (but for jerk)
+    /// `segments_per_sample`: number of segments per trace row (MotionLimits::segments_per_sample).
+    /// @pre MotionLimits::make accepts the machine's settings (except for jerk)
     SimulatedMachine(const MachineDescription& machine, int segments_per_sample, const Options& options = {});
 
-    /// Call it when the motion is over: writes the last trace row if the last sample period is incomplete (not after a
-    /// fault), and throws what the trace sink threw.
+    /// Call it at the end of the motion. It writes the last trace row if the last sample period is incomplete (not
+    /// after a fault), and throws what the trace sink threw.
     void finish();
 
     [[nodiscard]] const std::optional<Fault>& fault() const noexcept { return fault_; }
@@ -71,11 +71,11 @@ public:
     /// Duration of all segments that were executed completely.
     [[nodiscard]] double cycle_time_s() const noexcept { return seconds(elapsed_ticks_); }
     [[nodiscard]] std::uint64_t segments() const noexcept { return executed_; }
-    /// Where the axis stands in whole counts: nearest to the position, ties upwards.
+    /// Position of the axis in whole counts: the nearest count, ties upwards.
     [[nodiscard]] std::int64_t counts(int axis) const noexcept { return counts_[static_cast<unsigned>(axis)]; }
-    /// Counts travelled to and fro, as seen at ticks.
+    /// Counts travelled in both directions, as seen at ticks.
     [[nodiscard]] std::uint64_t pulses(int axis) const noexcept { return pulses_[static_cast<unsigned>(axis)]; }
-    /// Where the machine stands (after a fault: at the last tick before it).
+    /// Position of the machine (after a fault: at the last tick before it).
     [[nodiscard]] PerAxis<double> position_mm() const noexcept;
 
 private:
@@ -107,8 +107,8 @@ private:
     PerAxis<AxisAllowance> axis_{};
     PerAxis<std::string> name_{};
     Allowance feed_{};
-    Allowance turning_feed_{}; ///< where rotary axes alone move
-    bool mixed_ = false;       ///< rotary axes beside linear ones
+    Allowance turning_feed_{}; ///< used if only rotary axes move
+    bool mixed_ = false;       ///< rotary axes together with linear ones
     Options options_;
     unsigned axes_;
     int segments_per_sample_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EdgeWriter: the edges .csv: what the step and direction lines do, on a virtual clock.
+// EdgeWriter: writes the edges .csv: the edges of the step and direction lines, on a virtual clock.
 #pragma once
 
 #include "host_sim/base/output_file.hpp"
@@ -12,16 +12,17 @@
 
 namespace splinefeed::host {
 
-/// A header `t_ns,axis,line,value`, one row an edge, in order of time; t = 0 is the start of the first feed segment.
-/// Each motor of an axis has its rows: the second one's axis is named with a 2 behind. No allocation per row.
+/// A header `t_ns,axis,line,value`, then one row per edge, in order of time; t = 0 is the start of the first feed
+/// segment. Each motor of an axis has its own rows; for the second one the axis name ends with 2. No allocation per
+/// row.
 class EdgeWriter {
 public:
-    /// Writes the head. The caller commits the file, which must outlive the writer. Throws OutputError from the file,
-    /// as every method does, and InputError where the lines cannot carry the machine's limits (step_lines.hpp).
+    /// Writes the header. The caller commits the file, which must outlive the writer. Throws OutputError from the file,
+    /// as every method does, and InputError if the lines cannot carry the machine's limits (step_lines.hpp).
     EdgeWriter(OutputFile& file, const MachineDescription& machine);
 
     void segment(const FeedSegment& segment);
-    /// What is left at the end of all motion. Once.
+    /// Writes the last edges, at the end of all motion. Call it once.
     void finish();
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GpioSummary: how the lines of a run did, and what its switches told.
+// GpioSummary: timing of the edges of a run on GPIO lines, and the changes of its inputs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,33 +15,33 @@
 namespace splinefeed::host {
 
 struct GpioSummary {
-    /// An input began to act, or ended to.
+    /// An input became active or inactive.
     struct Change {
         std::string role; ///< as in the map file
-        std::string axis; ///< of limit and home; else empty
+        std::string axis; ///< for limit and home; otherwise empty
         bool active = false;
         double time_s = 0.0;                            ///< since the run began
-        std::optional<std::vector<double>> position_mm; ///< of each axis then; nothing: not known
+        std::optional<std::vector<double>> position_mm; ///< of each axis at that time; nothing: not known
     };
     std::uint64_t edges = 0;    ///< instants at which lines changed
-    double median_late_s = 0.0; ///< ends of octaves: half of them, 99 of 100 came sooner
+    double median_late_s = 0.0; ///< upper ends of octaves: half of the edges, or 99 of 100, came sooner
     double p99_late_s = 0.0;
     double most_late_s = 0.0;
-    /// So many edges came later than the one before says, and less than this late. [s]
+    /// The number of edges that were later than the end of the previous octave and less late than this. [s]
     struct Octave {
         double below_s = 0.0;
         std::uint64_t edges = 0;
     };
-    std::vector<Octave> late;     ///< where there were any, in rising order
-    double schedule_slip_s = 0.0; ///< by so much the motion took longer than planned, for edges that came too late
-    std::uint64_t buffer_underruns = 0; ///< the plan was not ready in time: all axes slowed down, and went on
-    double began_monotonic_s = 0.0;     ///< when the run began, by CLOCK_MONOTONIC
+    std::vector<Octave> late;     ///< the octaves that are not empty, in rising order
+    double schedule_slip_s = 0.0; ///< the motion took longer than planned by this time, because edges came too late
+    std::uint64_t buffer_underruns = 0; ///< the plan was not ready in time: all axes slowed down and then continued
+    double began_monotonic_s = 0.0;     ///< time of the start, by CLOCK_MONOTONIC
     std::uint64_t missed = 0;           ///< edges of inputs that the system lost
     std::deque<Change> changes;         ///< the last ones
     std::uint64_t changes_left_out = 0; ///< older ones
 
-    static constexpr std::size_t most_changes = 4096; ///< an input that never rests must not fill the memory
-    /// Takes one more; the oldest gives way.
+    static constexpr std::size_t most_changes = 4096; ///< limits the memory if an input changes all the time
+    /// Adds a change; the oldest one is dropped if there are too many.
     void add(Change change) {
         changes.push_back(std::move(change));
         if (changes.size() > most_changes) {
@@ -51,9 +51,9 @@ struct GpioSummary {
     }
 };
 
-/// Keys as the members, and `_s` or `_mm` where they have one.
+/// The keys are the names of the members, with `_s` or `_mm` if they have it.
 [[nodiscard]] nlohmann::ordered_json to_json(const GpioSummary& gpio);
-/// A line on the edges, and one a change.
+/// One line about the edges, and one per change.
 [[nodiscard]] std::string to_text(const GpioSummary& gpio);
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LinkSummary: how the wires of a run on drives did.
+// LinkSummary: the state of the links of a run on drives.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_counts.hpp"
@@ -16,22 +16,22 @@ struct LinkSummary {
         hal::modbus::LinkCounts counts;
     };
     std::vector<Drive> drives;
-    double clocks_s = 0.0;     ///< two drives may have been started so far apart, by what is known of their clocks
-    std::uint32_t resumes = 0; ///< all drives stopped together and went on
+    double clocks_s = 0.0;     ///< largest difference of the start times of two drives, by the uncertainty of their
+                               ///< clocks
+    std::uint32_t resumes = 0; ///< how often all drives stopped together and continued
     double bus_s = 0.0;        ///< processor time of the buses' threads
-    /// Of drives that do not interpolate: between two targets, and how far off the path the machine may have been
-    /// there.
+    /// For drives that do not interpolate: the time between two targets, and the largest path error between them.
     std::uint32_t target_period_us = 0; ///< 0: they interpolate
     double between_targets_mm = 0.0;
-    std::uint64_t late_us = 0; ///< most that a target came behind its instant
+    std::uint64_t late_us = 0; ///< largest lateness of a target
 };
 
 /// `{"drives": [{"address":, "exchanges":, "segments":, "timeouts":, ...}], "resumes":, "clocks_known_to_s":,
-/// "bus_time_s":}`; with targets "targets" for "segments", and "target_period_s", "between_targets_mm" and
-/// "latest_target_s" besides.
+/// "bus_time_s":}`; with targets it has "targets" instead of "segments", and also "target_period_s",
+/// "between_targets_mm" and "latest_target_s".
 [[nodiscard]] nlohmann::ordered_json to_json(const LinkSummary& link);
 
-/// A line a drive; what was lost by name, where anything was.
+/// One line per drive; losses by name, if there were any.
 [[nodiscard]] std::string to_text(const LinkSummary& link);
 
 } // namespace splinefeed::host

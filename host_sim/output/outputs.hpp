@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outputs: the files of one run, opened together and put in their places together.
+// Outputs: the files of one run, opened together and committed together.
 #pragma once
 
 #include "host_sim/base/output_file.hpp"
@@ -14,7 +14,7 @@
 
 namespace splinefeed::host {
 
-/// Where the outputs of a run go. Empty: there is no such output; "-": standard output.
+/// Names of the outputs of a run. Empty: no such output; "-": standard output.
 struct OutputNames {
     std::string trace;
     std::string segments;
@@ -23,12 +23,12 @@ struct OutputNames {
     bool prints_summary = true; ///< on standard output
 };
 
-/// Each one is there where it has a name. Without commit() nothing is left behind.
+/// A writer exists if its output has a name. Without commit() nothing is left.
 class Outputs {
 public:
-    /// Opens the curve alone. Throws OutputError, as every method does.
+    /// Opens only the curve. Throws OutputError, as every method does.
     Outputs(const OutputNames& names, std::string_view method, bool closed);
-    /// Opens what has a name.
+    /// Opens every output that has a name.
     Outputs(const OutputNames& names, std::string_view method, bool closed, const MachineDescription& machine);
 
     [[nodiscard]] TraceWriter* trace() noexcept { return trace_ ? &*trace_ : nullptr; }
@@ -36,8 +36,8 @@ public:
     [[nodiscard]] EdgeWriter* edges() noexcept { return edges_ ? &*edges_ : nullptr; }
     [[nodiscard]] CurveWriter* curve() noexcept { return curve_ ? &*curve_ : nullptr; }
 
-    /// Completes the files and puts them in place. @pre the writers have got everything
-    /// @param results  of the curve's method, beside its segments; null: none
+    /// Completes the files and puts them in place. @pre the writers have received everything
+    /// @param results  of the curve's method, written after its segments; null: none
     void commit(const nlohmann::ordered_json* results = nullptr);
 
 private:

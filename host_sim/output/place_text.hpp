@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PlaceText: where the axes of a machine stand, as the sentence that ends a run says it.
+// PlaceText: the positions of the axes, as they are stated at the end of the message that ends a run.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace splinefeed::host {
 /// "; the machine stands at x=1.0000 y=2.0000 mm"
 class PlaceText {
 public:
-    /// @param before  what is said of the numbers
+    /// @param before  text before the numbers
     explicit PlaceText(std::string_view before = "; the machine stands at", int decimals = 4)
         : text_(before), decimals_(decimals) {}
 
-    /// @param heard  that is where it is now; else where it was when its drive was last heard
+    /// @param heard  true: this is the present position; false: the last reported position of its drive
     void add(std::string_view axis, double mm, bool heard = true);
     [[nodiscard]] std::string text() const { return text_ + " mm"; }
 

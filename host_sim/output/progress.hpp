@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Progress: a line on a terminal that says how far a run is.
+// Progress: a line on a terminal that shows the progress of a run.
 #pragma once
 
 #include <chrono>
@@ -11,13 +11,13 @@ namespace splinefeed::host {
 
 struct ProgressOptions {
     bool quiet = false;
-    std::optional<std::uint64_t> waypoints = std::nullopt; ///< how many there will be, where that is known
+    std::optional<std::uint64_t> waypoints = std::nullopt; ///< total number, if it is known
     int descriptor = 2;                                    ///< standard error
 };
 
-/// Shows waypoints read, seconds of motion planned and their rate, redrawn at most ten times a second, and erases the
-/// line at the end. Where the descriptor is no terminal it writes nothing at all. Cost of update(): a look at the clock
-/// every 64th time, nothing else between redraws.
+/// Shows the waypoints read, the seconds of motion planned and their rate, at most ten times a second, and erases the
+/// line at the end. Writes nothing if the descriptor is not a terminal. Cost of update(): a look at the clock at every
+/// 64th call, nothing else between redraws.
 class Progress {
 public:
     using Options = ProgressOptions;
@@ -35,7 +35,7 @@ public:
     /// Erases the line; nothing is drawn afterwards.
     void finish() noexcept;
 
-    /// The line's text, 79 characters at most.
+    /// The text of the line, at most 79 characters.
     [[nodiscard]] static std::string text(std::uint64_t waypoints, std::optional<std::uint64_t> all, double motion_s,
                                           double wall_s);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SegmentWriter: the segments .csv: the feed segments as the machine gets them, in integers.
+// SegmentWriter: writes the segments .csv: the feed segments of the machine, in integers.
 #pragma once
 
 #include "host_sim/base/output_file.hpp"
@@ -10,10 +10,10 @@
 namespace splinefeed::host {
 
 /// `#` lines with the units, a header `index,duration_ticks,<axis>_start,<axis>_end,<axis>_v_start,<axis>_v_end,...`,
-/// one row a segment. No allocation per row. Errors: OutputError from the file.
+/// then one row per segment. No allocation per row. Errors: OutputError from the file.
 class SegmentWriter {
 public:
-    /// Writes the head. The caller commits the file, which must outlive the writer.
+    /// Writes the header. The caller commits the file, which must outlive the writer.
     SegmentWriter(OutputFile& file, const MachineDescription& machine);
 
     void segment(const FeedSegment& segment);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Summary: what a run amounts to, for people (text) and programs (JSON).
+// Summary: the results of a run, for people (text) and programs (JSON).
 #pragma once
 
 #include "host_sim/analysis/limit_share.hpp"
@@ -19,9 +19,9 @@ struct Summary {
         std::string axis;
         double velocity = 0.0;
         double acceleration = 0.0;
-        std::optional<double> jerk; ///< none: the machine file has no jerk limit for the axis
+        std::optional<double> jerk; ///< nothing: the machine file has no jerk limit for the axis
     };
-    /// Storage of the pipeline's stages.
+    /// Storage of the stages of the pipeline.
     struct MemoryBytes {
         std::uint64_t curve = 0;
         std::uint64_t feed_plan = 0;
@@ -37,28 +37,28 @@ struct Summary {
     std::string curve;
     double max_speed_mm_s = 0.0;
     std::vector<AxisUse> limit_use;          ///< in the order of the machine file
-    std::optional<double> waypoint_error_mm; ///< none: there are no waypoints, or the curve need not pass them
-    std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; none: stopped or steered
+    std::optional<double> waypoint_error_mm; ///< nothing: there are no waypoints, or the curve need not pass through
+                                             ///< them
+    std::optional<double> optimum_time_s;    ///< lower bound of the cycle time; nothing: the run was stopped or steered
     double planning_time_s = 0.0;
     MemoryBytes memory_bytes;
-    bool stopped = false;                 ///< the run ended before the program did
+    bool stopped = false;                 ///< the run ended before the program
     std::uint64_t events = 0;             ///< of the operator
-    std::uint64_t events_not_reached = 0; ///< the run was over before them
-    std::uint64_t window_limited = 0; ///< how often the planning window was too short to tell the plan from the best
-    std::uint64_t stops = 0;          ///< corners where the feed is zero, ends not counted
-    double smoothing_bound_mm = 0.0;  ///< how far the emitted motion may be from the curve
+    std::uint64_t events_not_reached = 0; ///< events after the end of the run
+    std::uint64_t window_limited = 0; ///< how often the planning window was too short to know that the plan is the best
+    std::uint64_t stops = 0;          ///< corners where the feed is zero, without the ends
+    double smoothing_bound_mm = 0.0;  ///< largest distance of the emitted motion from the curve
     std::uint64_t peak_rss_bytes = 0; ///< memory of the process; 0: unknown
     std::optional<LimitShares> limit_share; ///< which limit bound; axes as in limit_use
-    std::optional<LinkSummary> link;        ///< of a run on Modbus drives
-    std::optional<GpioSummary> gpio;        ///< of a run on lines of GPIO chips
+    std::optional<LinkSummary> link;        ///< for a run on Modbus drives
+    std::optional<GpioSummary> gpio;        ///< for a run on lines of GPIO chips
 };
 
-/// One JSON object with the keys of the contract in its order, then those added since, and a line end. Under
-/// limit_use.jerk an axis without a jerk limit is omitted; waypoint_error_mm, optimum_time_s and limit_share are null
-/// where there is none; so jerk under limit_share.
+/// One JSON object, with a line end. An axis without a jerk limit is omitted under limit_use.jerk and limit_share.jerk.
+/// waypoint_error_mm, optimum_time_s and limit_share are null if there is no value.
 [[nodiscard]] std::string to_json(const Summary& summary);
 
-/// A table with units, then a sentence for everything that is unusual. Ends with a line end.
+/// A table with units, then a sentence for everything unusual. Ends with a line end.
 [[nodiscard]] std::string to_text(const Summary& summary);
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TraceWriter: the trace .csv: what the axes were told at every sample period.
+// TraceWriter: writes the trace .csv: the planned positions of the axes at every sample period.
 #pragma once
 
 #include "host_sim/base/output_file.hpp"
@@ -9,8 +9,8 @@
 namespace splinefeed::host {
 
 /// Header `t,<axis>,...,speed`; times in s, positions in mm, speed along the path in mm/s.
-/// Times have 6 decimals where they are whole microseconds (all but perhaps the last are), else 9; positions 12,
-/// speed 9. Cost of a row: about 0.1 us for three axes; no allocation. Errors: OutputError from the file.
+/// Times have 6 decimals if they are whole microseconds (all except perhaps the last), otherwise 9; positions have 12,
+/// speed has 9. Cost of a row: about 0.1 us for three axes; no allocation. Errors: OutputError from the file.
 class TraceWriter final : public TraceSink {
 public:
     /// Writes the header. The caller commits the file, which must outlive the writer.
