@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CurveFeeder: the curve that the user chose, and the waypoints on their way into it.
+// CurveFeeder: the curve that the user chose, and the way of the waypoints into it.
 #pragma once
 
 #include "host_sim/curve/bezier_source.hpp"
@@ -22,49 +22,51 @@ struct CounterSeam; // of tests
 
 namespace splinefeed::host {
 
-/// Owns the curve. more() pushes one waypoint at a time, so that nothing is read before the curve needs it.
-/// A closed curve has to be read whole: it goes in as the 16 points before the seam, the path with its first point at
+/// Owns the curve. more() pushes one waypoint at a time, so nothing is read before the curve needs it. A closed curve
+/// has to be read completely first. It is pushed as the 16 points before the seam, the path with its first point at
 /// both ends, and the 16 points after the seam.
 template <Scalar S>
 class CurveFeeder {
 public:
-    /// Throws UsageError where an end tangent does not fit the axes. `input` must outlive it.
+    /// Throws UsageError if an end tangent does not fit the axes. `input` must outlive it.
     explicit CurveFeeder(PathInput& input);
     CurveFeeder(const CurveFeeder&) = delete;
     CurveFeeder& operator=(const CurveFeeder&) = delete;
 
     [[nodiscard]] CurveSource<S>& source() noexcept { return *source_; }
 
-    /// What became of a waypoint that was pushed.
+    /// The result of a push.
     struct Pushed {
         std::uint32_t index = 0; ///< as CurveSegment::waypoint counts, modulo 2^32
         PerAxis<Position> position{};
         bool on_path = false; ///< false: lead-in or lead-out
     };
-    /// Pushes the next waypoint, or finishes; false when there was none. Throws InputError; the curve then ends with
-    /// the waypoints before. @pre the curve is starved
+    /// Pushes the next waypoint, or finishes the curve; false if there is none. Throws InputError; the curve then ends
+    /// with the waypoints before. @pre the curve is starved
     bool more(Pushed& pushed);
-    /// Whether more() answers at once, or will within so long, for which it waits. A closed curve is read whole before.
+    /// Whether more() would return without waiting; waits for that up to the given time. A closed curve is read
+    /// completely before.
     [[nodiscard]] bool wait_for_row(WaypointRows::Patience patience) {
         return finished_ || input_->choice().closed || input_rows_->wait(patience);
     }
 
-    /// Waypoints of the input so far.
+    /// Number of waypoints of the input so far.
     [[nodiscard]] std::uint64_t rows() const noexcept { return rows_read_; }
-    /// Index of the waypoint in the input, from 0, for an index as CurveSegment::waypoint counts.
+    /// Index of the waypoint in the input, from 0, for an index of CurveSegment::waypoint.
     [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept;
     /// Line of the waypoint in its file; 0: unknown.
     [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept;
-    /// All of the index of a row that was read not long ago.
+    /// The complete index of a row that was read recently.
     [[nodiscard]] std::uint64_t whole_row(std::uint32_t row) const noexcept;
-    /// Memory of the curve stage.
+    /// Memory of the curve stage, in bytes.
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     friend struct splinefeed::CounterSeam;
 
-    static constexpr std::size_t lead = 16;               ///< waypoints beyond the seam that shape a closed curve
-    static constexpr std::size_t remembered = 1024;       ///< lines
+    static constexpr std::size_t lead = 16;               ///< waypoints on each side of the seam that shape a closed
+                                                          ///< curve
+    static constexpr std::size_t remembered = 1024;       ///< number of lines that are remembered
     static constexpr std::size_t most_closed = 4'000'000; ///< waypoints of a closed curve, 400 MB
 
     template <class Curve, class... Arguments>
@@ -78,11 +80,11 @@ private:
         curve_;
     std::optional<SmoothedCurve<S>> smoothed_; // --smooth
     CurveSource<S>* source_ = nullptr;
-    WaypointCurve<S>* waypoints_ = nullptr; // null: Bezier segments
+    WaypointCurve<S>* waypoints_ = nullptr; // null: the curve is Bezier segments
     PathInput* input_;
     std::unique_ptr<WaypointRows> input_rows_;
-    std::vector<WaypointRow> all_;     // closed: the whole input
-    std::vector<std::uint64_t> lines_; // of row i at i % remembered
+    std::vector<WaypointRow> all_;     // closed curves: the whole input
+    std::vector<std::uint64_t> lines_; // line of row i at index i % remembered
     std::uint64_t rows_read_ = 0;
     std::uint64_t pushed_ = 0;
     bool finished_ = false;

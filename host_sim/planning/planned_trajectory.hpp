@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PlannedTrajectory: the pipeline for a machine, with the planner that its limits ask for and the memory of that.
+// PlannedTrajectory: the pipeline for a machine, with the planner that its limits need, and its memory.
 #pragma once
 
 #include "splinefeed/acceleration_planner.hpp"
@@ -16,7 +16,7 @@ namespace splinefeed::host {
 template <Scalar S>
 class PlannedTrajectory {
 public:
-    /// An OptimalPlanner looks a quarter as far: what it plans far ahead is planned again from nearer.
+    /// An OptimalPlanner looks a quarter as far ahead: what it plans far ahead is planned again later.
     static constexpr std::size_t cells_an_optimal_cell = 4;
 
     /// All arguments must outlive it.
@@ -41,9 +41,9 @@ public:
     PlannedTrajectory& operator=(const PlannedTrajectory&) = delete;
 
     [[nodiscard]] Trajectory<S>& trajectory() noexcept { return trajectory_; }
-    /// Nothing where there is none: the plan is acceleration-limited, or averaged.
+    /// Null if the plan is acceleration-limited or averaged.
     [[nodiscard]] const JerkPlan<S>* jerk_plan() const noexcept { return optimal_ ? &optimal_->plan() : nullptr; }
-    /// Memory that it plans in, without that of the segment stream.
+    /// Memory of the planning, without that of the segment stream.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return (acceleration_ ? sizeof *acceleration_
                 : bounded_    ? sizeof *bounded_
@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    /// Where motions are averaged it is their window that looks far ahead.
+    /// Number of cells of the feed plan. With averaged motion, the window of that plan looks far ahead instead.
     [[nodiscard]] static std::size_t feed_cells(const MotionLimits<S>& limits, std::size_t window_cells) {
         const bool averaged = limits.jerk_limited && limits.jerk_tier == JerkTier::bounded;
         return averaged ? std::max(window_cells / 2, FeedPlan<S>::smallest_window) : window_cells;

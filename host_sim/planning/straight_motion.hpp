@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StraightMotion: one straight move from rest to rest within a machine's limits, segment by segment.
+// StraightMotion: one straight move from standstill to standstill within a machine's limits, segment by segment.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -9,18 +9,18 @@
 
 namespace splinefeed::host {
 
-/// For moves that are no program: a search for a switch, the way to where a program begins.
+/// For moves outside a program: a search for a switch, or the move to the start of a program.
 class StraightMotion {
 public:
     /// @param from, to  [mm] of each axis
-    /// @param feed_mm_s  at most
-    /// `machine` has limits that were checked.
+    /// @param feed_mm_s  upper limit of the feed
+    /// `machine` must have limits that were checked.
     StraightMotion(const MachineDescription& machine, const PerAxis<double>& from, const PerAxis<double>& to,
                    double feed_mm_s);
 
-    /// False: it is over, or it stands since it was held.
+    /// Writes the next segment. false: the move is over, or it stands because it was held.
     [[nodiscard]] bool next(FeedSegment& segment);
-    /// It brakes as hard as the limits allow, and is over.
+    /// Brakes as hard as the limits allow, and ends the move.
     void hold() noexcept { planner_.trajectory().hold(); }
 
 private:

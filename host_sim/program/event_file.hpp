@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// event_file: what an operator does while a program runs, and when.
+// event_file: reads the actions of an operator during a program, with their times.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ enum class Operation { hold, resume, abort, override_feed };
 struct OperatorEvent {
     double time_s = 0.0;
     Operation operation = Operation::hold;
-    double value = 0.0;     ///< of an override: factor of the programmed feed, 0 to 2
+    double value = 0.0;     ///< for an override: factor of the programmed feed, 0 to 2
     std::uint64_t line = 0; ///< in its file
 };
 

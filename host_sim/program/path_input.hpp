@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PathInput: what the path is made of: rows of waypoints, from a file or a pipe, or Bezier segments.
+// PathInput: the input of a path: rows of waypoints, from a file or a pipe, or Bezier segments.
 #pragma once
 
 #include "host_sim/base/scalar_kind.hpp"
@@ -15,7 +15,7 @@ namespace splinefeed::host {
 
 enum class InputFormat { csv, json };
 
-/// What a path is read from, and how its curve is made.
+/// The input of a path, and the choice of its curve.
 struct PathArguments {
     std::string input; ///< a path, or "-"
     InputFormat format = InputFormat::csv;
@@ -24,15 +24,15 @@ struct PathArguments {
 };
 
 enum class PathUse {
-    drawn,    ///< nobody executes it: its tangent may jump where it does not stop
-    executed, ///< by the simulated machine alone
-    followed, ///< by a real machine: a thread reads its waypoints ahead
+    drawn,    ///< not executed: its tangent may jump without a stop
+    executed, ///< executed only by the simulated machine
+    followed, ///< executed by a real machine: a thread reads its waypoints ahead
 };
 
 class PathInput {
 public:
-    /// Opens the input and reads as far as its axes are known. Throws InputError and UsageError.
-    /// @param machine_axes  names; empty: the path has the axes that the input has
+    /// Opens the input and reads until its axes are known. Throws InputError and UsageError.
+    /// @param machine_axes  names; empty: the path has the axes of the input
     PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
 
     [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
@@ -41,15 +41,15 @@ public:
         return file_.segments.empty() ? method_name(choice_.method) : std::string_view(file_.method);
     }
     [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
-    /// Bezier segments to be executed as they stand: a curve file, what a description asks for, or what a method made
-    /// of all waypoints; null: there are waypoints, and the method streams.
+    /// Bezier segments that are executed unchanged: from a curve file, from a description, or computed from all
+    /// waypoints. Null: there are waypoints, and the method streams.
     [[nodiscard]] const CurveFile* segments() const noexcept { return file_.segments.empty() ? nullptr : &file_; }
-    /// Waypoints that the segments were made of; 0: none, or not known.
+    /// Number of waypoints from which the segments were computed; 0: none, or not known.
     [[nodiscard]] std::uint64_t points_read() const noexcept { return points_read_; }
-    /// Whether rows() can be called again: the input is no pipe.
+    /// Whether rows() can be called again: the input is not a pipe.
     [[nodiscard]] bool repeatable() const noexcept { return repeatable_; }
-    /// The waypoints, from the first, read ahead by a thread where a run moves a real machine; once only where the
-    /// input is not repeatable. @pre segments() is null
+    /// The waypoints, from the first one. For a real machine a thread reads them ahead. If the input is not repeatable,
+    /// call it only once. @pre segments() is null
     [[nodiscard]] std::unique_ptr<WaypointRows> rows();
     /// Name for messages.
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
@@ -59,7 +59,7 @@ private:
     void compute_from_points(ScalarKind scalar, PathUse use);
 
     std::string name_;
-    std::string path_; // what is opened: /dev/stdin for a file that is standard input
+    std::string path_; // the path that is opened: /dev/stdin for a file that is standard input
     CurveChoice choice_;
     CurveFile file_;
     std::vector<std::string> machine_axes_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RowQueue: waypoints that a thread of its own reads ahead, so that nobody else waits for a pipe.
+// RowQueue: waypoints that a separate thread reads ahead, so that no other thread waits for a pipe.
 #pragma once
 
 #include "host_sim/program/waypoint_rows.hpp"
@@ -14,12 +14,12 @@
 
 namespace splinefeed::host {
 
-/// The rows of another one, in order. What that throws comes out of next() behind the rows before it.
+/// The rows of another WaypointRows, in order. An exception of it is thrown by next() after the rows before it.
 class RowQueue final : public WaypointRows {
 public:
     static constexpr std::size_t capacity = 1024;
 
-    /// @param rows  used by the thread alone, but stop(), which lets its next() return
+    /// @param rows  used only by the thread, except stop(), which makes its next() return
     explicit RowQueue(std::unique_ptr<WaypointRows> rows);
     RowQueue(const RowQueue&) = delete;
     RowQueue& operator=(const RowQueue&) = delete;
@@ -34,11 +34,11 @@ private:
     [[nodiscard]] bool answers() const noexcept { return !queue_.empty() || ended_; }
 
     std::unique_ptr<WaypointRows> rows_;
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // protects the members below
     std::condition_variable changed_;
     std::deque<WaypointRow> queue_;
-    std::exception_ptr failure_; // after the queue
-    bool ended_ = false;         // nothing comes behind the queue
+    std::exception_ptr failure_; // thrown after the queue is empty
+    bool ended_ = false;         // nothing comes after the queue
     bool stops_ = false;
     std::thread thread_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// WaypointReader: reads a waypoint file row by row, as the bytes come.
+// WaypointReader: reads a waypoint file row by row, as the bytes arrive.
 #pragma once
 
 #include "splinefeed/s1_curve/waypoint.hpp"
@@ -15,14 +15,14 @@ namespace splinefeed::host {
 
 /// One row of a waypoint file, in mm and mm/s.
 struct WaypointRow {
-    PerAxis<double> position{}; ///< axes without a column stay 0
-    double feed_mm_s = 0.0;     ///< 0: the machine's
-    double max_feed_mm_s = 0.0; ///< 0: none
+    PerAxis<double> position{}; ///< axes without a column are 0
+    double feed_mm_s = 0.0;     ///< 0: the machine's feed
+    double max_feed_mm_s = 0.0; ///< 0: no limit
     Corner corner = Corner::automatic;
     std::uint64_t line = 0;
 };
 
-/// Constant memory; never waits for more than the end of the current line. Every method throws InputError.
+/// Uses constant memory, and never waits for more than the end of the current line. Every method throws InputError.
 ///
 ///     x,y,feed        <- a header names the columns, in any order and case, or
 ///     0,0,50          <- without one they are x,y[,z[,a,b,c]]
@@ -32,9 +32,9 @@ public:
     static constexpr std::size_t longest_line = 4096; ///< bytes
 
     /// Reads up to the first row.
-    /// @param file  the name for messages
+    /// @param file  name of the file, for messages
     /// @param axes  the machine's axes, each one of x,y,z,a,b,c
-    /// @param drop_absent_axes  positions have only the axes that the file has columns for: see axes()
+    /// @param drop_absent_axes  positions have only the axes for which the file has columns: see axes()
     WaypointReader(std::istream& input, std::string file, std::vector<std::string> axes, bool drop_absent_axes = false);
 
     /// Reads the next row; false at the end of the file.
@@ -67,14 +67,14 @@ private:
     std::streambuf* source_;
     std::string file_;
     std::vector<std::string> axes_;
-    std::vector<int> columns_; // axis index, or one of those below 0
+    std::vector<int> columns_; // index of the axis, or one of the negative values for other columns
     std::vector<char> buffer_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
     std::uint64_t line_ = 0;
     std::uint64_t rows_ = 0;
     WaypointRow last_{};
-    bool pending_ = false; // the first row, read by the constructor
+    bool pending_ = false; // the constructor has read the first row
     bool ended_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// WaypointRows: waypoints in order, from wherever they come.
+// WaypointRows: a source of waypoints in order.
 #pragma once
 
 #include "host_sim/program/waypoint_reader.hpp"
@@ -8,7 +8,7 @@
 
 namespace splinefeed::host {
 
-/// Throws InputError where one is wrong.
+/// Throws InputError for a wrong row.
 class WaypointRows {
 public:
     using Patience = std::chrono::steady_clock::duration;
@@ -18,11 +18,12 @@ public:
     WaypointRows& operator=(const WaypointRows&) = delete;
     virtual ~WaypointRows() = default;
 
-    /// False when there are no more. May wait for the input.
+    /// Reads the next row; false if there are no more. May wait for the input.
     virtual bool next(WaypointRow& out) = 0;
-    /// Whether next() answers at once, or will within so long, for which it waits. One that cannot tell says yes.
+    /// Whether next() would return without waiting; waits for that up to the given time. A source that cannot tell
+    /// returns true.
     virtual bool wait(Patience /*patience*/) { return true; }
-    /// From any thread: next() does not wait for the input any more, and says that there are no more.
+    /// For any thread: from now on next() does not wait for the input, and returns false.
     virtual void stop() noexcept {}
 };
 

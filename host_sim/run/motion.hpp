@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motion: the curve's way through the planner into the machine, and what is measured on it.
+// Motion: sends the curve through the planner to the machine, and takes the measurements.
 #pragma once
 
 #include "host_sim/output/outputs.hpp"
@@ -21,17 +21,17 @@ struct CounterSeam; // of tests
 namespace splinefeed::host {
 
 struct MotionArguments {
-    std::size_t window_cells = 1024; ///< that the feed plan looks ahead
-    std::string events;              ///< file of what an operator does; empty: nobody steers
-    bool enforce = true;             ///< the simulated machine stops where a limit is broken
-    bool quiet = false;              ///< nothing on standard error
+    std::size_t window_cells = 1024; ///< look-ahead of the feed plan
+    std::string events;              ///< file of an operator's actions; empty: none
+    bool enforce = true;             ///< the simulated machine stops if a limit is broken
+    bool quiet = false;              ///< writes nothing on standard error
 };
 
-/// One run. A waypoint is read only when the planner is out of segments.
+/// One run. A waypoint is read only when the planner has no segment left.
 ///
-/// Without a target it waits for its input. With one a machine that moves cannot: while the target needs segments the
-/// motion goes on with what is known, comes to rest at the end of that, and starts again when more comes. At rest it
-/// starts with what is known when the input has paused for pause_ms.
+/// Without a target the run waits for its input. With a target, a moving machine cannot wait: while the target needs
+/// segments, the motion continues along the known path, stops at its end, and starts again when more input comes. At
+/// standstill it starts with the known path when the input has paused for pause_ms.
 template <Scalar S>
 class Motion {
 public:
@@ -43,13 +43,13 @@ public:
     Motion(const Motion&) = delete;
     Motion& operator=(const Motion&) = delete;
 
-    /// Runs to the end. Empty: done; else why the machine stopped before, and where it stands. Throws what was wrong
-    /// with the input if nothing has moved yet, and OutputError.
-    /// @param waypoints  how many there are, where that is known
+    /// Runs to the end. Returns an empty text, or why the machine stopped before the end and where it stands. Throws an
+    /// error of the input if nothing has moved yet, and OutputError.
+    /// @param waypoints  total number, if it is known
     [[nodiscard]] std::string run(std::optional<std::uint64_t> waypoints);
 
     [[nodiscard]] Summary summary() const;
-    /// What the operator was to do after the end of the run.
+    /// Events of the operator whose time was after the end of the run.
     [[nodiscard]] std::span<const OperatorEvent> events_not_reached() const noexcept {
         return std::span(events_).subspan(operated_);
     }
@@ -76,27 +76,27 @@ private:
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
-    Supervision* target_; // null: the simulated machine alone
+    Supervision* target_; // null: only the simulated machine
     WaypointError error_;
     OptimumTime optimum_;
     LimitShare share_;
     CurveFeeder<S> feeder_;
     PathTee<S> tee_;
     PlannedTrajectory<S> planner_;
-    Trajectory<S>& trajectory_; // the planner's
+    Trajectory<S>& trajectory_; // the trajectory of the planner
     SimulatedMachine machine_;
     std::vector<OperatorEvent> events_;
-    std::size_t operated_ = 0; // events so far
+    std::size_t operated_ = 0; // events that have acted so far
     Clock::duration planning_{};
-    std::string stopped_; // why, if it was before the end
+    std::string stopped_; // why the run stopped before its end
     std::uint64_t segments_ = 0;
-    std::uint64_t rests_ = 0; // instants at which all axes stood still
+    std::uint64_t rests_ = 0; // number of instants at which all axes stood still
     bool read_all_ = false;
-    bool moves_ = false;                      // at the end of the last segment
+    bool moves_ = false;                      // the axes move at the end of the last segment
     bool late_ = false;                       // the last pull could not wait for input
-    std::optional<Clock::time_point> paused_; // since then the input has nothing
+    std::optional<Clock::time_point> paused_; // since this time there was no input
     bool held_by_user_ = false;
-    bool held_by_target_ = false; // and ends there
+    bool held_by_target_ = false; // held by the target; the run ends there
 };
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PathTee: the curve on its way to the machine, seen by those who check, measure and write it.
+// PathTee: passes the curve on to the machine and shows it to the objects that check, measure and write it.
 #pragma once
 
 #include "host_sim/analysis/limit_share.hpp"
@@ -13,7 +13,7 @@
 
 namespace splinefeed::host {
 
-/// Who looks at the curve; null: nobody.
+/// The objects that see the curve; null: not used.
 struct PathObservers {
     const PathLimits* limits = nullptr;
     CurveWriter* writer = nullptr;
@@ -22,8 +22,8 @@ struct PathObservers {
     LimitShare* share = nullptr;
 };
 
-/// A decorator. A segment that leaves the limits, or cannot be written, is kept back and the curve ends before it: the
-/// machine stops there in a controlled way, and the reason waits in failure().
+/// A decorator of the curve. If a segment leaves the limits, or cannot be written, it is not passed on and the curve
+/// ends before it: the machine stops there in a controlled way, and failure() has the reason.
 template <Scalar S>
 class PathTee final : public CurveSource<S> {
 public:
@@ -31,7 +31,7 @@ public:
     PathTee(CurveFeeder<S>& feeder, const std::string& file, const PathObservers& observers) noexcept
         : feeder_(&feeder), file_(&file), observers_(observers) {}
 
-    /// Segments leave with the index of the waypoint in the input, from 0.
+    /// Segments are passed on with the index of the waypoint in the input, from 0.
     Pull next(CurveSegment<S>& out) noexcept override;
 
     [[nodiscard]] const std::exception_ptr& failure() const noexcept { return failure_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// runner: input -> curve -> trajectory -> machine, with the outputs on the way.
+// runner: input -> curve -> trajectory -> machine, and the outputs.
 #pragma once
 
 #include "host_sim/output/outputs.hpp"
@@ -17,21 +17,21 @@ struct RunArguments {
     PathArguments path;
     MotionArguments motion;
     std::string machine;        ///< empty: the default machine
-    std::string target = "sim"; ///< the simulated machine alone; or "modbus", or an address
+    std::string target = "sim"; ///< "sim": only the simulated machine; or "modbus", or an address
     RunOptions wishes;
     OutputNames outputs;
     SummaryKind summary = SummaryKind::text;
 };
 
-/// Plans a path and executes it. Returns the exit status: 0 done, 1 the machine did not finish (told on standard
-/// error). Throws InputError, UsageError and OutputError where there is nothing to be done (exit status 2); then no
-/// output is left behind.
+/// Plans a path and executes it. Returns the exit status: 0 done, 1 the machine did not finish (reported on standard
+/// error). Throws InputError, UsageError and OutputError if the run cannot start (exit status 2); then no output is
+/// left.
 ///
-/// A file is checked whole, limits included, before anything moves. A pipe moves the machine while it is read, in
-/// constant memory: what is wrong in it after the first move ends the run in a controlled stop.
+/// A file is checked completely, limits included, before anything moves. A pipe moves the machine while it is read, in
+/// constant memory: an error after the first move ends the run with a controlled stop.
 [[nodiscard]] int run(const RunArguments& arguments);
 
-/// Writes the curve through the points as Bezier segments; nothing moves. Returns 0. Throws as run().
+/// Writes the curve through the points as Bezier segments; nothing moves. Returns 0. Throws like run().
 [[nodiscard]] int draw(const RunArguments& arguments);
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Supervision: the thread that looks after a run's target, and depends on no planner, no input and no output.
+// Supervision: the thread that supervises the target of a run. It depends on no planner, input or output.
 #pragma once
 
 #include "host_sim/base/signal_watch.hpp"
@@ -13,39 +13,39 @@
 
 namespace splinefeed::host {
 
-/// It prepares the target, hands it the plan's segments, polls its port every millisecond, and obeys the user's
-/// signals: the first request of an end stops all axes on the path, the second at once. Where the target's plan is to
-/// be held, the planner learns it by hold_asked().
+/// It prepares the target, passes the plan's segments to it, polls its port every millisecond, and obeys the user's
+/// signals: the first request to end the run stops all axes on the path, the second one is a quick stop. If the target
+/// needs the plan to be held, the planner learns it from hold_asked().
 ///
-/// When the run is over before its end and the planner does not come back for stall_s because an output is blocked,
-/// it ends the process with the run's sentence and exit status 1. So does a signal, at once, when the run is over.
+/// If the run ends early and the planner does not return within stall_s because an output is blocked, the thread ends
+/// the process with the run's message and exit status 1. After the end of a run a signal does this at once.
 class Supervision {
 public:
-    /// What the planner may be ahead of the port. [us] More would only delay a hold.
+    /// How far the planner may be ahead of the port. [us] More would only delay a hold.
     static constexpr std::uint64_t hand_over_us = 10'000;
     static constexpr int stall_s = 2;
 
-    /// No thread runs before the first segment. Both must outlive it.
+    /// No thread runs before the first segment. Both arguments must outlive it.
     Supervision(RunTarget& target, SignalWatch& signals) : target_(&target), signals_(&signals) {}
     Supervision(const Supervision&) = delete;
     Supervision& operator=(const Supervision&) = delete;
-    /// Where the run is not over: stops the axes as for the first signal, and waits for it.
+    /// If the run is not over: stops the axes as after the first signal, and waits for the end.
     ~Supervision();
 
-    // Of the planner's thread:
+    // For the planner's thread:
 
-    /// Hands a segment on, when there is room for it; the first one defines where the axes stand.
-    /// False: the run is over.
+    /// Passes a segment on, as soon as there is room for it. The first one defines where the axes stand. false: the run
+    /// is over.
     [[nodiscard]] bool submit(const FeedSegment& segment);
-    /// No more segments come: waits until everything is executed. False: it ended before, ending() says why.
+    /// No more segments come: waits until everything is executed. false: the run ended before; ending() says why.
     [[nodiscard]] bool finish();
-    /// submit() would not wait.
+    /// Whether submit() would return without waiting.
     [[nodiscard]] bool room() const noexcept;
     [[nodiscard]] bool over() const noexcept { return over_.load(); }
-    /// The plan is to be held, and ends there.
+    /// Whether the plan has to be held, and ends there.
     [[nodiscard]] bool hold_asked() const noexcept { return hold_asked_.load(); }
     [[nodiscard]] UserSteering take_steering() noexcept { return signals_->take_steering(); }
-    /// Why the run ended before its end, and where the machine stands. @pre finish() returned
+    /// Why the run ended early, and where the machine stands. @pre finish() returned
     [[nodiscard]] const std::string& ending() const noexcept { return ending_; }
     /// "; the machine stands at ..." @pre as above
     [[nodiscard]] const std::string& where() const noexcept { return where_; }
@@ -62,20 +62,20 @@ private:
 
     RunTarget* target_;
     SignalWatch* signals_;
-    std::array<FeedSegment, capacity + 1> segments_{}; // the ring's
+    std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
     SegmentRing ring_{segments_};
-    std::uint64_t pushed_ticks_ = 0; // the planner's
+    std::uint64_t pushed_ticks_ = 0; // used by the planner only
     std::atomic<std::uint64_t> taken_ticks_{0};
     std::atomic<bool> hold_asked_{false};
     std::atomic<bool> complete_{false}; // no more segments come
-    std::atomic<bool> leaves_{false};   // the planner's thread needs nobody any more
+    std::atomic<bool> leaves_{false};   // the planner's thread needs no other thread any more
     std::atomic<bool> over_{false};
-    // The thread's, and after over_ anybody's:
-    int obeyed_ = 0; // requests of an end
+    // Used by the thread, and after over_ by any thread:
+    int obeyed_ = 0; // number of requests to end that were obeyed
     std::uint64_t obeyed_us_ = 0;
     bool completed_ = false;
     bool began_ = false;
-    std::string ending_; // empty: all was executed
+    std::string ending_; // empty: everything was executed
     std::string where_;
     std::thread thread_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// span_places: where to look at a surface so that no knot span is passed over.
+// span_places: places to check on a surface, with several in every knot span.
 #pragma once
 
 #include "splinefeed/surfaces/bspline_surface.hpp"
@@ -8,8 +8,8 @@
 
 namespace splinefeed::host {
 
-/// Parameters from `low` to `high`, both included, in the direction `along`. Every knot span between them is cut into
-/// equal parts, at least `parts` of them, and more where the spans are so few that there were less than `total` in all.
+/// Parameters from `low` to `high`, both included, in the direction `along`. Every knot span between them is divided
+/// into equal parts: at least `parts`, and more if there would be less than `total` parts in all.
 /// @pre low < high, within the domain
 [[nodiscard]] std::vector<double> span_places(const BSplineSurface<double>& surface, SurfaceDirection along, double low,
                                               double high, int parts, int total);

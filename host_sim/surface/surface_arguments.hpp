@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SurfaceArguments: the options of `splinefeed surface` as they were typed, and what they ask for.
+// SurfaceArguments: the options of `splinefeed surface` as typed, and their meaning.
 #pragma once
 
 #include "host_sim/base/scalar_kind.hpp"
@@ -29,10 +29,10 @@ struct SurfaceArguments {
 
 void add_surface_options(CLI::App& app, SurfaceArguments& arguments);
 
-/// Checks the options. Nothing: no tool path is asked for. Throws UsageError.
+/// Checks the options. Returns nothing if no tool path is wanted. Throws UsageError.
 [[nodiscard]] std::optional<RasterOptions> choose_raster(const SurfaceArguments& arguments);
 
-/// Carries the command out. Throws InputError, OutputError. Returns the exit status.
+/// Executes the command. Throws InputError, OutputError. Returns the exit status.
 int run_surface(const std::string& input, const SurfaceArguments& arguments, ScalarKind scalar);
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vector: of space, for surfaces and tools.
+// Vector: a vector of three-dimensional space, for surfaces and tools.
 #pragma once
 
 #include "splinefeed/splines/bezier_piece.hpp"

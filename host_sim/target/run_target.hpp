@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// RunTarget: where a run's feed segments go in real time, beside the simulated machine that proves them.
+// RunTarget: where the feed segments of a run go in real time, in addition to the simulated machine that checks them.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -13,18 +13,19 @@
 
 namespace splinefeed::host {
 
-/// A target that cannot be used: nothing has moved. The tool then exits with 1.
+/// A target that cannot be used: nothing has moved. The tool then exits with status 1.
 struct TargetError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What a run asks of its target besides moving.
+/// What a run needs from its target in addition to motion.
 struct RunOptions {
-    bool home = false;  ///< the axes find their references before they move
-    bool probe = false; ///< it ends, held on the path, where the probe touches
+    bool home = false;  ///< the axes find their references before the run moves
+    bool probe = false; ///< the run ends, held on the path, when the probe touches
 };
 
-/// What Supervision looks after. From the first segment on, its thread alone calls what is not const.
+/// The interface that Supervision uses. From the first segment on, only its thread calls the functions that are not
+/// const.
 class RunTarget {
 public:
     RunTarget() = default;
@@ -32,49 +33,49 @@ public:
     RunTarget& operator=(const RunTarget&) = delete;
     virtual ~RunTarget() = default;
 
-    /// The shortest segments that it takes. [us]
+    /// Duration of the shortest segments that the target accepts. [us]
     [[nodiscard]] virtual double least_segment_us() const noexcept = 0;
-    /// Whether a run may have longer segments than the machine file asks for.
+    /// Whether a run may have longer segments than those of the machine file.
     [[nodiscard]] virtual bool resamples() const noexcept = 0;
-    /// Lowers limits of the machine that its drives cannot follow, before anything is planned. What it lowered, in a
-    /// line; empty: nothing.
+    /// Before planning: lowers limits of the machine that its drives cannot follow. Returns one line that says what was
+    /// lowered; empty: nothing.
     [[nodiscard]] virtual std::string fit(MachineDescription& /*machine*/) const { return {}; }
-    /// Whether it carries the machine's velocities and positions in segments that long. Throws UsageError with the
-    /// axis, its value and the range; nothing has moved.
+    /// Checks that the target can carry the machine's velocities and positions in segments of this duration. Throws
+    /// UsageError with the axis, its value and the range; nothing has moved.
     virtual void check(const MachineDescription& /*machine*/, double /*segment_us*/) const {}
-    /// What the user should know before anything moves, in a line; empty: nothing.
+    /// One line that the user should read before anything moves; empty: nothing.
     [[nodiscard]] virtual std::string note() const { return {}; }
 
     [[nodiscard]] virtual hal::MotionPort& port() noexcept = 0;
-    /// Makes all ready for the first segment, which defines where the axes stand. May take minutes (homing); ends when
-    /// SignalWatch::interrupts() grows. Empty, or what is wrong.
+    /// Prepares the target for the first segment, which defines where the axes stand. May take minutes (homing); ends
+    /// early if SignalWatch::interrupts() grows. Returns an empty text, or what is wrong.
     [[nodiscard]] virtual std::string prepare(const FeedSegment& first) = 0;
     /// No more segments come.
     virtual void complete() = 0;
-    /// The user wants an end: all axes stop on the path.
+    /// The user wants to end the run: all axes stop on the path.
     virtual void hold() { port().halt(); }
-    /// For the second time: at once.
+    /// The second request: stops the axes at once.
     virtual void quick_stop() = 0;
-    /// Before each poll of the port.
+    /// Called before each poll of the port.
     virtual void look() {}
-    /// Why the plan is to be held on its path, and ends there; empty: it is not. A planner that does not deliver the
-    /// way to standstill in time is the target's business: its port becomes halted then.
+    /// Why the plan has to be held on its path, and ends there; empty: it has not. If the planner does not deliver the
+    /// way to standstill in time, the target deals with it: its port then becomes halted.
     [[nodiscard]] virtual std::string holds() const { return {}; }
-    /// And whether that was what the run was for.
+    /// Whether this hold was the purpose of the run.
     [[nodiscard]] virtual bool achieved() const { return false; }
-    /// Why the port is in fault.
+    /// Why the port has a fault.
     [[nodiscard]] virtual std::string fault() const = 0;
-    /// How the axes were stopped, after hold() or quick_stop().
+    /// How the axes were stopped by hold() or quick_stop().
     [[nodiscard]] virtual std::string halted(bool quick) const = 0;
-    /// Once, when a motion that prepare() began is over, however it ended: the drives are left as the machine file says
-    /// (drives_at_end), those that stand. Returns what was not confirmed, in a line.
+    /// Called once, when a motion that prepare() began is over, for any reason. Drives that stand are left in the state
+    /// that the machine file requires (drives_at_end). Returns one line with everything that was not confirmed.
     [[nodiscard]] virtual std::string finish() = 0;
-    /// Before the process ends without destructors: what drives and lines are to be left at.
+    /// Called before the process ends without destructors: leaves drives and lines in their final state.
     virtual void release() noexcept = 0;
 
-    /// "; the machine stands at x=1.0000 y=2.0000 mm", by what the drives say.
+    /// "; the machine stands at x=1.0000 y=2.0000 mm", as reported by the drives.
     [[nodiscard]] virtual std::string where() const = 0;
-    /// Adds what it knows of the run.
+    /// Adds its data about the run.
     virtual void describe(Summary& summary) const = 0;
 };
 

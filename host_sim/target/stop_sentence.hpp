@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// stop_sentence: what may be said of drives that were stopped, and nothing beyond.
+// stop_sentence: the message about drives that were stopped. It claims only what is known.
 #pragma once
 
 #include "splinefeed/hal/stop_sequence.hpp"
@@ -14,13 +14,13 @@ struct StoppedDrive {
     hal::StopReport report;
 };
 
-/// "interrupted: all drives were held on the path" where that is known, or what is known instead.
+/// "interrupted: all drives were held on the path" if that is known, otherwise what is known instead.
 [[nodiscard]] std::string stop_sentence(const std::vector<StoppedDrive>& drives, bool twice);
 
-/// "; NAME did not confirm its stop and may still move", for each such drive; empty: none.
+/// "; NAME did not confirm its stop and may still move", for each such drive; empty: there is none.
 [[nodiscard]] std::string unconfirmed_drives(const std::vector<StoppedDrive>& drives);
 
-/// "NAME did not confirm that it is off; ...", for each such drive; empty: none.
+/// "NAME did not confirm that it is off; ...", for each such drive; empty: there is none.
 [[nodiscard]] std::string not_switched_off(const std::vector<StoppedDrive>& drives);
 
 } // namespace splinefeed::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GpioChips: the lines of a map, taken from their chips, in the form that the port uses.
+// GpioChips: the lines of a map, requested from their chips, in the form that the port uses.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -15,7 +15,7 @@
 
 namespace splinefeed::host {
 
-/// The lines of a map, as a target uses them: a test has its own.
+/// The lines of a map, as a target uses them; tests have their own class.
 class GpioLines {
 public:
     GpioLines() = default;
@@ -23,28 +23,29 @@ public:
     GpioLines& operator=(const GpioLines&) = delete;
     virtual ~GpioLines() = default;
 
-    /// What a port needs.
+    /// The outputs that a port needs.
     [[nodiscard]] virtual std::vector<hal::gpio::ChipOutputs> outputs() = 0;
-    /// Of each chip that has inputs: where its edges come from, and the indices of its inputs in the map.
+    /// For each chip that has inputs: the source of its edges, and the indices of its inputs in the map.
     struct Inputs {
         hal::gpio::InputSource* source;
         std::vector<std::size_t> input;
     };
     [[nodiscard]] virtual std::vector<Inputs> inputs() = 0;
-    /// A call that sets lines takes so long, on the slowest chip: of each of `calls` calls, which change nothing. [ns]
+    /// Measures how long a call that sets lines takes, on the slowest chip: the time of each of `calls` calls, which
+    /// change nothing. [ns]
     [[nodiscard]] virtual std::vector<std::uint64_t> set_times_ns(int calls) = 0;
-    /// All outputs take their safe levels, as at the end.
+    /// Sets all outputs to their safe levels, as at the end.
     virtual void make_safe() noexcept = 0;
-    /// Enable and brake keep the levels that they have, also at the end. @pre nobody sets any more
+    /// Enable and brake keep their present levels, also at the end. @pre nothing sets lines any more
     virtual void keep_drives_on() noexcept = 0;
-    /// Its name for messages: "/dev/gpiochip0 X_LIMIT".
+    /// Name of the line for messages: "/dev/gpiochip0 X_LIMIT".
     [[nodiscard]] virtual std::string name(hal::gpio::LineBit input) const = 0;
 };
 
-/// Those of real chips. They are safe from its making to its end, also where the program crashes.
+/// Lines of real chips. They have safe levels from construction to the end, also if the program crashes.
 class GpioChips final : public GpioLines {
 public:
-    /// Takes the lines. Throws hal::gpio::GpioError; then none was taken. `map` outlives it.
+    /// Requests the lines. Throws hal::gpio::GpioError; then none was taken. `map` must outlive it.
     GpioChips(const hal::gpio::LineMap& map, const MachineDescription& machine);
 
     [[nodiscard]] std::vector<hal::gpio::ChipOutputs> outputs() override;
@@ -82,8 +83,8 @@ private:
 
     const hal::gpio::LineMap* map_;
     const MachineDescription* machine_;
-    std::vector<std::unique_ptr<Writer>> writer_; // of each chip; null: it has no outputs
-    std::vector<std::unique_ptr<Source>> source_; // the same
+    std::vector<std::unique_ptr<Writer>> writer_; // one per chip; null: the chip has no outputs
+    std::vector<std::unique_ptr<Source>> source_; // one per chip; null: the chip has no inputs
     std::optional<hal::gpio::CrashGuard> guard_;
 };
 

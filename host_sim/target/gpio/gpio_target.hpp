@@ -12,9 +12,9 @@ namespace splinefeed::host {
 
 class GpioTarget final : public RunTarget {
 public:
-    /// Throws TargetError, and UsageError where the chip is too slow for the machine's limits. `machine` outlives it.
-    /// @param lines  of the map
-    /// @param clock  null: the system's, and the target asks the system for real time. Outlives it.
+    /// Throws TargetError, and UsageError if the chip is too slow for the machine's limits. `machine` must outlive it.
+    /// @param lines  lines of the map
+    /// @param clock  null: the system's clock; the target then also requests real-time priority. Must outlive it.
     GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
                const MachineDescription& machine, const RunOptions& wishes, hal::Clock* clock = nullptr);
     ~GpioTarget() override;
@@ -51,28 +51,28 @@ private:
     hal::gpio::StepPort port_;
     GpioInputs inputs_;
     GpioMover mover_;
-    hal::StopSequence stop_; // all axes stop as one
+    hal::StopSequence stop_; // all axes stop as one drive
     std::uint64_t executed_us_ = 0;
-    std::string missing_; // of real time
-    std::string holds_;   // why the motion is held, and ends
-    GpioSummary seen_;    // of inputs
+    std::string missing_; // real-time rights that are missing
+    std::string holds_;   // why the motion is held and ends
+    GpioSummary seen_;    // changes of inputs
     std::uint64_t began_ns_;
     bool began_ = false; // the lines may have changed
     bool probed_ = false;
     bool quick_ = false;
     bool completed_ = false;
-    bool finished_ = false; // the drives are as the machine file says
+    bool finished_ = false; // the drives are in the state that the machine file requires
 };
 
-/// Reads the map and takes the lines. Throws InputError, TargetError and UsageError.
+/// Reads the map and requests the lines. Throws InputError, TargetError and UsageError.
 [[nodiscard]] std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address,
                                                            const MachineDescription& machine, const RunOptions& wishes);
 
-/// How many lines a second may be set where a call takes so long: half of the time.
+/// Number of lines that may be set per second if a call takes this long: half of the time may be spent in calls.
 [[nodiscard]] double most_edges_per_s(double call_ns) noexcept;
-/// What the machine's limits may ask for.
+/// Number of edges per second that the machine's limits may require.
 [[nodiscard]] double asked_edges_per_s(const MachineDescription& machine) noexcept;
-/// Of the map's thread.
+/// Settings from the thread section of the map.
 [[nodiscard]] hal::gpio::StepPortSettings port_settings(const MachineDescription& machine,
                                                         const hal::gpio::LineMap& map, hal::Clock* clock = nullptr);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ModbusTarget: what runs on drives on Modbus have in common, whether they interpolate or are told where to be.
+// ModbusTarget: the common part of runs on Modbus drives, both those that interpolate and those that follow target
+// positions.
 #pragma once
 
 #include "host_sim/base/signal_watch.hpp"
@@ -12,11 +13,11 @@
 
 namespace splinefeed::host {
 
-/// A port with the drives of a table, in its order.
+/// A port with the drives of a table, in the same order.
 template <class Port>
 class ModbusTarget : public RunTarget {
 protected:
-    /// @param wiring_of  the drives of a table in the port's form
+    /// @param wiring_of  converts the drives of a table to the form of the port
     template <class WiringOf>
     ModbusTarget(DriveTable table, const MachineDescription& machine, bool home, WiringOf wiring_of)
         : machine_(&machine), table_(std::move(table)),

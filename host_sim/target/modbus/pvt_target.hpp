@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PvtTarget: a run on drives that interpolate: who they are, whether the line carries the plan, and how the run went.
+// PvtTarget: a run on drives that interpolate: which drives answer, whether the line carries the plan, and the results
+// of the run.
 #pragma once
 
 #include "host_sim/target/modbus/modbus_target.hpp"
@@ -8,15 +9,15 @@
 
 namespace splinefeed::host {
 
-/// The drives of a table in the port's form. @pre they interpolate
+/// Converts the drives of a table to the form of the port. @pre they interpolate
 [[nodiscard]] std::vector<hal::modbus::DriveWiring> pvt_wiring(const DriveTable& table,
                                                                const MachineDescription& machine);
 
-/// Whether segments that long can carry the machine's velocities. Throws UsageError with the axis, its value and the
-/// range.
+/// Checks that segments of this duration can carry the machine's velocities. Throws UsageError with the axis, its value
+/// and the range.
 void check_pvt_range(const MachineDescription& machine, double segment_us);
 
-/// What is wrong with which drive, in a line.
+/// One line: which drive has a problem, and what it is.
 [[nodiscard]] std::string drive_sentence(const DriveTable& table, const hal::modbus::ModbusPort& port,
                                          const hal::modbus::DriveFailure& failure);
 
