@@ -1,31 +1,29 @@
 // SPDX-License-Identifier: MIT
 //
-// Control point d_i is the blossom f(t_{i-1}, t_i, t_{i+1}) of the cubic pieces around knot i; at the clamped ends of a
-// run t_{a-1} = t_a, so d_a is the first inner Bezier point. With spans h_i = t_{i+1} - t_i (0 beyond the run):
+// Control point d_i is the blossom f(t_{i-1}, t_i, t_{i+1}) of the cubic pieces around knot i. At the clamped ends of a
+// run t_{a-1} = t_a, so d_a is the first inner Bezier point. With spans h_i = t_{i+1} - t_i (0 outside the run):
 //
-//   before knot i:  f(t_{i-1}, t_i, t_i)   = lambda d_{i-1} + (1 - lambda) d_i,  lambda = h_i / (h_{i-2} + h_{i-1} +
-//   h_i) after knot i:   f(t_i, t_i, t_{i+1})   = (1 - mu) d_i + mu d_{i+1},          mu = h_{i-1} / (h_{i-1} + h_i +
-//   h_{i+1}) at knot i:      f(t_i, t_i, t_i) = P_i = (1 - omega) before + omega after,   omega = h_{i-1} / (h_{i-1} +
-//   h_i)
+//   before knot i: f(t_{i-1}, t_i, t_i) = lambda d_{i-1} + (1 - lambda) d_i, lambda = h_i / (h_{i-2} + h_{i-1} + h_i)
+//   after knot i:  f(t_i, t_i, t_{i+1}) = (1 - mu) d_i + mu d_{i+1},         mu = h_{i-1} / (h_{i-1} + h_i + h_{i+1})
+//   at knot i:     f(t_i, t_i, t_i) = P_i = (1 - omega) before + omega after, omega = h_{i-1} / (h_{i-1} + h_i)
 //
 // The last line, read as an equation for the d, is the interpolation condition: a tridiagonal, totally positive system.
-// Written in the offsets delta_i = d_i - P_i it holds differences of waypoints only, a = (1-omega) lambda, c = omega
-// mu:
+// Written with the offsets delta_i = d_i - P_i it contains only differences of waypoints, a = (1-omega) lambda, c =
+// omega mu:
 //
 //   a delta_{i-1} + (1 - a - c) delta_i + c delta_{i+1} = a (P_i - P_{i-1}) - c (P_{i+1} - P_i)
 //
-// so the result does not move with the origin and single precision suffices far from it.
-// Natural start (b0 - 2 b1 + b2 = 0): (1 + f) delta_a - f delta_{a+1} = f e_a, f = h_a / (h_a + h_{a+1}); the end
-// likewise.
+// So the result does not depend on the origin, and single precision is enough far from it. Natural start (b0 - 2 b1 +
+// b2 = 0): (1 + f) delta_a - f delta_{a+1} = f e_a, f = h_a / (h_a + h_{a+1}); the end in the same way.
 //
 // Weighted joints: h_i in lambda (before knot i) and h_{i-1} in mu (after it) are multiplied by gamma_i, the outer
-// spans by the gamma of their knots; omega is as it is. All weights stay in [0, 1] for 0 < gamma <= 1, so that the
-// system stays totally positive. That a joint so divided is r'' = beta1^2 q'' + beta2 q' is measured in g2_bezier_test.
+// spans by the gamma of their knots; omega does not change. All weights stay in [0, 1] for 0 < gamma <= 1, so the
+// system stays totally positive. g2_bezier_test measures that such a joint satisfies r'' = beta1^2 q'' + beta2 q'.
 //
 // Streaming: rows are eliminated once, in order (delta_i = rho_i - gamma_i delta_{i+1}). A control point is committed
-// by back-substitution from the newest row, closed there by delta_{R+1} = delta_R; the influence of that guess falls by
-// 0.268 per knot for even spacing (measured: 2e-8 mm at spacings of 1000:1, too). Row i+1 never depends on what was
-// committed, so the miss does not accumulate.
+// by back-substitution from the newest row, which is closed by delta_{R+1} = delta_R. The influence of this guess falls
+// by a factor of 0.268 per knot for even spacing (measured: 2e-8 mm also at spacings of 1000:1). Row i+1 never depends
+// on committed offsets, so the error does not accumulate.
 #include "splinefeed/s1_curve/control_point_stream.hpp"
 
 namespace splinefeed {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // At a joint of a and b the normal parts of the second derivatives are n_a^2 K_a and n_b^2 K_b. With V their sum in one
-// unit, the weighted mean is K = V/(n_a^2 + n_b^2), and what the segments get is
+// unit, the weighted mean is K = V/(n_a^2 + n_b^2), and the segments get
 //     K n_a^2 = V n_a^2/(n_a^2 + n_b^2),   K n_b^2 = V n_b^2/(n_a^2 + n_b^2):
-// two weights that add to 1. Nothing is divided by a square of a length, so nothing overflows and Fixed keeps its
-// digits whatever the ratio of the segments; that ratio is kept as a mantissa and an exponent.
+// two weights with the sum 1. Nothing is divided by the square of a length, so nothing overflows, and Fixed keeps its
+// digits for any ratio of the segments. That ratio is stored as a mantissa and an exponent.
 #include "splinefeed/s1_curve/smoothed_curve.hpp"
 
 #include "splinefeed/number/exponent.hpp"

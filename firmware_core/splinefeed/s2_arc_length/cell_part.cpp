@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// With w0, w1 the parameters at the ends of the stretch, the position is a polynomial of omega = (w - w0) / (w1 - w0),
-// and so is omega of xi = (x - from) / l, l the length of the stretch: both are shifted to their start (Horner's rule,
-// repeated) and scaled. The shape's Bezier points are those on the stretch; 2 L q'' and what it leaves its parabola by,
-// per length of the cell, shrink with the length.
+// Let w0, w1 be the parameters at the ends of the part. The position is a polynomial of omega = (w - w0) / (w1 - w0),
+// and omega is one of xi = (x - from) / l, with l the length of the part. Both are shifted to their start (repeated
+// Horner's rule) and scaled. The Bezier points of the shape are those on the part. 2 L q'' and the error of its
+// parabola, which are per length of the cell, shrink with the length.
 #include "splinefeed/s2_arc_length/cell_part.hpp"
 
 #include <span>

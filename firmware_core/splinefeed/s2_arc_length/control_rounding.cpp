@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Halving rounds the control points of a piece. Those of axis k, at most m_k, are off by e_k: half an ulp of m_k in
-// float, half an ulp of one in the other scalars. From one cell to the next dr/dw of the axis jumps by at most 2 e_k
-// times the degree, and r'' is off by 24 roundings of a cubic, of which twice as many are allowed for. Relative to
-// |dr/dw| that is n_k; and |dr/dw| itself, or its slope, is off by the sum of |q'_k| n_k at most, of which the axis
-// feels the part |q'_k|.
+// Halving rounds the control points of a piece. Those of axis k, at most m_k, have an error e_k: half an ulp of m_k in
+// float, half an ulp of one in the other scalars. From one cell to the next, dr/dw of the axis jumps by at most 2 e_k
+// times the degree. The error of r'' is 24 roundings of a cubic; twice as many are allowed for. Relative to |dr/dw| the
+// jump is n_k. |dr/dw| itself, or its slope, has an error of at most the sum of |q'_k| n_k, and |q'_k| of that acts on
+// the axis.
 #include "splinefeed/s2_arc_length/control_rounding.hpp"
 
 namespace splinefeed {

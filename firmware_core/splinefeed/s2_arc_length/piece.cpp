@@ -4,13 +4,13 @@
 //
 //   L = (7 sigma_0 + 16 sigma_m + 7 sigma_1) / 30 + (sigma_0' - sigma_1') / 60       (error of order 7 in the step)
 //
-// the integral of the quartic through sigma at three points and sigma' at the ends. These are values that the bounds
-// need anyway; Gauss-Legendre would ask for four more evaluations. The end-point rule (sigma_0 + sigma_1)/2 + (sigma_0'
-// - sigma_1')/12, of order 5, tells how good it is.
+// It is the integral of the quartic through sigma at three points and sigma' at the ends. The bounds need these values
+// anyway; Gauss-Legendre would need four more evaluations. The difference to the end-point rule (sigma_0 + sigma_1)/2 +
+// (sigma_0' - sigma_1')/12, of order 5, estimates the error.
 //
 // Inverse w(x), x = s / L: the quintic through dw/dx = L / sigma and d2w/dx2 = -(sigma'/sigma) (L / sigma)^2 at both
-// ends, plus c (x (1 - x))^3 so that it also passes through w = 1/2 where the length of the first half says it is. Its
-// slope there was not used and tells how good the inverse is.
+// ends, plus c (x (1 - x))^3, so that it also passes through w = 1/2 at the length of the first half. The slope there
+// was not used for the construction; it shows how good the inverse is.
 #include "splinefeed/s2_arc_length/piece.hpp"
 
 namespace splinefeed {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Line: with constant acceleration the mean speed is (v0 + v1) / 2, so T = 2 L / (v0 + v1) (never integrate ds / v),
-// and after the time y T the way is L y (l + (1 - l) y), l = 2 v0 / (v0 + v1).
+// Line: with constant acceleration the mean speed is (v0 + v1) / 2, so T = 2 L / (v0 + v1) (ds / v is not integrated).
+// After the time y T the distance is L y (l + (1 - l) y), l = 2 v0 / (v0 + v1).
 //
-// Parabola: lengths in units of the profile segment's, L; speeds in units of V, times of L / V. With v^2 = e^2 + 2 p s
-// + c s^2 the motion obeys s'' = p + c s, s(0) = 0, s'(0) = e, which is solved by
+// Parabola: lengths are in units of the profile segment's length L, speeds in units of V, times in units of L / V. With
+// v^2 = e^2 + 2 p s + c s^2 the motion satisfies s'' = p + c s, s(0) = 0, s'(0) = e. The solution is
 //
 //   s(t) = e t S(c t^2) + p t^2 C(c t^2),   S(z) = sum z^k / (2k+1)!,   C(z) = sum z^k / (2k+2)!
 //
 // (hyperbolic for c > 0, trigonometric for c < 0). The time for s = 1 is found by Newton's method, with s'(t) = v. V is
-// the speed in the middle, lest a number be larger than 8: V^2 >= entry_sq / 4, middle_sq / 2, exit_sq / 4.
+// the speed in the middle, limited so that no number is larger than 8: V^2 >= entry_sq / 4, middle_sq / 2, exit_sq / 4.
 #include "splinefeed/s4_segment_stream/profile_motion.hpp"
 
 #include <array>

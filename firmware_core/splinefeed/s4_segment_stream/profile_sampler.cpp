@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// A change of the steering acts on the motion behind the last control point, which is T ahead of the start of the next
-// segment: where that point is, the plan chooses another profile segment. Differences of samples across that point
-// average accelerations of both plans, which keep the limits. So a hold would take a whole segment to brake fully: the
-// second difference at that point is
+// A change of the steering acts on the motion after the last control point, which is T ahead of the start of the next
+// segment: from that point on the plan chooses another profile segment. Differences of samples across that point
+// average accelerations of both plans, which keep the limits. So a hold would need a whole segment until it brakes
+// fully: the second difference at that point is
 //
 //   (h_old + h_new) T^2 / 2 - q' d T
 //
 // with h the accelerations averaged over the segment before and after, and d a jump of the speed from the old plan to
-// the new. Since |h_new| <= A, it stays within A T^2 where |q'| d <= T (A + h_old) / 2, h_old counted along the motion:
-// the new plan starts with a speed that much lower, and stops half a segment earlier. h_old T^2 / 2 = q' v T less the
-// last difference.
+// the new. Since |h_new| <= A, it stays within A T^2 if |q'| d <= T (A + h_old) / 2, with h_old positive in the
+// direction of motion: the new plan starts with a speed that is lower by this, and stops half a segment earlier. h_old
+// T^2 / 2 = q' v T minus the last difference.
 //
-// A stop that is not bound to a place (of a hold) may be made up to T / 2 early, on the sample itself: on the way to
-// rest at t, |q'| <= A (t - time), so that the last difference is below A T (T / 2 + T / 2).
+// A stop that is not tied to a place (of a hold) may be made up to T / 2 early, on the sample itself: on the way to
+// standstill at t, |q'| <= A (t - time), so the last difference is below A T (T / 2 + T / 2).
 #include "splinefeed/s4_segment_stream/profile_sampler.hpp"
 
 namespace splinefeed {

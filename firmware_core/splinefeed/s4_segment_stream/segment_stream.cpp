@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// With samples c_k = q(k T) as control points, the emitted curve over segment k runs from
+// With the samples c_k = q(k T) as control points, the emitted curve over segment k runs from
 //
 //   p = (c_{k-1} + 4 c_k + c_{k+1}) / 6   with velocity   (c_{k+1} - c_{k-1}) / (2 T)   and acceleration
 //   (c_{k+1} - 2 c_k + c_{k-1}) / T^2     to the same of k+1,
 //
-// its acceleration linear in between. A first, second or third difference of samples over T, T^2, T^3 is an average of
-// q', q'' or q''' over the samples' span, hence inside any limit that the plan keeps. p differs from c_k by a sixth of
-// a second difference: at most T^2 |A| / 6.
+// and its acceleration is linear in between. A first, second or third difference of samples over T, T^2, T^3 is an
+// average of q', q'' or q''' over the samples' span, and so inside every limit that the plan keeps. p differs from c_k
+// by a sixth of a second difference: at most T^2 |A| / 6.
 //
-// Control points are rounded to multiples of 6 units; then p and 3 (c_{k+1} - c_{k-1}), the velocity in units per
-// segment, are whole numbers and the chain is C2 in exact arithmetic. Nothing accumulates: every control point is
-// rounded from an absolute position.
+// Control points are rounded to multiples of 6 units. Then p, and 3 (c_{k+1} - c_{k-1}), which is the velocity in units
+// per segment, are whole numbers, and the chain is C2 in exact arithmetic. Errors do not accumulate: every control
+// point is rounded from an absolute position.
 //
-// At a stop the control point is repeated three times: position exact, velocity and acceleration zero at one instant.
-// The dwell is 2 T and what is left of the current T.
+// At a stop the control point is repeated three times: the position is exact, and velocity and acceleration are zero at
+// one instant. The dwell is 2 T and the rest of the current T.
 #include "splinefeed/s4_segment_stream/segment_stream.hpp"
 
 namespace splinefeed {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// The samples are q(s_f(k T)), T a tick, the duration of a segment: with jerk-limited s_f their differences keep every
-// limit (segment_stream.cpp). s_f is the mean of the motion s(t) over a number of ticks, so the mean of the means over
-// each of them. In a profile segment of length l and duration d, with u the fraction of time, s = l u (c + (1 - c) u),
-// c = profile_segment().linear; the mean of a parabola over a part w of the profile segment's time is that of its ends
-// less a twelfth of the second difference, (1 - c) l (w / d)^2 / 6.
+// The samples are q(s_f(k T)), with T a tick, the duration of a segment. If s_f is jerk-limited, their differences keep
+// every limit (segment_stream.cpp). s_f is the mean of the motion s(t) over a number of ticks, and so the mean of the
+// means over each tick. In a profile segment of length l and duration d, with u the fraction of time, s = l u (c + (1 -
+// c) u), c = profile_segment().linear. The mean of a parabola over a part w of the profile segment's time is the mean
+// of its ends minus a twelfth of the second difference, (1 - c) l (w / d)^2 / 6.
 //
-// Where the motion comes to rest the mean does T later, exactly: all its positions are the same. Two ticks more make
-// three samples. Then the next motion may begin, and be averaged over another time.
+// When the motion comes to standstill, the mean does so T later, exactly: all its positions are then equal. Two more
+// ticks make three equal samples. Then the next motion may begin, and be averaged over another time.
 #include "splinefeed/s4_segment_stream/smooth_sampler.hpp"
 
 namespace splinefeed {

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// Instants are u = time / duration in 2^-32, so that T ticks are resolved to T / 2^32: 2^-12 for 100 ms.
+// Instants are u = time / duration in units of 2^-32, so T ticks have a resolution of T / 2^32: 2^-12 for 100 ms.
 //
-// The steps before predict the next one: with I and I' the two intervals before, I* = 2 I - I' and u* = u + I*. There
-// the way that is missing, e counts, is e I* to first order, since I* is the time of one count:
+// The previous steps predict the next one: with the last two intervals I and I' (I is the later one), I* = 2 I - I' and
+// u* = u + I*. If e counts are missing there, the correction is e I* to first order, because I* is the time of one
+// count:
 //
 //   u = u* + e I*
 //
-// The velocity at u* differs from one count per I* by a part of about |I* - I| / 2 I* where the acceleration goes on as
-// it was, and by 3 |e| more where its jerk jumps. So what remains is below |e I*| (|I* - I| / 2 + 3 |e I*|) / I*, and
-// where |e I*| (|I* - I| + |e I*|) is at most I* times an eighth of a tick, it is below 3/8 of a tick; rounding adds
-// 1/2. Where the acceleration jumps from one segment to the next (never in what the segment stream makes) the intervals
-// before are forgotten, and where |I* - I| + |e I*| is a quarter of I* or more they say too little: then, in the first
-// steps from a standstill, and where steps are further apart than an eighth of a segment, Newton's method finds the
-// step with the slope (crossing.cpp). Nothing is divided otherwise.
+// The velocity at u* differs from one count per I* by a part of about |I* - I| / 2 I* if the acceleration continues as
+// before, and by 3 |e| more if its jerk jumps. So the remaining error is below |e I*| (|I* - I| / 2 + 3 |e I*|) / I*.
+// If |e I*| (|I* - I| + |e I*|) is at most I* times an eighth of a tick, it is below 3/8 of a tick; rounding adds 1/2.
+// If the acceleration jumps from one segment to the next (the segment stream never does this) the intervals are
+// discarded. If |I* - I| + |e I*| is a quarter of I* or more, the prediction is not usable. In these cases, in the
+// first steps from a standstill, and where steps are further apart than an eighth of a segment, Newton's method finds
+// the step with the slope (crossing.cpp). Otherwise there is no division.
 //
-// Crossings are counted, not computed: up_units_ moves by whole counts, and from segment to segment by the exact way. A
-// part of the segment holds a crossing if its end lies behind it. The end of a part in the middle of a segment is
-// rounded; a crossing that is missed or added by that is one that the motion touches within 3 units, and the exact end
-// of the segment decides what remains.
+// Crossings are counted, not computed: up_units_ moves by whole counts, and from segment to segment by the exact
+// distance. A part of the segment contains a crossing if its end lies beyond the crossing. The end of a part in the
+// middle of a segment is rounded. A crossing that this misses or adds is one that the motion touches within 3 units;
+// the exact end of the segment determines what remains.
 #include "splinefeed/s5_pulse_train/axis_crossings.hpp"
 
 #include "splinefeed/base/assertion.hpp"

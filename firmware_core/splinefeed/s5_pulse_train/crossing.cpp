@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Newton's method with a bracket. A step that would leave the bracket is replaced by its middle, and from the twelfth
-// round on every one is: then 32 more are enough. Where Newton's method converges slowly, at a standstill (a double or
-// triple zero), a step is at least half as long as all that follow: the result is within two of the last step, which is
-// below `near` / 2.
+// Newton's method with a bracket. A step that would leave the bracket is replaced by the middle of the bracket, and
+// from the twelfth round on every step is: then 32 more are enough. Where Newton's method converges slowly, at a
+// standstill (a double or triple zero), a step is at least half as long as all later steps together: the result is
+// within two of the last step, which is below `near` / 2.
 #include "splinefeed/s5_pulse_train/crossing.hpp"
 
 #include <bit>

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// At the first sample of a part, x = u, the cubic is developed anew,
+// At the first sample of a part, x = u, the cubic is expanded again,
 //
 //   p(x + h) = p(x) + b1 h + b2 h^2 + b3 h^3,   b3 = third,  b2 = second + 3 third x,  b1 = p'(x),
 //
-// and with r = tick / duration its differences are
+// and with r = tick / duration the differences are
 //
 //   first = b1 r + b2 r^2 + b3 r^3,   second = 2 b2 r^2 + 6 b3 r^3,   third = 6 b3 r^3,
 //
-// in 2^-62 count, of which a unit has 2^32 / 3. Coefficients carry 8 bits below the unit (none reaches 2^62, see
-// AxisCubic), and what is rounded in b1, b2, b3 and p(x), at most four halves of such a bit each, moves the positions
-// of the part by less than 8 of them: 2^-5 unit, 2^-36.5 count. The scales have 62 good bits, and products are rounded
-// to the nearest 2^-62 count. So third is off by e3 <= 1/2, second by e2 <= 2, first by e1 <= 10 of them (the scales'
-// 2^-60 of half a count are 8), and after n ticks the position by
+// in units of 2^-62 count; a position unit has 2^32 / 3 of them. Coefficients have 8 bits below the unit (none reaches
+// 2^62, see AxisCubic). Rounding of b1, b2, b3 and p(x), at most four halves of such a bit each, moves the positions of
+// the part by less than 8 bits: 2^-5 unit, 2^-36.5 count. The scales have 62 good bits, and products are rounded to the
+// nearest 2^-62 count. So the error of third is e3 <= 1/2, of second e2 <= 2, of first e1 <= 10 (the scales' 2^-60 of
+// half a count are 8), and after n ticks that of the position is
 //
 //   n e1 + n^2/2 e2 + n^3/6 e3  <  2^13.4 + 2^20 + 2^26.5 < 2^27   for n = 1024:  2^-35 count.
 //
-// Together below 2^-34.5 count.
+// In total below 2^-34.5 count.
 #include "splinefeed/s5_pulse_train/dda_loader.hpp"
 
 #include "splinefeed/base/assertion.hpp"

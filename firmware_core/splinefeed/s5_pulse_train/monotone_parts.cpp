@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The velocity is a parabola with the Bezier points first, first + second, first + 2 second + 3 third: where none is
-// negative, or none positive, it has no zero inside. Else its vertex separates its zeros, and halving finds them: 32
-// halvings in integers are exact to 2^-32 of the duration, where the way differs from that at the zero by less than the
-// rounding of at(). Nothing is divided.
+// The velocity is a parabola with the Bezier points first, first + second, first + 2 second + 3 third: if none is
+// negative, or none positive, it has no zero inside. Otherwise its vertex separates its zeros, and bisection finds
+// them: 32 steps in integers are exact to 2^-32 of the duration, where the distance differs from that at the zero by
+// less than the rounding of at(). There is no division.
 #include "splinefeed/s5_pulse_train/monotone_parts.hpp"
 
 namespace splinefeed {

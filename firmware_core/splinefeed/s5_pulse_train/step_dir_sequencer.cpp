@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Why nothing has to move. Steps of one direction are step_gap() apart, since the plan keeps the axis's velocity
-// (StepTiming::allows). A step p and one back, s, less than turn_gap() later are of one crossing, which the motion
-// passes and passes back; without both the axis stands where it stood before p. What comes before p, e, and after s, n,
-// still fits together:
-//   e and n both as p: both are one count apart, and n is of the same crossing as p but later.
+// Why no step has to move. Steps in one direction are step_gap() apart, because the plan keeps the axis's velocity
+// (StepTiming::allows). If a step p is followed by a step back s less than turn_gap() later, both belong to one
+// crossing, which the motion passes and passes back. Without both steps the axis stands where it stood before p. The
+// step e before p and the step n after s still fit together:
+//   e and n both in the direction of p: they are one count apart, and n belongs to the same crossing as p but is later.
 //   e as p, n as s: between e and n the motion goes out by more than a count and back; by allows() the time for 1/64
-//   count out and back is longer than turn_gap(). e as s, n as p: the crossing of e is that of p, and e and p were far
-//   enough apart; n is a count beyond. e and n both as s: n comes after s.
+//   count out and back is longer than turn_gap().
+//   e as s, n as p: the crossing of e is that of p, and e and p were far enough apart; n is a count beyond.
+//   e and n both as s: n comes after s.
 //
-// A step is certain once a later one of its axis is known, or nothing within turn_gap() can follow. Its edges then wait
-// until no later step of another axis can have an earlier one, a change of direction: `setup` before that step.
+// A step is certain when a later step of its axis is known, or nothing within turn_gap() can follow. Its edges then
+// wait until no later step of another axis can have an earlier edge, a change of direction: `setup` before that step.
 #include "splinefeed/s5_pulse_train/step_dir_sequencer.hpp"
 
 #include "splinefeed/base/assertion.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// L U in place: multipliers stay where the entries were that they remove. Interchanges swap what lies right of the
-// pivot only, so a right-hand side takes them step by step.
+// L U in place: multipliers are stored where the entries were that they remove. Interchanges swap only the entries to
+// the right of the pivot, so they are applied to a right-hand side step by step.
 //
-// Error. Elimination without pivoting of a totally positive A has L >= 0, U >= 0 and L U = A, so what is solved is
-// (A + E) x = b with |E| <= c width u A entry by entry, u the rounding of a weight (2^-53, 2^-24, in Fixed 2^-47
-// absolutely) and c about 3: an error of x below 3 (width + 1) u condition, in rows that sum to 1.
+// Error. For a totally positive A, elimination without pivoting gives L >= 0, U >= 0 and L U = A. So the solved system
+// is (A + E) x = b with |E| <= c width u A entry by entry, where u is the rounding of a weight (2^-53, 2^-24, in Fixed
+// 2^-47 absolutely) and c is about 3: an error of x below 3 (width + 1) u condition, in rows that sum to 1.
 #include "splinefeed/splines/banded_system.hpp"
 
 namespace splinefeed {

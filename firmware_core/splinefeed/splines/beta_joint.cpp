@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // r'(0) = d (W1 - W0), q'(1) = d (C - B), r''(0) = d (d-1)(W0 - 2 W1 + W2), q''(1) = d (d-1)(A - 2 B + C). The
-// constraint of order 2 over d (d-1): W0 - 2 W1 + W2 = beta1^2 (A - 2 B + C) + c (C - B), c = beta2/(d-1): the second
-// derivatives have d (d-1) in front, the first one d, so that beta2 keeps 1/(d-1) and no factor d. With W0 and W1 put
-// in,
+// constraint of order 2, divided by d (d-1), is W0 - 2 W1 + W2 = beta1^2 (A - 2 B + C) + c (C - B), c = beta2/(d-1):
+// the second derivatives have the factor d (d-1), the first one d, so beta2 keeps 1/(d-1) and no factor d. With W0 and
+// W1 inserted,
 //   W2 = C + (2 beta1 + c)(C - B) + beta1^2 ((C - B) - (B - A)).
-// Differences first: the result does not move with the origin.
+// Differences are computed first: the result does not depend on the origin.
 //
 // gamma = (d-1)(1 + beta1) / (beta2 + beta1 (d-1)(1 + beta1)), T = B + beta1^2 gamma (B - A).
 #include "splinefeed/splines/beta_joint.hpp"

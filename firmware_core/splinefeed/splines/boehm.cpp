@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Vertices are blossoms d_i = f(U_{i+1}, U_{i+2}, U_{i+3}) over the knots; along the side d_i -> d_{i+1} one argument
-// runs from U_{i+1} to U_{i+4}, and where it passes a knot of the piece lies a Bezier point:
+// Vertices are blossoms d_i = f(U_{i+1}, U_{i+2}, U_{i+3}) over the knots. Along the side d_i -> d_{i+1} one argument
+// runs from U_{i+1} to U_{i+4}, and where it passes a knot of the piece there is a Bezier point:
 //
 //   b1 = f(a, a, b), b2 = f(a, b, b) on the side `along` of the piece [a, b],
-//   b0 = f(a, a, a) = (b2 of the piece before + b1) / 2, since both knot intervals are 1; b3 likewise.
+//   b0 = f(a, a, a) = (b2 of the piece before + b1) / 2, because both knot intervals are 1; b3 in the same way.
 //
-// Seen from the joint, the neighbouring Bezier point lies one part of its side away.
+// Seen from the joint, the neighbouring Bezier point is one part of its side away.
 #include "splinefeed/splines/boehm.hpp"
 
 #include "splinefeed/splines/point_list.hpp"

@@ -4,10 +4,10 @@
 //
 //   N_j^d = (t - u_j) / (u_{j+d} - u_j) N_j^{d-1} + (u_{j+d+1} - t) / (u_{j+d+1} - u_{j+1}) N_{j+1}^{d-1}
 //
-// Each function of degree d - 1 is split into a left and a right part, (u_{j+d} - t) : (t - u_j). In Fixed one part is
-// the difference to the whole, so that the sum stays exact. With a_j = h d / (u_{j+d} - u_j) N_j^{d-1}, h the length of
-// the span, the derivative by the local parameter is a_j - a_{j+1}; h <= u_{j+d} - u_j because the span lies within the
-// support.
+// Each function of degree d - 1 is split into a left and a right part, in the ratio (u_{j+d} - t) : (t - u_j). In Fixed
+// one part is the difference to the whole, so the sum stays exact. With a_j = h d / (u_{j+d} - u_j) N_j^{d-1} and h the
+// length of the span, the derivative by the local parameter is a_j - a_{j+1}; h <= u_{j+d} - u_j because the span lies
+// within the support.
 #include "splinefeed/splines/bspline_basis.hpp"
 
 namespace splinefeed {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Row of point i: sum_j N_j(t_i) d_j = P_i, (4). At a clamped end N_0 = 1 and, from the derivative of the first span,
-// k (d_1 - d_0) / (u_{k+1} - u_1) = D: with d_0 = P_0 known, a row of its own, d_1 = P_0 + D (u_{k+1} - u_1) / k. So
-// every row sums to 1 and the system stays totally positive.
+// Row of point i: sum_j N_j(t_i) d_j = P_i, (4). At a clamped end N_0 = 1, and the derivative of the first span gives k
+// (d_1 - d_0) / (u_{k+1} - u_1) = D. With d_0 = P_0 known this is a row of its own, d_1 = P_0 + D (u_{k+1} - u_1) / k.
+// So every row sums to 1 and the system stays totally positive.
 #include "splinefeed/splines/bspline_interpolation.hpp"
 
 #include "splinefeed/splines/bspline_basis.hpp"

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// Piece i leads from P_i to P_{i+1}, e_i = P_{i+1} - P_i. With the derivative t_i at the end of piece i - 1 and beta1
+// Piece i leads from P_i to P_{i+1}, e_i = P_{i+1} - P_i. With the derivative t_i at the end of piece i - 1, and beta1
 // t_i at the start of piece i, both by the parameter of the piece, the second derivatives there are
 //   q''(1) = 2 beta1_{i-1} t_{i-1} + 4 t_i - 6 e_{i-1},    r''(0) = 6 e_i - 4 beta1_i t_i - 2 t_{i+1}.
 // r'' = beta1^2 q'' + beta2 q' over 2 beta1^2, with r = 1/beta1_i:
 //   beta1_{i-1} t_{i-1} + (2 + 2 r + beta2 r^2 / 2) t_i + r^2 t_{i+1} = 3 (e_{i-1} + r^2 e_i)
 // and over 1 + r, with omega = r / (1 + r) and omega' = 1 / (1 + r), weights in [0, 1] that sum to 1:
 //   omega' beta1_{i-1} t_{i-1} + (2 + beta2 r omega / 2) t_i + omega r t_{i+1} = 3 (omega' e_{i-1} + omega r e_i).
-// Ends: 2 t_0 + t_1 = 3 e_0 and beta1_{n-2} t_{n-2} + 2 t_{n-1} = 3 e_{n-2} where natural (beta1_0 = 1).
+// Ends: 2 t_0 + t_1 = 3 e_0 and beta1_{n-2} t_{n-2} + 2 t_{n-1} = 3 e_{n-2} if natural (beta1_0 = 1).
 //
-// Only ratios of neighbouring joints appear: a beta1 other than 1 at thousands of joints neither over- nor underflows.
-// Elimination from above, t_i = rho_i - g_i t_{i+1}: the pivot is
+// Only ratios of neighbouring joints appear: a beta1 other than 1 at thousands of joints causes neither overflow nor
+// underflow. Elimination from above, t_i = rho_i - g_i t_{i+1}: the pivot is
 //   p_i = 2 + beta2 r omega / 2 - omega'_i (omega_{i-1} / p_{i-1}),    g_i = omega r / p_i;
-// beta1_{i-1} cancels against g_{i-1}. p >= 2 - 1/1 implies omega/p <= 1, hence by induction p_i >= 1 for all beta1 > 0
-// and beta2 >= 0 (in fact 3/2): no pivoting, and no growth of rounding errors in units of the spans. (In t / h with h_i
-// = beta1_i h_{i-1} the rows are diagonally dominant by 1.)
+// beta1_{i-1} cancels against g_{i-1}. p >= 2 - 1/1 implies omega/p <= 1, and so by induction p_i >= 1 for all beta1 >
+// 0 and beta2 >= 0 (in fact 3/2): no pivoting is needed, and rounding errors do not grow in units of the spans. (In t /
+// h with h_i = beta1_i h_{i-1} the rows are diagonally dominant by 1.)
 //
-// Closed: t_{n-1} is eliminated last. Every row is t_i = rho_i - g_i t_{i+1} - s_i t_{n-1}, and what is wanted of all
-// of them is t_0 = a - c t_{i+1} - s t_{n-1}, which is carried along: the pass before the elimination finds t_{n-1}
-// with a constant number of scalars, and with it the elimination is that of an open curve whose tangents are given.
+// Closed: t_{n-1} is eliminated last. Every row is t_i = rho_i - g_i t_{i+1} - s_i t_{n-1}. The only value needed of
+// all rows is t_0 = a - c t_{i+1} - s t_{n-1}, which is carried along. The pass before the elimination finds t_{n-1}
+// with a constant number of scalars; then the elimination is that of an open curve whose tangents are given.
 #include "splinefeed/splines/g2_bezier.hpp"
 
 #include "splinefeed/splines/g2_bezier_rows.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A control point is the blossom f of the k knots inside its support, and what a knot insertion computes is
-// f(.., t, ..) from f(.., a, ..) and f(.., b, ..) with a <= t <= b. For the Bezier points f(a^(k-j) b^j) of a span [a,
-// b] the knots below a give way to a first, from the nearest outwards, then those above b to b.
+// A control point is the blossom f of the k knots inside its support, and a knot insertion computes f(.., t, ..) from
+// f(.., a, ..) and f(.., b, ..) with a <= t <= b. For the Bezier points f(a^(k-j) b^j) of a span [a, b] the knots below
+// a are replaced by a first, from the nearest outwards, and then those above b by b.
 #include "splinefeed/splines/knot_insertion.hpp"
 
 #include "splinefeed/splines/bspline_basis.hpp"

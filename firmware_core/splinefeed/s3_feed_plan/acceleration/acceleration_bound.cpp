@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// With b = v^2 linear in s over a cell of length L from b0 to b1, a = (b1 - b0) / (2 L), an axis accelerates by
-// f = q' a + q'' b, x = s / L. q'' is taken as the parabola through its values at x = 0, 1/2, 1, q' as the cubic
-// through its values and slopes at both ends. Then 2 L f = q' (b1 - b0) + 2 L q'' b is a cubic in x. The Bezier points
-// of q' are t0, t1 = t0 + c0 / 6, t2 = t3 - c2 / 6, t3, with those of 2 L q'', c0, c1, c2; of its product with b, as a
-// cubic, c0 b0, (2 c1 b0 + c0 b1) / 3, (c2 b0 + 2 c1 b1) / 3, c2 b1. So the Bezier points of 2 L f are entry_j b0 +
-// exit_j b1:
+// b = v^2 is linear in s over a cell of length L, from b0 to b1; a = (b1 - b0) / (2 L). With x = s / L, the
+// acceleration of an axis is f = q' a + q'' b. q'' is taken as the parabola through its values at x = 0, 1/2, 1, and q'
+// as the cubic through its values and slopes at both ends. Then 2 L f = q' (b1 - b0) + 2 L q'' b is a cubic in x. The
+// Bezier points of q' are t0, t1 = t0 + c0 / 6, t2 = t3 - c2 / 6, t3, where c0, c1, c2 are those of 2 L q''. The Bezier
+// points of its product with b, as a cubic, are c0 b0, (2 c1 b0 + c0 b1) / 3, (c2 b0 + 2 c1 b1) / 3, c2 b1. So the
+// Bezier points of 2 L f are entry_j b0 + exit_j b1:
 //
 //   j        0          1                2                3
 //   entry    c0 - t0    2 c1 / 3 - t1    c2 / 3 - t2      -t3
@@ -15,20 +15,22 @@
 //
 //   | entry_j b0 + exit_j b1 | + e (b0 + b1) <= 2 L A        j = 0 ... 3, every axis
 //
-// holds A at every point of the cell; the error bound e covers what q' and q'' leave their polynomials by. j = 0 and 3
+// keeps A at every point of the cell. The error bound e covers the errors of the polynomials of q' and q''. j = 0 and 3
 // are the two ends of the cell (the interpolation scheme of TOPP-RA: H. Pham, Q.-C. Pham, IEEE T-RO 34 (2018)); 1 and 2
-// close the gap between them. Where the axis does not turn round one sign of f is braking, and A is the braking limit
-// for it. The signs matter where an axis turns round: there |q'| |a| + |q''| b would give away several per cent.
+// cover the points between them. If the axis does not turn round, one sign of f is braking, and its A is the braking
+// limit. The signs matter where an axis turns round: there the bound |q'| |a| + |q''| b would cost several per cent of
+// the time.
 //
-// The polygon P of these half-planes is convex and holds (0, 0). Hence
-// - the entries from which an exit up to K can be reached are all from 0 to some largest one, a concave function of K
-//   that rises up to the peak of P and is constant beyond;
-// - below the peak only half-planes that bound the entry from above matter: those that bound it from below hold on the
-//   line from (0, 0) to the peak and to the right of it.
+// The polygon P of these half-planes is convex and contains (0, 0). Hence
+// - the entries from which an exit up to K can be reached are all those from 0 to a largest one. That one is a concave
+//   function of K; it rises up to the peak of P and is constant after it;
+// - below the peak only those half-planes matter that bound the entry from above: those that bound it from below hold
+//   on the line from (0, 0) to the peak and to the right of it.
 //
-// Peak: for an entry b0 the exits allowed are those from low(b0) to high(b0), low convex, high concave, low(0) <=
-// high(0): the root of low - high from above, by Newton's steps from one pair of half-planes to the next. Each step is
-// a cut that holds for every point of P, so they end where no pair is violated; no step at all is the usual case.
+// Peak: for an entry b0 the allowed exits are those from low(b0) to high(b0), with low convex, high concave and low(0)
+// <= high(0). The peak is the root of low - high, found from above by Newton's steps from one pair of half-planes to
+// the next. Each step is a cut that holds for every point of P, so the steps end when no pair is violated; usually no
+// step is needed.
 #include "splinefeed/s3_feed_plan/acceleration/acceleration_bound.hpp"
 
 namespace splinefeed {

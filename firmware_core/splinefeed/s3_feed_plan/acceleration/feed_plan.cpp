@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
 //
-// b = v^2 = (ds/dt)^2 is linear in s within a cell. Which pairs of b at its ends keep every axis within its
-// acceleration is a convex polygon P that holds (0, 0) (acceleration_bound.cpp). Time-optimal by reachability
-// (TOPP-RA):
+// b = v^2 = (ds/dt)^2 is linear in s within a cell. The pairs of b at its ends with which every axis keeps its
+// acceleration are a convex polygon P that contains (0, 0) (acceleration_bound.cpp). The plan is time-optimal by
+// reachability (TOPP-RA):
 //
-// - backward: K_i, the largest b at node i from which rest at the end of the window can be reached: the largest entry
-// of P
-//   with an exit up to K_i+1, and no larger than the caps beside the node. As (0, 0) is in P, all of 0 ... K_i will do.
+// - backward: K_i is the largest b at node i from which standstill at the end of the window can be reached: the largest
+//   entry of P with an exit up to K_i+1, limited by the caps next to the node. Because (0, 0) is in P, all of 0 ... K_i
+//   are possible.
 // - forward: the largest exit that P allows for the entry and K_i+1. There is one, because the entry is at most K_i.
 //
-// K_i grows with K_i+1 until it is at a cap or the entry at the peak of P. A longer window can only raise K; so a node
-// where one of the two holds is final, and with it every K before it: what lies before is equal to the plan with an
-// unlimited window. The window is committed up to the last such node. Where an earlier part is committed without being
-// final, K of its last node can only rise afterwards: a stop stays within reach.
+// K_i grows with K_i+1 until it is at a cap or the entry is at the peak of P. A longer window can only raise K. So a
+// node where one of the two holds is final, and with it every K before it: up to there the plan equals that of an
+// unlimited window. The window is committed up to the last such node. If an earlier part is committed without being
+// final, K of its last node can only rise afterwards: a stop stays possible.
 //
-// Steering. There are two K: that of the machine, with its own caps, and that of the wish, with the programmed feed
-// times the override among the caps. The machine's speed is at most the first at every node, whatever was wished
-// before; so a change of the wish can always be followed within the limits. Forward, one cell at a time as the machine
-// enters it: the wish's K, clamped to the exits that P allows for the entry and the machine's K at the exit. A machine
-// that is not faster than the wish needs no clamp from below, which is the plan without steering. A change computes the
-// wish's K again, drops what was committed beyond final nodes, and chooses a new profile segment from where the machine
-// is (profile_segment.cpp).
+// Steering. There are two K: the machine's K, with its own caps, and the K of the steering, whose caps include the
+// programmed feed times the override. The machine's speed is at most the first K at every node, whatever was requested
+// before; so every change of the steering can be followed within the limits. Forward, one cell at a time as the machine
+// enters it, the exit is the K of the steering, limited to the exits that P allows for the entry and to the machine's K
+// at the exit. If the machine is not faster than the steering wants, the lower limit of P has no effect, and the plan
+// is that without steering. A change computes the K of the steering again, drops what was committed beyond final nodes,
+// and chooses a new profile segment from where the machine is (profile_segment.cpp).
 #include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/axis_velocity.hpp"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// In a stretch of a cell, b = v^2 from b0 at its start to b1 at its end is allowed where (b0, b1) is in the polygon of
-// the stretch (acceleration_bound.cpp). What a cell allows, its stretches allow: their Bezier points are convex
-// combinations of the cell's. So the profile segment that a machine is on stays allowed from wherever it is, and with
-// it, (0, 0) being allowed, every slower start with some exit no faster.
+// In a part of a cell, b = v^2 from b0 at its start to b1 at its end is allowed if (b0, b1) is in the polygon of the
+// part (acceleration_bound.cpp). What is allowed on a cell is allowed on its parts: their Bezier points are convex
+// combinations of the cell's. So the profile segment on which a machine is stays allowed from any place on it. Because
+// (0, 0) is allowed, too, so is every slower start with some exit that is not faster.
 //
-// The hardest change: b1 as far from b0 as the polygon lets it. Where the line from b0 to b1 meets the speed that was
-// wanted, the profile segment ends. A cell can be a thousand braking distances long, and b1 far below zero (which is
-// nothing but the slope of a line that ends before it) or above all caps, for which Fixed has no room: b1 goes no
-// further than twice the change that is wanted, and if it could, half of the stretch will do, and so on.
+// The hardest change: b1 is as far from b0 as the polygon allows. The profile segment ends where the line from b0 to b1
+// reaches the wanted speed. A cell can be a thousand braking distances long. b1 may then be far below zero (it is only
+// the slope of a line that ends earlier) or above all caps, and Fixed has no range for such values. So b1 is limited to
+// twice the wanted change. If it could go further, half of the part is used instead, and so on.
 #include "splinefeed/s3_feed_plan/acceleration/profile_segment.hpp"
 
 namespace splinefeed {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A segment averages the plan over three durations T. In none of them may an axis brake with what is meant for
-// accelerating; where it turns round in that time, it may do neither with more than the smaller limit. With at most A,
-// the larger one, an axis that stands within 4 T is no farther away from there than A (4 T)^2 / 2, and so it is after
-// it stood: a cell keeps its way if the axis travels 8 A T^2 between it and the next place, on either side, where it
-// may turn round. At a stop between cells that it leaves the way it came it does not.
+// A segment averages the plan over three durations T. Within these an axis must not brake with the limit for
+// acceleration; if it turns round in that time, it must use the smaller limit for both. Let A be the larger limit. An
+// axis that stands within 4 T is then at most A (4 T)^2 / 2 away from that place, and the same holds after standstill.
+// So a cell keeps its heading if the axis travels 8 A T^2 between the cell and the next place where it may turn round,
+// on either side. A cell at a stop after which the axis returns in the direction from which it came has no heading.
 #include "splinefeed/s3_feed_plan/acceleration/turning.hpp"
 
 namespace splinefeed {

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
-// A motion s(t) whose acceleration a along the path is constant in every cell is averaged over T:
+// A motion s(t) with constant acceleration a along the path in every cell is averaged over T:
 //
-//   s_f(t) = mean of s over [t - T/2, t + T/2],  v_f and a_f the means of v and a,  j_f = (a(t + T/2) - a(t - T/2)) /
-//   T.
+//   s_f(t) = mean of s over [t - T/2, t + T/2],  v_f and a_f the means of v and a,
+//   j_f = (a(t + T/2) - a(t - T/2)) / T.
 //
 // The machine is at q(s_f(t)). Let Q1, Q2, Q3 be the largest |q'|, |q''|, |q'''| of an axis over all places where s_f
-// can be while s is in a cell, give or take T/2 (SmoothWindow finds that part of the path). If in every cell, with v at
-// its faster end and w = v + |a| T/2,
+// can be while s is in a cell, plus or minus T/2 (SmoothWindow finds that part of the path). If in every cell, with v
+// at its faster end and w = v + |a| T/2,
 //
 //   Q1 |a| + Q2 v^2 <= A                                              (1)
 //   Q1 |a| / T + max(Q3 w^3, 3 Q2 w |a| + Q3s w^3) <= J               (2)
 //
-// and if a changes its sign only after a time T at a = 0, then the axis keeps A and J:
+// and if a changes its sign only after a time T with a = 0, then the axis keeps A and J:
 //
-// (1) For every instant of the average |q'| |a| + |q''| v^2 <= A, q' and q'' being those at s_f. So it holds for the
-//     means, and v_f^2 is at most the mean of v^2.
+// (1) For every instant of the average |q'| |a| + |q''| v^2 <= A with q' and q'' at s_f. So it holds for the means, and
+// v_f^2 is at most the mean of v^2.
 // (2) All accelerations of the average have one sign or are 0. So |j_f| <= M / T with M the largest |a| among them, and
-//     |a_f| <= M. In the cell of that M, v_f <= v + M T/2 = w. Where q'' a and q''' have the same sign the two parts of
-//     3 q'' v a + q''' v^3 add up, and Q3s is the largest |q'''| of such places: where q'' and q''' have the same sign
-//     for a > 0, the other one for a < 0. Elsewhere the larger of both remains.
+// |a_f| <= M. In the cell of that M, v_f <= v + M T/2 = w. Where q'' a and q''' have the same sign, the two parts of 3
+// q'' v a + q''' v^3 add up, and Q3s is the largest |q'''| of such places: where q'' and q''' have the same sign for a
+// > 0, and opposite signs for a < 0. Elsewhere the larger of both parts counts.
 //
-// Both left sides are convex in v^2 where v^2 at the other end is given, and in a where v is: between a point that is
-// allowed and one that is not the chord lies above them and meets the limit at a point that is allowed. With the
-// Illinois rule a few such steps come within a thousandth, once both points are not too far apart. (2) is taken times
-// T, an acceleration like (1).
+// Both left sides are convex in v^2 if v^2 at the other end is given, and in a if v is given. Between a point that is
+// allowed and one that is not, the chord lies above them and meets the limit at a point that is allowed. With the
+// Illinois rule a few such steps come within a thousandth, once both points are not too far apart. (2) is multiplied by
+// T: it is then an acceleration like (1).
 #include "splinefeed/s3_feed_plan/jerk_filtered/filtered_limits.hpp"
 
 namespace splinefeed {

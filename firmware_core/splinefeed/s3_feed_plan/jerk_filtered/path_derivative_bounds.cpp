@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A cell says 2 L q'' as a parabola by its Bezier points c0, c1, c2, and `error_bound`, what q'' leaves it by. q''
-// stays between its Bezier points, c / (2 L); q''' is linear between (c1 - c0) / L^2 and (c2 - c1) / L^2. The rest of
-// q''' is taken as 10.4 / L times that of q'': a rest x (1-x) (1-2x) has the slope 1 at the ends and reaches 0.096.
+// A cell gives 2 L q'' as a parabola with the Bezier points c0, c1, c2, and `error_bound`, the largest error of that
+// parabola. q'' stays between its Bezier points, c / (2 L); q''' is linear between (c1 - c0) / L^2 and (c2 - c1) / L^2.
+// The error of q''' is taken as 10.4 / L times that of q'': an error x (1-x) (1-2x) has the slope 1 at the ends and
+// reaches 0.096.
 #include "splinefeed/s3_feed_plan/jerk_filtered/path_derivative_bounds.hpp"
 
 namespace splinefeed {

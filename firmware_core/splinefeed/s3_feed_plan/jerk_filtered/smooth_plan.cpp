@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// b = v^2 is linear in s along a profile segment, a cell or a part of one: the acceleration is constant. What a cell
-// allows (FilteredLimits) is monotone, so
+// b = v^2 is linear in s along a profile segment, which is a cell or a part of one: the acceleration is constant. The
+// limits of a cell (FilteredLimits) are monotone, so
 //
-// - backward: K_i, the largest b at node i from which there is a way to rest at the end of what is known: the largest
-//   entry with an exit K_i+1, no larger than what may be kept up beside the node. Whatever is below will do, too. A
-//   longer window only raises K.
-// - forward: never above K. The average keeps its jerk where the acceleration changes its sign only after a time T
-//   without (filtered_limits.cpp). Braking may begin only T after the end of acceleration: so it is accelerated only to
-//   a speed that can be kept up for T below K. And it is accelerated only T after the end of braking, which asks for
-//   nothing: a machine that coasts below K may brake at once if it braked last. Steering can bring K of what is wanted
-//   down in that time: then the motion goes on above it, never above K of the machine, until it may brake.
+// - backward: K_i is the largest b at node i from which the end of the known path can be reached at standstill: the
+//   largest entry with an exit K_i+1, at most the speed that may be held constant next to the node. Every lower b is
+//   possible, too. A longer window only raises K.
+// - forward: never above K. The average keeps its jerk if the acceleration changes its sign only after a time T without
+//   acceleration (filtered_limits.cpp). Braking may begin only T after the end of acceleration, so the motion
+//   accelerates only to a speed that can be held for T below K. It accelerates only T after the end of braking; this
+//   needs no preparation, because a motion at constant speed below K may brake at once if it braked last. Steering can
+//   lower the wanted K in that time: then the motion continues above it, but never above the machine's K, until it may
+//   brake.
 //
-// Two K, as in FeedPlan: the machine's (`machine`), and that of what the steering wants (`override`), which is what a
-// motion that is not above it keeps below. One that is above it brakes as hard as its cells allow, as soon as it may.
+// There are two K, as in FeedPlan: the machine's (`machine`), and that of the steering (`override`). A motion that is
+// not above the second one stays below it. A motion above it brakes as hard as its cells allow, as soon as it may.
 //
-// From rest either sign is allowed: who averages the motion lets it rest for T.
+// From standstill either sign is allowed: the sampler lets the average come to standstill first.
 #include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// While the motion is in a cell, the average is at most the mean over the time T after it away from the cell's end, and
-// as much over the time before it from its start. No motion goes farther in these times than one that is as fast as
-// `bound_sq` at the faster end of each cell: the acceleration-limited plan with the largest override, or more.
+// While the motion is in a cell, the distance from the end of the cell to the average is at most the mean distance over
+// the time T after it, and the distance from its start at most the mean over the time before it. No motion goes farther
+// in these times than one that is as fast as `bound_sq` at the faster end of each cell: the acceleration-limited plan
+// with the largest override, or more.
 //
-// The smoothing of a leg: `MotionLimits::smoothing_q8`, but where all of the leg is known no longer than that of a
-// straight move, the S-curve of which is such an average itself: a trapezoid of v with the acceleration J T,
+// The smoothing of a leg is `MotionLimits::smoothing_q8`. If the whole leg is known, it is at most that of a straight
+// move, whose S-curve is itself such an average of a trapezoid of v with the acceleration J T,
 //
 //   T = min(A / J, (L / (2 J))^(1/3), (V / J)^(1/2)),
 //
-// and where the leg is straight just that.
+// and for a straight leg it is exactly that.
 #include "splinefeed/s3_feed_plan/jerk_filtered/smooth_window.hpp"
 
 #include "splinefeed/base/assertion.hpp"

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// In a cell of length L b is a parabola with the Bezier points b0, m, b1: m = b0 + b0' L/2 = b1 - b1' L/2. What leads
+// In a cell of length L, b is a parabola with the Bezier points b0, m, b1: m = b0 + b0' L/2 = b1 - b1' L/2. A motion
 // from one end to the other keeps m, and u = (b1' - b0') / L: in the coordinates (m, b') it is a shift of b'.
 //
 // The jerk limit at a point of the cell (jerk_cell.cpp) is | q' u/2 + 3/2 q'' b' + q''' b | <= J / sqrt(b). The right
 // side is convex in b, so its tangent at an expected r lies below it: J (3/2 r^(-1/2) - 1/2 r^(-3/2) b) keeps the limit
-// whatever b turns out to be. Let the second factor g = 1/2 r^(-3/2) run linearly from one end to the other; then the
-// first, 3/2 (2 g)^(1/3), is concave and lies above the line between its ends. So with linear g and a = 3/2 r^(-1/2),
-// too,
+// for every b. Let the second factor g = 1/2 r^(-3/2) be linear from one end to the other. Then the first, 3/2 (2
+// g)^(1/3), is concave and lies above the line between its ends. So with linear g, and also linear a = 3/2 r^(-1/2),
 //
 //   | q' u/2 + 3/2 q'' b' + q''' b | + J g b <= J a
 //
 // keeps the limit all along the cell. With q' a cubic, q'' a parabola and q''' its derivative, both sides are cubics,
-// and where the Bezier points keep it the polynomials do. Those of the acceleration, q' b'/2 + q'' b, are five; the
-// first and the last are the nodes' (cut_to_node). All are linear in (m, b0', b1').
+// and if their Bezier points satisfy the inequality, so do the polynomials. The acceleration, q' b'/2 + q'' b, has five
+// Bezier points; the first and the last belong to the nodes (cut_to_node). All are linear in (m, b0', b1').
 //
-// An exit (m, b1') allows the b0' between the largest of some linear functions and the smallest of others. Where no
-// such b0' is left the pair that is violated most is a half-plane to cut the exits with. What can be done is a convex
-// polyhedron in (m, b0', b1'); it holds the hull of what its points above the exits' corners have for b0', and that
-// hull is taken: for every corner the two ends of its b0', in the order of m.
+// An exit (m, b1') allows the values of b0' between the largest of some linear functions and the smallest of others. If
+// no such b0' is left, the pair that is violated most gives a half-plane with which the exits are cut. The possible
+// motions are a convex polyhedron in (m, b0', b1'). For every corner of the exits the two ends of its range of b0' are
+// computed; the result is the hull of these points, in the order of m, which is a part of the projection.
 #include "splinefeed/s3_feed_plan/jerk_optimal/controllable_set.hpp"
 
 #include "splinefeed/number/scalar.hpp"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// An axis q(s) that is travelled with b(s) = v^2 moves with the acceleration q' b'/2 + q'' b and the jerk
+// An axis q(s) that is travelled with b(s) = v^2 has the acceleration q' b'/2 + q'' b and the jerk
 //
 //   sqrt(b) ( q' b''/2 + 3/2 q'' b' + q''' b ).
 //
-// In a cell b is a parabola, u = b'' constant: b1 = b0 + b0' L + u L^2 / 2, b1' = b0' + u L.
+// In a cell b is a parabola with constant u = b'': b1 = b0 + b0' L + u L^2 / 2, b1' = b0' + u L.
 //
-// A cell at rest at one end cannot be a parabola: with constant jerk j along the path, s = j t^3 / 6, b is proportional
-// to s^(4/3). At the moving end v = j t^2 / 2, t = 3 L / v, j = 2 v^3 / (9 L^2), a = 2 v^2 / (3 L), b' = 4 b / (3 L).
-// An axis's jerk is then j (q' + 9 q'' s + 9/2 q''' s^2), a cubic of s: its Bezier points bound it. Its acceleration is
-// j t (q' + 3/2 q'' s), at most that of the moving end times the largest of another cubic.
+// In a cell with standstill at one end b cannot be a parabola: with constant jerk j along the path, s = j t^3 / 6, b is
+// proportional to s^(4/3). At the moving end v = j t^2 / 2, t = 3 L / v, j = 2 v^3 / (9 L^2), a = 2 v^2 / (3 L), b' = 4
+// b / (3 L). The jerk of an axis is then j (q' + 9 q'' s + 9/2 q''' s^2), a cubic of s: its Bezier points bound it. Its
+// acceleration is j t (q' + 3/2 q'' s), at most that of the moving end times the largest value of another cubic.
 #include "splinefeed/s3_feed_plan/jerk_optimal/jerk_cell.hpp"
 
 #include "splinefeed/number/scalar.hpp"

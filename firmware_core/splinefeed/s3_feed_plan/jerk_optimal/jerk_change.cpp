@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A motion to rest at a given place is a leg (jerk_leg.cpp), planned over pieces of the cells ahead: short enough for
-// the change of the speed, and next to the rest graded as cells next to stops are. From how near on there is one is
-// found by bisection: what can stop at a place can stop at those beyond, with more room.
+// A motion to standstill at a given place is a leg (jerk_leg.cpp), planned over pieces of the cells ahead. The pieces
+// are short enough for the change of the speed, and next to the standstill they are graded like cells next to stops.
+// The nearest place for which such a leg exists is found by bisection: if a stop is possible at a place, it is possible
+// beyond it, with more room.
 //
-// Where less is wanted, the caps of the cells change from some place on, the nearest that a leg exists for: to a rest
-// as far behind that place as braking from what is wanted takes, so that a leg exists for the rest of the path, too.
-// Before that place the caps stay as they were. Where more is wanted the place is where the machine is.
+// For a lower speed, the caps of the cells change from some place on: the nearest one for which a leg exists. That leg
+// ends at standstill, as far beyond that place as braking from the wanted speed takes, so that a leg exists for the
+// rest of the path, too. Before that place the caps stay as they were. For a higher speed the place is where the
+// machine is.
 #include "splinefeed/s3_feed_plan/jerk_optimal/jerk_change.hpp"
 
 #include "splinefeed/s2_arc_length/cell_part.hpp"

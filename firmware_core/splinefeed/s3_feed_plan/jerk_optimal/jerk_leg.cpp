@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Backward from the end the sets of states from which it can be reached (controllable_set.cpp), then forward from the
-// start the largest u that leads into the next set: that keeps every limit, and it is the fastest start, but it enters
-// bends as late and as hard as can be and is slow behind them. The same against the direction of travel gives the
-// motion that is fast behind bends and slow before. Both are solutions of the same linear inequalities, so their mean
-// is one, too; and time is a convex function of b: the mean is faster than either, as a rule by several per cent.
+// Backward from the end, the sets of states from which it can be reached are computed (controllable_set.cpp). Then
+// forward from the start, each cell takes the largest u that leads into the next set. This motion keeps every limit and
+// has the fastest start, but it brakes for bends as late and as hard as possible and is slow after them. The same
+// computation against the direction of travel gives the motion that is fast after bends and slow before them. Both are
+// solutions of the same linear inequalities, so their mean is one, too. Time is a convex function of b: the mean is
+// faster than either, usually by several per cent.
 //
-//       early:  steep up, late and hard down, slow behind the bend
+//       early:  steep rise, late and hard braking, slow after the bend
 //     b |  .--.        .--.
 //       | /    '.    .'    |
 //       |/       '..'      |   late: the mirror image; the mean of both is symmetric where the path is
 //       +--------------------> s
 //
-// The limit J / sqrt(b) is replaced by its tangent at the expected b (controllable_set.cpp). What a pass comes to is
-// the next one's expectation; every pass keeps the limits.
+// The limit J / sqrt(b) is replaced by its tangent at the expected b (controllable_set.cpp). The result of a pass is
+// the expected b of the next one; every pass keeps the limits.
 #include "splinefeed/s3_feed_plan/jerk_optimal/jerk_leg.hpp"
 
 #include "splinefeed/number/scalar.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The window is planned leg by leg, from a stop (or from where the machine will be) to the next stop (or to the end of
-// what is known, at rest). A leg that ends at a stop is final; of one that ends with the window the first half is
-// committed. The rest is planned again with more in view. Its old plan is kept: where none can be found from the state
-// at the end of what is committed (that can happen, since the sets of states are made smaller to have few corners) the
-// old one is travelled to its end, which is at rest.
+// The window is planned leg by leg, from a stop (or from where the machine will be) to the next stop (or to standstill
+// at the end of the known path). A leg that ends at a stop is final; of a leg that ends with the window, the first half
+// is committed. The rest is planned again when more of the path is known. Its old plan is kept. If no new one is found
+// from the state at the end of the committed part (this can happen, because the sets of states are reduced to few
+// corners), the old one is travelled to its end, which is a standstill.
 //
 // A straight leg is one move in closed form (s_curve_profile.cpp).
 #include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The limits of the jerk are exact where a motion is as fast as expected, and hardly leave room for one that is far
-// slower (controllable_set.cpp). Next to rest b is far below what the accelerations allow: with constant jerk it grows
-// with s^(4/3). That is expected first, and then half as much, until there is a motion.
+// The jerk limits are exact where a motion is as fast as expected; for a motion that is far slower they leave almost no
+// room (controllable_set.cpp). Next to standstill b is far below what the accelerations allow: with constant jerk it
+// grows with s^(4/3). This is expected first, then half as much, and so on, until there is a motion.
 #include "splinefeed/s3_feed_plan/jerk_optimal/leg_attempts.hpp"
 
 #include "splinefeed/number/scalar.hpp"

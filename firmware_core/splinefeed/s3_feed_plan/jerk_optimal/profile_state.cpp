@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Of a parabola b and db/ds by de Casteljau's construction; of a cubic s(t) b = (ds/dt)^2 and db/ds = 2 d2s/dt2.
+// For a parabola, b and db/ds by de Casteljau's construction; for a cubic s(t), b = (ds/dt)^2 and db/ds = 2 d2s/dt2.
 #include "splinefeed/s3_feed_plan/jerk_optimal/profile_state.hpp"
 
 namespace splinefeed {

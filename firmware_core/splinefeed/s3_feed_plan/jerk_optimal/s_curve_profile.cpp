@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// To the speed v with the jerk j and at most the acceleration a:
+// From standstill to the speed v, with the jerk j and at most the acceleration a:
 //   v j >= a^2: the acceleration rises for a/j, stays for v/a - a/j and falls for a/j: T = v/a + a/j in all,
-//   else it rises and falls for sqrt(v/j): T = 2 sqrt(v/j).
-// By symmetry the way is v T / 2, and as much for braking. Where 2 v T / 2 > L, the speed v that is reached follows
+//   otherwise it rises and falls for sqrt(v/j) each: T = 2 sqrt(v/j).
+// By symmetry the distance is v T / 2, and as much for braking. If 2 v T / 2 > L, the speed v that is reached follows
 // from v T(v) = L: v^2/a + v a/j = L, or 2 v^(3/2) / sqrt(j) = L.
 //
-// In motion, with the acceleration b (counted towards the speed that is to be reached, a change by d): it goes from b
+// In motion, with the acceleration b (positive towards the wanted speed, a change by d): the acceleration goes from b
 // to a peak p and back to zero, which changes the speed by (2 p^2 - b^2) / (2 j); p = sqrt(j d + b^2 / 2), or the
-// limit, which then stays. The way of a move to rest grows with its peak speed, which halving finds.
+// limit, which then stays for a while. The distance of a move to standstill grows with its peak speed, which is found
+// by bisection.
 #include "splinefeed/s3_feed_plan/jerk_optimal/s_curve_profile.hpp"
 
 #include "splinefeed/number/scalar.hpp"

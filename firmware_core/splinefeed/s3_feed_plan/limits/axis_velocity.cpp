@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// With |dq/ds| <= t over the length L an axis that goes from q0 to q1 stays within (q0 + q1) / 2 +- t L / 2.
+// With |dq/ds| <= t over the length L, an axis that goes from q0 to q1 stays within (q0 + q1) / 2 +- t L / 2.
 #include "splinefeed/s3_feed_plan/limits/axis_velocity.hpp"
 
 namespace splinefeed {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// No axis is faster than the path, v. So the differences of its samples, T apart, are at most v T, their differences
-// 2 v T and the third ones 4 v T: with v = way / (n T) and n ticks
+// No axis is faster than the speed v along the path. So the differences of its samples, T apart, are at most v T, their
+// differences 2 v T and the third ones 4 v T. With v = way / (n T) and n ticks
 //
 //   2 way / n <= A T^2,     4 way / n <= J T^3.
 //
-// MotionLimits::make refuses machines for which the rounding of positions is a quarter of either limit, 1e-9 mm at
-// least: so n is below 1000.
+// MotionLimits::make refuses machines for which the rounding of positions, at least 1e-9 mm, is a quarter of either
+// limit: so n is below 1000.
 #include "splinefeed/s3_feed_plan/limits/crawl.hpp"
 
 namespace splinefeed {

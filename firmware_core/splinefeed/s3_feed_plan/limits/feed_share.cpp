@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// dq/ds of a cell is the cubic with the Bezier points of acceleration_bound.cpp. The length of a vector is convex: of
-// its linear part it is nowhere longer than the longest of the four points.
+// dq/ds of a cell is the cubic with the Bezier points of acceleration_bound.cpp. The length of a vector is convex: the
+// length of the linear axes' part is nowhere larger than at the longest of the four points.
 #include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
 
 namespace splinefeed {
