@@ -45,8 +45,8 @@ struct BandShape {
     }
 };
 
-/// The system. Entries are weights (weight.hpp); rows are scaled so that the magnitudes of their entries sum to about
-/// 1. Cost: factor size * width^2 (in_order) to 8 size * width^2 (cyclic), solve size * width per axis.
+/// The system. Entries are weights (weight.hpp); rows are scaled so that the sum of the magnitudes of their entries is
+/// about 1. Cost: factor size * width^2 (in_order) to 8 size * width^2 (cyclic), solve size * width per axis.
 template <Scalar S>
 class BandedSystem {
 public:

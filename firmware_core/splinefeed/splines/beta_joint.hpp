@@ -7,8 +7,8 @@
 
 namespace splinefeed {
 
-/// The shape parameters of a joint: with q the curve before it and r the curve after it, r'(0) = beta1 q'(1) and r''(0)
-/// = beta1^2 q''(1) + beta2 q'(1).
+/// The shape parameters of a joint. With q the curve before it and r the curve after it, the conditions are r'(0) =
+/// beta1 q'(1) and r''(0) = beta1^2 q''(1) + beta2 q'(1).
 template <Scalar S>
 struct Beta {
     S beta1 = from_integer<S>(1); ///< bias, greater than 0; in Fixed at most 8192

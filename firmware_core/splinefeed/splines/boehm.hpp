@@ -17,8 +17,8 @@
 
 namespace splinefeed {
 
-/// The number types of Boehm's rule: a scalar, or whole numbers. If the vertices are multiples of 12 (cubic; closed: of
-/// 6) or of 2 (quadratic), every Bezier point is a whole number, and integers compute it exactly.
+/// The number types of Boehm's rule: a scalar, or whole numbers. If the vertices are multiples of 12 (open cubic), of 6
+/// (closed cubic) or of 2 (quadratic), every Bezier point is a whole number, and integers compute it exactly.
 template <class N>
 concept BoehmNumber = Scalar<N> || std::same_as<N, std::int64_t>;
 
