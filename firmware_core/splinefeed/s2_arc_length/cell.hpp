@@ -17,8 +17,8 @@ template <Scalar S>
 struct AxisShape {
     std::array<S, 2> tangent{}; ///< dq/ds at both ends
     std::array<S, 3> bend{};    ///< Bezier points of 2 L d2q/ds2
-    S error_bound{};            ///< largest error of either polynomial, as a part of v0^2 + v1^2, in units of 2 L times
-                                ///< an acceleration
+    S error_bound{};            ///< times v0^2 + v1^2 it bounds the error that these polynomials cause in 2 L times an
+                                ///< acceleration
 };
 
 template <Scalar S>

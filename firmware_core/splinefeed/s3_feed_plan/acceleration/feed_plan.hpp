@@ -2,11 +2,11 @@
 // FeedPlan: how fast each cell may be travelled: b = v^2 at the nodes between cells; b is linear in s within a cell.
 //
 //      b |        ______            caps: feed, axis velocity, curvature
-//        |   ____/      \___        backward pass: from rest at the end of the window
+//        |   ____/      \___        backward pass: from standstill at the end of the window
 //        |  /               \__     forward pass: from what is committed
 //        |_/                   \_
 //        +-----------------------> s
-//        ^committed    ^final      ^end of the window: at rest
+//        ^committed    ^final      ^end of the window: standstill
 //
 // Derivation and the proof that the limits hold everywhere in a cell: feed_plan.cpp.
 #pragma once

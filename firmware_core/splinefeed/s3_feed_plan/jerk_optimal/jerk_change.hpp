@@ -5,7 +5,7 @@
 //        |     '.                          |     '.
 //        |       '.                        |       '.________       wanted now
 //        |_________'.____                  |_________________
-//        now        rest, as near as can   now      change, as near as can be
+//        now        nearest standstill     now      nearest possible change
 #pragma once
 
 #include "splinefeed/s3_feed_plan/jerk_optimal/jerk_window.hpp"

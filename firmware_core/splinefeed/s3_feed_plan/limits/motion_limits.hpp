@@ -117,8 +117,9 @@ constexpr double speed_noise(double error_mm, double segment_s) noexcept {
     return 2.0 * error_mm / segment_s;
 }
 
-/// Length of the longest cell [mm]. The parameter resolves `error` of it. That must stay below `share` of the
-/// acceleration and ten times `share` of the feed, and below a thousandth of the jerk if the jerk is limited (not 0).
+/// Length of the longest cell [mm]. The parameter has the relative resolution `error` in a cell. The rounding that this
+/// causes must stay below `share` of the acceleration and ten times `share` of the feed, and below a thousandth of the
+/// jerk if the jerk is limited (not 0).
 constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double jerk,
                                  double segment_s) noexcept {
     const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
