@@ -3,14 +3,15 @@
 
 namespace splinefeed {
 
-// Whether the segment that starts at vertex `at` is travelled. Along a closed curve each side (degree 3 and 1) and each
-// corner (degree 2) comes once between the seam's two passages.
+// Whether the segment that starts at vertex `at` is travelled. On a closed curve each side (degree 3 and 1) and each
+// corner (degree 2) is travelled once, between the two passages of the seam.
 template <Scalar S>
 bool BSplineCurve<S>::wanted(std::uint64_t at, int degree) const noexcept {
     return this->travelled(degree == 1 ? at : at + 1);
 }
 
-// The segment that starts at vertex next_. `end` is the last vertex of the run, or any beyond the ones that matter.
+// Writes the segment that starts at vertex next_. `end` is the last vertex of the run, or any vertex beyond those that
+// matter.
 template <Scalar S>
 void BSplineCurve<S>::emit(std::uint64_t end, int degree, CurveSegment<S>& out) const noexcept {
     const std::uint64_t at = next_;
@@ -52,7 +53,7 @@ Pull BSplineCurve<S>::next(CurveSegment<S>& out) noexcept {
         if (next_ + 1 >= this->known_) {
             return this->finished_ ? Pull::finished : Pull::starved;
         }
-        // Which of the next vertices ends the run; past four (degree 2: two) it does not matter.
+        // Finds the next vertex that ends the run; beyond four (degree 2: two) it does not matter.
         const std::uint64_t horizon = next_ + (degree_ == 2 ? 2 : 4);
         std::uint64_t end = next_ + 1;
         for (; end <= horizon; ++end) {

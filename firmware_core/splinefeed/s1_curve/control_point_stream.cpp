@@ -73,7 +73,7 @@ bool ControlPointStream<S, Joints>::eliminate_row(std::uint64_t i) noexcept {
     const auto [outer_before, before, after, outer_after, gamma] =
         joints_.around(two_before, knot_before.span, knot.span, two_after);
     S inner_before = before; // the part of the leg after knot i
-    S inner_after = after;   // of the leg before it
+    S inner_after = after;   // the part of the leg before knot i
     if constexpr (Joints::weighted) {
         inner_before = gamma * before;
         inner_after = gamma * after;
@@ -81,7 +81,7 @@ bool ControlPointStream<S, Joints>::eliminate_row(std::uint64_t i) noexcept {
     here.lambda = inner_after / (outer_before + before + inner_after);
     here.mu = inner_before / (inner_before + after + outer_after);
     here.omega = before / (before + after);
-    const S others = after / (before + after); // 1 - omega, with all its bits where spans differ a lot
+    const S others = after / (before + after); // 1 - omega, with all its bits even if the spans differ a lot
     const S a = others * here.lambda;
     const S b = others * ((outer_before + before) / (outer_before + before + inner_after)) +
                 here.omega * ((after + outer_after) / (inner_before + after + outer_after));
@@ -95,7 +95,7 @@ bool ControlPointStream<S, Joints>::eliminate_row(std::uint64_t i) noexcept {
     return true;
 }
 
-// Commits the offset of control point i from the newest eliminated row.
+// Commits the offset of control point i, by back-substitution from the newest eliminated row.
 template <Scalar S, class Joints>
 void ControlPointStream<S, Joints>::commit(std::uint64_t i) noexcept {
     const auto axes_u = static_cast<unsigned>(this->axes());
@@ -113,8 +113,8 @@ void ControlPointStream<S, Joints>::commit(std::uint64_t i) noexcept {
     close_seam(i);
 }
 
-// A closed curve meets itself exactly: the three offsets around the seam are kept when they are first committed and
-// used again when the path comes back to them.
+// A closed curve must meet itself exactly: the three offsets around the seam are stored when they are first committed,
+// and used again when the path comes back to them.
 template <Scalar S, class Joints>
 void ControlPointStream<S, Joints>::close_seam(std::uint64_t i) noexcept {
     const auto role = [this](std::uint64_t j) {
@@ -172,7 +172,7 @@ Pull ControlPointStream<S, Joints>::next(CurveSegment<S>& out) noexcept {
         if (i + 1 >= this->known_) {
             return this->finished_ ? Pull::finished : Pull::starved;
         }
-        // Row i + 15 needs knot i + 17: 16 waypoints past the end of segment i.
+        // Row i + 15 needs knot i + 17: 16 waypoints after the end of segment i.
         const auto ended = [this] {
             return rows_end_ > first_ + 1 && this->knot(rows_end_ - 1).breaks;
         };
@@ -229,7 +229,7 @@ template <Scalar S>
 SpansAround<S> BetaJoints<S>::around(S outer_before, S before, S after, S outer_after) const noexcept {
     const bool from_before = before > S{};
     const bool from_after = after > S{};
-    if (!span_ratio) { // as ratios, which stay the same however many joints there are
+    if (!span_ratio) { // as ratios, which stay in range for any number of joints
         const S one = from_integer<S>(1);
         outer_before = outer_before > S{} ? one / beta1 : S{};
         outer_after = outer_after > S{} ? beta1 * beta1 : S{};

@@ -13,8 +13,8 @@ Pull Polyline<S>::next(CurveSegment<S>& out) noexcept {
         next_ = this->oldest_ = i + 1;
         if (this->travelled(i)) {
             this->describe_segment(i, 1, out);
-            // A break that is no turn (a forced corner apart) costs nothing: the arc-length stage stops only where the
-            // direction jumps, so the flag is left to the user's own corners.
+            // The arc-length stage stops only where the direction jumps, so a break without a turn costs nothing. The
+            // flag is set only for forced corners of the user.
             out.stop_at_end = this->knot(i + 1).corner == Corner::forced;
             PerAxis<PerDegree<S>> offsets{};
             for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {

@@ -72,7 +72,7 @@ constexpr S most_change() noexcept {
 
 } // namespace
 
-// Decides about the joint of current_ and ahead_, and fills end_ and next_start_.
+// Decides whether the joint of current_ and ahead_ is smoothed, and fills end_ and next_start_.
 template <Scalar S>
 void SmoothedCurve<S>::join() noexcept {
     end_ = {};
@@ -104,18 +104,19 @@ void SmoothedCurve<S>::join() noexcept {
     for (unsigned k = 0; k < axes_u; ++k) {
         direction[k] = sum[k] / twice;
     }
-    // The longer tangent is `one`; ratio m 2^e of the other to it, m in (1/2, 2), e <= 0 but for rounding.
+    // The longer tangent is `one`; the other one has the ratio m 2^e to it, with m in (1/2, 2) and e <= 0 except for
+    // rounding.
     const Size<S> size_a = size_of(a.length, current_.unit_log2);
     const Size<S> size_b = size_of(b.length, ahead_.unit_log2);
     const bool a_longer = size_a.exponent > size_b.exponent;
     const Size<S>& one = a_longer ? size_a : size_b;
     const Size<S>& other = a_longer ? size_b : size_a;
     const S m = other.mantissa / one.mantissa;
-    const int e = larger(other.exponent - one.exponent, -48); // beyond, the weight is 1 to the last digit
+    const int e = larger(other.exponent - one.exponent, -48); // below that the weight is 1 to the last digit
     const S square = m * m;
     const S weight_one = literal<S>(1) / (literal<S>(1) + scale2(square, 2 * e));
     const S weight_other = square * weight_one; // times 2^(2e)
-    // V in the larger unit of the two, where neither term outgrows the other's digits.
+    // V in the larger of the two units, in which neither term exceeds the range of the other.
     const int unit_one = a_longer ? current_.unit_log2 : ahead_.unit_log2;
     const int unit_other = a_longer ? ahead_.unit_log2 : current_.unit_log2;
     const int unit = larger(unit_one, unit_other);
@@ -163,7 +164,8 @@ Derivatives<S> promoted(const CurveSegment<S>& segment, bool at_end, const End& 
 
 } // namespace
 
-// The quintic with the ends' derivatives: b1 = b0 + r'/5, b2 = 2 b1 - b0 + r''/20, and the same from the other end.
+// The quintic with the derivatives at both ends: b1 = b0 + r'/5, b2 = 2 b1 - b0 + r''/20, and the same from the other
+// end.
 template <Scalar S>
 void SmoothedCurve<S>::emit(CurveSegment<S>& out) const noexcept {
     out = current_;
@@ -190,7 +192,8 @@ void SmoothedCurve<S>::emit(CurveSegment<S>& out) const noexcept {
     }
     out.degree = quintic;
     out.assign(control);
-    out.unit_log2 += current_.unit_log2 - chord_unit_log2; // assign takes chord units, these are the segment's
+    out.unit_log2 += current_.unit_log2 - chord_unit_log2; // assign takes chord units, but these are the units of the
+                                                           // segment
 }
 
 template <Scalar S>
@@ -226,7 +229,7 @@ Pull SmoothedCurve<S>::next(CurveSegment<S>& out) noexcept {
         lead_in_ = false;
         start_ = next_start_;
         if (last) {
-            has_current_ = false; // the source answers `finished` from now on
+            has_current_ = false; // from now on the source answers `finished`
         } else {
             current_ = ahead_;
         }

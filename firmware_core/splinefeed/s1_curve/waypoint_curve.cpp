@@ -5,9 +5,10 @@ namespace splinefeed {
 
 namespace {
 
-// 0.1 um in units of 2^-40 mm: nearer waypoints are one. The time of a move of that size still resolves in Fixed.
+// 0.1 um in units of 2^-40 mm: nearer waypoints are merged. The time of a move of this length still has digits in
+// Fixed.
 constexpr std::int64_t merge_raw = (std::int64_t{1} << Position::fraction_bits) / 10000;
-// 2^20 mm: positions beyond are refused where they enter.
+// 2^20 mm: positions outside are refused where they enter.
 constexpr std::int64_t farthest_raw = std::int64_t{1} << (Position::fraction_bits + 20);
 
 } // namespace
@@ -95,9 +96,9 @@ Status WaypointCurve<S>::finish() noexcept {
     return {};
 }
 
-// Turn angle between the chords at knot i against the corner angle; the file's corner column overrides it. A move a
-// million times longer than its neighbour is a corner in any case: the pivots of a spline over both would have no bits
-// left in Fixed, and the short one is out of sight of the long one.
+// Compares the turn angle between the chords at knot i with the corner angle; the corner column of the file overrides
+// it. A move that is a million times longer than its neighbour always makes a corner: in Fixed the pivots of a spline
+// over both would have no bits left, and the short move is invisible at the scale of the long one.
 template <Scalar S>
 void WaypointCurve<S>::decide_corner(std::uint64_t i) noexcept {
     Knot<S>& here = knot(i);
@@ -114,7 +115,7 @@ void WaypointCurve<S>::decide_corner(std::uint64_t i) noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(axes()); ++k) {
         cosine += (before.chord[k] / before.length) * (here.chord[k] / here.length);
     }
-    // The slack keeps an exact 60-degree turn from being decided by rounding.
+    // The tolerance prevents that rounding decides about an exact 60-degree turn.
     here.breaks = cosine < options_.corner_cosine - literal<S>(1e-6);
 }
 

@@ -7,14 +7,14 @@ namespace splinefeed {
 
 namespace {
 
-// Control points are below 2^16 units; 24 of their roundings enter a second derivative of a cubic, twice that is
+// Control points are below 2^16 units. The second derivative of a cubic contains 24 of their roundings; twice that is
 // allowed. Rounding is no reason to halve: halving makes it larger in proportion.
 template <Scalar S>
 constexpr S control_noise = literal<S>(1e-8);
 template <>
 constexpr float control_noise<float> = 48.0F * 65536.0F / 16777216.0F;
 
-// Below this a halving adds more rounding to a float than it removes error: the piece is taken as it is.
+// Below this, halving adds more rounding to a float than it removes error: the piece is accepted as it is.
 template <Scalar S>
 constexpr S finest = S{};
 template <>
@@ -35,7 +35,7 @@ bool ArcLength<S>::vanishes(const Piece<S>& piece) const noexcept {
 }
 
 // Within the braking distance of a stop (7.3 grades) a cell is at most a grade or about a third of its distance to the
-// stop (not exactly: on straight lines that would be a tie, and rounding would decide).
+// stop. (Not exactly a third: on straight lines that would be a tie, and rounding would decide.)
 template <Scalar S>
 bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
     const auto n = static_cast<unsigned>(current().degree);
@@ -52,7 +52,7 @@ bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
     return (stop_before_ && coarse(distance_mm(0, 0))) || (stop_after_ && coarse(distance_mm(n, n)));
 }
 
-// Whether an end of an axis's open travel lies within the hull of the piece.
+// Whether an end of an axis's open travel lies in the hull of the piece.
 template <Scalar S>
 bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
@@ -65,9 +65,9 @@ bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
     return false;
 }
 
-// The speed changes near joints, most of all near stops. Halving grades cells geometrically away from a stop. Where
-// nothing stops three halvings do, lest a slow feed cut every segment into degenerate cells. Between two stops there
-// are at least eight cells: room to start and to brake even in the shortest move.
+// The speed changes near joints, and most near stops. Halving makes cells grow geometrically with the distance from a
+// stop. If nothing stops, three halvings are enough; otherwise a slow feed would cut every segment into degenerate
+// cells. Between two stops there are at least eight cells: room to start and to brake even in the shortest move.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
     if (m_.length_mm > refinement_.longest_mm || (stop_before_ && stop_after_ && piece.level < 3)) {
@@ -98,7 +98,7 @@ bool ArcLength<S>::bends_too_much() const noexcept {
     return false;
 }
 
-// Measures a piece as far as it takes to decide whether it can be a cell; all of it if it can.
+// Measures a piece until it is known whether it can be a cell; if it can, completely.
 template <Scalar S>
 auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     const int axes = current().axes;
@@ -131,7 +131,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     if (!last && bends_too_much()) {
         return Verdict::coarse;
     }
-    // Not even the slowest speed of a plan is slow enough for what bends more.
+    // For a piece that bends more, even the slowest speed of a plan is too fast.
     return m_.sharpest_bend(axes) < refinement_.sharpest ? Verdict::fine : Verdict::cusp;
 }
 
@@ -146,7 +146,7 @@ void ArcLength<S>::fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out
     out.stop_at_end = at_end && stop_after_;
     out.end = segment.end;
     for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
-        // The origin moves to the start of the cell, so that offsets stay as small as the cell.
+        // The origin moves to the start of the cell: offsets are then as small as the cell.
         out.origin[k] = displaced(segment.origin[k], from[k], segment.unit_log2);
         out.power[k][0] = from[k] - distance<S>(segment.origin[k], out.origin[k], segment.unit_log2);
     }
@@ -170,7 +170,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
                           : smaller(scale2(quotient_or_max(x, m_.length_mm), shift),
                                     from_integer<S>(PieceMeasure<S>::sharpest));
     };
-    // In units of 2^-12, lest Fixed lose the digits of a small error over a small length.
+    // In units of 2^-12: otherwise Fixed would lose the digits of a small error over a small length.
     const S error = m_.shape_error + scale2(absolute(m_.length - m_.low_order_length), 12) / m_.length;
     const S ripple = per_mm(from_integer<S>(40) * error, -12);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
@@ -188,9 +188,9 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     }
     const ControlRounding<S> rounded = ControlRounding<S>::of(current(), m_.slowest, out.tangent_max);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        // What is left of the inverse's error looks like c x^3 (1-x)^3 (x-1/2): with the slope e its second derivative
-        // reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, e being an
-        // estimate. Rounding of the control points bends the curve.
+        // The remaining error of the inverse is about c x^3 (1-x)^3 (x-1/2). With the slope e its second derivative
+        // reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, because e is
+        // an estimate. Rounding of the control points bends the curve.
         const S rounding = out.tangent_max[k] * ripple + per_mm(rounded.bend[k], 0);
         out.curvature_max[k] =
             smaller(PieceMeasure<S>::bound(m_.second, k) + rounding, from_integer<S>(PieceMeasure<S>::sharpest));
@@ -203,8 +203,8 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     out.steady_mm_s = rounded.steady_speed(refinement_.jump_mm_s, out.axes);
 }
 
-// Control points round the end of their segment, in float by 2^-24 of its length: lest the path step there, the last
-// cell ends where the next one begins. steady_speed() allows for what that adds to its slope.
+// Rounded control points move the end of their segment, in float by 2^-24 of its length. To avoid a step of the path
+// there, the last cell ends where the next one begins. steady_speed() allows for the change of its slope.
 template <Scalar S>
 void ArcLength<S>::arrive(Cell<S>& cell) const noexcept {
     const CurveSegment<S>& ahead = slots_[1 - current_];
@@ -219,15 +219,15 @@ void ArcLength<S>::arrive(Cell<S>& cell) const noexcept {
     }
 }
 
-// The shape of an axis without curvature that moves as much as it does anywhere in the cell.
+// The shape of an axis without curvature, with the largest slope that it has anywhere in the cell.
 template <Scalar S>
 AxisShape<S> ArcLength<S>::largest_shape(unsigned axis, const Cell<S>& cell) const noexcept {
     const S tangent = scale2(cell.tangent_max[axis], refinement_.shape_log2);
     return {{tangent, tangent}, {}, S{}};
 }
 
-// A piece that was taken as it is may turn by more than cells do. There the largest values stand for all of the cell,
-// and so that Fixed cannot overflow the plan holds its speed down as well (FeedPlan::bound).
+// A piece that was accepted as it is may turn by more than normal cells. Then the largest values are used for the whole
+// cell. To prevent an overflow in Fixed, the plan also limits its speed (FeedPlan::bound).
 template <Scalar S>
 AxisShape<S> ArcLength<S>::shape_of(unsigned axis, S rounding, const Cell<S>& cell) const noexcept {
     const S twice = cell.length_mm + cell.length_mm;
@@ -249,7 +249,7 @@ void ArcLength<S>::extend_cusp(const Piece<S>& piece) noexcept {
     in_cusp_ = true;
 }
 
-// What is left of a cusp, or what a float cannot halve any more: its chord, from stop to stop.
+// The rest of a cusp, or a piece that a float cannot halve any more: its chord, from stop to stop.
 template <Scalar S>
 void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     PerAxis<S> chord{};
@@ -291,7 +291,7 @@ Pull ArcLength<S>::load() noexcept {
     stop_after_ = current().stop_at_end || !has_ahead_ || direction_jumps(current(), ahead, refinement_.direction_jump);
     const S block = current().block_feed_mm_s();
     const S feed = block > S{} ? smaller(block, refinement_.max_feed_mm_s) : refinement_.max_feed_mm_s;
-    // Below 2e-8 mm Fixed has no digits for a length; a cell of 2 nm still resolves.
+    // Below 2e-8 mm Fixed has no digits for a length; a cell of 2 nm still has some.
     nothing_ = larger(negligible_units<S>, scale2(literal<S>(2e-8), -current().unit_log2));
     grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));
     stack_[0].control = current().control;
@@ -302,7 +302,7 @@ Pull ArcLength<S>::load() noexcept {
     return Pull::item;
 }
 
-// Replaces the piece on top of the stack by its halves, the earlier one on top.
+// Replaces the piece on top of the stack by its halves, with the earlier one on top.
 template <Scalar S>
 void ArcLength<S>::split() noexcept {
     Piece<S>& right = top();
@@ -330,7 +330,7 @@ Pull ArcLength<S>::next(Cell<S>& out) noexcept {
         if (verdict == Verdict::coarse) {
             split();
         } else if (verdict == Verdict::fine) {
-            if (in_cusp_) { // the cusp first; this piece is judged again
+            if (in_cusp_) { // the cusp comes first; this piece is judged again
                 fill_chord(false, out);
                 return Pull::item;
             }
@@ -350,7 +350,7 @@ Pull ArcLength<S>::next(Cell<S>& out) noexcept {
     }
 }
 
-// Takes the piece that was delivered off the stack, and the segment if it was the last.
+// Removes the delivered piece from the stack, and the segment if it was its last piece.
 template <Scalar S>
 void ArcLength<S>::leave() noexcept {
     --depth_;

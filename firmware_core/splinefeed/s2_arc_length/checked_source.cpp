@@ -5,7 +5,7 @@ namespace splinefeed {
 
 namespace {
 
-// By how much a program may begin beside where the machine stands.
+// Largest distance between the start of a program and the position of the machine.
 constexpr std::int64_t beside_raw = std::int64_t{1} << (Position::fraction_bits - 26);
 
 } // namespace
@@ -43,8 +43,8 @@ bool direction_jumps(const CurveSegment<S>& before, const CurveSegment<S>& after
     return jump > most;
 }
 
-// Whether the machine can be where a segment leads: its counters reach all of it, and the first one begins where it
-// stands.
+// Whether the machine can be where a segment leads: its counters reach the whole segment, and the first segment begins
+// where the machine stands.
 template <Scalar S>
 Status CheckedSource<S>::check(const CurveSegment<S>& segment) const noexcept {
     if (refinement_->axes != 0 && segment.axes != refinement_->axes) {

@@ -21,7 +21,7 @@ float two_roundings<float>(float largest) noexcept {
     return largest * 0x1p-23F;
 }
 
-// Of r''. In the other scalars what the bound is asked for on top of it, too.
+// Rounding of r''. In the other scalars it includes the extra reserve of the bound.
 template <Scalar S>
 S bend_rounding(S two) noexcept {
     return std::same_as<S, float> ? from_integer<S>(24) * two : literal<S>(1e-8);

@@ -79,15 +79,15 @@ void PieceMeasure<S>::measure_length(int axes, int unit_log2) noexcept {
     }
     const S ends = sigma[0] + sigma[2];
     const S bend = slope[0] - slope[2];
-    // Divided, not multiplied by rounded constants: their error would be the same in every cell and add up.
+    // Divided, not multiplied by rounded constants: their error would be the same in every cell and would accumulate.
     length = (times(7, ends) + times(16, sigma[1]) + half(bend)) / from_integer<S>(30);
     low_order_length = half(ends) + bend / from_integer<S>(12);
     length_mm = scale2(length, unit_log2);
-    // Computed for sigma = 1 + 2 q (w - 1/2)^2 the error of the inverse is 0.045 q^3, for sigma = 1 + p w it is below
-    // 0.045 p^6. The middle may see nothing of it where both mix.
+    // Computed for sigma = 1 + 2 q (w - 1/2)^2 the error of the inverse is 0.045 q^3; for sigma = 1 + p w it is below
+    // 0.045 p^6. If both are mixed, the value at the middle may not show the error.
     const S slant = (sigma[2] - sigma[0]) / sigma[1];
     const S bow = absolute(sigma[2] - sigma[1] - (sigma[1] - sigma[0])) / sigma[1] + slant * slant;
-    const S scaled = scale2(bow, 4); // lest Fixed lose the digits of its cube
+    const S scaled = scale2(bow, 4); // otherwise Fixed would lose the digits of its cube
     shape_error = literal<S>(0.045) * scaled * scaled * scaled;
 }
 
@@ -140,7 +140,8 @@ S PieceMeasure<S>::sharpest_bend(int axes) const noexcept {
     return most;
 }
 
-// The largest of three samples plus a quarter of their second difference: twice what a parabola can exceed them by.
+// The largest of three samples plus a quarter of their second difference: twice the amount by which a parabola can
+// exceed them.
 template <Scalar S>
 S PieceMeasure<S>::bound(const std::array<PerAxis<S>, points>& f, unsigned axis) noexcept {
     const S second_difference = absolute(f[2][axis] - f[1][axis] - (f[1][axis] - f[0][axis]));
@@ -148,9 +149,9 @@ S PieceMeasure<S>::bound(const std::array<PerAxis<S>, points>& f, unsigned axis)
            scale2(second_difference, -2);
 }
 
-// What q'' leaves its parabola by shows in q', the integral. With d the difference of q' at the middle and e that at
-// the end, a rest d' x (1-x) (1-2x) of 2 L q'' reaches 6.2 d, and one like x (1-x) (1-2x)^2 3.8 e, half of which the
-// middle sees as well; q' itself is off by d and e. Each comes times b <= b0 + b1.
+// The error of the parabola of q'' shows in q', its integral. Let d be the difference of q' at the middle and e that at
+// the end. An error x (1-x) (1-2x) of 2 L q'' reaches 6.2 d, and one like x (1-x) (1-2x)^2 reaches 3.8 e, half of which
+// the middle sees as well; q' itself has the errors d and e. Each is multiplied by b <= b0 + b1.
 template <Scalar S>
 AxisShape<S> PieceMeasure<S>::shape(unsigned axis, int log2) const noexcept {
     const S one = from_integer<S>(1);
@@ -158,12 +159,13 @@ AxisShape<S> PieceMeasure<S>::shape(unsigned axis, int log2) const noexcept {
     const S twice = scale2(length_mm, log2 + 1);
     const S c0 = twice * second[0][axis];
     const S c2 = twice * second[2][axis];
-    // Through the value at w = 1/2, which is at x = middle: c0 (1-x)^2 + 2 c1 x (1-x) + c2 x^2.
+    // The parabola through the value at w = 1/2, which is at x = middle: c0 (1-x)^2 + 2 c1 x (1-x) + c2 x^2.
     const S to_end = one - middle;
     const S c1 = (twice * second[1][axis] - c0 * to_end * to_end - c2 * middle * middle) / (times(2, middle) * to_end);
     const S t0 = scale2(first[0][axis], log2);
     const S t1 = scale2(first[2][axis], log2);
-    // The integral's Bezier points are t0 and, each c / 6 after the one before, three more: up to the middle
+    // The Bezier points of the integral are t0 and three more, each larger by c / 6 than the one before: up to the
+    // middle
     const S sum1 = third * half(c0);
     const S sum2 = third * half(c0 + c1);
     const S sum3 = third * half(c0 + c1 + c2);

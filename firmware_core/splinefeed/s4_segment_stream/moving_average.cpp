@@ -15,8 +15,9 @@ void MovingAverage::reset(PathPosition place, std::uint32_t duration_q8) noexcep
     mean_ = newest_ = place;
 }
 
-// The ring holds the N newest and the one before, at next_: that one leaves, and the one behind it becomes the partial.
-// All N are as much farther behind as the newest went on; then the newest takes the place of the one that leaves.
+// The ring holds the N newest positions and the one before, at next_. That one leaves, and the one after it becomes the
+// partial one. The distances of all N to the newest grow by the last move; then the newest takes the place of the one
+// that leaves.
 void MovingAverage::push(PathPosition newest) noexcept {
     if (units_between(newest_, newest) < 0) { // rounding
         newest = newest_;

@@ -21,7 +21,7 @@ namespace {
 constexpr int most_steps = 60;
 constexpr int most_halvings = 6;
 
-// Relative error at which a time is close enough.
+// Relative error of a time that is accurate enough.
 template <Scalar S>
 constexpr double closest = std::same_as<S, float>    ? 0x1p-22
                            : std::same_as<S, double> ? 0x1p-51
@@ -92,7 +92,7 @@ ProfileMotion<S>::ProfileMotion(const ProfileSegment<S>& profile_segment, S cell
         middle;
     const S exit = v1 / unit;
     time_ = from_integer<S>(2) / (one + scale2(linear_ + exit, -1));
-    // Newton's method, with halving where it leaves what is known of the time.
+    // Newton's method, with bisection where it leaves the known range of the time.
     S low{};
     S high{};
     for (int i = 0; i < most_steps; ++i) {
@@ -114,8 +114,8 @@ ProfileMotion<S>::ProfileMotion(const ProfileSegment<S>& profile_segment, S cell
     duration_ = time_ * length * per_s / unit;
 }
 
-// Of a time that is halved until the series converges fast, and doubled again: with s = t S, x = t^2 C
-// s(2 t) = 2 s (1 + c x), x(2 t) = 2 s^2.
+// The time is halved until the series converges fast, and the result doubled again: with s = t S, x = t^2 C: s(2 t) = 2
+// s (1 + c x), x(2 t) = 2 s^2.
 template <Scalar S>
 S ProfileMotion<S>::travelled(S time) const noexcept {
     S part = time;

@@ -20,11 +20,11 @@ namespace splinefeed {
 
 namespace {
 
-// Arriving up to this fraction of a segment early counts as arriving: an exact multiple of the segment duration must
-// not be decided by rounding. The control point moves by A (T/1024)^2 / 2, a 2e-6 part of a second difference.
+// Up to this fraction of a segment early counts as arrived: rounding must not decide about an exact multiple of the
+// segment duration. The control point moves by A (T/1024)^2 / 2, a 2e-6 part of a second difference.
 constexpr double arrival = 1.0 / 1024.0;
 
-// An A T^2 / 2 below this, in 2^-12 mm, has too few digits to brake with; what is left of it otherwise.
+// If A T^2 / 2 is below this, in 2^-12 mm, it has too few digits to brake with.
 constexpr double least_change = 1.0 / 256.0;
 constexpr double kept_for_rounding = 0.98;
 
@@ -38,7 +38,7 @@ ProfileSampler<S>::ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& li
     }
 }
 
-// Looks up the time that the plan's next profile segment takes.
+// Computes the time of the plan's next profile segment.
 template <Scalar S>
 Pull ProfileSampler<S>::enter_segment(UnderrunPolicy underrun) noexcept {
     const Pull pull = plan_->prepare(underrun);
@@ -81,7 +81,7 @@ S ProfileSampler<S>::braked(S x, S speed) const noexcept {
     return speed * ((way - less) / way);
 }
 
-// The profile segment from where the last control point is.
+// Chooses the profile segment from the place of the last control point.
 template <Scalar S>
 void ProfileSampler<S>::follow_steering() noexcept {
     const S v0 = square_root(plan_->profile_segment().entry_sq);
@@ -89,7 +89,7 @@ void ProfileSampler<S>::follow_steering() noexcept {
     const S share = elapsed_ / motion_.duration();
     const S x = fraction();
     S speed = v0 + (v1 - v0) * share;
-    // Without a jump of the acceleration there is nothing that takes a segment to begin.
+    // Without a jump of the acceleration the hold needs no correction at its start.
     if (plan_->steering().stops() && plan_->profile_segment().shape == SpeedShape::line) {
         speed = braked(x, speed);
     }
@@ -111,7 +111,7 @@ bool ProfileSampler<S>::arrive() noexcept {
         return false;
     }
     const Cell<S>& cell = plan_->cell();
-    // With a limited jerk the last of the way to rest is no longer than rounding.
+    // With a limited jerk the last part of the way to standstill is no longer than rounding.
     const bool bound_to_place = !plan_->steering().stops() || profile_segment.shape != SpeedShape::line;
     const S early = bound_to_place ? literal<S>(arrival) : literal<S>(0.5);
     if (elapsed_ + early < motion_.duration()) {
@@ -135,7 +135,7 @@ bool ProfileSampler<S>::arrive() noexcept {
     return true;
 }
 
-// It can be interrupted by underrun anywhere and goes on where it was.
+// An underrun may interrupt it anywhere; it continues where it was.
 template <Scalar S>
 Pull ProfileSampler<S>::next(UnderrunPolicy underrun) noexcept {
     if (in_segment_ && !advanced_ && plan_->steering().pending()) {

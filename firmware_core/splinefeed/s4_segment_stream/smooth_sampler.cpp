@@ -12,8 +12,8 @@
 
 namespace splinefeed {
 
-// The profile segment from where the motion is at the end of the last tick. One that cannot be steered there is asked
-// again with the next tick.
+// Chooses the profile segment from where the motion is at the end of the last tick. If it cannot be steered there, it
+// is asked again at the next tick.
 template <Scalar S>
 void SmoothSampler<S>::follow_steering() noexcept {
     const ProfileSegment<S>& profile_segment = plan_->profile_segment();
@@ -32,7 +32,7 @@ void SmoothSampler<S>::follow_steering() noexcept {
          .time_share = share});
 }
 
-// Of the profile segment, as much as there is time for in this tick.
+// Travels the profile segment as far as the time of this tick allows.
 template <Scalar S>
 void SmoothSampler<S>::travel() noexcept {
     const ProfileSegment<S>& profile_segment = plan_->profile_segment();
@@ -77,7 +77,7 @@ void SmoothSampler<S>::arrive() noexcept {
     }
 }
 
-// A motion from rest: of another leg it may be averaged over another time.
+// A motion from standstill: on another leg the average may have another length.
 template <Scalar S>
 void SmoothSampler<S>::begin() noexcept {
     if (!begun_) {
@@ -137,7 +137,7 @@ Pull SmoothSampler<S>::tick(UnderrunPolicy underrun) noexcept {
     return Pull::item;
 }
 
-// Where the mean is on the curve.
+// Finds where the mean is on the curve.
 template <Scalar S>
 void SmoothSampler<S>::locate(PathPosition mean) noexcept {
     for (;;) {

@@ -105,7 +105,7 @@ void AxisCrossings::begin(const FeedSegment& segment, unsigned axis) noexcept {
         since_ = longest_since; // in another unit
         interval_ = interval_before_ = 0;
     }
-    const std::int64_t bend = as_it_is_.second + 3 * as_it_is_.third; // half the acceleration at the end before
+    const std::int64_t bend = as_it_is_.second + 3 * as_it_is_.third; // half the acceleration at the previous end
     as_it_is_ = AxisCubic::of(segment, axis);
     if (as_it_is_.second != bend) {
         since_ = longest_since;
@@ -132,7 +132,7 @@ void AxisCrossings::go_to_next() noexcept {
     solve();
 }
 
-// The next part that holds a crossing, or none.
+// Goes to the next part with a crossing, or to none.
 bool AxisCrossings::go_on() noexcept {
     while (part_ < parts_.size()) {
         low_u_ = part_ == 0 ? 0U : parts_[part_ - 1U].end;
@@ -141,7 +141,7 @@ bool AxisCrossings::go_on() noexcept {
             return true;
         }
     }
-    // What rounding at a turn may have left undecided.
+    // A crossing that rounding at a turn may have left open.
     tick_ = none;
     if (way_ >= up_units_ || way_ < up_units_ - units_per_count) {
         enter({0xffffffffU, way_, way_ >= up_units_});
@@ -150,7 +150,7 @@ bool AxisCrossings::go_on() noexcept {
     return false;
 }
 
-// A crossing downwards is passed where the position is less: a unit beyond it, in the part turned round.
+// A crossing downwards is passed where the position is less: one unit beyond it, in the negated part.
 void AxisCrossings::enter(const MonotonePart& part) noexcept {
     if (part.rising != up_) {
         up_ = part.rising;

@@ -12,8 +12,7 @@ namespace splinefeed {
 
 namespace {
 
-/// a / b * 2^32 to about 15 bits, 2^32 - 1 if that is less. One division of 32 bits: the small processors have no
-/// other.
+/// a / b * 2^32 to about 15 bits, at most 2^32 - 1. One 32-bit division: small processors have no other.
 std::uint32_t quotient_q32(std::uint64_t a, std::uint64_t b) noexcept {
     if (a == 0) {
         return 0;

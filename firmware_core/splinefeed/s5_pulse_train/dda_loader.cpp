@@ -32,7 +32,7 @@ constexpr UnitScale position_scale{0xaaaaaaaaaaaaaaabU, 41};
 
 static_assert(units_per_count == 3 * (std::int64_t{1} << 30), "position_scale: 2^62 / units_per_count / 2^below_unit");
 
-/// floor(units / units_per_count). @pre |units| < 2^60. Without a division of 64 bits.
+/// floor(units / units_per_count), without a 64-bit division. @pre |units| < 2^60
 std::int32_t whole_counts(std::int64_t units) noexcept {
     const auto thirds = static_cast<std::int32_t>(units >> 30);
     return thirds / 3 - (thirds % 3 < 0 ? 1 : 0);

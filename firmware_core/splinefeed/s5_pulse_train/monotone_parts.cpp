@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t whole = 0xffffffffU;
 
-/// The instant between two at which the velocity has another sign than at the first of them.
+/// The instant between two at which the velocity changes its sign.
 std::uint32_t zero_between(const AxisCubic& cubic, std::uint32_t low, std::uint32_t high, bool rising) noexcept {
     while (high - low > 1) {
         const std::uint32_t middle = low + (high - low) / 2;
@@ -56,7 +56,7 @@ void MonotoneParts::cut(const AxisCubic& cubic, std::int64_t way, std::int64_t m
     const bool has_vertex = (before < 0) != (after < 0);
     const std::uint32_t vertex = has_vertex ? zero_of_line(before, after) : whole;
     const std::int64_t at_vertex = has_vertex ? cubic.slope(vertex) : last;
-    // From a standstill the motion goes where its velocity turns to.
+    // From a standstill the motion goes in the direction to which its velocity changes.
     bool rising = cubic.first > 0 || (cubic.first == 0 && (at_vertex > 0 || (at_vertex == 0 && last > 0)));
     std::uint32_t from = 0;
     const std::array<std::uint32_t, 2> places{vertex, whole};

@@ -32,14 +32,14 @@ void StepDirSequencer::push(const Step& step) noexcept {
             left_out_ += 2;
             return;
         }
-        SPLINEFEED_ASSERT(gap >= timing_.step_gap()); // faster than what allows() was asked for
+        SPLINEFEED_ASSERT(gap >= timing_.step_gap()); // faster than allows() was asked for
     }
     SPLINEFEED_ASSERT(lane.size < capacity);
     lane.step[ring_index(lane.head + lane.size, capacity)] = {step.tick, step.up};
     ++lane.size;
 }
 
-/// When the lane's next edge is due. @pre it has one
+/// Instant of the lane's next edge. @pre it has one
 std::int64_t StepDirSequencer::due(const Lane& lane) const noexcept {
     if (lane.on) {
         return lane.fall;

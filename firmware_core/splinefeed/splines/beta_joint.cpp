@@ -16,7 +16,7 @@ namespace splinefeed {
 
 namespace {
 
-// What beta1 may be so that 8 beta1 (1 + beta1) and (2 beta1 + 1)^2 are numbers of S.
+// Largest beta1 for which 8 beta1 (1 + beta1) and (2 beta1 + 1)^2 fit in S.
 template <Scalar S>
 constexpr S beta1_most() noexcept {
     return from_integer<S>(std::same_as<S, Fixed> ? 1 << 13 : 1 << 30);

@@ -15,7 +15,7 @@ namespace splinefeed {
 
 namespace {
 
-// x * times / parts. Whole numbers divide without rest where the vertices are multiples of boehm_scale.
+// x * times / parts. Integers divide without remainder if the vertices are multiples of boehm_scale.
 template <BoehmNumber N>
 N share(N x, int times, int parts) noexcept {
     if (times == 0) {
@@ -29,7 +29,7 @@ N share(N x, int times, int parts) noexcept {
     }
 }
 
-// Halves of scalars are exact but for the last bit of Fixed.
+// Halves of scalars are exact except for the last bit of Fixed.
 template <BoehmNumber N>
 N half(N x) noexcept {
     if constexpr (std::same_as<N, std::int64_t>) {
@@ -86,7 +86,8 @@ template <BoehmNumber N>
 void make_piece(std::span<const PerAxis<N>> vertices, int degree, bool closed, std::size_t piece, std::size_t pieces,
                 BoehmPoints<N>& out) noexcept {
     const std::size_t count = vertices.size();
-    // The vertex that the points are seen from: closed, the one of the piece's number; open, the second it is made of.
+    // The vertex from which the points are offsets: closed, the one with the piece's number; open, the second one of
+    // the piece.
     const std::size_t at = closed ? piece : piece + 1;
     const PerAxis<N>& here = vertices[at];
     const PerAxis<N>& next = vertices[(at + 1) % count];

@@ -14,7 +14,7 @@ namespace splinefeed {
 
 namespace {
 
-// Functions of degree d in place of those of degree d - 1.
+// Replaces functions of degree d - 1 by those of degree d.
 template <Scalar S>
 void raise_degree(std::span<const S> knots, unsigned d, std::size_t span, S t, PerDegree<S>& n) noexcept {
     S from_left{};

@@ -83,7 +83,7 @@ Status BsplineInterpolation<S>::prepare_open(std::span<const S> parameters) noex
         slack_ = limited ? smaller(slack_, nearest) : nearest;
         limited = true;
     }
-    if (kind_.end_derivatives) { // a derivative at an end needs a clamped one, and the first row to be d_0
+    if (kind_.end_derivatives) { // a derivative at an end needs a clamped end, and d_0 as the first row
         const bool clamped = knots_[0] == knots_[k] && knots_[controls] == knots_[controls + k] &&
                              parameters[0] == knots_[k] && parameters[last] == knots_[controls];
         if (!clamped) {
@@ -110,7 +110,7 @@ Status BsplineInterpolation<S>::prepare_closed(std::span<const S> parameters) no
     const auto k = static_cast<std::size_t>(kind_.degree);
     const S start = knots_[k];
     const S period = knots_[k + points_] - start;
-    // A parameter within the domain of the knots.
+    // Brings a parameter into the domain of the knots.
     const auto inside = [&](S t) {
         while (t < start) {
             t += period;
@@ -140,7 +140,7 @@ Status BsplineInterpolation<S>::prepare_closed(std::span<const S> parameters) no
         bool regular = true;
         for (std::size_t i = 0; i < points_ && regular; ++i) {
             const S t = inside(parameters[i]);
-            const bool turned = t < inside(parameters[0]); // in the next turn
+            const bool turned = t < inside(parameters[0]); // in the next period
             std::size_t control = candidate + i;           // its support is knots[control] ... knots[control+k+1]
             S turns = turned ? period : S{};
             while (control >= points_) {

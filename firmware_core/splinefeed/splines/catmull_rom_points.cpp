@@ -87,7 +87,7 @@ Status catmull_rom_points(std::span<const Point<S>> points, int axes, bool close
     const auto chord_from = [&](std::size_t i) {
         return chord_between(points[i % count], points[(i + 1) % count]);
     };
-    Point<S> chord = chord_from(count - 1); // of an open curve not used
+    Point<S> chord = chord_from(count - 1); // not used for an open curve
     Point<S> next = chord_from(0);
     std::array<KnotTangent<S>, 2> ends{}; // of point i: [i % 2]
     catmull_rom_tangent<S>({closed ? &chord : nullptr, one}, {&next, one}, tension, axes, ends[0]);

@@ -5,7 +5,7 @@ namespace splinefeed {
 
 namespace {
 
-constexpr int deepest = 24; // halvings; a hull is 4^-24 of its segment's wide then
+constexpr int deepest = 24; // halvings; the width of a hull is then 4^-24 of its segment
 
 template <Scalar S>
 void include(Extent<S>& extent, S value) noexcept {
@@ -46,7 +46,7 @@ PerAxis<Extent<S>> bezier_hull(const BezierPiece<S>& piece) noexcept {
     return box;
 }
 
-// Depth first; what waits are the right halves, one of each depth at most.
+// Depth first; the right halves wait, at most one of each depth.
 template <Scalar S>
 Extent<S> extent_beyond(const PerDegree<S>& points, int degree, const Extent<S>& allowed, S slack) noexcept {
     const auto n = static_cast<unsigned>(degree);
@@ -63,7 +63,7 @@ Extent<S> extent_beyond(const PerDegree<S>& points, int degree, const Extent<S>&
         include(found, right[0]);
         include(found, right[n]);
         const Extent<S> most = bezier_extent(right, degree);
-        // Nothing below adds to what is known.
+        // Nothing below adds to the known result.
         const bool known = most.high <= larger(allowed.high, found.high) + slack &&
                            most.low >= smaller(allowed.low, found.low) - slack;
         if (known || level == deepest) {

@@ -9,8 +9,8 @@ namespace {
 
 constexpr auto all_axes = static_cast<unsigned>(max_axes);
 
-// Largest entry of the eliminated matrix, right side and unknown. In Fixed four products of entries and unknowns and a
-// right side stay below 2^31: 4 * 2^4 * 2^24 + 2^29.
+// Largest entry of the eliminated matrix, and of the right side and the unknowns. In Fixed four products of entries and
+// unknowns plus a right side stay below 2^31: 4 * 2^4 * 2^24 + 2^29.
 template <Scalar S>
 constexpr S most_entry() noexcept {
     return std::same_as<S, Fixed> ? literal<S>(0x1p4) : literal<S>(0x1p20);
@@ -29,16 +29,16 @@ bool small(S x, S limit) noexcept {
     return x >= -limit && x <= limit; // false for NaN
 }
 
-// Signs for the estimate of the inverse's norm: none of the three patterns is orthogonal to a smooth, to an alternating
-// and to an irregular worst case at the same time.
+// Signs for the estimate of the norm of the inverse: none of the three patterns is orthogonal to a smooth, an
+// alternating and an irregular worst case at the same time.
 template <Scalar S>
 S sign_of(std::size_t i, unsigned pattern) noexcept {
     const bool minus = pattern == 0 ? false : pattern == 1 ? i % 2 == 1 : ((i * 2654435761U) >> 7U) % 2 == 1;
     return from_integer<S>(minus ? -1 : 1);
 }
 
-/// The matrix entries to their columns as step k sees them, the row scaled by a power of two to a largest entry in
-/// [1, 2): exact in floating point.
+/// Brings the matrix entries to their columns as step k sees them, with the row scaled by a power of two to a largest
+/// entry in [1, 2): exact in floating point.
 template <Scalar S>
 bool place(CyclicRow<S>& row, std::size_t i, std::size_t n, std::size_t k) noexcept {
     const S largest_entry = larger(absolute(row.on), larger(absolute(row.below), absolute(row.above)));
@@ -71,7 +71,7 @@ bool place(CyclicRow<S>& row, std::size_t i, std::size_t n, std::size_t k) noexc
     return true;
 }
 
-/// row -= f * pivot with |f| <= 1, and the window moves on by one column. False where a number outgrows its bound.
+/// row -= f * pivot with |f| <= 1, and the window moves on by one column. false if a number exceeds its bound.
 template <Scalar S>
 bool subtract(CyclicRow<S>& row, const CyclicRow<S>& pivot) noexcept {
     const S f = row.window[0] / pivot.window[0];
@@ -95,7 +95,7 @@ bool subtract(CyclicRow<S>& row, const CyclicRow<S>& pivot) noexcept {
     return fits;
 }
 
-/// top / pivot into x; false where it outgrows its bound.
+/// Writes top / pivot to x; false if it exceeds its bound.
 template <Scalar S>
 bool divided(S top, S pivot, S& x) noexcept {
     if (!(absolute(top) <= absolute(pivot) * most_unknown<S>())) {
@@ -105,7 +105,8 @@ bool divided(S top, S pivot, S& x) noexcept {
     return true;
 }
 
-/// Pivots p_i = on_i - below_i above_{i-1} / p_{i-1} of elimination without exchanges, against the size of their rows.
+/// Pivots p_i = on_i - below_i above_{i-1} / p_{i-1} of elimination without exchanges, compared with the size of their
+/// rows.
 template <Scalar S>
 bool regular_without_pivoting(std::span<const CyclicRow<S>> rows) noexcept {
     S pivot{};
@@ -126,8 +127,7 @@ S row_sum(const CyclicRow<S>& row) noexcept {
     return absolute(row.below) + absolute(row.on) + absolute(row.above);
 }
 
-/// Triangular form, row k with the pivot of column k; exchanges rows as it needs. The last two are left with two
-/// columns.
+/// Triangular form, row k with the pivot of column k; exchanges rows as needed. The last two rows keep two columns.
 template <Scalar S>
 Status eliminate(std::span<CyclicRow<S>> rows, CyclicReport<S>& report) noexcept {
     const std::size_t n = rows.size();

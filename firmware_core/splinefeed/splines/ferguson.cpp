@@ -56,7 +56,8 @@ Status check(const FergusonInput<S>& input, std::size_t count) noexcept {
     return {};
 }
 
-// 3 (r_{i+1} - (1 - delta lambda^2) r_i - delta lambda^2 r_{i-1}) from the chords, so that it does not feel the origin.
+// 3 (r_{i+1} - (1 - delta lambda^2) r_i - delta lambda^2 r_{i-1}) from the chords, so that it does not depend on the
+// origin.
 template <Scalar S>
 Point<S> right_side(const FergusonJoint<S>& joint, const Point<S>& before, const Point<S>& here,
                     const Point<S>& after) noexcept {
@@ -78,7 +79,8 @@ bool vanishes(const Point<S>& tangent, S noise) noexcept {
     return true;
 }
 
-// A tangent that is zero but for rounding: below 2^-40 (float 2^-18, Fixed 2^-32 at least) of the points and tangents.
+// A tangent that is zero except for rounding: below 2^-40 (float 2^-18, Fixed at least 2^-32) of the points and
+// tangents.
 template <Scalar S>
 void find_vanishing(const FergusonInput<S>& input, const FergusonOutput<S>& out, std::size_t count,
                     FergusonReport<S>& report) noexcept {
@@ -113,7 +115,7 @@ BezierPiece<S> hermite(const Point<S>& from, const Point<S>& to, const Point<S>&
     return piece;
 }
 
-/// Fills the rows of the unknown tangents; known ones go to the right.
+/// Fills the rows of the unknown tangents; known ones go to the right side.
 template <Scalar S>
 void assemble(const FergusonInput<S>& input, std::size_t count, std::span<CyclicRow<S>> rows) noexcept {
     const std::size_t n = rows.size();

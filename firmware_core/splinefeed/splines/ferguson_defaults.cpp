@@ -47,7 +47,7 @@ void estimate_end_tangents(std::span<const Point<S>> points, std::span<const Fer
         return;
     }
     // Spans 1 and lambda: the derivative in between is (lambda e_1 + e_2/lambda)/(1 + lambda), at the start twice the
-    // chord less that; seen from the other end the spans are 1 and 1/lambda.
+    // chord minus that; from the other end the spans are 1 and 1/lambda.
     const S one = literal<S>(1);
     const Point<S> second = chord_between(points[1], points[2]);
     const Point<S> before = chord_between(points[n - 3], points[n - 2]);

@@ -33,7 +33,7 @@ using detail::Equations;
 using detail::Numbers;
 using detail::Row;
 
-// x / p; in floating point by the reciprocal that is there anyway.
+// x / p; in floating point by the reciprocal, which is already known.
 template <Scalar S>
 S over(S x, S p, S inverse) noexcept {
     if constexpr (std::same_as<S, Fixed>) {
@@ -45,8 +45,8 @@ S over(S x, S p, S inverse) noexcept {
     }
 }
 
-/// Eliminates the rows of points 1 to n - 2 (closed: also of point 0) below what is known of the point before:
-/// t = rho - g t_next, omega / p of that row and its beta1.
+/// Eliminates the rows of points 1 to n - 2 (closed: also of point 0), given the result of the point before: t = rho -
+/// g t_next, omega / p of that row and its beta1.
 template <Scalar S, int fixed_axes, bool plain>
 class Elimination {
 public:
@@ -54,7 +54,7 @@ public:
     Numbers<S, fixed_axes> rho{};
     S g{};
     S pull{};                     ///< beta1 g = omega / p
-    S beta1 = from_integer<S>(1); ///< of the point before
+    S beta1 = from_integer<S>(1); ///< of the previous point
 
     /// Next row.
     void step(const Row<S>& row, const ChordOf<S, fixed_axes>& a, const ChordOf<S, fixed_axes>& b) noexcept {
@@ -75,7 +75,7 @@ public:
     S last_pivot{};
 };
 
-/// t_{n-1} of a closed curve, by one pass that keeps nothing.
+/// t_{n-1} of a closed curve, by one pass that stores nothing.
 template <Scalar S, int fixed_axes, bool plain>
 Status find_last(const G2BezierInput<S>& input, Numbers<S, fixed_axes>& last) noexcept {
     Equations<S, fixed_axes, plain> equations(input);
@@ -119,7 +119,7 @@ Status find_last(const G2BezierInput<S>& input, Numbers<S, fixed_axes>& last) no
     const S from_before = row.before * above.pull + equations.product(lower, s);
     const S from_first = equations.product(upper, t0_next + t0_last);
     const S pivot = row.diagonal - from_before - from_first;
-    // What rounding leaves of a pivot that is zero: a few units of its terms.
+    // The rounding that is left of a pivot that is zero: a few units of its terms.
     const S terms = row.diagonal + absolute(from_before) + absolute(from_first);
     const S noise = scale2(terms, std::same_as<S, double> ? -44 : std::same_as<S, float> ? -16 : -24);
     if (equations.error() != Error::none) {
@@ -191,7 +191,7 @@ Status solve(const G2BezierInput<S>& input, S* tangents, S* scratch) noexcept {
             rho[k] = last[k];
         });
     }
-    // A number that is none spreads through the elimination to the last row, and back to the first.
+    // NaN spreads through the elimination to the last row, and back to the first.
     S sum{};
     each_axis<fixed_axes>(axes, [&](std::size_t k) { sum = sum + absolute(last[k]) * scale2(one, -3); });
     return sum <= largest<S>() ? equations.error() : Error::result_out_of_range;

@@ -134,7 +134,7 @@ Status bezier_pieces(std::span<const S> knots, int degree, std::span<const Point
         pieces[made] = bezier_piece(knots, degree, controls, axes, i);
         breaks[made] = knots[i];
         breaks[made + 1U] = knots[i + 1U];
-        if (made > 0 && knots[i - k] < knots[i]) { // else degree + 1 equal knots: the curve may jump here
+        if (made > 0 && knots[i - k] < knots[i]) { // otherwise degree + 1 equal knots: the curve may jump here
             pieces[made].set_point(0, pieces[made - 1U].point(degree));
         }
         ++made;

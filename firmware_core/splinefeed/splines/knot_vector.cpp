@@ -116,7 +116,7 @@ Status open_knots(KnotRule rule, std::span<const S> parameters, int degree, bool
         knots[i] = S{};
         knots[controls + i] = last;
     }
-    // The first of the averaged parameters: t_1, or with end derivatives, which count for a point each, t_0.
+    // The first of the averaged parameters: t_1, or t_0 with end derivatives, each of which counts like a point.
     const std::size_t first = end_derivatives ? 0U : 1U;
     for (std::size_t j = 0; j < inner; ++j) {
         S& knot = knots[k + 1U + j];
@@ -160,7 +160,7 @@ Status closed_knots(KnotRule rule, std::span<const S> parameters, int degree, S 
         return Error::knot_rule_unsuited;
     }
     const PeriodicParameters<S> t{parameters, period};
-    std::ptrdiff_t first = 0; // the knot with the smallest value of those not below 0
+    std::ptrdiff_t first = 0; // the knot with the smallest value that is not below 0
     while (!(closed_knot(rule, t, degree, first - 1) < S{})) {
         --first;
     }

@@ -19,7 +19,7 @@ bool usable(S coordinate) noexcept {
     }
 }
 
-/// Length of the span from one point to the next, before it is brought to the domain.
+/// Length of the span from one point to the next, before scaling to the domain.
 template <Scalar S>
 S span_length(const Point<S>& from, const Point<S>& to, int axes, Parameterization how) noexcept {
     if (how == Parameterization::uniform) {
@@ -64,7 +64,8 @@ Status spline_parameters(std::span<const Point<S>> points, int axes, Parameteriz
         }
     }
     const std::size_t spans = closed ? count : count - 1U;
-    // In Fixed the sum of the spans must fit: halve the unit as often as their number may double the longest.
+    // In Fixed the sum of the spans must fit: the unit is halved as often as the number of spans may double the longest
+    // one.
     int halvings = 0;
     if constexpr (std::same_as<S, Fixed>) {
         S longest{};

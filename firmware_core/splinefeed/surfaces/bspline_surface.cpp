@@ -13,7 +13,7 @@ S limited(S value, S low, S high) noexcept {
     return larger(low, smaller(value, high));
 }
 
-// What is zero beside points that are 1 apart.
+// Counts as zero compared with points that are 1 apart.
 template <Scalar S>
 constexpr S none() noexcept {
     return std::same_as<S, double> ? literal<S>(0x1p-40) : literal<S>(0x1p-18);
@@ -33,7 +33,7 @@ Point<S> unit(const Point<S>& vector, S size) noexcept {
     return out;
 }
 
-// What rounding leaves of zero beside a coordinate of 1: a few tens of ulp, in Fixed what a solved net is good to.
+// The rounding of zero, compared with a coordinate of 1: a few tens of ulp; in Fixed the accuracy of a solved net.
 template <Scalar S>
 constexpr S rounding() noexcept {
     return std::same_as<S, double>  ? literal<S>(0x1p-46)
@@ -41,8 +41,9 @@ constexpr S rounding() noexcept {
                                     : literal<S>(0x1p-26);
 }
 
-// Up to which length a derivative is none: compared to the extent of the (k_u + 1) (k_v + 1) points of the span, and to
-// their coordinates, as points that should be one, a pole, are apart by the rounding of these.
+// Largest length at which a derivative counts as zero: compared with the extent of the (k_u + 1) (k_v + 1) points of
+// the span, and with their coordinates, because points that should coincide, in a pole, differ by the rounding of
+// these.
 template <Scalar S>
 S no_derivative(const BSplineSurface<S>& surface, const SurfaceJet<S>& jet) noexcept {
     const std::size_t first_u = jet.span_u - static_cast<std::size_t>(surface.degree_u);
@@ -162,7 +163,7 @@ Result<SurfaceNormal<S>> normal_of(const BSplineSurface<S>& surface, const Surfa
     if (no_u && no_v) {
         return Error::tangent_vanishes;
     }
-    if (no_u) { // S_u grows by S_uv with v, away from where the domain ends
+    if (no_u) { // S_u grows by S_uv with v, away from the end of the domain
         along = jet.uv;
         turned = at_end_v;
     } else if (no_v) {
@@ -175,7 +176,7 @@ Result<SurfaceNormal<S>> normal_of(const BSplineSurface<S>& surface, const Surfa
     if (!(size_u > zero) || !(size_v > zero)) {
         return Error::tangent_vanishes;
     }
-    // Of unit vectors, so that nothing overflows; the length is the sine of the angle between them.
+    // With unit vectors, so that nothing overflows; the length is the sine of the angle between them.
     const Point<S> a = unit(along, size_u);
     const Point<S> b = unit(across, size_v);
     const Point<S> product{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

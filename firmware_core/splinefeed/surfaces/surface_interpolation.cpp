@@ -63,7 +63,7 @@ Status grid_parameters(const PointGrid<S>& grid, SurfaceDirection along, Paramet
         if (!status.ok()) {
             return status;
         }
-        // The mean so far, moved towards this row: sums of rows might not fit.
+        // The mean so far, moved towards this row: a sum of the rows might not fit.
         ++regular;
         const S share = from_integer<S>(regular);
         for (std::size_t i = 0; i < count; ++i) {

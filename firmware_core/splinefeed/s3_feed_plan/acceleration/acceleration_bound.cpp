@@ -37,10 +37,11 @@ namespace splinefeed {
 
 namespace {
 
-// A Newton step leaves one half-plane for good: there are eight an axis. Six axes never took more than nine steps.
+// Each Newton step eliminates one half-plane, of which there are eight per axis. For six axes at most nine steps were
+// measured.
 constexpr int most_steps = 8 * max_axes + 64;
 
-// What the entry is taken back by where rounding hides the next step, doubled as often as it takes.
+// The amount by which the entry is reduced if rounding hides the next step; it is doubled as often as needed.
 template <Scalar S>
 constexpr int least_step_log2 = std::same_as<S, double>  ? -50
                                 : std::same_as<S, float> ? -22
@@ -98,8 +99,7 @@ void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
     }
 }
 
-// What violates a half-plane is taken back from the end that is asked for: the quotient stays below it, whatever the
-// divisor.
+// A violated half-plane reduces the end that is wanted: the quotient stays below it, whatever the divisor.
 template <Scalar S>
 template <auto Given, auto Asked>
 S AccelerationBound<S>::lowered(S given_sq, S at_most) const noexcept {
@@ -123,7 +123,7 @@ S AccelerationBound<S>::largest_entry(S exit_sq, S at_most) const noexcept {
     return lowered<&Row::exit, &Row::entry>(exit_sq, at_most);
 }
 
-// What violates a half-plane is added to the exit. The error bound goes with |v^2|: below zero it takes from the other
+// A violated half-plane increases the exit. The error bound is proportional to |v^2|: below zero it acts on the other
 // side.
 template <Scalar S>
 S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept {
@@ -145,7 +145,7 @@ S AccelerationBound<S>::smallest_exit(S entry_sq, S at_least, S at_most) const n
     return at_least < S{} && best > S{} ? lifted(entry_sq, S{}, larger(at_most, S{})) : best;
 }
 
-// The entry where two half-planes meet, the exits of which cancel with the weight 0 ... 1 of the second.
+// The entry where two half-planes meet; their exits cancel with the weight 0 ... 1 of the second.
 template <Scalar S>
 S AccelerationBound<S>::crossing_of(const Row& first, const Row& second, S weight) noexcept {
     const S entry = first.entry + second.entry * weight;
@@ -155,7 +155,7 @@ S AccelerationBound<S>::crossing_of(const Row& first, const Row& second, S weigh
 template <Scalar S>
 EndSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
     const S one = from_integer<S>(1);
-    const S beyond = cap_sq + cap_sq; // of every exit
+    const S beyond = cap_sq + cap_sq; // larger than every exit
     S entry = cap_sq;
     S back = larger(scale2(cap_sq, least_step_log2<S>), literal<S>(0x1p-32));
     for (int step = 0; step < most_steps; ++step) {

@@ -30,8 +30,8 @@ namespace splinefeed {
 
 namespace {
 
-// Slowest speed a cap may ask for away from stops, 1e-3 mm/s squared: below, time per cell would lose its meaning in
-// Fixed. At this speed an axis feels less than its smallest limit for any curvature below 1e5 /mm.
+// The lowest cap of the speed away from stops, 1e-3 mm/s squared: below that, the time per cell has no digits in Fixed.
+// At this speed the acceleration of an axis is less than its smallest limit for any curvature below 1e5 /mm.
 constexpr double slowest_sq = 1e-6;
 
 } // namespace
@@ -40,11 +40,11 @@ template <Scalar S>
 FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept
     : source_(&source), limits_(limits), window_(window), turning_(limits) {}
 
-// Cap of a cell. This is the one place where a limit of the speed is stated.
+// Cap of a cell. This is the only place where a limit of the speed is stated.
 template <Scalar S>
 void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
-    // Whatever is programmed and overridden, the feed keeps the block's own maximum.
+    // The block's own maximum limits the feed, whatever is programmed and overridden.
     const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), limits_.feed_mm_s)
                                             : limits_.feed_mm_s;
     S speed = path_speed(cell, most);
@@ -103,12 +103,12 @@ S FeedPlan<S>::programmed_sq(const Cell<S>& cell) const noexcept {
     return speed * speed;
 }
 
-// Backward over the window: entry_sq becomes the largest entry from which the machine's K behind the cell can be
-// reached, exit_sq the wish's K there. Returns the last final node of the wish, or 0.
+// Backward over the window: entry_sq becomes the largest entry from which the machine's K after the cell can be
+// reached; exit_sq becomes the K of the steering there. Returns the last final node of the steering's K, or 0.
 template <Scalar S>
 std::size_t FeedPlan<S>::backward_pass(bool open_end) noexcept {
     std::size_t last_final = 0;
-    S machine_sq{}; // at rest
+    S machine_sq{}; // standstill
     S override_sq{};
     S wanted = size_ > 0 ? wanted_sq(at(size_ - 1)) : S{};
     open_ = open_end;
@@ -161,7 +161,7 @@ void FeedPlan<S>::commit(bool ended) noexcept {
     }
 }
 
-// The steering changed. What is committed gets new speeds, or is no longer committed.
+// The steering changed. Committed cells get new speeds, or are no longer committed.
 template <Scalar S>
 void FeedPlan<S>::replan() noexcept {
     steering_.acknowledge();
@@ -171,7 +171,7 @@ void FeedPlan<S>::replan() noexcept {
     wanted_exit_ = size_ == 0 ? S{} : smaller(at(0).exit_sq, reachable_exit());
 }
 
-// The machine's K behind the front cell.
+// The machine's K after the front cell.
 template <Scalar S>
 S FeedPlan<S>::reachable_exit() const noexcept {
     const PlannedCell<S>& here = at(0);
@@ -202,13 +202,13 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
     const bool to_end = stretch.to == one;
     here.exit_sq = to_end ? profile_segment_.exit_sq : wanted_exit_;
     if (to_end && !(profile_segment_.entry_sq + profile_segment_.exit_sq > S{}) && !profile_segment_.stops) {
-        // From rest to rest (a degenerate cell between cusps, as a rule): accelerated over half of the length and
-        // braked over the other. From rest the whole length would reach v^2 = reach, half of it reach / 2; half of that
-        // is used, since the length of a degenerate cell has few digits in Fixed.
+        // From standstill to standstill (usually a degenerate cell between cusps): it accelerates over half of the
+        // length and brakes over the other half. From standstill the whole length would reach v^2 = reach, half of it
+        // reach / 2. Half of that is used, because the length of a degenerate cell has few digits in Fixed.
         const S reach = smaller(here.reach_from_rest, wanted_sq(here));
         profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
-        rest_to_rest_ = stretch.to < one; // a last digit has no half
+        rest_to_rest_ = stretch.to < one; // a length of one last digit cannot be halved
         profile_segment_.stops = !rest_to_rest_;
     } else if (to_end && !(profile_segment_.exit_sq > S{})) {
         profile_segment_.stops = profile_segment_.stops || here.cell.stop_at_end || size_ == 1;
@@ -231,8 +231,8 @@ void FeedPlan<S>::choose_steered(S known_sq) noexcept {
     steered_ = steering_.stops() || !(profile_segment_.exit_sq == wanted_exit_);
 }
 
-// P is convex: what is reached from the largest entry tells what is reached from less. Where an axis has next to no
-// inertia, the largest exit depends on the last digits of the entry, and this does not.
+// P is convex: the exit of the largest entry gives an exit for each smaller one. If an axis has almost no inertia, the
+// largest exit depends on the last digits of the entry; this one does not.
 template <Scalar S>
 S FeedPlan<S>::known_exit() const noexcept {
     const PlannedCell<S>& here = at(0);
@@ -291,7 +291,7 @@ Pull FeedPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
         if (steering_.aborts()) {
             return Pull::finished;
         }
-        const Pull pull = size_ == 0 ? fill() : Pull::item; // where a motion is to begin that is held before
+        const Pull pull = size_ == 0 ? fill() : Pull::item; // for a motion that is held before it begins
         return size_ == 0 ? pull : Pull::held;
     }
     if (committed_ == 0) {
@@ -311,7 +311,7 @@ Pull FeedPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
         } else {
             commit(pull == Pull::finished);
         }
-        if (was_open || open_) { // with an open end it may have become faster than what came behind it allows
+        if (was_open || open_) { // with an open end it may have become faster than the following cells allow
             speed_sq_ = smaller(speed_sq_, at(0).entry_sq);
         }
         steered_ = steered_ || steering_.pending();

@@ -15,21 +15,22 @@ namespace splinefeed {
 
 namespace {
 
-// A machine that brakes for a hold is taken down in steps of this part of a cell: b need not be linear over all of it.
-// Where the path leaves an axis next to no room for braking, a little less speed soon becomes much less time.
+// A machine that brakes for a hold slows down in steps of this part of a cell: b need not be linear over the whole
+// cell. Where the path leaves an axis almost no room for braking, a slightly lower speed soon means a much shorter
+// time.
 constexpr double step = 0.25;
 
 // 2^-28 of the longest cell is 6e-8 mm.
 constexpr int most_halvings = 28;
 
-// A rest of a cell shorter than this fraction is left to the profile segment before it: its length would have few
-// digits.
+// If the rest of a cell is shorter than this fraction, the profile segment before it includes it: its length would have
+// few digits.
 constexpr double negligible_part = 1.0 / 1024.0;
 
 template <Scalar S>
 struct Change {
     ProfileSegment<S> profile_segment{};
-    bool reached = false; ///< the goal, within the cell
+    bool reached = false; ///< the goal is reached within the cell
 };
 
 template <Scalar S>
@@ -53,7 +54,7 @@ Change<S> hardest_change(const Cell<S>& cell, const MotionLimits<S>& limits, con
             break;
         }
         to = aim.from + scale2(profile_segment.stretch.length(), -1);
-        at_most = goal_sq; // it was passed in the middle of twice this stretch
+        at_most = goal_sq; // it was passed in the middle of twice this part
     }
     profile_segment.exit_sq = exit;
     if (faster ? exit < goal_sq : exit > goal_sq) {
@@ -89,7 +90,7 @@ ProfileSegment<S> steered_segment(const Cell<S>& cell, const MotionLimits<S>& li
     } else if (aim.entry_sq < aim.exit_sq) {
         const Change<S> change = hardest_change(cell, limits, aim, aim.exit_sq);
         if (change.reached && change.profile_segment.stretch.to < last) {
-            // And then on at this speed, where neither less nor more is asked for
+            // From there on at this speed, if neither less nor more is wanted.
             const AccelerationBound<S> rest(cell, limits, {change.profile_segment.stretch.to});
             if (!(rest.largest_exit(aim.exit_sq, aim.exit_sq) < aim.exit_sq) &&
                 !(rest.smallest_exit(aim.exit_sq, aim.exit_sq, aim.exit_sq + aim.exit_sq) > aim.exit_sq)) {

@@ -11,7 +11,7 @@ namespace splinefeed {
 
 namespace {
 
-// The least |q'| in a cell with its sign; 0 where q' may vanish.
+// The smallest |q'| in a cell, with its sign; 0 if q' may vanish.
 template <Scalar S>
 S least_tangent(const Cell<S>& cell, unsigned axis, int shape_log2) noexcept {
     if ((cell.length_mm + cell.length_mm) * cell.curvature_max[axis] > literal<S>(Cell<S>::sharp_turn)) {

@@ -32,11 +32,12 @@ namespace splinefeed {
 namespace {
 
 constexpr int steps = 4;
-constexpr int level_steps = 8;           // of a cell's level, which is found once
-constexpr double within = 1.0 - 0x1p-14; // of the way to where a chord meets the limit, lest rounding go beyond
-constexpr int most_shrinks = 14;         // by 8, of what is far beyond: v down to 1e-6 of a first guess
+constexpr int level_steps = 8;           // of a cell's max_steady_sq, which is computed once
+constexpr double within = 1.0 - 0x1p-14; // of the distance to the point where a chord meets the limit, so that rounding
+                                         // does not exceed it
+constexpr int most_shrinks = 14;         // by 8, if far too large: v down to 1e-6 of a first guess
 
-// a b for a, b >= 0, in Fixed at most 2^29: sums of three of them have their place.
+// a b for a, b >= 0, in Fixed at most 2^29: sums of three such products fit.
 template <Scalar S>
 S bounded_product(S a, S b) noexcept {
     if constexpr (std::same_as<S, Fixed>) {
@@ -46,7 +47,7 @@ S bounded_product(S a, S b) noexcept {
     }
 }
 
-// The largest x from low to high with excess(x) <= 0, but for what the steps leave. @pre excess(low) <= 0
+// The largest x from low to high with excess(x) <= 0, up to the tolerance of the steps. @pre excess(low) <= 0
 template <Scalar S, class Excess>
 S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexcept {
     S above = excess(high);
@@ -85,14 +86,14 @@ S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexce
 
 } // namespace
 
-// What |q'''| has beyond the scalar is not seen. There the speed is that of crawling, and what q''' asks for at that
-// speed is less than half of the jerk (detail::sharpest_curvature): the other half is left for what is seen.
+// If |q'''| is above the range of the scalar, its value is not known. There the speed is the crawling speed, at which
+// q''' needs less than half of the jerk (detail::sharpest_curvature): the other half is left for the known part.
 template <Scalar S>
 S FilteredLimits<S>::jerk(unsigned axis) const noexcept {
     return demand_->beyond ? scale2(limits_->jerk_mm_s3[axis], -1) : limits_->jerk_mm_s3[axis];
 }
 
-// By how much the worst axis is beyond its acceleration, or beyond T times its jerk.
+// How far the worst axis exceeds its acceleration, or T times its jerk.
 template <Scalar S>
 template <bool Braking>
 S FilteredLimits<S>::excess(S speed_sq, S acceleration) const noexcept {
@@ -125,7 +126,7 @@ S FilteredLimits<S>::max_steady(S at_most) const noexcept {
 
 template <Scalar S>
 S FilteredLimits<S>::max_path_acceleration() const noexcept {
-    S most = scale2(from_integer<S>(1), 22); // more than six axes' limits together
+    S most = scale2(from_integer<S>(1), 22); // more than the limits of six axes together
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]),
                                 bounded_product(jerk(k), smoothing_->seconds));
@@ -141,7 +142,7 @@ S FilteredLimits<S>::faster_end(S slower_sq, S at_most, S length_mm, S max_path_
         return at_most;
     }
     const S twice = length_mm + length_mm;
-    // The steepest line is allowed where nothing bends; beyond it nothing is.
+    // The steepest line is allowed if nothing bends; a steeper one never is.
     const S change = at_most - slower_sq;
     const S high =
         quotient_or_max(change, twice) > max_path_acceleration ? slower_sq + twice * max_path_acceleration : at_most;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double ripple = 10.4;
 
-// x / L, x >= 0, at most 2^steepest_log2; says whether it is more.
+// x / L, x >= 0, at most 2^steepest_log2; sets the flag if it is more.
 template <Scalar S>
 S per_length(S x, S length, bool& beyond) noexcept {
     const S most = scale2(from_integer<S>(1), PathDerivativeBounds<S>::steepest_log2);
@@ -40,7 +40,7 @@ PathDerivativeBounds<S> PathDerivativeBounds<S>::of(const Cell<S>& cell, const M
         const S rise = larger(c[1] - c[0], c[2] - c[1]) + rest;
         const S fall = larger(c[0] - c[1], c[1] - c[2]) + rest;
         const auto twice_per_length = [&](S x) {
-            // In two steps with the shift between them: neither long nor short cells lose digits.
+            // In two steps with the shift between them, so that neither long nor short cells lose digits.
             return per_length(scale2(per_length(larger(x, S{}), length, out.beyond), down), length, out.beyond);
         };
         const S up = twice_per_length(rise);

@@ -26,20 +26,19 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double negligible_part =
-    1.0 / 1024.0;                     // of a cell: a part this short is left to the profile segment before it
-constexpr double gain = 1.0 / 2048.0; // of v^2, which is not worth a profile segment
+constexpr double negligible_part = 1.0 / 1024.0; // of a cell: the profile segment before it includes a part this short
+constexpr double gain = 1.0 / 2048.0;            // of v^2: a smaller gain is not worth a profile segment
 constexpr int bisections = 12;
-constexpr int from_rest = 12; // more of them where it starts
+constexpr int from_rest = 12; // of them, where it starts from standstill
 constexpr double spare_time = 1.0 / 16.0;
-constexpr double above = 0x1p-20;   // K, by rounding: of v^2
-constexpr double nothing_mm = 1e-6; // a way from rest to rest that may be too short for a motion
+constexpr double above = 0x1p-20;   // of v^2: tolerance of K for rounding
+constexpr double nothing_mm = 1e-6; // a distance from standstill to standstill that may be too short for a motion
 
-// A way of which the time is known well enough [mm].
+// Shortest distance whose time has enough digits [mm].
 template <Scalar S>
 constexpr double least_way_mm = std::same_as<S, double> ? 0x1p-40 : 0x1p-22;
 
-// A profile segment is no shorter than this part of a cell.
+// Shortest profile segment, as a part of a cell.
 template <Scalar S>
 constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
                               : std::same_as<S, double> ? 0x1p-40
@@ -71,7 +70,7 @@ Pull SmoothPlan<S>::take(UnderrunPolicy underrun) noexcept {
     return Pull::item;
 }
 
-// As much as there is room for. A motion that is to stop does not wait for more.
+// Takes as many cells as there is room for. A motion that has to stop does not wait for more.
 template <Scalar S>
 Pull SmoothPlan<S>::refill(UnderrunPolicy underrun) noexcept {
     Pull pull = Pull::item;
@@ -86,17 +85,17 @@ Pull SmoothPlan<S>::refill(UnderrunPolicy underrun) noexcept {
         window_.end_here();
     }
     window_.prepare(!window_.has_room());
-    if (known() == 0 && starved_ && underrun == UnderrunPolicy::drain) { // nothing to go on with
+    if (known() == 0 && starved_ && underrun == UnderrunPolicy::drain) { // there is nothing to continue with
         window_.end_here();
         window_.prepare(false);
     }
-    taken_ = starved_ ? window_.capacity() : 0; // then it is asked again with every profile segment
+    taken_ = starved_ ? window_.capacity() : 0; // then refill() is called again with every profile segment
     backward_pass(false);
     return pull;
 }
 
-// The motion brakes, and the input is late: it may be for the cells at the end that are not prepared, as the average
-// may go beyond them. If that end is to be a rest, they are known as well.
+// The motion brakes, and the input is late. The reason may be the cells at the end that are not prepared, because the
+// average may go beyond them. If that end is taken as a standstill, they are known as well.
 template <Scalar S>
 bool SmoothPlan<S>::ends_here() noexcept {
     if (!(profile_segment_.exit_sq < profile_segment_.entry_sq) || window_.prepared() == window_.size()) {
@@ -108,7 +107,7 @@ bool SmoothPlan<S>::ends_here() noexcept {
     return true;
 }
 
-// @param all  else it ends where nothing changes any more
+// @param all  false: ends where nothing changes any more
 template <Scalar S>
 void SmoothPlan<S>::backward_pass(bool all) noexcept {
     for (std::size_t i = known(); i-- > 0;) {
@@ -144,7 +143,7 @@ void SmoothPlan<S>::backward_pass(bool all) noexcept {
     looked_ = known();
 }
 
-// Whether a speed can be kept up for the time that is averaged over, from a place in the front cell on.
+// Whether a speed can be held for the time of the average, from a place in the front cell on.
 template <Scalar S>
 bool SmoothPlan<S>::coasts(S from, S speed_sq, S speed) const noexcept {
     const S ticks = from_integer<S>(smoothing_.ticks()) + literal<S>(spare_time);
@@ -174,8 +173,9 @@ void SmoothPlan<S>::profile_segment_to(S to, S exit_sq) noexcept {
     profile_segment_.linear = quotient_or_max(speed_ + speed_, sum);
 }
 
-// At constant speed, to the end of the cell or until the sign may change. false: so slow that the way does not resolve.
-// Then it has hardly started from rest: both accelerations together take less than T, and no change reaches over them.
+// Constant speed, to the end of the cell or until the sign may change. false: so slow that the distance has no digits.
+// Then it has hardly started from standstill: both accelerations together take less than T, and no change extends over
+// them.
 template <Scalar S>
 bool SmoothPlan<S>::coast() noexcept {
     const S one = from_integer<S>(1);
@@ -185,14 +185,14 @@ bool SmoothPlan<S>::coast() noexcept {
         return false;
     }
     const S to = at_ + larger(quotient_or_max(way, length()), literal<S>(least_part<S>));
-    // A part in which it has to brake is not left out, however short it is.
+    // A part in which the motion has to brake is not omitted, however short it is.
     const bool braked = speed_sq_ > machine_exit(0);
     const bool whole = !(to < one) || !(braked || to < one - literal<S>(negligible_part));
     profile_segment_to(whole ? one : to, speed_sq_);
     return true;
 }
 
-// As hard as the cell allows, to a speed or the end of the cell.
+// Brakes as hard as the cell allows, to a speed or to the end of the cell.
 template <Scalar S>
 void SmoothPlan<S>::brake(S goal_sq) noexcept {
     const S one = from_integer<S>(1);
@@ -210,7 +210,7 @@ void SmoothPlan<S>::brake(S goal_sq) noexcept {
     profile_segment_to(one, smaller(larger(speed_sq_ - possible, goal_sq), machine_exit(0)));
 }
 
-// Below K: on at this speed, and along K where that comes down to it.
+// Below K: continues at this speed, and along K where K falls to it.
 template <Scalar S>
 void SmoothPlan<S>::follow() noexcept {
     const S one = from_integer<S>(1);
@@ -228,7 +228,7 @@ void SmoothPlan<S>::follow() noexcept {
         profile_segment_to(smaller(meets, one), speed_sq_);
     } else if (may_brake) {
         profile_segment_to(one, exit);
-    } else { // K of what is wanted came down since it accelerated; that of the machine did not
+    } else { // the K of the steering has fallen since it accelerated; the machine's K has not
         coast();
     }
 }
@@ -254,7 +254,7 @@ bool SmoothPlan<S>::accelerate() noexcept {
     if (!(most < top)) { // sooner than at the end of the cell
         steep = larger(steep, bound.acceleration(most, here.max_path_acceleration));
     }
-    // Place where a speed is reached
+    // The place where a speed is reached
     const auto reached = [&](S speed_sq) {
         const S share = quotient_or_max(larger(speed_sq - speed_sq_, S{}), (way + way) * steep);
         return share < one ? at_ + (one - at_) * share : one;
@@ -280,7 +280,7 @@ bool SmoothPlan<S>::accelerate() noexcept {
     return true;
 }
 
-// From rest to the end of the cell where that is next to nothing.
+// From standstill to the end of the cell, if the distance is almost zero.
 template <Scalar S>
 void SmoothPlan<S>::crawl() noexcept {
     const S one = from_integer<S>(1);
@@ -372,7 +372,8 @@ void SmoothPlan<S>::advance() noexcept {
 template <Scalar S>
 bool SmoothPlan<S>::steer(const Place<S>& place) noexcept {
     const S speed = square_root(place.speed_sq);
-    // It all but stands: first it comes to rest or gets under way, lest it be taken to rest where its average does not.
+    // The machine almost stands. It first has to come to standstill or to start; otherwise it would be taken to stand
+    // where its average does not.
     if (!(speed * (from_integer<S>(smoothing_.ticks()) / limits_->segments_per_s) > literal<S>(least_way_mm<S>))) {
         return false;
     }

@@ -26,28 +26,28 @@ constexpr double bend_noise = std::same_as<S, double>  ? 0x1p-48
                               : std::same_as<S, float> ? 0x1p-20
                                                        : 0x1p-30;
 
-constexpr double crawl_sq = 1e-6; // v^2 where a derivative is beyond the scalar
-constexpr double straight = 1e-4; // of the acceleration, by which a straight leg may bend
-constexpr double rounding = 1e-3; // by which a reach is taken longer than it is
+constexpr double crawl_sq = 1e-6; // v^2 if a derivative is beyond the range of the scalar
+constexpr double straight = 1e-4; // largest bend of a straight leg, as a part of the acceleration
+constexpr double rounding = 1e-3; // part by which a reach is made longer
 
 } // namespace
 
-// A bend that is too sharp for the scalar counts as a jump. Where q'' jumps by d so does the acceleration by d v^2, and
-// a third difference over T^3 sees up to 3/4 of that over T. More than the reserve of MotionLimits::make can take is a
-// stop.
+// A bend that is too sharp for the scalar counts as a jump. Where q'' jumps by d, the acceleration jumps by d v^2, and
+// a third difference over T^3 contains up to 3/4 of that over T. A jump above the reserve of MotionLimits::make becomes
+// a stop.
 template <Scalar S>
 bool SmoothWindow<S>::bend_jumps(const Cell<S>& before, const Cell<S>& after, S speed_sq) const noexcept {
     const S per_s = literal<S>(0.75) * limits_->segments_per_s;
     const S noise = quotient_or_max(literal<S>(bend_noise<S>), smaller(before.length_mm, after.length_mm));
     const int down = -limits_->refinement.shape_log2 - 1;
-    const auto second = [down](S bend, S length) { // |q''|; where it is large it is divided with fewer digits
+    const auto second = [down](S bend, S length) { // |q''|; a large one is divided with fewer digits
         const S all = quotient_or_max(absolute(bend), length);
         return all < largest<S>() ? scale2(all, down) : quotient_or_max(scale2(absolute(bend), down), length);
     };
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         const S second_before = second(before.shape[k].bend[2], before.length_mm);
         const S second_after = second(after.shape[k].bend[0], after.length_mm);
-        if (!(larger(second_before, second_after) < scale2(largest<S>(), -1))) { // their sum is to have its place
+        if (!(larger(second_before, second_after) < scale2(largest<S>(), -1))) { // their sum must fit
             return true;
         }
         const bool turns = (before.shape[k].bend[2] < S{}) != (after.shape[k].bend[0] < S{});
@@ -60,7 +60,7 @@ bool SmoothWindow<S>::bend_jumps(const Cell<S>& before, const Cell<S>& after, S 
     return false;
 }
 
-// From rest to rest: in two halves, so that there is a place where it moves.
+// From standstill to standstill: in two halves, so that there is a place where the motion moves.
 template <Scalar S>
 void SmoothWindow<S>::split_last() noexcept {
     SmoothCell<S>& first = at(size_ - 1);
@@ -104,7 +104,7 @@ void SmoothWindow<S>::append(const Cell<S>& cell, S cap_sq, S programmed_sq, S e
     }
 }
 
-// The last cell is not prepared, since it is not known what is behind it; so there is room for its halves.
+// The last cell is not prepared, because the path after it is not known. So there is room for its halves.
 template <Scalar S>
 void SmoothWindow<S>::end_here() noexcept {
     if (size_ == front_ || !(end_bound_sq_ > S{})) {
@@ -140,9 +140,9 @@ void SmoothWindow<S>::clear() noexcept {
     joined_ = {};
 }
 
-// The largest T that a bisection finds, in 2^-8 ticks. Of a leg that is longer than what is known, a straight one is
-// taken for as long as it takes; and T is no more than a third of the time that the known cells take at least, lest
-// there be too little of the path in view. @param in_view  whether T is as long as the limits allow, in spite of that
+// The largest T that a bisection finds, in 2^-8 ticks. A straight leg that is longer than the known path is taken for
+// as long as it is; and T is at most a third of the least time of the known cells, so that enough of the path is known.
+// @param in_view  whether T is nevertheless as long as the limits allow
 template <Scalar S>
 std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first, bool& in_view) const noexcept {
     S length{};
@@ -196,7 +196,7 @@ std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first, bool& in_view
     return low;
 }
 
-// The cell where the average is at most, while the motion is in cell i; false: not yet known.
+// The farthest cell in which the average can be while the motion is in cell i; false: not yet known.
 template <Scalar S>
 bool SmoothWindow<S>::last_reached(std::size_t i, const Smoothing<S>& smoothing, std::size_t& last) const noexcept {
     const S reach = from_integer<S>(smoothing.ticks());
@@ -222,7 +222,7 @@ bool SmoothWindow<S>::last_reached(std::size_t i, const Smoothing<S>& smoothing,
         way = way + length;
         time = time + next.bound_ticks;
     }
-    // Over N + f ticks, of which N + 1 were taken
+    // Over N + f ticks, of which N + 1 were added.
     S mean =
         area / scale2(from_integer<S>(static_cast<std::int32_t>(smoothing.duration_q8)), -Smoothing<S>::fraction_bits);
     mean = mean + mean * literal<S>(rounding);
@@ -249,7 +249,7 @@ std::size_t SmoothWindow<S>::first_reached(std::size_t i, const Smoothing<S>& sm
             break;
         }
         if (j == 0) {
-            return 0; // the machine has passed what is not known any more
+            return 0; // the machine has passed the part that is no longer known
         }
         const SmoothCell<S>& before = at(j - 1);
         const bool whole = !(reach - time < before.bound_ticks);
@@ -270,7 +270,7 @@ std::size_t SmoothWindow<S>::first_reached(std::size_t i, const Smoothing<S>& sm
     return first;
 }
 
-// Nothing behind the start of the cell is faster than what is known behind its end allows.
+// After the start of the cell nothing is faster than the known cells after its end allow.
 template <Scalar S>
 void SmoothWindow<S>::slow_down(std::size_t first) noexcept {
     S known{};
@@ -289,7 +289,7 @@ void SmoothWindow<S>::slow_down(std::size_t first) noexcept {
     end_bound_sq_ = smaller(end_bound_sq_, speed_sq);
 }
 
-// Both ends only move on: a queue of two stacks, amortised two joins a cell.
+// Both ends only move forward: a queue of two stacks, amortised two joins per cell.
 template <Scalar S>
 PathDerivativeBounds<S> SmoothWindow<S>::demand_of(std::size_t first, std::size_t last) noexcept {
     const int axes = limits_->axes;
@@ -309,8 +309,8 @@ PathDerivativeBounds<S> SmoothWindow<S>::demand_of(std::size_t first, std::size_
     return out;
 }
 
-// Bounds of the leg's cells that are not prepared, from the demands of each alone: what has to keep larger ones is no
-// faster. Forward once, backward from what is known by now.
+// Bounds of the leg's cells that are not prepared, from the demands of each cell alone: a motion that has to keep
+// larger demands is not faster. Once forward, then backward from the end of the known path.
 template <Scalar S>
 void SmoothWindow<S>::tighten(std::size_t first) noexcept {
     const auto exit_bound = [&](std::size_t i) -> S& {
@@ -334,7 +334,7 @@ void SmoothWindow<S>::tighten(std::size_t first) noexcept {
         SmoothCell<S>& here = at(i);
         if (i > first) {
             const S exit = exit_bound(i);
-            // What was joined before is not the cell's own any more.
+            // What was joined before is no longer the cell's own.
             const PathDerivativeBounds<S> own =
                 i < high_ ? PathDerivativeBounds<S>::of(here.cell, *limits_, here.own.cap_sq, here.own.programmed_sq)
                           : here.own;
@@ -359,7 +359,7 @@ void SmoothWindow<S>::prepare(bool force) noexcept {
         if (starts_leg(i)) {
             bool in_view = false;
             smoothing_ = Smoothing<S>(smoothing_of_leg(i, in_view), limits_->segments_per_s);
-            // T stays for all of the leg. The motion rests there before; by then more of the leg is known.
+            // T is constant for the whole leg. The motion stands before it; by then more of the leg is known.
             if (!in_view && !(force && i == front_)) {
                 break;
             }

@@ -26,12 +26,12 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double negligible = 1e-9; // of a coefficient against the other
-constexpr double rounding = 1e-12;  // of a bound against what it is the sum of
+constexpr double negligible = 1e-9; // of a coefficient, compared with the other one
+constexpr double rounding = 1e-12;  // of a bound, compared with the sum from which it comes
 constexpr double third = 1.0 / 3.0;
 
-// Derivatives of an axis as Bezier points over the cell, in the direction of travel: q' the cubic through its values
-// and slopes at both ends, and the derivatives of that.
+// Derivatives of an axis as Bezier points over the cell, in the direction of travel: q' is the cubic through its values
+// and slopes at both ends; the others are its derivatives.
 struct AxisPoints {
     double first[4];
     double second[3];
@@ -55,7 +55,7 @@ struct AxisPoints {
 constexpr std::size_t most_places = StatePolygon::capacity / 2;
 using Chain = std::array<SpeedState, most_places>;
 
-// Appends a state to a chain of corners from the left to the right that bends to one side. sign: 1 to the left
+// Appends a state to a chain of corners, from left to right, that bends to one side. sign: 1 to the left
 void append_to_chain(Chain& chain, std::size_t& n, const SpeedState& state, double sign) noexcept {
     if (n > 0 && state.b <= chain[n - 1].b) {
         if (sign * (state.slope - chain[n - 1].slope) >= 0.0) {
@@ -107,7 +107,7 @@ void ControllableSet::add_jerk(const CellPassage& passage, const ExpectedSpeeds&
         const AxisEnd& to = passage.exit()[k];
         const AxisPoints q(from, to, passage.direction(), length_mm_, per_length);
         const double jerk = cell.jerk_mm_s3[k];
-        // What b0, m and b1 are multiplied by in the four Bezier points of a linear function times b.
+        // The factors of b0, m and b1 in the four Bezier points of a linear function times b.
         const auto times_b = [&](double f0, double f1) {
             const double f0_third = f0 * third;
             const double f1_third = f1 * third;
@@ -143,7 +143,7 @@ void ControllableSet::add_acceleration(const CellPassage& passage) noexcept {
         const AxisPoints q(from, to, passage.direction(), length_mm_, per_length);
         const double* p = q.second;
         const double error_bound = larger(from.second_spread, to.second_spread);
-        // of b0, m, b1, and of b0', b1'
+        // Factors of b0, m, b1, and of b0', b1'.
         const auto add = [&](double b0, double m, double b1, double entry, double exit, const Form& more) {
             const double middle = b0 + m + b1;
             entry -= half * b0;
@@ -162,8 +162,8 @@ void ControllableSet::add_acceleration(const CellPassage& passage) noexcept {
     }
 }
 
-// The line that leaves least at a state. sign: 1 for upper bounds, -1 for lower ones. With a good guess hardly a branch
-// is taken, so that no comparison waits for the one before.
+// The line with the smallest slack at a state. sign: 1 for upper bounds, -1 for lower ones. With a good guess almost no
+// branch is taken, so no comparison waits for the one before.
 std::size_t ControllableSet::Lines::closest(const SpeedState& state, double sign, std::size_t guess) const noexcept {
     std::size_t best = guess;
     double least = sign * line[guess].at(state);
@@ -177,7 +177,7 @@ std::size_t ControllableSet::Lines::closest(const SpeedState& state, double sign
     return best;
 }
 
-// Leaves out the lines that are beyond the one that is closest in the middle of a box, in all of it.
+// Removes the lines that in the whole of a box lie beyond the one that is closest in its middle.
 void ControllableSet::Lines::keep_what_matters(const SpeedState& center, const SpeedState& half, double sign) noexcept {
     const std::size_t first = closest(center, sign, 0);
     const Line best = line[first];
@@ -238,7 +238,7 @@ StatePolygon ControllableSet::from(const StatePolygon& exits_of_b) const noexcep
         const Line& high = highs.line[above[i]];
         const StateBound cut{low.of_middle - high.of_middle, low.of_exit - high.of_exit, high.constant - low.constant};
         if (cut.excess(state) > rounding * (low.size_at(state) + high.size_at(state))) {
-            // Corners before this one are within, and stay where they are.
+            // Corners before this one are inside and stay where they are.
             i = exits.cut(cut) == i ? i : 0;
             if (exits.corners().size() > most_places) {
                 exits.simplify();
@@ -249,7 +249,7 @@ StatePolygon ControllableSet::from(const StatePolygon& exits_of_b) const noexcep
         ++i;
     }
 
-    // Around the exits: corners, and where on a side another line begins to matter.
+    // Around the exits: corners, and the places on a side where another line becomes active.
     const auto corners = exits.corners();
     std::array<SpeedState, most_places> place;
     std::array<double, most_places> low;
@@ -278,7 +278,7 @@ StatePolygon ControllableSet::from(const StatePolygon& exits_of_b) const noexcep
         return exits;
     }
 
-    // In the order of m: those of the lower and of the upper side by turns.
+    // In the order of m: those of the lower and of the upper side in turn.
     const auto after = [&](std::size_t i) {
         return i + 1 < n ? i + 1 : 0;
     };
@@ -330,7 +330,7 @@ CurvatureRange ControllableSet::range(const SpeedState& entry, const StatePolygo
     auto high = largest<double>();
     const auto bind = [&](double of_exit, double scale, double limit) {
         if (absolute(of_exit) <= negligible * scale) {
-            return; // binds m alone, which the entry keeps
+            return; // limits m alone, which the entry keeps
         }
         if (of_exit > 0.0 && of_exit * high > limit) {
             high = limit / of_exit;

@@ -18,7 +18,7 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double nothing = 1e-4; // of a limit, by which a bend takes its share
+constexpr double nothing = 1e-4; // of a limit: a smaller bend takes no part of it
 
 /// Largest derivatives of an axis in a cell.
 struct Steepness {
@@ -57,7 +57,7 @@ double JerkCell::largest_from_rest(unsigned moving) const noexcept {
         const double direction = moving == 1 ? 1.0 : -1.0;
         const double first[] = {direction * rest.first, direction * rest.first + l * rest.second / 3.0,
                                 direction * at.first - l * at.second / 3.0, direction * at.first};
-        const double middle = 3.0 * (first[2] - first[1]) / l; // of the Bezier points of d2q/ds2
+        const double middle = 3.0 * (first[2] - first[1]) / l; // from the Bezier points of d2q/ds2
         const double third[] = {2.0 * (middle - rest.second) / l, 2.0 * (at.second - middle) / l};
         const double point[] = {first[0], first[1] + 3.0 * l * rest.second,
                                 first[2] + 6.0 * l * middle + 1.5 * l * l * third[0],

@@ -17,18 +17,18 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double pieces = 8.0;              // of the braking distance, at least
+constexpr double pieces = 8.0;              // in the braking distance, at least
 constexpr double next_to_rest = 1.0 / 48.0; // of the longest piece
-constexpr double part_before = 0.4;         // of the distance to the rest: the longest piece there
-constexpr double part_from_start = 0.6;     // of the distance from a start
-constexpr double sliver = 1e-3;             // of a piece: less is not cut off
-constexpr double longer = 1.25;             // pieces, where there is no room for all of them
-constexpr double part_behind = 0.6;         // and behind it
-constexpr double far_behind = 10.0;         // where a rest that is late for want of room would be the other one
-constexpr double late = 1.4;                // times the distance that is expected
+constexpr double part_before = 0.4;         // longest piece before the standstill, of the distance to it
+constexpr double part_from_start = 0.6;     // longest piece after a start, of the distance from it
+constexpr double sliver = 1e-3;             // of a piece: a shorter part is not split off
+constexpr double longer = 1.25;             // pieces, if there is no room for all of them
+constexpr double part_behind = 0.6;         // longest piece after the standstill, of the distance from it
+constexpr double far_behind = 10.0;         // the same, for the second attempt when the window has little room
+constexpr double late = 1.4;                // times the expected distance: the standstill is late
 constexpr double close = 0.004;             // relative error of a distance that is close enough
 constexpr double farther = 1.4;             // than a guess that was too near
-constexpr double roomy = 1.5;               // of what braking takes, where it need not be the least
+constexpr double roomy = 1.5;               // of what braking needs, if it need not be the least
 constexpr int most_steps = 40;
 
 } // namespace
@@ -50,7 +50,7 @@ JerkChange<S>::JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, 
     }
 }
 
-// With constant limits along the path; from a steady speed to another.
+// The distance from one steady speed to another, with constant limits along the path.
 template <Scalar S>
 double JerkChange<S>::ramp_mm(double from_mm_s, double to_mm_s) const noexcept {
     const double a = along_.acceleration_mm_s2;
@@ -67,7 +67,8 @@ bool JerkChange<S>::knows(std::size_t cell) const noexcept {
            (cell == 0 || window_->node(cell).state.b > 0.0) && window_->node(cell + 1).state.b > 0.0;
 }
 
-// And what that is. The state at the start of the front cell is not that of its node, but the machine's is known.
+// The state on that parabola. The state at the start of the front cell is not that of its node, but the machine's is
+// known.
 template <Scalar S>
 SpeedState JerkChange<S>::known_state(std::size_t cell, double fraction) const noexcept {
     const double length = window_->node(cell).cell.length_mm;
@@ -79,12 +80,12 @@ SpeedState JerkChange<S>::known_state(std::size_t cell, double fraction) const n
     return {from.b + (from.slope + 0.5 * u * s) * s, from.slope + u * s};
 }
 
-// v^2 at a distance from a rest with these limits; no more than the speed that is braked from.
+// v^2 at a distance from standstill with these limits; at most the speed from which it brakes.
 template <Scalar S>
 double JerkChange<S>::braking_sq(double distance_mm) const noexcept {
     const double a = along_.acceleration_mm_s2;
     const double j = along_.jerk_mm_s3;
-    const double last = a * a * a / (6.0 * j * j); // with the acceleration falling to zero
+    const double last = a * a * a / (6.0 * j * j); // while the acceleration falls to zero
     if (distance_mm < last) {
         const double third = power_two_thirds(6.0 * distance_mm / j);
         return smaller(peak_sq_, 0.25 * j * j * third * third);
@@ -92,7 +93,7 @@ double JerkChange<S>::braking_sq(double distance_mm) const noexcept {
     return smaller(peak_sq_, 0.25 * a * a * a * a / (j * j) + 2.0 * a * (distance_mm - last));
 }
 
-// Graded towards a rest and from it, behind what is cut finely up to cells that are long.
+// Pieces are graded towards a standstill and away from it; after the finely split part up to the first long cells.
 template <Scalar S>
 double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
     const double part =
@@ -103,21 +104,21 @@ double JerkChange<S>::longest_piece(const Cuts& cuts, double at_mm) noexcept {
     return cuts.graded() ? larger(cuts.finest_mm, part) : largest<double>();
 }
 
-// Whether a cell that begins there is cut or planned.
+// Whether a cell that begins there is split or planned.
 template <Scalar S>
 bool JerkChange<S>::concerns(const Cuts& cuts, double at_mm, double length_mm) noexcept {
     return at_mm < larger(cuts.end_mm, cuts.fine_mm) - least_mm(cuts) ||
            (cuts.graded() && cuts.part_behind * (at_mm - cuts.end_mm) < length_mm);
 }
 
-// What is too short to be cut off.
+// Pieces shorter than this are not split off.
 template <Scalar S>
 double JerkChange<S>::least_mm(const Cuts& cuts) noexcept {
     return larger(sliver * cuts.finest_mm, 0.1 * JerkWindow<S>::shortest_mm);
 }
 
-// Calls visit(cell, from, to, at_mm) for every piece of the cells from the front on, as far as they are cut or planned,
-// until it answers false. Cell 0 is number `first` of the window.
+// Calls visit(cell, from, to, at_mm) for every piece of the cells from the front on, as far as they are split or
+// planned, until it returns false. Cell 0 is number `first` of the window.
 template <Scalar S>
 template <class Visit>
 void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visit) const noexcept {
@@ -131,12 +132,12 @@ void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visi
         double from = i == 0 ? from_ : 0.0;
         while (from < 1.0) {
             const double left = (1.0 - from) * length;
-            // Next to a start, too, the speed changes over distances as short as the way so far.
+            // Next to a start, too, the speed changes over distances as short as the distance so far.
             const double longest =
                 larger(cuts.finest_mm, smaller(longest_piece(cuts, at_mm), part_from_start * (start_mm_ + at_mm)));
             double piece = left <= longest ? left : left < 2.0 * longest ? 0.5 * left : longest;
             for (const double mark : {cuts.change_mm, cuts.end_mm}) {
-                if (at_mm < mark - least && at_mm + 1.5 * piece > mark) { // nor is a short one left before it
+                if (at_mm < mark - least && at_mm + 1.5 * piece > mark) { // no short piece is left before it
                     piece = at_mm + piece > mark ? mark - at_mm : 0.5 * (mark - at_mm);
                 }
             }
@@ -151,7 +152,7 @@ void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visi
     }
 }
 
-// Longer pieces where the window has too little room for all of them.
+// Uses longer pieces if the window has too little room for all of them.
 template <Scalar S>
 bool JerkChange<S>::fit(Cuts& cuts) noexcept {
     for (int step = 0; step < most_steps; ++step) {
@@ -171,7 +172,7 @@ bool JerkChange<S>::fit(Cuts& cuts) noexcept {
     return false;
 }
 
-// Plans the leg to cuts.end_mm in the scratch nodes.
+// Plans the leg to cuts.end_mm, in the scratch nodes.
 template <Scalar S>
 bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
     const std::span<JerkNode> nodes = window_->scratch();
@@ -180,7 +181,7 @@ bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
     const double gain = 2.0 * along_.acceleration_mm_s2;
     std::size_t n = 0;
     std::size_t changed = 0;
-    std::size_t known = 0; // pieces from the first on that the old plan has states for
+    std::size_t known = 0; // pieces from the first on for which the old plan has states
     each_piece(cuts, 0, [&](std::size_t i, double from, double to, double at_mm) {
         if (at_mm >= cuts.end_mm - least) {
             return false;
@@ -220,13 +221,13 @@ bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
     return true;
 }
 
-// Cuts the cells of the window, and gives them the motion of the last attempt.
+// Splits the cells of the window, and gives them the motion of the last attempt.
 template <Scalar S>
 void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
     const std::span<JerkNode> tried = window_->scratch();
     const double least = least_mm(cuts);
     const std::size_t more = pieces_ - cells_;
-    window_->open(0, more); // no piece comes behind where its cell is now
+    window_->open(0, more); // no piece comes after the present place of its cell
     Cell<S> whole;
     JerkNode start;
     double at_end = 0.0;
@@ -258,7 +259,7 @@ void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
     }
 }
 
-// Finds the least distance that there is a motion for. 0: none.
+// Finds the smallest distance for which a motion exists. 0: none.
 template <Scalar S>
 template <class CutsAt>
 double JerkChange<S>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
@@ -279,7 +280,8 @@ double JerkChange<S>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
         const double middle = 0.5 * (low + high);
         (possible_at(middle) ? high : low) = middle;
     }
-    // What is as near as can be leaves no room to brake as hard as can be: a little farther may be sooner.
+    // The nearest place leaves no room to brake as hard as possible: a place slightly farther away may be reached
+    // sooner.
     double best = high;
     auto least_s = largest<double>();
     for (const double more : {1.0, 1.005, 1.01, 1.02, 1.04, 1.08}) {
@@ -292,7 +294,7 @@ double JerkChange<S>::nearest(double guess_mm, CutsAt&& cuts_at) noexcept {
     return best;
 }
 
-// Plans once more what nearest() has found, and adopts it.
+// Plans the result of nearest() once more, and adopts it.
 template <Scalar S>
 bool JerkChange<S>::take(Cuts cuts) noexcept {
     if (!(cuts.end_mm > 0.0) || !possible(cuts)) {
@@ -317,8 +319,9 @@ bool JerkChange<S>::to_rest() noexcept {
     const auto nearest_rest = [&](double behind) {
         return nearest(guess, [&](double end_mm) { return cuts_at(end_mm, behind); });
     };
-    // The machine starts again in the cells behind the rest, and what is steered then is better off with short ones.
-    // But a window that is small or has been cut before may lack room for them and for those that it is to stop in.
+    // The machine starts again in the cells after the standstill, and later changes of the steering need short cells
+    // there. But a window that is small, or was split before, may not have room for these and for the cells in which it
+    // has to stop.
     const double rest_mm = nearest_rest(part_behind);
     if (!(rest_mm > 0.0) || rest_mm > late * guess) {
         const double nearer_mm = nearest_rest(far_behind);

@@ -25,14 +25,15 @@ namespace splinefeed {
 
 namespace {
 
-constexpr int most_passes = 2; // a third gains 0.1 % and takes half as long again
-// Of the early motion in the mean that is taken, beside a half: finer near the middle, where the
+constexpr int most_passes = 2; // a third one gains 0.1 % and takes half as much time again
+// Weights of the early motion in the mean, besides one half. They are closer together near the middle, where the
 // fastest mean of a long leg lies. A mean costs a sum over the nodes, a pass thirty times that.
 constexpr std::array<double, 8> other_shares{0.0, 0.3, 0.4, 0.45, 0.55, 0.6, 0.7, 1.0};
-constexpr double least_gain = 0.002;    // of the time, for which another pass is made
-constexpr double least_expected = 0.05; // of at_most_sq: from less than that b would grow only threefold a pass
-constexpr double slowest = 1e-4;        // of at_most_sq: away from rest the motion is no slower
-constexpr double least_last = 1e-2;     // of the largest b next to rest: slower, the last cell would take for ever
+constexpr double least_gain = 0.002;    // of the time, for another pass
+constexpr double least_expected = 0.05; // of at_most_sq: from a smaller value b would grow only threefold per pass
+constexpr double slowest = 1e-4;        // of at_most_sq: away from standstill the motion is not slower
+constexpr double least_last = 1e-2;     // of the largest b next to standstill: with less the last cell would take too
+                                        // long
 constexpr double rounding = 1e-7;       // of u, by which a range may be empty
 
 SpeedState turned(const SpeedState& state) noexcept {
@@ -50,7 +51,7 @@ SpeedState mean(const SpeedState& a, const SpeedState& b, double share_of_a) noe
 
 } // namespace
 
-// Plans with the direction of travel, or against it: then nodes are counted from the end, and slopes have the other
+// Plans in the direction of travel, or against it: then nodes are counted from the end, and slopes have the opposite
 // sign.
 // NOLINTNEXTLINE(readability-function-cognitive-complexity): backward, then forward, with the same lambdas
 bool JerkLeg::sweep(bool backward) noexcept {
@@ -78,10 +79,10 @@ bool JerkLeg::sweep(bool backward) noexcept {
     CellPassage after = cell(n - 1);
     CellPassage before = cell(n - 2);
     StatePolygon states = states_at(before, after, node(n - 1).at_most_sq);
-    if (backward && start_ != nullptr) { // ends at the start, in motion: what can be reached from there
+    if (backward && start_ != nullptr) { // it ends at the start, in motion: the states that can be reached from there
         StatePolygon turned_states;
         const auto corners = states.corners();
-        for (std::size_t i = corners.size(); i-- > 0;) { // turned round, so is the order of the corners
+        for (std::size_t i = corners.size(); i-- > 0;) { // reversed, and so is the order of the corners
             turned_states.append(turned(corners[i]));
         }
         if (turned_states.empty()) {
@@ -91,7 +92,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
         const JerkCell& first = nodes_[0].cell;
         const CurvatureRange range = ControllableSet({&first, false}, {nodes_[0].expected_sq, nodes_[1].expected_sq})
                                          .range(*start_, turned_states);
-        // Two corners that all but coincide are no line: its sides would be of any direction.
+        // Two corners that almost coincide are not a line: its sides would have any direction.
         const double u =
             absolute(range.high) + (absolute(start_->slope) + start_->b / first.length_mm) / first.length_mm;
         if (!(range.high - range.low > rounding * u)) {
@@ -125,13 +126,13 @@ bool JerkLeg::sweep(bool backward) noexcept {
         const StatePolygon exits = states;
         states = reach.from(exits);
         cut_to_node(states, before, after, node(i).at_most_sq);
-        // A speed of next to nothing would take for ever; where nothing else is possible it stays.
+        // A speed of almost zero would take too long; it stays only if nothing else is possible.
         const StatePolygon slow = states;
         states.cut({-1.0, 0.0, -slowest * node(i).at_most_sq});
         states = states.empty() ? slow : states;
         states.simplify();
         if (!backward && i < known_) {
-            // What was planned before is possible, though simplification may have cut it off.
+            // The earlier plan is possible, although simplification may have removed it from the set.
             const CurvatureRange range = reach.range(node(i).state, exits);
             if (possible(range, node(i).state, after.cell->length_mm) && states.corners().size() > 2) {
                 states.include(node(i).state);
@@ -150,7 +151,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
     if (!backward && start_ != nullptr) {
         state = *start_;
         write(0, state);
-    } else { // from rest, as far along its line as the next set reaches
+    } else { // from standstill, as far along its line as the next set reaches
         write(0, state);
         const JerkCell& first = *before.cell;
         double largest_b = smaller(first.largest_from_rest(backward ? 0 : 1), node(1).at_most_sq);
@@ -187,7 +188,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
     return true;
 }
 
-// By Simpson's rule: to compare motions with.
+// By Simpson's rule: used to compare motions.
 template <class StateAt>
 double JerkLeg::time(StateAt&& state_at) const noexcept {
     double sum = 0.0;
@@ -227,7 +228,7 @@ bool JerkLeg::plan() noexcept {
         if (!sweep(false)) {
             break;
         }
-        const bool both = sweep(true); // sets are made smaller to have few corners: one way may have none left
+        const bool both = sweep(true); // the sets are reduced to few corners: one direction may have no motion left
         for (JerkNode& node : nodes_) {
             node.late = both ? node.late : node.early;
         }

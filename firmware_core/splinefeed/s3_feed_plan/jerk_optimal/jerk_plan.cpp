@@ -16,7 +16,7 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double least_part = 0.01; // of a cell, where a change of the steering waits for the next
+constexpr double least_part = 0.01; // of a cell: in the last part a change of the steering waits for the next one
 template <Scalar S>
 constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fractions of a cell
 
@@ -61,7 +61,7 @@ Pull JerkPlan<S>::fill(UnderrunPolicy underrun) noexcept {
     return pull;
 }
 
-// The second half of the old plan brakes for nothing but the end of what was known.
+// The second half of the old plan brakes only for the end of the known path.
 template <Scalar S>
 void JerkPlan<S>::expect_again() noexcept {
     window_.forget_travelled();
@@ -71,8 +71,8 @@ void JerkPlan<S>::expect_again() noexcept {
     }
 }
 
-// From stop to stop through every cell: degenerate cells between cusps, and a few cells where there is no better plan;
-// behind them there may be one. Returns where it ends.
+// From stop to stop through every cell: for degenerate cells between cusps, and for a few cells if there is no better
+// plan; after them there may be one. Returns its end.
 template <Scalar S>
 std::size_t JerkPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
     planned_ = end;
@@ -118,7 +118,7 @@ void JerkPlan<S>::plan(bool ended) noexcept {
             planned_ = end;
             at = committed;
             hops_ = 1;
-        } else if (!rests) { // the old plan once more, to its end
+        } else if (!rests) { // the old plan again, to its end
             SPLINEFEED_ASSERT(at == 0 && planned_ > 0);
             ++slow_legs_;
             at = planned_;
@@ -143,7 +143,7 @@ void JerkPlan<S>::forward_step_on_line() noexcept {
     const S one = from_integer<S>(1);
     const S reached = from_double<S>(on_line_mm_ * per_length);
     const bool to_end = last ? line_.done() : !(on_line_mm_ < length && reached < one);
-    // The last phase of a move may be shorter than the last digit of a cell: that one is kept for it.
+    // The last phase of a move may be shorter than the last digit of a cell: one digit is reserved for it.
     const S before_end = one - scale2(one, last_digit_log2<S>);
     profile_segment_ = {};
     profile_segment_.stretch = {from, to_end ? one : smaller(reached, before_end)};
@@ -210,7 +210,7 @@ bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
     }
     line_ = LineTravel(leg.move());
     planned_ = committed_ = leg.cells();
-    window_.node(planned_).state = {0.0, 0.0}; // where it ends inside the leg an earlier plan may have moved
+    window_.node(planned_).state = {0.0, 0.0}; // an earlier plan may have been moving at its end inside the leg
     return true;
 }
 
@@ -226,12 +226,12 @@ bool JerkPlan<S>::change_curve(double from, const SpeedState& state) noexcept {
     return true;
 }
 
-// A change of the steering while the machine moves. Where no other motion is found the plan stays as it is until there
-// is one from where a later profile segment starts; that of a stop is travelled to its end, at rest.
+// A change of the steering while the machine moves. If no other motion is found, the plan stays until there is one from
+// where a later profile segment starts; the plan of a stop is travelled to its end, a standstill.
 template <Scalar S>
 bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     if (state.b < JerkWindow<S>::slowest_sq) {
-        return false; // later: it has just started, or is about to stand
+        return false; // later: it has just started, or is about to stop
     }
     want();
     window_.forget_travelled();
@@ -250,7 +250,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
         committed_ = stops ? planned_ : committed_;
         return false;
     }
-    // What is left of the front cell is a cell of its own, but on a straight move.
+    // Except on a straight move, the rest of the front cell becomes a cell of its own.
     on_line_mm_ = on_line ? travelled_mm : 0.0;
     profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).cell.length_mm);
     halt_ = 0;
@@ -271,7 +271,7 @@ bool JerkPlan<S>::steer(const Place<S>& place) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
     if (line_.done() && (left < least_part || left * window_.node(0).cell.length_mm < JerkWindow<S>::shortest_mm)) {
-        return false; // with the next profile segment
+        return false; // it is tried again with the next profile segment
     }
     if (!answer(from, state_on(profile_segment_, window_.node(0).cell.length_mm, from, to_double(place.time_share)))) {
         return false;
@@ -280,7 +280,7 @@ bool JerkPlan<S>::steer(const Place<S>& place) noexcept {
     return true;
 }
 
-// Before a profile segment is chosen.
+// Called before a profile segment is chosen.
 template <Scalar S>
 void JerkPlan<S>::follow_steering() noexcept {
     if (standing()) {
@@ -328,7 +328,7 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
             return pull;
         }
         if (planned_all_ && planned_ > 0) {
-            // What comes in later changes the rest of it, but for a move that is one.
+            // Later cells change the rest of the plan, except for a move that is planned as a whole.
             const bool in_part =
                 pull == Pull::starved && !steering_.stops() && line_.done() && window_.node(0).travel == Travel::curve;
             committed_ = in_part ? 1 : planned_;
@@ -359,7 +359,7 @@ void JerkPlan<S>::advance() noexcept {
 
 template <Scalar S>
 void JerkPlan<S>::rest_at(S /*fraction*/) noexcept {
-    SPLINEFEED_ASSERT(false); // it stops where it says
+    SPLINEFEED_ASSERT(false); // it ends where it says
 }
 
 template <Scalar S>

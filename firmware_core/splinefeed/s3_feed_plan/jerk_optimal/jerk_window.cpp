@@ -8,12 +8,12 @@ namespace splinefeed {
 
 namespace {
 
-// How much larger the third derivative of what fits leave is than the second, times the length. A rest x (1-x) (1-2x)
-// of q'' has the slope 1 at the ends and reaches 0.096. That of the inverse, c x^3 (1-x)^3 (x-1/2), makes it 24, but
-// five times that rest is allowed for.
+// The ratio of the error of the third derivative, times the length, to that of the second. An error x (1-x) (1-2x) of
+// q'' has the slope 1 at the ends and reaches 0.096. That of the inverse, c x^3 (1-x)^3 (x-1/2), gives 24, but five
+// times that error is allowed for.
 constexpr double ripple = 10.4;
-// Rounding of q'', times the length of the cell: a unit vector of Fixed is off by 2^-32, and is taken times the change
-// of |dr/dw| in the cell, at most as much as that is.
+// Rounding of q'', times the length of the cell: the error of a unit vector in Fixed is 2^-32; it is multiplied by the
+// change of |dr/dw| in the cell, which is at most as large.
 template <Scalar S>
 constexpr double bend_noise = std::same_as<S, double> ? 0x1p-48 : 0x1p-30;
 
@@ -51,8 +51,8 @@ JerkWindow<S>::JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& s
     clear();
 }
 
-// Where q'' jumps by d so does the acceleration by d v^2, and a third difference over T^3 sees up to 3/4 of that over
-// T. More than the reserve of MotionLimits::make can take is a stop.
+// Where q'' jumps by d, the acceleration jumps by d v^2, and a third difference over T^3 contains up to 3/4 of that
+// over T. A jump above the reserve of MotionLimits::make becomes a stop.
 template <Scalar S>
 bool JerkWindow<S>::bend_jumps(const JerkNode& before, const JerkNode& after) const noexcept {
     const double per_s = 0.75 * to_double(limits_->segments_per_s);
@@ -75,7 +75,7 @@ void JerkWindow<S>::append(const Cell<S>& added, double most_sq, double wanted_s
     here.cell = jerk_cell_of(added, *limits_, wanted_sq);
     here.most_sq = most_sq;
     here.wanted_sq = wanted_sq;
-    // What was expected under another override may be next to nothing.
+    // The expected speed under another override may be almost zero.
     here.expected_sq = size_ > 0 ? smaller(here.at_most_sq, smaller(node(size_ - 1).wanted_sq, wanted_sq))
                                  : smaller(here.expected_sq, wanted_sq);
     here.travel = Travel::curve;
@@ -139,7 +139,7 @@ template <Scalar S>
 void JerkWindow<S>::clear() noexcept {
     size_ = travelled_ = 0;
     if (!storage_.nodes.empty()) {
-        storage_.nodes[0] = {}; // at rest; all others are written before they are read
+        storage_.nodes[0] = {}; // standstill; all others are written before they are read
     }
 }
 

@@ -11,11 +11,12 @@ namespace splinefeed {
 
 namespace {
 
-// Attempts with other expected speeds: halved beyond the old plan, and at least that part of at_most_sq in it.
+// Later attempts: the expected speeds after the old plan are halved; within it they are at least this part of
+// at_most_sq.
 constexpr double least_known[] = {0.1, 0.3, 0.5, 1.0, 0.02};
 constexpr int attempts = 6;
 
-// How fast b grows from rest the first cell says, or the last one.
+// How fast b grows from standstill, from the first cell, or from the last one.
 void expect_rest(std::span<JerkNode> nodes, bool at_end) noexcept {
     const std::size_t cells = nodes.size() - 1;
     const JerkCell& first = nodes[at_end ? cells - 1 : 0].cell;
@@ -51,7 +52,7 @@ bool plan_leg(std::span<JerkNode> nodes, std::size_t known) noexcept {
     for (int attempt = 0; attempt < attempts && !done; ++attempt) {
         done = JerkLeg(nodes, moves ? &start : nullptr, known).plan();
         for (std::size_t i = 1; i + 1 < nodes.size() && !done && attempt + 1 < attempts; ++i) {
-            // Where just the old plan is expected, it is possible once more; but not its braking to the end.
+            // If exactly the old plan is expected, it is possible again, except for its braking to the end.
             JerkNode& node = nodes[i];
             node.expected_sq =
                 i < known ? larger(node.state.b, least_known[attempt] * node.at_most_sq) : 0.5 * node.expected_sq;

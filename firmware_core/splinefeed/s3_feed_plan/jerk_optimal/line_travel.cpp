@@ -7,13 +7,13 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double nothing_s = 1e-12; // phases and what rounding leaves of one
+constexpr double nothing_s = 1e-12; // shorter phases, and rounding of one, count as zero
 constexpr double nothing_mm = 1e-12;
 
 } // namespace
 
-// The time after which a length is travelled, within a phase: the way grows with time, so that halving finds it, and
-// Newton's method does faster.
+// The time after which a length is travelled, within a phase. The distance grows with time, so bisection would find it;
+// Newton's method is faster.
 double LineTravel::time_to(double length_mm, double longest_s, double jerk_mm_s3) const noexcept {
     double low = 0.0;
     double high = longest_s;

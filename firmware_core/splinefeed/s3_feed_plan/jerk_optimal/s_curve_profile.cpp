@@ -18,11 +18,12 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double rounding = 1e-9; // of a length, which would be crept along
+constexpr double rounding = 1e-9; // of a length, which would be travelled very slowly
 
 } // namespace
 
-// Newton's method on y^3 = x^2 from above, after taking powers of 8 out of x^2 so that y starts within a factor of 4.
+// Newton's method on y^3 = x^2 from above, after powers of 8 are removed from x^2, so that y starts within a factor of
+// 4.
 double power_two_thirds(double x) noexcept {
     double square = x * x;
     double scale = 1.0;
@@ -49,7 +50,7 @@ MoveState MoveState::after(double t, double jerk_mm_s3) const noexcept {
 SCurveProfile::SCurveProfile(double length_mm, const MoveLimits& limits) noexcept {
     const double a = limits.acceleration_mm_s2;
     const double j = limits.jerk_mm_s3;
-    const double corner = a * a / j; // speed up to which the acceleration does not reach its limit
+    const double corner = a * a / j; // up to this speed the acceleration does not reach its limit
     double v = limits.speed_mm_s;
     const double ramp = v >= corner ? v / a + a / j : 2.0 * square_root(v / j);
     double cruise = 0.0;
@@ -70,14 +71,15 @@ SCurveProfile::SCurveProfile(double length_mm, const MoveLimits& limits) noexcep
 void SCurveProfile::ramp(std::size_t first, const MoveState& from, double to_mm_s, const MoveLimits& limits) noexcept {
     const double j = limits.jerk_mm_s3;
     const double a0 = from.acceleration_mm_s2;
-    const double steady = from.speed_mm_s + 0.5 * a0 * absolute(a0) / j; // if the acceleration is taken back at once
+    const double steady = from.speed_mm_s + 0.5 * a0 * absolute(a0) / j; // the speed if the acceleration falls to zero
+                                                                         // at once
     const double way = to_mm_s < steady ? -1.0 : 1.0;
     const double b = way * a0;
     const double change = way * (to_mm_s - from.speed_mm_s);
     const double square = j * change + 0.5 * b * b;
     double peak = square > 0.0 ? square_root(square) : 0.0;
     double stay = 0.0;
-    const double most = larger(limits.acceleration_mm_s2, b); // rounding, or a limit that became lower
+    const double most = larger(limits.acceleration_mm_s2, b); // rounding, or a limit that was lowered
     if (peak > most) {
         peak = most;
         stay = larger((change - (2.0 * peak * peak - b * b) / (2.0 * j)) / peak, 0.0);
@@ -97,7 +99,7 @@ void SCurveProfile::pass(const MoveState& start, double peak_mm_s, const MoveLim
 SCurveProfile SCurveProfile::to_rest(const MoveState& start, const MoveLimits& limits) noexcept {
     SCurveProfile move;
     move.start_ = start;
-    move.ramp(4, start, 0.0, limits); // the last phases: with them a move ends
+    move.ramp(4, start, 0.0, limits); // the last phases, with which a move ends
     return move;
 }
 
@@ -122,7 +124,7 @@ SCurveProfile SCurveProfile::to_length(const MoveState& start, double length_mm,
     }
     move.pass(start, low, limits);
     if (low > 0.0) {
-        move.phase_[3].duration_s = larger((length_mm - move.length_mm()) / low, 0.0); // what halving left
+        move.phase_[3].duration_s = larger((length_mm - move.length_mm()) / low, 0.0); // the rest that bisection left
     }
     return move;
 }

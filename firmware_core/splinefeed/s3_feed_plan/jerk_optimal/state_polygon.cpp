@@ -31,7 +31,7 @@ StatePolygon::StatePolygon(double largest_b, double max_path_acceleration) noexc
 
 std::size_t StatePolygon::cut(const StateBound& bound) noexcept {
     if (full()) {
-        simplify(); // a part of it, too
+        simplify(); // the result is a part of it, too
     }
     std::array<double, capacity> excess;
     std::size_t beyond = 0;
@@ -63,7 +63,7 @@ std::size_t StatePolygon::cut(const StateBound& bound) noexcept {
         }
     }
     SPLINEFEED_ASSERT(start + n < capacity);
-    if (size_ == 2 && n > 2) { // a line is crossed once, and was seen from both sides
+    if (size_ == 2 && n > 2) { // a line is crossed once, but was seen from both sides
         n = 2;
     }
     for (std::size_t i = 0; i < n; ++i) {
@@ -83,7 +83,7 @@ void StatePolygon::simplify() noexcept {
         least_state = {smaller(least_state.b, corner.b), smaller(least_state.slope, corner.slope)};
         most_state = {larger(most_state.b, corner.b), larger(most_state.slope, corner.slope)};
     }
-    // Corners that all but coincide would be sides of any direction.
+    // Corners that almost coincide would be sides of any direction.
     const double nothing = negligible * (most_state.b - least_state.b) * (most_state.slope - least_state.slope);
     const auto before = [&](std::size_t i) {
         return i > 0 ? i - 1 : size_ - 1;
@@ -123,19 +123,19 @@ void StatePolygon::include(const SpeedState& state) noexcept {
     const auto after = [&](std::size_t i) {
         return i + 1 < size_ ? i + 1 : 0;
     };
-    const auto sees = [&](std::size_t i) { // the side behind corner i from outside
+    const auto sees = [&](std::size_t i) { // whether the side after corner i is visible from outside
         const SpeedState& from = corner_[i];
         const SpeedState& to = corner_[after(i)];
         return (to.b - from.b) * (state.slope - from.slope) - (to.slope - from.slope) * (state.b - from.b) < 0.0;
     };
-    std::size_t first = 0; // side that is seen, where the one before is not
+    std::size_t first = 0; // a visible side after one that is not
     while (first < size_ && (!sees(first) || sees(first > 0 ? first - 1 : size_ - 1))) {
         ++first;
     }
     if (first == size_) {
         return;
     }
-    // What is left are the corners from the end of the last side that is seen around to the start of the first.
+    // The remaining corners are those from the end of the last visible side around to the start of the first.
     std::array<SpeedState, capacity> left;
     std::size_t n = 0;
     std::size_t last = first;

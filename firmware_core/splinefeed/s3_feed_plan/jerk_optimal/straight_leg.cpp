@@ -6,14 +6,14 @@ namespace splinefeed {
 namespace {
 
 constexpr double same_cap = 1e-9;
-constexpr double end = 1e-6; // of a cell, in which a move ends with the cell
+constexpr double end = 1e-6; // of a cell: a move that ends this near ends with the cell
 
-/// The fastest that the acceleration-limited plan is in the cell behind a node, with the largest override.
+/// Largest v^2 of the acceleration-limited plan in the cell after a node, with the largest override.
 double fastest_sq(const JerkNode& node, const JerkNode& next) noexcept {
     return smaller(node.most_sq, larger(node.at_most_sq, next.at_most_sq));
 }
 
-/// What keeps the limits of all cells of a straight leg.
+/// Limits that keep those of all cells of a straight leg.
 MoveLimits limits_of(std::span<const JerkNode> nodes) noexcept {
     MoveLimits least{square_root(nodes.front().most_sq), largest<double>(), largest<double>()};
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
@@ -99,7 +99,7 @@ bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
     if (i == cells_) {
         return false;
     }
-    // No part is cut off that is next to nothing: a little farther, or to the end of the cell.
+    // A part of almost zero length is not split off: the move goes a little farther, or to the end of the cell.
     constexpr double least = JerkWindow<S>::shortest_mm;
     const double length = window_->node(i).cell.length_mm;
     const bool whole = larger(left, least) > length - least;
