@@ -72,11 +72,11 @@ template <>
 inline constexpr double rounding_share<float> = 2e-3;
 
 /// The same of an axis's own limit, for the jumps of its speed that rounding causes where cells meet. Less of it makes
-/// float slow: its cells of long segments have few digits for a direction.
+/// float slow: its cells know a direction to some 2^-20.
 template <Scalar S>
 inline constexpr double jump_share = 4e-5;
 template <>
-inline constexpr double jump_share<float> = 2e-2;
+inline constexpr double jump_share<float> = 1e-2;
 
 /// And for joints whose change of direction is tolerated as none (Refinement::direction_jump).
 inline constexpr double corner_share = 2e-5;
