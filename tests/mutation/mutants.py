@@ -7,6 +7,7 @@ notice each. All of them are in one build (schemata.py); which one acts is said 
 
 Those that no test notices have to be in survivors.txt, with the reason why that is right, or as open."""
 import argparse
+import concurrent.futures
 import dataclasses
 import os
 import pathlib
@@ -156,9 +157,12 @@ def scores(options, modules):
         for module in modules:
             tests = [Tests(programs / program, pattern, scratch) for program, pattern in module.tests]
             score = Score(module.name)
-            for number, site in [(number, site) for number, (name, site) in build.mutants.items() if name == module.name]:
+            sites_of_module = [(number, site) for number, (name, site) in build.mutants.items() if name == module.name]
+            with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+                noticed = pool.map(lambda mutant, those=tuple(tests): any(test.notice(mutant[0]) for test in those), sites_of_module)
+            for (number, site), was_noticed in zip(sites_of_module, noticed):
                 reason = reasons.get(site.name, "")
-                if any(test.notice(number) for test in tests):
+                if was_noticed:
                     score.noticed += 1
                     if reason:
                         print(f"noticed, and yet in survivors.txt: {site.name}", flush=True)
@@ -175,7 +179,7 @@ def scores(options, modules):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--module", choices=[module.name for module in MODULES])
-    parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--count", type=int, default=30)
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--folder")

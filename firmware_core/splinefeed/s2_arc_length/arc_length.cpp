@@ -43,6 +43,9 @@ bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
         PerAxis<S> gap{};
         for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
             gap[k] = piece.control[k][of_piece] - current().control[k][of_segment];
+            if constexpr (counts_from_own_start<S>) {
+                gap[k] += distance<S>(current().origin[k], piece.start[k], current().unit_log2);
+            }
         }
         return scale2(norm(gap.data(), current().axes), current().unit_log2);
     };
@@ -56,7 +59,8 @@ bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
 template <Scalar S>
 bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        const auto [low, high] = hull(piece.control[k], current().degree, current().origin[k], current().unit_log2);
+        const auto [low, high] =
+            hull(piece.control[k], current().degree, piece.origin(current(), k), current().unit_log2);
         const PositionRange& open = refinement_.open[k];
         if ((low < open.low && high > open.low) || (low < open.high && high > open.high)) {
             return true;
@@ -136,7 +140,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
 }
 
 template <Scalar S>
-void ArcLength<S>::fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out) noexcept {
+void ArcLength<S>::fill_common(bool at_end, Cell<S>& out) noexcept {
     const CurveSegment<S>& segment = current();
     out.axes = segment.axes;
     out.unit_log2 = segment.unit_log2;
@@ -145,11 +149,6 @@ void ArcLength<S>::fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out
     out.waypoint = segment.waypoint;
     out.stop_at_end = at_end && stop_after_;
     out.end = segment.end;
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
-        // The origin moves to the start of the cell: offsets are then as small as the cell.
-        out.origin[k] = displaced(segment.origin[k], from[k], segment.unit_log2);
-        out.power[k][0] = from[k] - distance<S>(segment.origin[k], out.origin[k], segment.unit_log2);
-    }
     const Position length = displaced(Position{}, out.length_mm, 0);
     travelled_ = add(travelled_, Wide{0U, static_cast<std::uint64_t>(length.raw)});
 }
@@ -157,14 +156,16 @@ void ArcLength<S>::fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out
 template <Scalar S>
 void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const auto n = static_cast<unsigned>(current().degree);
-    PerAxis<S> from{};
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        from[k] = piece.control[k][0];
-    }
     out.length_mm = m_.length_mm;
     out.degree = current().degree;
     out.stop_before = after_cusp_;
-    fill_common(from, piece.at_end, out);
+    fill_common(piece.at_end, out);
+    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+        // The origin moves to the start of the cell, so that offsets stay as small as the cell.
+        const Position origin = piece.origin(current(), k);
+        out.origin[k] = displaced(origin, piece.control[k][0], current().unit_log2);
+        out.power[k][0] = piece.control[k][0] - distance<S>(origin, out.origin[k], current().unit_log2);
+    }
     const auto per_mm = [this](S x, int shift) {
         return !(x > S{}) ? S{}
                           : smaller(scale2(quotient_or_max(x, m_.length_mm), shift),
@@ -186,7 +187,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
         }
         out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<S>(1));
     }
-    const ControlRounding<S> rounded = ControlRounding<S>::of(current(), m_.slowest, out.tangent_max);
+    const ControlRounding<S> rounded = ControlRounding<S>::of(current(), piece.level, m_.slowest, out.tangent_max);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         // The remaining error of the inverse is about c x^3 (1-x)^3 (x-1/2). With the slope e its second derivative
         // reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, because e is
@@ -196,22 +197,18 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
             smaller(PieceMeasure<S>::bound(m_.second, k) + rounding, from_integer<S>(PieceMeasure<S>::sharpest));
         out.shape[k] = shape_of(k, rounding, out);
     }
-    if (piece.at_end) {
+    if (piece.at_end || counts_from_own_start<S>) {
         arrive(out);
     }
     out.inverse = m_.inverse;
     out.steady_mm_s = rounded.steady_speed(refinement_.jump_mm_s, out.axes);
 }
 
-// Rounded control points move the end of their segment, in float by 2^-24 of its length. To avoid a step of the path
-// there, the last cell ends where the next one begins. steady_speed() allows for the change of its slope.
+// Where a piece on the stack ends: where the piece below it begins, or where the next segment begins.
 template <Scalar S>
 void ArcLength<S>::arrive(Cell<S>& cell) const noexcept {
-    const CurveSegment<S>& ahead = slots_[1 - current_];
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
-        const Position end =
-            stop_after_ ? current().end[k] : displaced(ahead.origin[k], ahead.control[k][0], ahead.unit_log2);
-        S rest = distance<S>(cell.origin[k], end, cell.unit_log2);
+        S rest = distance<S>(cell.origin[k], end_of(depth_ - 1, k), cell.unit_log2);
         for (unsigned i = 0; i <= static_cast<unsigned>(cell.degree); ++i) {
             rest = rest - cell.power[k][i];
         }
@@ -243,8 +240,10 @@ AxisShape<S> ArcLength<S>::shape_of(unsigned axis, S rounding, const Cell<S>& ce
 template <Scalar S>
 void ArcLength<S>::extend_cusp(const Piece<S>& piece) noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        cusp_from_[k] = in_cusp_ ? cusp_from_[k] : piece.control[k][0];
-        cusp_to_[k] = piece.control[k][static_cast<unsigned>(current().degree)];
+        const Position origin = piece.origin(current(), k);
+        const PerDegree<S>& control = piece.control[k];
+        cusp_from_[k] = in_cusp_ ? cusp_from_[k] : displaced(origin, control[0], current().unit_log2);
+        cusp_to_[k] = displaced(origin, control[static_cast<unsigned>(current().degree)], current().unit_log2);
     }
     in_cusp_ = true;
 }
@@ -254,7 +253,8 @@ template <Scalar S>
 void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     PerAxis<S> chord{};
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        chord[k] = cusp_to_[k] - cusp_from_[k];
+        chord[k] = distance<S>(cusp_from_[k], cusp_to_[k], current().unit_log2);
+        out.power[k][0] = S{};
         out.power[k][1] = chord[k];
         out.tangent_max[k] = from_integer<S>(1);
         out.curvature_max[k] = S{};
@@ -266,7 +266,8 @@ void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     out.steady_mm_s = largest<S>();
     out.degree = 1;
     out.stop_before = true;
-    fill_common(cusp_from_, at_end, out);
+    out.origin = cusp_from_;
+    fill_common(at_end, out);
     in_cusp_ = false;
     after_cusp_ = true;
 }
@@ -295,6 +296,12 @@ Pull ArcLength<S>::load() noexcept {
     nothing_ = larger(negligible_units<S>, scale2(literal<S>(2e-8), -current().unit_log2));
     grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));
     stack_[0].control = current().control;
+    if constexpr (counts_from_own_start<S>) {
+        for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+            stack_[0].start[k] = current().origin[k];
+            stack_[0].begin_at_start(k, current().degree, current().unit_log2);
+        }
+    }
     stack_[0].level = 0;
     stack_[0].at_start = stack_[0].at_end = true;
     depth_ = 1;
@@ -315,6 +322,14 @@ void ArcLength<S>::split() noexcept {
     right.at_start = false;
     left.control = m_.left;
     right.control = m_.right;
+    if constexpr (counts_from_own_start<S>) {
+        left.start = right.start;
+        for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+            const Position end = end_of(depth_ - 2, k);
+            right.begin_at_start(k, current().degree, current().unit_log2);
+            right.lead_to(end, k, current().degree, current().unit_log2);
+        }
+    }
 }
 
 template <Scalar S>

@@ -59,12 +59,13 @@ private:
     void split() noexcept;
     void leave() noexcept;
     void fill(const Piece<S>& piece, Cell<S>& out) noexcept;
+    [[nodiscard]] Position end_of(int piece, unsigned axis) const noexcept;
     void arrive(Cell<S>& cell) const noexcept;
     [[nodiscard]] AxisShape<S> largest_shape(unsigned axis, const Cell<S>& cell) const noexcept;
     [[nodiscard]] AxisShape<S> shape_of(unsigned axis, S rounding, const Cell<S>& cell) const noexcept;
     void extend_cusp(const Piece<S>& piece) noexcept;
     void fill_chord(bool at_end, Cell<S>& out) noexcept;
-    void fill_common(const PerAxis<S>& from, bool at_end, Cell<S>& out) noexcept;
+    void fill_common(bool at_end, Cell<S>& out) noexcept;
     [[nodiscard]] Piece<S>& top() noexcept { return stack_[static_cast<unsigned>(depth_ - 1)]; }
     [[nodiscard]] CurveSegment<S>& current() noexcept { return slots_[current_]; }
     [[nodiscard]] const CurveSegment<S>& current() const noexcept { return slots_[current_]; }
@@ -76,8 +77,8 @@ private:
     PieceMeasure<S> m_{};                       // of the piece that is being judged
     Wide travelled_{};
     S grade_mm_{};
-    PerAxis<S> cusp_from_{}; // in units of the current segment, from its origin
-    PerAxis<S> cusp_to_{};
+    PerAxis<Position> cusp_from_{};
+    PerAxis<Position> cusp_to_{};
     S nothing_{}; // lengths below count as zero, in units of the current segment
     std::uint64_t segments_ = 0;
     int depth_ = 0;            // pieces on the stack

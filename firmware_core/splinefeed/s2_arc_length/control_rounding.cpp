@@ -1,53 +1,58 @@
 // SPDX-License-Identifier: MIT
 //
-// Halving rounds the control points of a piece. Those of axis k, at most m_k, have an error e_k: half an ulp of m_k in
-// float, half an ulp of one in the other scalars. From one cell to the next, dr/dw of the axis jumps by at most 2 e_k
-// times the degree. The error of r'' is 24 roundings of a cubic; twice as many are allowed for. Relative to |dr/dw| the
-// jump is n_k. |dr/dw| itself, or its slope, has an error of at most the sum of |q'_k| n_k, and |q'_k| of that acts on
-// the axis.
+// Halving rounds the control points of a piece. From one cell to the next, dr/dw of the axis jumps by at most the degree
+// n times the error of two control points. The error of r'' is 24 roundings of a cubic; twice as many are allowed for.
+// Relative to |dr/dw| the jump is n_k. |dr/dw| itself, or its slope, has an error of at most the sum of |q'_k| n_k, and
+// |q'_k| of that acts on the axis.
+//
+// In float the control points of a piece count from its start. Let h_k be the sum of the steps between the segment's
+// control points on axis k. After j halvings the control points are below h_k 2^-j. A halving makes a joint, and on each
+// side of it at most four roundings of half an ulp: averages, the new start, and the correction that makes the piece end
+// where the next one begins. Together that is n 2^-22 h_k 2^-j of dr/dw. After m - j more halvings 2^(j-m) of it
+// remains, and the same part of |dr/dw|. So each of the m halvings, and the rounding of the segment itself, adds the
+// same amount to n_k. Of the error of r'' a quarter remains after each halving: the sum is below twice the last one.
+//
+// In the other scalars a control point has an error of half a unit, whatever its piece.
 #include "splinefeed/s2_arc_length/control_rounding.hpp"
 
 namespace splinefeed {
 
 namespace {
 
-// 2 e_k
+// The rounding of two control points, and of r''. In Fixed and double what the bound is asked for on top of it, too.
 template <Scalar S>
-S two_roundings(S /*largest*/) noexcept {
-    return literal<S>(2.4e-10);
-}
-template <>
-float two_roundings<float>(float largest) noexcept {
-    return largest * 0x1p-23F;
-}
+constexpr S two_roundings = literal<S>(2.4e-10);
+template <Scalar S>
+constexpr S bend_rounding = literal<S>(1e-8);
 
-// Rounding of r''. In the other scalars it includes the extra reserve of the bound.
-template <Scalar S>
-S bend_rounding(S two) noexcept {
-    return std::same_as<S, float> ? from_integer<S>(24) * two : literal<S>(1e-8);
+// h_k 2^-level
+float reach(const CurveSegment<float>& segment, unsigned axis, int level) noexcept {
+    const PerDegree<float>& control = segment.control[axis];
+    float sum = absolute(control[0]);
+    for (unsigned i = 1; i <= static_cast<unsigned>(segment.degree); ++i) {
+        sum += absolute(control[i] - control[i - 1]);
+    }
+    return scale2(sum, -level);
 }
 
 } // namespace
 
 template <Scalar S>
-ControlRounding<S> ControlRounding<S>::of(const CurveSegment<S>& segment, S slowest,
+ControlRounding<S> ControlRounding<S>::of(const CurveSegment<S>& segment, int level, S slowest,
                                           const PerAxis<S>& tangent_max) noexcept {
     ControlRounding out;
     S jump_along{};
     S bend_along{};
     for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
-        if (std::same_as<S, float> || k == 0) { // the same for all axes in the other scalars
-            S most{};
-            for (unsigned i = 0; i <= static_cast<unsigned>(segment.degree); ++i) {
-                most = larger(most, absolute(segment.control[k][i]));
-            }
-            const S two = two_roundings<S>(most);
-            out.jump[k] = from_integer<S>(segment.degree) * two / slowest;
-            out.bend[k] = bend_rounding<S>(two) / slowest;
-        } else {
-            out.jump[k] = out.jump[0];
-            out.bend[k] = out.bend[0];
+        S two = two_roundings<S>;
+        S bend = bend_rounding<S>;
+        if constexpr (std::same_as<S, float>) {
+            const float rounding = reach(segment, k, level) * 0x1p-22F;
+            two = from_integer<S>(level + 1) * rounding;
+            bend = from_integer<S>(2 * 24) * rounding;
         }
+        out.jump[k] = from_integer<S>(segment.degree) * two / slowest;
+        out.bend[k] = bend / slowest;
         jump_along += tangent_max[k] * out.jump[k];
         bend_along += tangent_max[k] * out.bend[k];
     }

@@ -7,13 +7,47 @@
 
 namespace splinefeed {
 
-/// A part of a segment, in the segment's units and from its origin.
+/// Whether the control points of a piece count from the start of the piece. In float the control points of a segment are
+/// known to 2^-24 of its length, which is a large part of a short piece; counted from the start of the piece they are
+/// known to 2^-24 of the piece.
+template <Scalar S>
+inline constexpr bool counts_from_own_start = std::same_as<S, float>;
+
+/// A part of a segment, in the segment's units.
 template <Scalar S>
 struct Piece {
-    PerAxis<PerDegree<S>> control{};
+    struct Nowhere {};
+
+    PerAxis<PerDegree<S>> control{}; ///< offsets from the segment's origin, or from `start`
+    [[no_unique_address]] std::conditional_t<counts_from_own_start<S>, PerAxis<Position>, Nowhere> start{};
     int level = 0;         ///< number of halvings of the segment
     bool at_start = false; ///< it begins at the start of its segment
     bool at_end = false;
+
+    /// What the control points of an axis count from.
+    [[nodiscard]] Position origin(const CurveSegment<S>& segment, unsigned axis) const noexcept {
+        if constexpr (counts_from_own_start<S>) {
+            return start[axis];
+        } else {
+            return segment.origin[axis];
+        }
+    }
+    /// Moves the start of an axis to the first control point, which the others count from then.
+    void begin_at_start(unsigned axis, int degree, int unit_log2) noexcept requires counts_from_own_start<S> {
+        const S first = control[axis][0];
+        start[axis] = displaced(start[axis], first, unit_log2);
+        for (unsigned i = 0; i <= static_cast<unsigned>(degree); ++i) {
+            control[axis][i] = control[axis][i] - first;
+        }
+    }
+    /// Turns and stretches the piece by its rounding, so that it ends where the next one begins.
+    void lead_to(Position end, unsigned axis, int degree, int unit_log2) noexcept requires counts_from_own_start<S> {
+        const S rest = distance<S>(start[axis], end, unit_log2) - control[axis][static_cast<unsigned>(degree)];
+        const S share = rest / from_integer<S>(degree);
+        for (int i = 1; i <= degree; ++i) {
+            control[axis][static_cast<unsigned>(i)] += from_integer<S>(i) * share;
+        }
+    }
 };
 
 /// Derivatives, length and inverse of a piece. The members are computed in this order, each from earlier ones.

@@ -48,26 +48,13 @@ constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
 
 template <Scalar S>
 SmoothPlan<S>::SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept
-    : source_(&source), limits_(&limits), window_(limits, cells) {
-    source.lead();
-}
+    : source_(source, limits), limits_(&limits), window_(limits, cells) {}
 
 template <Scalar S>
 Pull SmoothPlan<S>::take(UnderrunPolicy underrun) noexcept {
-    Pull pull = source_->prepare(underrun);
-    if (pull != Pull::item) {
-        return pull;
-    }
-    const Cell<S>& cell = source_->cell(); // of both halves of a degenerate cell
-    const S cap_sq = source_->cap_sq();
-    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a degenerate cell
-        source_->advance();
-        pull = source_->prepare(underrun);
-        SPLINEFEED_ASSERT(pull == Pull::item);
-    }
-    window_.append(cell, cap_sq, source_->programmed_sq(cell), source_->profile_segment().exit_sq);
-    source_->advance();
-    return Pull::item;
+    return source_.next(underrun, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
+        window_.append(cell, cap_sq, source_.plan().programmed_sq(cell), exit_sq);
+    });
 }
 
 // Takes as many cells as there is room for. A motion that has to stop does not wait for more.

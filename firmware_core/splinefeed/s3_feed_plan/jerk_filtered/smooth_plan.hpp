@@ -12,7 +12,7 @@
 #pragma once
 
 #include "splinefeed/base/assertion.hpp"
-#include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
 #include "splinefeed/s3_feed_plan/jerk_filtered/sign_memory.hpp"
 #include "splinefeed/s3_feed_plan/jerk_filtered/smooth_window.hpp"
 
@@ -46,7 +46,7 @@ public:
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override {
         SPLINEFEED_ASSERT(standing());
-        source_->forget();
+        source_.forget();
         window_.clear();
         steering_.start();
         taken_ = looked_ = 0;
@@ -111,7 +111,7 @@ private:
     [[nodiscard]] bool rested() const noexcept { return sign_.rested(smoothing_.ticks()); }
     void profile_segment_to(S to, S exit_sq) noexcept;
 
-    FeedPlan<S>* source_;
+    GradedFeed<S> source_;
     const MotionLimits<S>* limits_;
     SmoothWindow<S> window_;
     Smoothing<S> smoothing_{}; // of the cell that was looked at last

@@ -24,32 +24,20 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 
 template <Scalar S>
 JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
-    : source_(&source), limits_(&limits), window_(limits, storage) {
-    source.lead();
-}
+    : source_(source, limits), limits_(&limits), window_(limits, storage) {}
 
 template <Scalar S>
 double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {
-    return to_double(source_->wanted_sq(cell, from_double<S>(most_sq), steering_.ratio()));
+    return to_double(source_.plan().wanted_sq(cell, from_double<S>(most_sq), steering_.ratio()));
 }
 
 template <Scalar S>
 Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
-    Pull pull = source_->prepare(underrun);
-    if (pull != Pull::item) {
-        return pull;
-    }
-    const Cell<S> cell = source_->cell();
-    const double most_sq = to_double(source_->cap_sq());
-    while (!(source_->profile_segment().stretch.to == from_integer<S>(1))) { // the first half of a degenerate cell
-        source_->advance();
-        pull = source_->prepare(underrun);
-        SPLINEFEED_ASSERT(pull == Pull::item);
-    }
-    window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(source_->profile_segment().exit_sq));
-    planned_all_ = false;
-    source_->advance();
-    return Pull::item;
+    return source_.next(underrun, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
+        const double most_sq = to_double(cap_sq);
+        window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(exit_sq));
+        planned_all_ = false;
+    });
 }
 
 template <Scalar S>
@@ -370,7 +358,7 @@ bool JerkPlan<S>::standing() const noexcept {
 template <Scalar S>
 void JerkPlan<S>::clear() noexcept {
     SPLINEFEED_ASSERT(standing());
-    source_->forget();
+    source_.forget();
     window_.clear();
     committed_ = planned_ = halt_ = 0;
     hops_ = 1;

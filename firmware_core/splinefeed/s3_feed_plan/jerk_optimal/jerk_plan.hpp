@@ -9,7 +9,7 @@
 //        +-----------------> s
 #pragma once
 
-#include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
 #include "splinefeed/s3_feed_plan/jerk_optimal/jerk_change.hpp"
 #include "splinefeed/s3_feed_plan/jerk_optimal/profile_state.hpp"
 #include "splinefeed/s3_feed_plan/jerk_optimal/straight_leg.hpp"
@@ -56,7 +56,7 @@ private:
     void forward_step() noexcept;
     void forward_step_on_line() noexcept;
 
-    FeedPlan<S>* source_;
+    GradedFeed<S> source_;
     const MotionLimits<S>* limits_;
     JerkWindow<S> window_;
     LineTravel line_{};         // used while a straight leg is travelled

@@ -74,11 +74,11 @@ template <>
 inline constexpr double rounding_share<float> = 2e-3;
 
 /// The same part of an axis's own limit, for jumps of its speed that rounding causes where cells meet. With a smaller
-/// part float would be slow: its cells of long segments have few digits for a direction.
+/// part float would be slow: its cells know a direction to about 2^-20.
 template <Scalar S>
 inline constexpr double jump_share = 4e-5;
 template <>
-inline constexpr double jump_share<float> = 2e-2;
+inline constexpr double jump_share<float> = 1e-2;
 
 /// The same part for joints whose change of direction is tolerated (Refinement::direction_jump).
 inline constexpr double corner_share = 2e-5;

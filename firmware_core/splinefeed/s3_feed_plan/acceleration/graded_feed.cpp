@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+//
+// In a cell of length L that is entered with v and has one pseudo-jerk u, v^2 changes by at most about 2 L sqrt(u L / v) ... The speed
+// v can change by itself within the way sqrt(v^3 / J): a third of that is fine enough (docs/explanation/feed.md has what other
+// parts give). At the ends of a leg, where v = 0, ArcLength grades cells away from the stop.
+#include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
+
+#include "splinefeed/base/assertion.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double graded_part = 0.3;    // of sqrt(v^3 / J)
+constexpr double shortest_mm = 4e-6;   // no part is cut that is shorter: Fixed has no digits for it
+constexpr double least_share = 0x1p-8; // nor into less than that of its cell
+
+} // namespace
+
+// The front cell of the plan, with its profile segment to the end.
+template <Scalar S>
+Pull GradedFeed<S>::prepare(UnderrunPolicy underrun) noexcept {
+    Pull pull = source_->prepare(underrun);
+    while (pull == Pull::item && !(source_->profile_segment().stretch.to == from_integer<S>(1))) {
+        source_->advance(); // the first half of a degenerate cell
+        pull = source_->prepare(underrun);
+        SPLINEFEED_ASSERT(pull == Pull::item);
+    }
+    return pull;
+}
+
+// b is linear in s.
+template <Scalar S>
+S GradedFeed<S>::speed_sq_at(S fraction) const noexcept {
+    const ProfileSegment<S>& segment = source_->profile_segment();
+    return fraction == from_integer<S>(1) ? segment.exit_sq
+                                          : segment.entry_sq + (segment.exit_sq - segment.entry_sq) * fraction;
+}
+
+template <Scalar S>
+bool GradedFeed<S>::too_long(const Cell<S>& cell, const CellInterval<S>& part) const noexcept {
+    const S length = cell.length_mm * part.length();
+    if (!(length > literal<S>(shortest_mm)) || !(part.length() > literal<S>(least_share))) {
+        return false;
+    }
+    S jerk = largest<S>();
+    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], cell.tangent_max[k]));
+    }
+    for (const S end : {part.from, part.to}) {
+        const S speed = square_root(speed_sq_at(end));
+        if (speed > S{} && length > literal<S>(graded_part) * speed * square_root(speed / jerk)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <Scalar S>
+CellInterval<S> GradedFeed<S>::next_part(const Cell<S>& cell) const noexcept {
+    CellInterval<S> part{from_, from_integer<S>(1)};
+    if (source_->profile_segment().stretch.whole()) {
+        while (too_long(cell, part)) {
+            part.to = part.from + scale2(part.length(), -1);
+        }
+    }
+    return part;
+}
+
+template <Scalar S>
+void GradedFeed<S>::leave(const CellInterval<S>& part) noexcept {
+    if (part.to == from_integer<S>(1)) {
+        from_ = S{};
+        source_->advance();
+    } else {
+        from_ = part.to;
+    }
+}
+
+template class GradedFeed<double>;
+template class GradedFeed<float>;
+template class GradedFeed<Fixed>;
+
+} // namespace splinefeed

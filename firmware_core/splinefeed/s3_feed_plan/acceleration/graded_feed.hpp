@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// GradedFeed: the cells of an acceleration-limited plan for a plan that limits the jerk as well, cut where the speed is low.
+#pragma once
+
+#include "splinefeed/s2_arc_length/cell_part.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
+
+namespace splinefeed {
+
+/// A jerk-limited plan gives each cell one pseudo-jerk, so in a cell that is long for its speed it can hardly leave that speed: the
+/// cells beside a short bend have to be short, whatever comes farther away. Memory: a few words. Cost: a root and three
+/// divisions a part, and cutting it where it is a part.
+template <Scalar S>
+class GradedFeed {
+public:
+    /// `source` and `limits` must outlive it.
+    GradedFeed(FeedPlan<S>& source, const MotionLimits<S>& limits) noexcept : source_(&source), limits_(&limits) {
+        source.lead();
+    }
+
+    /// Gets the next part of the path: `take(cell, cap_sq, exit_sq)` is called with it if there is one, the largest v^2 anywhere in it
+    /// that the machine allows, and the acceleration-limited v^2 at its end.
+    template <class Take>
+    Pull next(UnderrunPolicy underrun, Take&& take) noexcept {
+        if (const Pull pull = prepare(underrun); pull != Pull::item) {
+            return pull;
+        }
+        const Cell<S>& cell = source_->cell();
+        const CellInterval<S> part = next_part(cell);
+        const S exit_sq = speed_sq_at(part.to);
+        if (part.whole()) {
+            take(cell, source_->cap_sq(), exit_sq);
+        } else {
+            take(part_of(cell, part), source_->cap_sq(), exit_sq);
+        }
+        leave(part);
+        return Pull::item;
+    }
+    /// Largest v^2 that is wanted in a cell, see FeedPlan.
+    [[nodiscard]] const FeedPlan<S>& plan() const noexcept { return *source_; }
+    /// Forgets every cell.
+    void forget() noexcept {
+        from_ = S{};
+        source_->forget();
+    }
+
+private:
+    Pull prepare(UnderrunPolicy underrun) noexcept;
+    [[nodiscard]] CellInterval<S> next_part(const Cell<S>& cell) const noexcept;
+    [[nodiscard]] bool too_long(const Cell<S>& cell, const CellInterval<S>& part) const noexcept;
+    [[nodiscard]] S speed_sq_at(S fraction) const noexcept;
+    void leave(const CellInterval<S>& part) noexcept;
+
+    FeedPlan<S>* source_;
+    const MotionLimits<S>* limits_;
+    S from_{}; // of the front cell, what is before it was taken
+};
+
+} // namespace splinefeed
