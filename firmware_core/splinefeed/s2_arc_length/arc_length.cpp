@@ -206,6 +206,19 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
 
 // Where a piece on the stack ends: where the piece below it begins, or where the next segment begins.
 template <Scalar S>
+Position ArcLength<S>::end_of(int piece, unsigned axis) const noexcept {
+    if constexpr (counts_from_own_start<S>) {
+        if (piece > 0) {
+            return stack_[static_cast<unsigned>(piece - 1)].start[axis];
+        }
+    }
+    const CurveSegment<S>& ahead = slots_[1 - current_];
+    return stop_after_ ? current().end[axis] : displaced(ahead.origin[axis], ahead.control[axis][0], ahead.unit_log2);
+}
+
+// Rounded control points move the end of their piece. To avoid a step of the path there, the cell ends where the next
+// one begins. steady_speed() allows for the change of its slope.
+template <Scalar S>
 void ArcLength<S>::arrive(Cell<S>& cell) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
         S rest = distance<S>(cell.origin[k], end_of(depth_ - 1, k), cell.unit_log2);

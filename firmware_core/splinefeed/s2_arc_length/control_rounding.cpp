@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Halving rounds the control points of a piece. From one cell to the next, dr/dw of the axis jumps by at most the degree
-// n times the error of two control points. The error of r'' is 24 roundings of a cubic; twice as many are allowed for.
-// Relative to |dr/dw| the jump is n_k. |dr/dw| itself, or its slope, has an error of at most the sum of |q'_k| n_k, and
-// |q'_k| of that acts on the axis.
+// Halving rounds the control points of a piece. From one cell to the next, dr/dw of the axis jumps by at most the
+// degree n times the error of two control points. The error of r'' is 24 roundings of a cubic; twice as many are
+// allowed for. Relative to |dr/dw| the jump is n_k. |dr/dw| itself, or its slope, has an error of at most the sum of
+// |q'_k| n_k, and |q'_k| of that acts on the axis.
 //
 // In float the control points of a piece count from its start. Let h_k be the sum of the steps between the segment's
-// control points on axis k. After j halvings the control points are below h_k 2^-j. A halving makes a joint, and on each
-// side of it at most four roundings of half an ulp: averages, the new start, and the correction that makes the piece end
-// where the next one begins. Together that is n 2^-22 h_k 2^-j of dr/dw. After m - j more halvings 2^(j-m) of it
-// remains, and the same part of |dr/dw|. So each of the m halvings, and the rounding of the segment itself, adds the
+// control points on axis k. After j halvings the control points are below h_k 2^-j. A halving makes a joint, and on
+// each side of it at most four roundings of half an ulp: averages, the new start, and the correction that makes the
+// piece end where the next one begins. Together that is n 2^-22 h_k 2^-j of dr/dw. After m - j more halvings 2^(j-m) of
+// it remains, and the same part of |dr/dw|. So each of the m halvings, and the rounding of the segment itself, adds the
 // same amount to n_k. Of the error of r'' a quarter remains after each halving: the sum is below twice the last one.
 //
 // In the other scalars a control point has an error of half a unit, whatever its piece.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// In a cell of length L that is entered with v and has one pseudo-jerk u, v^2 changes by at most about 2 L sqrt(u L / v) ... The speed
-// v can change by itself within the way sqrt(v^3 / J): a third of that is fine enough (docs/explanation/feed.md has what other
-// parts give). At the ends of a leg, where v = 0, ArcLength grades cells away from the stop.
+// In a cell of length L that is entered with v and has one pseudo-jerk u, v^2 changes by at most about 2 L sqrt(u L /
+// v) ... The speed v can change by itself within the way sqrt(v^3 / J): a third of that is fine enough
+// (docs/explanation/feed.md has what other parts give). At the ends of a leg, where v = 0, ArcLength grades cells away
+// from the stop.
 #include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
 
 #include "splinefeed/base/assertion.hpp"

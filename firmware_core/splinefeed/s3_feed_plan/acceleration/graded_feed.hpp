@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GradedFeed: the cells of an acceleration-limited plan for a plan that limits the jerk as well, cut where the speed is low.
+// GradedFeed: the cells of an acceleration-limited plan for a plan that limits the jerk as well, cut where the speed is
+// low.
 #pragma once
 
 #include "splinefeed/s2_arc_length/cell_part.hpp"
@@ -7,9 +8,9 @@
 
 namespace splinefeed {
 
-/// A jerk-limited plan gives each cell one pseudo-jerk, so in a cell that is long for its speed it can hardly leave that speed: the
-/// cells beside a short bend have to be short, whatever comes farther away. Memory: a few words. Cost: a root and three
-/// divisions a part, and cutting it where it is a part.
+/// A jerk-limited plan gives each cell one pseudo-jerk, so in a cell that is long for its speed it can hardly leave
+/// that speed: the cells beside a short bend have to be short, whatever comes farther away. Memory: a few words. Cost:
+/// a root and three divisions a part, and cutting it where it is a part.
 template <Scalar S>
 class GradedFeed {
 public:
@@ -18,8 +19,8 @@ public:
         source.lead();
     }
 
-    /// Gets the next part of the path: `take(cell, cap_sq, exit_sq)` is called with it if there is one, the largest v^2 anywhere in it
-    /// that the machine allows, and the acceleration-limited v^2 at its end.
+    /// Gets the next part of the path: `take(cell, cap_sq, exit_sq)` is called with it if there is one, the largest v^2
+    /// anywhere in it that the machine allows, and the acceleration-limited v^2 at its end.
     template <class Take>
     Pull next(UnderrunPolicy underrun, Take&& take) noexcept {
         if (const Pull pull = prepare(underrun); pull != Pull::item) {
