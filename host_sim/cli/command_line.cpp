@@ -101,7 +101,7 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_option("-m,--machine", typed.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
     if (executes) {
         app.add_option("--target", job.run.target,
-                       std::string("sim: the simulated machine in this process (default); ") + target_text);
+                       "sim: the simulated machine in this process (default); " + target_help());
         app.add_flag("--home", job.run.wishes.home, "find the references of the axes before the program begins")
             ->disable_flag_override();
         app.add_flag("--probe", job.run.wishes.probe,
