@@ -46,7 +46,7 @@ void add_input(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("FILE", job.run.path.input, "waypoints (.csv) or a curve (.json); - reads standard input")
         ->required();
     app.add_option("--format", typed.format,
-                   "csv or json: format of the input (default: by its name; of standard input csv)");
+                   input_formats(" or ") + ": format of the input (default: by its name; of standard input csv)");
 }
 
 void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
@@ -176,7 +176,7 @@ std::string explained(const CLI::ParseError& error) {
         return fmt::format("--{} takes no value; leave it out", text.substr(0, text.find(' ')));
     }
     if (text.find("FILE is required") != std::string_view::npos) {
-        return "there is no input; name a .csv or .json file, or - for standard input";
+        return fmt::format("there is no input; name a {} file, or - for standard input", input_formats(" or ", "."));
     }
     return fmt::format("{}; see splinefeed --help", text);
 }
@@ -187,16 +187,13 @@ void take_format(Job& job, const std::string& format) {
                                : dot == std::string::npos ? ""
                                                           : job.run.path.input.substr(dot);
     const std::string kind = format.empty() ? suffix.substr(suffix.empty() ? 0 : 1) : format;
-    if (kind == "csv") {
-        job.run.path.format = InputFormat::csv;
-    } else if (kind == "json") {
-        job.run.path.format = InputFormat::json;
+    if (const InputFormat* const known = input_format(kind)) {
+        job.run.path.format = known;
     } else if (!format.empty()) {
-        refuse_value("--format", format, {"csv", "json"});
+        throw UsageError(fmt::format("--format {}: it must be one of {}", in_quotes(format), input_formats(", ")));
     } else {
-        throw UsageError(
-            fmt::format("{}: the name does not say what it is; name a .csv or .json file, or add --format csv|json",
-                        in_quotes(job.run.path.input)));
+        throw UsageError(fmt::format("{}: the name does not say what it is; name a {} file, or add --format {}",
+                                     in_quotes(job.run.path.input), input_formats(" or ", "."), input_formats("|")));
     }
 }
 
@@ -342,7 +339,8 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         return job;
     }
     if (job.run.path.input.empty()) {
-        throw UsageError("the input has no name; give a .csv or .json file, or - for standard input");
+        throw UsageError(
+            fmt::format("the input has no name; give a {} file, or - for standard input", input_formats(" or ", ".")));
     }
     if (command.get_name() == "surface") {
         job.command = Command::surface;
@@ -375,7 +373,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (job.command == Command::curve && job.run.outputs.curve.empty()) {
         job.run.outputs.curve = "-";
     }
-    if (job.run.path.format == InputFormat::csv) {
+    if (!job.run.path.format->is_curve()) {
         static_cast<void>(choose_curve(job.run.path.curve));
     }
     return job;

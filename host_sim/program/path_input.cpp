@@ -2,7 +2,6 @@
 #include "host_sim/program/path_input.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/input_stream.hpp"
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/program/row_queue.hpp"
 
@@ -11,13 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <istream>
 
 namespace splinefeed::host {
 
 namespace {
-
-const std::vector<std::string> every_axis{"x", "y", "z", "a", "b", "c"};
 
 /// Of a curve that is made of all of them: about 2 GB.
 constexpr std::uint64_t most_points = 1'000'000;
@@ -27,28 +23,11 @@ bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::fabs(x - y) < 1e-4; });
 }
 
-/// A waypoint file or a pipe.
-class TableRows final : public WaypointRows {
-public:
-    TableRows(const std::string& path, const std::string& name, const std::vector<std::string>& axes)
-        : file_(path, name), reader_(stream_, name, axes.empty() ? every_axis : axes, axes.empty()) {}
-
-    bool next(WaypointRow& out) override { return reader_.next(out); }
-    [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return reader_.axes(); }
-
-    void stop() noexcept override { file_.stop(); }
-
-private:
-    InputStream file_;
-    std::istream stream_{&file_};
-    WaypointReader reader_;
-};
-
 } // namespace
 
 PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes)
-    : name_(arguments.input), path_(arguments.input), read_ahead_(use == PathUse::followed) {
-    if (arguments.format == InputFormat::json) {
+    : name_(arguments.input), path_(arguments.input), format_(arguments.format), read_ahead_(use == PathUse::followed) {
+    if (format_->is_curve()) {
         open_description(arguments, use, machine_axes);
         return;
     }
@@ -58,9 +37,9 @@ PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vec
     }
     repeatable_ = is_regular_file(path_);
     machine_axes_ = machine_axes;
-    auto rows = std::make_unique<TableRows>(path_, name_, machine_axes_);
-    axes_ = rows->axes();
-    opened_ = std::move(rows);
+    OpenedRows opened = format_->open(path_, name_, machine_axes_);
+    axes_ = std::move(opened.axes);
+    opened_ = std::move(opened.rows);
     if (needs_all_points(choice_.method)) {
         compute_from_points(arguments.scalar, use);
     }
@@ -126,8 +105,7 @@ void PathInput::open_description(const PathArguments& arguments, PathUse use,
 }
 
 std::unique_ptr<WaypointRows> PathInput::rows() {
-    std::unique_ptr<WaypointRows> rows =
-        opened_ ? std::move(opened_) : std::make_unique<TableRows>(path_, name_, machine_axes_);
+    std::unique_ptr<WaypointRows> rows = opened_ ? std::move(opened_) : format_->open(path_, name_, machine_axes_).rows;
     return read_ahead_ ? std::make_unique<RowQueue>(std::move(rows)) : std::move(rows);
 }
 

@@ -5,7 +5,7 @@
 #include "host_sim/base/scalar_kind.hpp"
 #include "host_sim/curve/curve_choice.hpp"
 #include "host_sim/curve/curve_file.hpp"
-#include "host_sim/program/waypoint_rows.hpp"
+#include "host_sim/program/input_format.hpp"
 
 #include <memory>
 #include <string>
@@ -13,12 +13,10 @@
 
 namespace splinefeed::host {
 
-enum class InputFormat { csv, json };
-
 /// What a path is read from, and how its curve is made.
 struct PathArguments {
     std::string input; ///< a path, or "-"
-    InputFormat format = InputFormat::csv;
+    const InputFormat* format = input_format("csv");
     CurveArguments curve;
     ScalarKind scalar = ScalarKind::fixed;
 };
@@ -62,6 +60,7 @@ private:
     std::string path_; // what is opened: /dev/stdin for a file that is standard input
     CurveChoice choice_;
     CurveFile file_;
+    const InputFormat* format_;
     std::vector<std::string> machine_axes_;
     std::vector<std::string> axes_;
     std::unique_ptr<WaypointRows> opened_;
