@@ -115,10 +115,10 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
                    "E.csv: what an operator does during the run, rows t,hold|resume|abort or t,override,0 to 2");
     const std::string group = "Outputs (- is standard output)";
     app.add_option("--trace", job.run.outputs.trace, "T.csv: positions and speed at every sample period")->group(group);
-    app.add_option("--segments", job.run.outputs.segments, "S.csv: the feed segments, in integers")->group(group);
-    app.add_option("--edges", job.run.outputs.edges,
-                   "E.csv: edges of the step and direction lines, on a virtual clock; docs/reference/files.md")
-        ->group(group);
+    for (std::size_t i = 0; i < segment_output_kinds().size(); ++i) {
+        const SegmentOutputKind& kind = segment_output_kinds()[i];
+        app.add_option(kind.option, job.run.outputs.of_segments[i], kind.help)->group(group);
+    }
     app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
     app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error")
@@ -219,10 +219,11 @@ void take_window(Job& job, const std::string& text) {
 
 // One output at most goes to standard output, and no two to one file.
 void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
-    const std::array<std::pair<const char*, const std::string*>, 4> files{{{"--trace", &job.run.outputs.trace},
-                                                                           {"--segments", &job.run.outputs.segments},
-                                                                           {"--edges", &job.run.outputs.edges},
-                                                                           {"--curve-out", &job.run.outputs.curve}}};
+    std::vector<std::pair<const char*, const std::string*>> files{{"--trace", &job.run.outputs.trace}};
+    for (std::size_t i = 0; i < segment_output_kinds().size(); ++i) {
+        files.emplace_back(segment_output_kinds()[i].option, &job.run.outputs.of_segments[i]);
+    }
+    files.emplace_back("--curve-out", &job.run.outputs.curve);
     const char* on_stdout = nullptr;
     std::error_code ignored;
     for (std::size_t i = 0; i < files.size(); ++i) {
