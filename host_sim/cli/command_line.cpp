@@ -56,8 +56,7 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
         app.add_option(name, value, text)->group(group);
     };
     option("--curve", curve.method,
-           "g2, g2-bezier, catmull-rom, catmull-rom-modified, bspline, bspline-interpolation, ferguson, beta-chain or "
-           "polyline (default g2); docs/explanation/curves.md compares them");
+           (listed(curve_names()) + " (default g2); docs/explanation/curves.md compares them").c_str());
     app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
         ->group(group)
         ->disable_flag_override();

@@ -5,7 +5,7 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/program/row_queue.hpp"
 
-#include "host_sim/curve/points_description.hpp"
+#include "host_sim/curve/methods/method_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,12 +40,12 @@ PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vec
     OpenedRows opened = format_->open(path_, name_, machine_axes_);
     axes_ = std::move(opened.axes);
     opened_ = std::move(opened.rows);
-    if (needs_all_points(choice_.method)) {
-        compute_from_points(arguments.scalar, use);
+    if (const PointsMethod* const method = points_method(choice_.method)) {
+        compute_from_points(*method, arguments.scalar, use);
     }
 }
 
-void PathInput::compute_from_points(ScalarKind scalar, PathUse use) {
+void PathInput::compute_from_points(const PointsMethod& method, ScalarKind scalar, PathUse use) {
     std::vector<PerAxis<double>> points;
     WaypointRow row;
     while (opened_->next(row)) {
@@ -53,13 +53,13 @@ void PathInput::compute_from_points(ScalarKind scalar, PathUse use) {
             throw InputError(name_, row.line,
                              fmt::format("--curve {} is made of all points at once, and takes at most {}; take another "
                                          "curve, which streams (g2), or fewer points",
-                                         method_name(choice_.method), most_points));
+                                         choice_.method, most_points));
         }
         if (row.feed_mm_s > 0.0 || row.max_feed_mm_s > 0.0 || row.corner != Corner::automatic) {
             throw InputError(name_, row.line,
                              fmt::format("--curve {} takes all points as one smooth curve; leave out the columns "
                                          "feed, max_feed and corner",
-                                         method_name(choice_.method)));
+                                         choice_.method));
         }
         if (points.empty() || !merged(points.back(), row.position)) {
             points.push_back(row.position);
@@ -72,8 +72,7 @@ void PathInput::compute_from_points(ScalarKind scalar, PathUse use) {
     opened_.reset();
     const int axes = static_cast<int>(axes_.size());
     try {
-        file_ =
-            compute_curve(description_name(choice_.method), points_description(choice_, points, axes), scalar, name_);
+        file_ = compute_curve(method.description, method.input(choice_, points, axes), scalar, name_);
     } catch (const DescriptionError& error) {
         throw InputError(name_, 0, error.what());
     }
@@ -91,7 +90,7 @@ void PathInput::open_description(const PathArguments& arguments, PathUse use,
     if (file_.described && use != PathUse::drawn) {
         require_executable(file_, name_);
     }
-    choice_.method = Method::bezier;
+    choice_.method = "bezier";
     choice_.closed = file_.closed;
     choice_.smooth = arguments.curve.smooth;
     const auto count = static_cast<std::size_t>(file_.axes);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/base/scalar_kind.hpp"
-#include "host_sim/curve/curve_choice.hpp"
+#include "host_sim/curve/curve_arguments.hpp"
 #include "host_sim/curve/curve_file.hpp"
 #include "host_sim/program/input_format.hpp"
 
@@ -27,6 +27,8 @@ enum class PathUse {
     followed, ///< by a real machine: a thread reads its waypoints ahead
 };
 
+struct PointsMethod;
+
 class PathInput {
 public:
     /// Opens the input and reads as far as its axes are known. Throws InputError and UsageError.
@@ -36,7 +38,7 @@ public:
     [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
     /// The curve's name for files and reports.
     [[nodiscard]] std::string_view curve_name() const noexcept {
-        return file_.segments.empty() ? method_name(choice_.method) : std::string_view(file_.method);
+        return file_.segments.empty() ? choice_.method : std::string_view(file_.method);
     }
     [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
     /// Bezier segments to be executed as they stand: a curve file, what a description asks for, or what a method made
@@ -54,7 +56,7 @@ public:
 
 private:
     void open_description(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
-    void compute_from_points(ScalarKind scalar, PathUse use);
+    void compute_from_points(const PointsMethod& method, ScalarKind scalar, PathUse use);
 
     std::string name_;
     std::string path_; // what is opened: /dev/stdin for a file that is standard input
