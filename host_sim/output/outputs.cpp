@@ -12,22 +12,22 @@ namespace splinefeed::host {
 namespace {
 
 template <class Writer>
-std::unique_ptr<SegmentOutput> make(OutputFile& file, const MachineDescription& machine) {
+std::unique_ptr<SegmentOutput> make_output(OutputFile& file, const MachineDescription& machine) {
     return std::make_unique<Writer>(file, machine);
 }
 
 /// One row per output: a new one adds its own.
-constexpr std::array table{
-    SegmentOutputKind{"--segments", "S.csv: the feed segments, in integers", make<SegmentWriter>},
+constexpr std::array segment_kinds{
+    SegmentOutputKind{"--segments", "S.csv: the feed segments, in integers", make_output<SegmentWriter>},
     SegmentOutputKind{"--edges",
                       "E.csv: edges of the step and direction lines, on a virtual clock; docs/reference/files.md",
-                      make<EdgeWriter>},
+                      make_output<EdgeWriter>},
 };
 
 } // namespace
 
 std::span<const SegmentOutputKind> segment_output_kinds() noexcept {
-    return table;
+    return segment_kinds;
 }
 
 Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed) {
@@ -44,9 +44,9 @@ Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed,
     if (!names.trace.empty()) {
         trace_.emplace(trace_file_.emplace(names.trace), machine);
     }
-    for (std::size_t i = 0; i < table.size(); ++i) {
+    for (std::size_t i = 0; i < segment_kinds.size(); ++i) {
         if (!names.of_segments[i].empty()) {
-            of_segments_.push_back(table[i].make(segment_files_.emplace_back(names.of_segments[i]), machine));
+            of_segments_.push_back(segment_kinds[i].make(segment_files_.emplace_back(names.of_segments[i]), machine));
         }
     }
 }

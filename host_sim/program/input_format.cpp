@@ -36,7 +36,7 @@ OpenedRows open_text(const std::string& path, const std::string& name, const std
 }
 
 /// One row per format: a new one adds its own.
-constexpr std::array table{
+constexpr std::array formats{
     InputFormat{"csv", open_text<WaypointReader>},
     InputFormat{"json", nullptr},
 };
@@ -44,7 +44,7 @@ constexpr std::array table{
 } // namespace
 
 const InputFormat* input_format(std::string_view name) noexcept {
-    for (const InputFormat& format : table) {
+    for (const InputFormat& format : formats) {
         if (format.name == name) {
             return &format;
         }
@@ -54,7 +54,7 @@ const InputFormat* input_format(std::string_view name) noexcept {
 
 std::string input_formats(std::string_view between, std::string_view before) {
     std::string names;
-    for (const InputFormat& format : table) {
+    for (const InputFormat& format : formats) {
         names += names.empty() ? "" : between;
         names += before;
         names += format.name;
