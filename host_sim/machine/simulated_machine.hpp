@@ -104,8 +104,8 @@ private:
               std::uint32_t waypoint);
     void trace_row();
 
+    MachineDescription description_;
     PerAxis<AxisAllowance> axis_{};
-    PerAxis<std::string> name_{};
     Allowance feed_{};
     Allowance turning_feed_{}; ///< where rotary axes alone move
     bool mixed_ = false;       ///< rotary axes beside linear ones
