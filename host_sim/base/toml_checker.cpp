@@ -9,14 +9,13 @@
 
 namespace splinefeed::host {
 
-void TomlChecker::require_known(const toml::table& table, std::initializer_list<std::string_view> known,
+void TomlChecker::require_known(const toml::table& table, std::span<const std::string_view> known,
                                 std::string_view where) const {
     for (const auto& [key, value] : table) {
         const std::string_view name = key.str();
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             throw InputError(file_, key.source().begin.line,
-                             fmt::format("unknown key {} in {}{}", in_quotes(name), where,
-                                         suggestion(name, {known.begin(), known.size()})));
+                             fmt::format("unknown key {} in {}{}", in_quotes(name), where, suggestion(name, known)));
         }
     }
 }

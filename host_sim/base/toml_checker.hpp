@@ -39,8 +39,11 @@ public:
     }
     [[noreturn]] void fail_file(std::string_view what) const { throw InputError(file_, 0, what); }
 
+    void require_known(const toml::table& table, std::span<const std::string_view> known, std::string_view where) const;
     void require_known(const toml::table& table, std::initializer_list<std::string_view> known,
-                       std::string_view where) const;
+                       std::string_view where) const {
+        require_known(table, std::span(known.begin(), known.size()), where);
+    }
 
     /// A text that is not empty.
     [[nodiscard]] std::string text(const toml::node& node, std::string_view key) const;

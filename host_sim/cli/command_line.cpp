@@ -46,7 +46,7 @@ void add_input(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("FILE", job.run.path.input, "waypoints (.csv) or a curve (.json); - reads standard input")
         ->required();
     app.add_option("--format", typed.format,
-                   "csv or json: format of the input (default: by its name; of standard input csv)");
+                   input_formats(" or ") + ": format of the input (default: by its name; of standard input csv)");
 }
 
 void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
@@ -56,8 +56,7 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
         app.add_option(name, value, text)->group(group);
     };
     option("--curve", curve.method,
-           "g2, g2-bezier, catmull-rom, catmull-rom-modified, bspline, bspline-interpolation, ferguson, beta-chain or "
-           "polyline (default g2); docs/explanation/curves.md compares them");
+           (listed(curve_names()) + " (default g2); docs/explanation/curves.md compares them").c_str());
     app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
         ->group(group)
         ->disable_flag_override();
@@ -101,7 +100,7 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     app.add_option("-m,--machine", typed.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
     if (executes) {
         app.add_option("--target", job.run.target,
-                       std::string("sim: the simulated machine in this process (default); ") + target_text);
+                       "sim: the simulated machine in this process (default); " + target_help());
         app.add_flag("--home", job.run.wishes.home, "find the references of the axes before the program begins")
             ->disable_flag_override();
         app.add_flag("--probe", job.run.wishes.probe,
@@ -115,10 +114,10 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
                    "E.csv: what an operator does during the run, rows t,hold|resume|abort or t,override,0 to 2");
     const std::string group = "Outputs (- is standard output)";
     app.add_option("--trace", job.run.outputs.trace, "T.csv: positions and speed at every sample period")->group(group);
-    app.add_option("--segments", job.run.outputs.segments, "S.csv: the feed segments, in integers")->group(group);
-    app.add_option("--edges", job.run.outputs.edges,
-                   "E.csv: edges of the step and direction lines, on a virtual clock; docs/reference/files.md")
-        ->group(group);
+    for (std::size_t i = 0; i < segment_output_kinds().size(); ++i) {
+        const SegmentOutputKind& kind = segment_output_kinds()[i];
+        app.add_option(kind.option, job.run.outputs.of_segments[i], kind.help)->group(group);
+    }
     app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments")->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
     app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error")
@@ -176,7 +175,7 @@ std::string explained(const CLI::ParseError& error) {
         return fmt::format("--{} takes no value; leave it out", text.substr(0, text.find(' ')));
     }
     if (text.find("FILE is required") != std::string_view::npos) {
-        return "there is no input; name a .csv or .json file, or - for standard input";
+        return fmt::format("there is no input; name a {} file, or - for standard input", input_formats(" or ", "."));
     }
     return fmt::format("{}; see splinefeed --help", text);
 }
@@ -187,16 +186,13 @@ void take_format(Job& job, const std::string& format) {
                                : dot == std::string::npos ? ""
                                                           : job.run.path.input.substr(dot);
     const std::string kind = format.empty() ? suffix.substr(suffix.empty() ? 0 : 1) : format;
-    if (kind == "csv") {
-        job.run.path.format = InputFormat::csv;
-    } else if (kind == "json") {
-        job.run.path.format = InputFormat::json;
+    if (const InputFormat* const known = input_format(kind)) {
+        job.run.path.format = known;
     } else if (!format.empty()) {
-        refuse_value("--format", format, {"csv", "json"});
+        throw UsageError(fmt::format("--format {}: it must be one of {}", in_quotes(format), input_formats(", ")));
     } else {
-        throw UsageError(
-            fmt::format("{}: the name does not say what it is; name a .csv or .json file, or add --format csv|json",
-                        in_quotes(job.run.path.input)));
+        throw UsageError(fmt::format("{}: the name does not say what it is; name a {} file, or add --format {}",
+                                     in_quotes(job.run.path.input), input_formats(" or ", "."), input_formats("|")));
     }
 }
 
@@ -222,10 +218,11 @@ void take_window(Job& job, const std::string& text) {
 
 // One output at most goes to standard output, and no two to one file.
 void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
-    const std::array<std::pair<const char*, const std::string*>, 4> files{{{"--trace", &job.run.outputs.trace},
-                                                                           {"--segments", &job.run.outputs.segments},
-                                                                           {"--edges", &job.run.outputs.edges},
-                                                                           {"--curve-out", &job.run.outputs.curve}}};
+    std::vector<std::pair<const char*, const std::string*>> files{{"--trace", &job.run.outputs.trace}};
+    for (std::size_t i = 0; i < segment_output_kinds().size(); ++i) {
+        files.emplace_back(segment_output_kinds()[i].option, &job.run.outputs.of_segments[i]);
+    }
+    files.emplace_back("--curve-out", &job.run.outputs.curve);
     const char* on_stdout = nullptr;
     std::error_code ignored;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -342,7 +339,8 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         return job;
     }
     if (job.run.path.input.empty()) {
-        throw UsageError("the input has no name; give a .csv or .json file, or - for standard input");
+        throw UsageError(
+            fmt::format("the input has no name; give a {} file, or - for standard input", input_formats(" or ", ".")));
     }
     if (command.get_name() == "surface") {
         job.command = Command::surface;
@@ -375,7 +373,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (job.command == Command::curve && job.run.outputs.curve.empty()) {
         job.run.outputs.curve = "-";
     }
-    if (job.run.path.format == InputFormat::csv) {
+    if (!job.run.path.format->is_curve()) {
         static_cast<void>(choose_curve(job.run.path.curve));
     }
     return job;

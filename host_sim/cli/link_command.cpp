@@ -27,7 +27,7 @@ double measuring_time(const std::string& text) {
 } // namespace
 
 void add_link_options(CLI::App& app, LinkArguments& arguments) {
-    app.add_option("--target", arguments.target, target_text);
+    app.add_option("--target", arguments.target, target_help());
     app.add_option("-m,--machine", arguments.machine,
                    "machine file (.toml), for modbus and gpio:// (default: three axes)");
     app.add_option("--seconds", arguments.seconds, "how long to measure, 0.1 to 3600 (default 3)");

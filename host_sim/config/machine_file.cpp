@@ -22,7 +22,6 @@ constexpr double counter_limit = 2147483647.0;
 // As MotionLimits::make has them: here with the line of the file.
 constexpr NumberRange velocity_range{0.001, 10000.0, "mm/s"};
 constexpr NumberRange acceleration_range{0.1, 1e6, "mm/s^2"};
-constexpr NumberRange chord_error_range{1e-6, 1.0, "mm"};
 constexpr NumberRange zone_range{0.001, 1e6, "mm"};
 constexpr NumberRange steps_range{0.001, 1e6, "counts per mm"};
 constexpr NumberRange jerk_range{1.0, 1e9, "mm/s^3"};
@@ -80,21 +79,32 @@ private:
             check_.fail_file("there is no [path]; write [path] and below it max_feed_mm_s = 100");
         }
         const toml::table& table = check_.table(*node, "path");
-        check_.require_known(table, {"max_feed_mm_s", "centripetal_mm_s2", "chord_error_mm", "jerk_plan"}, "[path]");
-        settings.max_feed_mm_s = required(table, "max_feed_mm_s", velocity_range, "[path]");
-        if (const toml::node* limit = table.get("centripetal_mm_s2")) {
-            settings.centripetal_mm_s2 = number(*limit, "centripetal_mm_s2", acceleration_range);
+        std::vector<std::string_view> known{"max_feed_mm_s", "jerk_plan"};
+        for (const SpeedLimit& limit : speed_limits) {
+            known.insert(known.end() - 1, limit.key);
         }
-        if (const toml::node* limit = table.get("chord_error_mm")) {
-            settings.chord_error_mm = number(*limit, "chord_error_mm", chord_error_range);
+        check_.require_known(table, known, "[path]");
+        settings.max_feed_mm_s = required(table, "max_feed_mm_s", velocity_range, "[path]");
+        for (const SpeedLimit& limit : speed_limits) {
+            if (const toml::node* given = table.get(limit.key)) {
+                settings.*limit.value = number(*given, limit.key, {limit.low, limit.high, limit.unit});
+            }
         }
         if (const toml::node* tier = table.get("jerk_plan")) {
-            const std::string name = tier->value_or(std::string{});
-            if (name != "optimal" && name != "bounded") {
-                check_.fail(*tier, R"(jerk_plan must be "optimal" or "bounded")");
-            }
-            settings.jerk_tier = name == "bounded" ? JerkTier::bounded : JerkTier::optimal;
+            settings.jerk_tier = jerk_tier(*tier);
         }
+    }
+
+    [[nodiscard]] JerkTier jerk_tier(const toml::node& node) const {
+        const std::string name = node.value_or(std::string{});
+        std::string known;
+        for (const JerkTierName& tier : jerk_tiers) {
+            if (name == tier.name) {
+                return tier.tier;
+            }
+            known += fmt::format("{}\"{}\"", known.empty() ? "" : " or ", tier.name);
+        }
+        check_.fail(node, "jerk_plan must be " + known);
     }
 
     void step(const toml::table& root, StepSettings& settings) const {

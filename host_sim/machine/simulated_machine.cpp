@@ -34,11 +34,11 @@ struct SimulatedMachine::Motion {
 };
 
 SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segments_per_sample, const Options& options)
-    : name_(machine.axis_name), options_(options), axes_(static_cast<unsigned>(machine.settings.axes)),
+    : description_(machine), options_(options), axes_(static_cast<unsigned>(machine.settings.axes)),
       segments_per_sample_(segments_per_sample), queue_(static_cast<std::size_t>(options.queue)) {
     assert(machine.settings.axes >= 1 && machine.settings.axes <= max_axes && segments_per_sample >= 1);
     assert(options.queue >= 1 && options.ticks_per_segment >= 1 && options.ticks_per_segment <= 1024);
-    const bool any_linear = std::any_of(name_.begin(), name_.begin() + axes_, is_linear);
+    const bool any_linear = std::any_of(machine.axis_name.begin(), machine.axis_name.begin() + axes_, is_linear);
     const auto rotary = [&](const AxisSettings& axis) {
         return axis.rotary;
     };
@@ -50,7 +50,7 @@ SimulatedMachine::SimulatedMachine(const MachineDescription& machine, int segmen
         AxisAllowance& axis = axis_[k];
         axis = AxisAllowance(machine.settings.axis[k], machine.travel[k]);
         const double e = axis.velocity.noise;
-        axis.on_path = mixed_ ? !axis.rotary : !any_linear || is_linear(name_[k]);
+        axis.on_path = mixed_ ? !axis.rotary : !any_linear || is_linear(machine.axis_name[k]);
         (axis.on_path ? path_noise_sq : turning_noise_sq) += e * e;
     }
     feed_ = Allowance(machine.settings.max_feed_mm_s, std::sqrt(path_noise_sq));
@@ -144,7 +144,9 @@ void SimulatedMachine::trace_row() {
 bool SimulatedMachine::fail(FaultKind kind, unsigned axis, double time_s, double value, double limit, const char* unit,
                             std::uint32_t waypoint) {
     const bool whole = axis == no_axis;
-    fault_ = Fault{kind,     whole ? std::string{} : name_[axis], time_s, value, limit, unit,
+    fault_ = Fault{kind,     whole ? std::string{} : description_.axis_name[axis],
+                   time_s,   value,
+                   limit,    unit,
                    waypoint, !whole && axis_[axis].rotary};
     return false;
 }

@@ -104,8 +104,8 @@ private:
               std::uint32_t waypoint);
     void trace_row();
 
+    MachineDescription description_;
     PerAxis<AxisAllowance> axis_{};
-    PerAxis<std::string> name_{};
     Allowance feed_{};
     Allowance turning_feed_{}; ///< used if only rotary axes move
     bool mixed_ = false;       ///< rotary axes together with linear ones

@@ -4,6 +4,7 @@
 
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/config/machine_description.hpp"
+#include "host_sim/output/segment_output.hpp"
 
 #include "splinefeed/s5_pulse_train/any_pulse_train.hpp"
 
@@ -12,18 +13,16 @@
 
 namespace splinefeed::host {
 
-/// A header `t_ns,axis,line,value`, then one row per edge, in order of time; t = 0 is the start of the first feed
-/// segment. Each motor of an axis has its own rows; for the second one the axis name ends with 2. No allocation per
-/// row.
-class EdgeWriter {
+/// A header `t_ns,axis,line,value`, one row an edge, in order of time; t = 0 is the start of the first feed segment.
+/// Each motor of an axis has its rows: the second one's axis is named with a 2 behind. No allocation per row.
+class EdgeWriter final : public SegmentOutput {
 public:
     /// Writes the header. The caller commits the file, which must outlive the writer. Throws OutputError from the file,
     /// as every method does, and InputError if the lines cannot carry the machine's limits (step_lines.hpp).
     EdgeWriter(OutputFile& file, const MachineDescription& machine);
 
-    void segment(const FeedSegment& segment);
-    /// Writes the last edges, at the end of all motion. Call it once.
-    void finish();
+    void segment(const FeedSegment& segment) override;
+    void finish() override;
 
 private:
     void drain();

@@ -2,8 +2,33 @@
 #include "host_sim/output/outputs.hpp"
 
 #include "host_sim/base/file_claims.hpp"
+#include "host_sim/output/edge_writer.hpp"
+#include "host_sim/output/segment_writer.hpp"
+
+#include <array>
 
 namespace splinefeed::host {
+
+namespace {
+
+template <class Writer>
+std::unique_ptr<SegmentOutput> make_output(OutputFile& file, const MachineDescription& machine) {
+    return std::make_unique<Writer>(file, machine);
+}
+
+/// One row per output: a new one adds its own.
+constexpr std::array segment_kinds{
+    SegmentOutputKind{"--segments", "S.csv: the feed segments, in integers", make_output<SegmentWriter>},
+    SegmentOutputKind{"--edges",
+                      "E.csv: edges of the step and direction lines, on a virtual clock; docs/reference/files.md",
+                      make_output<EdgeWriter>},
+};
+
+} // namespace
+
+std::span<const SegmentOutputKind> segment_output_kinds() noexcept {
+    return segment_kinds;
+}
 
 Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed) {
     if (!names.curve.empty()) {
@@ -19,11 +44,16 @@ Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed,
     if (!names.trace.empty()) {
         trace_.emplace(trace_file_.emplace(names.trace), machine);
     }
-    if (!names.segments.empty()) {
-        segments_.emplace(segments_file_.emplace(names.segments), machine);
+    for (std::size_t i = 0; i < segment_kinds.size(); ++i) {
+        if (!names.of_segments[i].empty()) {
+            of_segments_.push_back(segment_kinds[i].make(segment_files_.emplace_back(names.of_segments[i]), machine));
+        }
     }
-    if (!names.edges.empty()) {
-        edges_.emplace(edges_file_.emplace(names.edges), machine);
+}
+
+void Outputs::segment(const FeedSegment& segment) {
+    for (const auto& output : of_segments_) {
+        output->segment(segment);
     }
 }
 
@@ -33,13 +63,16 @@ void Outputs::commit(const nlohmann::ordered_json* results) {
     } else if (curve_) {
         curve_->finish();
     }
-    if (edges_) {
-        edges_->finish();
+    for (const auto& output : of_segments_) {
+        output->finish();
     }
-    for (std::optional<OutputFile>* file : {&curve_file_, &trace_file_, &segments_file_, &edges_file_}) {
+    for (std::optional<OutputFile>* file : {&curve_file_, &trace_file_}) {
         if (*file) {
             (*file)->commit();
         }
+    }
+    for (OutputFile& file : segment_files_) {
+        file.commit();
     }
 }
 

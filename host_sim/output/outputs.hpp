@@ -4,22 +4,35 @@
 
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/output/curve_writer.hpp"
-#include "host_sim/output/edge_writer.hpp"
-#include "host_sim/output/segment_writer.hpp"
+#include "host_sim/output/segment_output.hpp"
 #include "host_sim/output/trace_writer.hpp"
 
+#include <deque>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace splinefeed::host {
 
-/// Names of the outputs of a run. Empty: no such output; "-": standard output.
+/// An output that is made of feed segments: its option, what --help says of it, and its writer.
+struct SegmentOutputKind {
+    const char* option;
+    const char* help;
+    /// Writes the head. Throws OutputError, and InputError where the output cannot be made for the machine.
+    std::unique_ptr<SegmentOutput> (*make)(OutputFile& file, const MachineDescription& machine);
+};
+
+/// All of them. A new one is a row in outputs.cpp.
+[[nodiscard]] std::span<const SegmentOutputKind> segment_output_kinds() noexcept;
+
+/// Where the outputs of a run go. Empty: there is no such output; "-": standard output.
 struct OutputNames {
     std::string trace;
-    std::string segments;
-    std::string edges;
     std::string curve;
+    std::vector<std::string> of_segments = std::vector<std::string>(segment_output_kinds().size()); ///< of each kind
     bool prints_summary = true; ///< on standard output
 };
 
@@ -32,22 +45,21 @@ public:
     Outputs(const OutputNames& names, std::string_view method, bool closed, const MachineDescription& machine);
 
     [[nodiscard]] TraceWriter* trace() noexcept { return trace_ ? &*trace_ : nullptr; }
-    [[nodiscard]] SegmentWriter* segments() noexcept { return segments_ ? &*segments_ : nullptr; }
-    [[nodiscard]] EdgeWriter* edges() noexcept { return edges_ ? &*edges_ : nullptr; }
     [[nodiscard]] CurveWriter* curve() noexcept { return curve_ ? &*curve_ : nullptr; }
 
-    /// Completes the files and puts them in place. @pre the writers have received everything
-    /// @param results  of the curve's method, written after its segments; null: none
+    /// The next feed segment of the run, to all outputs that are made of them.
+    void segment(const FeedSegment& segment);
+
+    /// Completes the files and puts them in place. @pre the writers have got everything
+    /// @param results  of the curve's method, beside its segments; null: none
     void commit(const nlohmann::ordered_json* results = nullptr);
 
 private:
     std::optional<OutputFile> trace_file_;
-    std::optional<OutputFile> segments_file_;
-    std::optional<OutputFile> edges_file_;
+    std::deque<OutputFile> segment_files_; // where they are: the writers refer to them
     std::optional<OutputFile> curve_file_;
     std::optional<TraceWriter> trace_;
-    std::optional<SegmentWriter> segments_;
-    std::optional<EdgeWriter> edges_;
+    std::vector<std::unique_ptr<SegmentOutput>> of_segments_; // of each file
     std::optional<CurveWriter> curve_;
 };
 

@@ -4,19 +4,18 @@
 
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/config/machine_description.hpp"
-
-#include "splinefeed/s4_segment_stream/feed_segment.hpp"
+#include "host_sim/output/segment_output.hpp"
 
 namespace splinefeed::host {
 
 /// `#` lines with the units, a header `index,duration_ticks,<axis>_start,<axis>_end,<axis>_v_start,<axis>_v_end,...`,
-/// then one row per segment. No allocation per row. Errors: OutputError from the file.
-class SegmentWriter {
+/// one row a segment. No allocation per row. Errors: OutputError from the file.
+class SegmentWriter final : public SegmentOutput {
 public:
     /// Writes the header. The caller commits the file, which must outlive the writer.
     SegmentWriter(OutputFile& file, const MachineDescription& machine);
 
-    void segment(const FeedSegment& segment);
+    void segment(const FeedSegment& segment) override;
 
 private:
     OutputFile* file_;

@@ -2,7 +2,7 @@
 #include "host_sim/output/summary.hpp"
 
 #include "host_sim/analysis/limit_advice.hpp"
-#include "host_sim/curve/curve_choice.hpp"
+#include "host_sim/curve/curve_arguments.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

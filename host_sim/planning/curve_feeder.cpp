@@ -40,16 +40,6 @@ bool same_point(const WaypointRow& a, const WaypointRow& b) {
 } // namespace
 
 template <Scalar S>
-template <class Curve, class... Arguments>
-void CurveFeeder<S>::build(const Arguments&... arguments) {
-    Curve& curve = curve_.template emplace<Curve>(arguments...);
-    source_ = &curve;
-    if constexpr (!std::is_same_v<Curve, BezierSource<S>>) {
-        waypoints_ = &curve;
-    }
-}
-
-template <Scalar S>
 CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
     const CurveChoice& choice = input.choice();
     CurveOptions<S> options;
@@ -61,7 +51,7 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
     take_tangent(choice.start_tangent, options.axes, tangents.has_start, tangents.start);
     take_tangent(choice.end_tangent, options.axes, tangents.has_end, tangents.end);
     if (input.segments() != nullptr) {
-        build<BezierSource<S>>(*input.segments(), options.axes, choice.smooth);
+        source_ = &segments_.emplace(*input.segments(), options.axes, choice.smooth);
         if (choice.smooth) {
             for (const CurveFile::Segment& segment : input.segments()->segments) {
                 if (segment.degree > 5) {
@@ -69,38 +59,14 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
                                                  segment.degree));
                 }
             }
-            const bool seam = std::get<BezierSource<S>>(curve_).repeats_seam();
-            source_ = &smoothed_.emplace(*source_, seam ? Seam::repeated : Seam::open);
+            source_ = &smoothed_.emplace(*source_, segments_->repeats_seam() ? Seam::repeated : Seam::open);
         }
         rows_read_ = input.points_read();
         finished_ = true;
         return;
     }
-    switch (choice.method) {
-    case Method::g2: build<G2Spline<S>>(options, tangents); break;
-    case Method::g2_bezier: {
-        BetaJoints<S> joints;
-        joints.span_ratio = !choice.beta1.has_value();
-        joints.beta1 = from_double<S>(choice.beta1.value_or(1.0));
-        joints.beta2 = from_double<S>(choice.beta2);
-        if (const Status status = joints.check(); !status.ok()) {
-            throw UsageError(fmt::format("--curve g2-bezier: {}", describe(status.error())));
-        }
-        build<G2Bezier<S>>(options, joints, tangents);
-        break;
-    }
-    case Method::catmull_rom: build<CatmullRom<S>>(options, from_double<S>(choice.tension)); break;
-    case Method::catmull_rom_modified:
-        if (!choice.constant_factor && choice.tension > 2.0) {
-            throw UsageError("--tension of catmull-rom-modified is at most 2 (a length in mm with --factor constant)");
-        }
-        build<CatmullRomModified<S>>(options, from_double<S>(choice.tension),
-                                     choice.constant_factor ? ChordFactor::constant : ChordFactor::chord);
-        break;
-    case Method::bspline: build<BSplineCurve<S>>(options, choice.degree); break;
-    case Method::polyline: build<Polyline<S>>(options); break;
-    default: throw UsageError(fmt::format("--curve {} is not available yet", method_name(choice.method)));
-    }
+    streamed_ = streamed_curve(choice, options, tangents);
+    source_ = waypoints_ = streamed_.curve.get();
     if (choice.smooth) {
         source_ = &smoothed_.emplace(*source_, choice.closed ? Seam::repeated : Seam::open);
     }
@@ -227,11 +193,6 @@ template <Scalar S>
 std::uint64_t CurveFeeder<S>::whole_row(std::uint32_t row) const noexcept {
     const auto ago = static_cast<std::uint32_t>(static_cast<std::uint32_t>(rows_read_) - row);
     return rows_read_ >= ago ? rows_read_ - ago : row;
-}
-
-template <Scalar S>
-std::size_t CurveFeeder<S>::bytes() const {
-    return std::visit([](const auto& curve) { return sizeof(curve); }, curve_);
 }
 
 template class CurveFeeder<double>;

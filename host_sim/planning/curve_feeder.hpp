@@ -3,18 +3,12 @@
 #pragma once
 
 #include "host_sim/curve/bezier_source.hpp"
+#include "host_sim/curve/streamed_curve.hpp"
 #include "host_sim/program/path_input.hpp"
 
-#include "splinefeed/s1_curve/bspline_curve.hpp"
-#include "splinefeed/s1_curve/catmull_rom.hpp"
-#include "splinefeed/s1_curve/catmull_rom_modified.hpp"
-#include "splinefeed/s1_curve/g2_bezier.hpp"
-#include "splinefeed/s1_curve/g2_spline.hpp"
-#include "splinefeed/s1_curve/polyline.hpp"
 #include "splinefeed/s1_curve/smoothed_curve.hpp"
 
 #include <optional>
-#include <variant>
 
 namespace splinefeed {
 struct CounterSeam; // of tests
@@ -58,8 +52,8 @@ public:
     [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept;
     /// The complete index of a row that was read recently.
     [[nodiscard]] std::uint64_t whole_row(std::uint32_t row) const noexcept;
-    /// Memory of the curve stage, in bytes.
-    [[nodiscard]] std::size_t bytes() const;
+    /// Memory of the curve stage.
+    [[nodiscard]] std::size_t bytes() const noexcept { return segments_ ? sizeof *segments_ : streamed_.bytes; }
 
 private:
     friend struct splinefeed::CounterSeam;
@@ -69,18 +63,15 @@ private:
     static constexpr std::size_t remembered = 1024;       ///< number of lines that are remembered
     static constexpr std::size_t most_closed = 4'000'000; ///< waypoints of a closed curve, 400 MB
 
-    template <class Curve, class... Arguments>
-    void build(const Arguments&... arguments);
     void read_all();
     bool next_row(WaypointRow& row, Role& role);
     void finish();
 
-    std::variant<std::monostate, G2Spline<S>, G2Bezier<S>, CatmullRom<S>, CatmullRomModified<S>, BSplineCurve<S>,
-                 Polyline<S>, BezierSource<S>>
-        curve_;
+    std::optional<BezierSource<S>> segments_; // one of the two
+    StreamedCurve<S> streamed_;
     std::optional<SmoothedCurve<S>> smoothed_; // --smooth
     CurveSource<S>* source_ = nullptr;
-    WaypointCurve<S>* waypoints_ = nullptr; // null: the curve is Bezier segments
+    WaypointCurve<S>* waypoints_ = nullptr; // streamed_'s; null: Bezier segments
     PathInput* input_;
     std::unique_ptr<WaypointRows> input_rows_;
     std::vector<WaypointRow> all_;     // closed curves: the whole input

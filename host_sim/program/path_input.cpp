@@ -2,22 +2,18 @@
 #include "host_sim/program/path_input.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/base/input_stream.hpp"
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/program/row_queue.hpp"
 
-#include "host_sim/curve/points_description.hpp"
+#include "host_sim/curve/methods/method_table.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <istream>
 
 namespace splinefeed::host {
 
 namespace {
-
-const std::vector<std::string> every_axis{"x", "y", "z", "a", "b", "c"};
 
 /// Of a curve that is made of all of them: about 2 GB.
 constexpr std::uint64_t most_points = 1'000'000;
@@ -27,28 +23,11 @@ bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::fabs(x - y) < 1e-4; });
 }
 
-/// A waypoint file or a pipe.
-class TableRows final : public WaypointRows {
-public:
-    TableRows(const std::string& path, const std::string& name, const std::vector<std::string>& axes)
-        : file_(path, name), reader_(stream_, name, axes.empty() ? every_axis : axes, axes.empty()) {}
-
-    bool next(WaypointRow& out) override { return reader_.next(out); }
-    [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return reader_.axes(); }
-
-    void stop() noexcept override { file_.stop(); }
-
-private:
-    InputStream file_;
-    std::istream stream_{&file_};
-    WaypointReader reader_;
-};
-
 } // namespace
 
 PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes)
-    : name_(arguments.input), path_(arguments.input), read_ahead_(use == PathUse::followed) {
-    if (arguments.format == InputFormat::json) {
+    : name_(arguments.input), path_(arguments.input), format_(arguments.format), read_ahead_(use == PathUse::followed) {
+    if (format_->is_curve()) {
         open_description(arguments, use, machine_axes);
         return;
     }
@@ -58,15 +37,15 @@ PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vec
     }
     repeatable_ = is_regular_file(path_);
     machine_axes_ = machine_axes;
-    auto rows = std::make_unique<TableRows>(path_, name_, machine_axes_);
-    axes_ = rows->axes();
-    opened_ = std::move(rows);
-    if (needs_all_points(choice_.method)) {
-        compute_from_points(arguments.scalar, use);
+    OpenedRows opened = format_->open(path_, name_, machine_axes_);
+    axes_ = std::move(opened.axes);
+    opened_ = std::move(opened.rows);
+    if (const PointsMethod* const method = points_method(choice_.method)) {
+        compute_from_points(*method, arguments.scalar, use);
     }
 }
 
-void PathInput::compute_from_points(ScalarKind scalar, PathUse use) {
+void PathInput::compute_from_points(const PointsMethod& method, ScalarKind scalar, PathUse use) {
     std::vector<PerAxis<double>> points;
     WaypointRow row;
     while (opened_->next(row)) {
@@ -74,13 +53,13 @@ void PathInput::compute_from_points(ScalarKind scalar, PathUse use) {
             throw InputError(name_, row.line,
                              fmt::format("--curve {} is made of all points at once, and takes at most {}; take another "
                                          "curve, which streams (g2), or fewer points",
-                                         method_name(choice_.method), most_points));
+                                         choice_.method, most_points));
         }
         if (row.feed_mm_s > 0.0 || row.max_feed_mm_s > 0.0 || row.corner != Corner::automatic) {
             throw InputError(name_, row.line,
                              fmt::format("--curve {} takes all points as one smooth curve; leave out the columns "
                                          "feed, max_feed and corner",
-                                         method_name(choice_.method)));
+                                         choice_.method));
         }
         if (points.empty() || !merged(points.back(), row.position)) {
             points.push_back(row.position);
@@ -93,8 +72,7 @@ void PathInput::compute_from_points(ScalarKind scalar, PathUse use) {
     opened_.reset();
     const int axes = static_cast<int>(axes_.size());
     try {
-        file_ =
-            compute_curve(description_name(choice_.method), points_description(choice_, points, axes), scalar, name_);
+        file_ = compute_curve(method.description, method.input(choice_, points, axes), scalar, name_);
     } catch (const DescriptionError& error) {
         throw InputError(name_, 0, error.what());
     }
@@ -112,7 +90,7 @@ void PathInput::open_description(const PathArguments& arguments, PathUse use,
     if (file_.described && use != PathUse::drawn) {
         require_executable(file_, name_);
     }
-    choice_.method = Method::bezier;
+    choice_.method = "bezier";
     choice_.closed = file_.closed;
     choice_.smooth = arguments.curve.smooth;
     const auto count = static_cast<std::size_t>(file_.axes);
@@ -126,8 +104,7 @@ void PathInput::open_description(const PathArguments& arguments, PathUse use,
 }
 
 std::unique_ptr<WaypointRows> PathInput::rows() {
-    std::unique_ptr<WaypointRows> rows =
-        opened_ ? std::move(opened_) : std::make_unique<TableRows>(path_, name_, machine_axes_);
+    std::unique_ptr<WaypointRows> rows = opened_ ? std::move(opened_) : format_->open(path_, name_, machine_axes_).rows;
     return read_ahead_ ? std::make_unique<RowQueue>(std::move(rows)) : std::move(rows);
 }
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "host_sim/base/scalar_kind.hpp"
-#include "host_sim/curve/curve_choice.hpp"
+#include "host_sim/curve/curve_arguments.hpp"
 #include "host_sim/curve/curve_file.hpp"
-#include "host_sim/program/waypoint_rows.hpp"
+#include "host_sim/program/input_format.hpp"
 
 #include <memory>
 #include <string>
@@ -13,12 +13,10 @@
 
 namespace splinefeed::host {
 
-enum class InputFormat { csv, json };
-
-/// The input of a path, and the choice of its curve.
+/// What a path is read from, and how its curve is made.
 struct PathArguments {
     std::string input; ///< a path, or "-"
-    InputFormat format = InputFormat::csv;
+    const InputFormat* format = input_format("csv");
     CurveArguments curve;
     ScalarKind scalar = ScalarKind::fixed;
 };
@@ -29,6 +27,8 @@ enum class PathUse {
     followed, ///< executed by a real machine: a thread reads its waypoints ahead
 };
 
+struct PointsMethod;
+
 class PathInput {
 public:
     /// Opens the input and reads until its axes are known. Throws InputError and UsageError.
@@ -38,7 +38,7 @@ public:
     [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
     /// The curve's name for files and reports.
     [[nodiscard]] std::string_view curve_name() const noexcept {
-        return file_.segments.empty() ? method_name(choice_.method) : std::string_view(file_.method);
+        return file_.segments.empty() ? choice_.method : std::string_view(file_.method);
     }
     [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
     /// Bezier segments that are executed unchanged: from a curve file, from a description, or computed from all
@@ -56,12 +56,13 @@ public:
 
 private:
     void open_description(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
-    void compute_from_points(ScalarKind scalar, PathUse use);
+    void compute_from_points(const PointsMethod& method, ScalarKind scalar, PathUse use);
 
     std::string name_;
     std::string path_; // the path that is opened: /dev/stdin for a file that is standard input
     CurveChoice choice_;
     CurveFile file_;
+    const InputFormat* format_;
     std::vector<std::string> machine_axes_;
     std::vector<std::string> axes_;
     std::unique_ptr<WaypointRows> opened_;

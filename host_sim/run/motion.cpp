@@ -207,12 +207,7 @@ void Motion<S>::read() {
 
 template <Scalar S>
 bool Motion<S>::execute(const FeedSegment& segment) {
-    if (SegmentWriter* const writer = outputs_->segments()) {
-        writer->segment(segment);
-    }
-    if (EdgeWriter* const writer = outputs_->edges()) {
-        writer->segment(segment);
-    }
+    outputs_->segment(segment);
     ++segments_;
     bool rest = trajectory_.activity() == Activity::running;
     bool moves = false;

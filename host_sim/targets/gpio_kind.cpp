@@ -23,6 +23,13 @@ std::string report(const std::string& target, const MachineDescription& machine,
 
 } // namespace
 
-const TargetKind gpio_kind{"gpio:// (docs/reference/gpio.md)", is_gpio_address, check_gpio, make, report};
+extern const TargetKind gpio_kind{
+    .names = "gpio:// (docs/reference/gpio.md)",
+    .help = "gpio:///dev/gpiochip0?map=FILE.toml: step lines",
+    .is = is_gpio_address,
+    .check = check_gpio,
+    .make = make,
+    .report = report,
+};
 
 } // namespace splinefeed::host

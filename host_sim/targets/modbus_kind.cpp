@@ -38,7 +38,14 @@ std::string report(const std::string& target, const MachineDescription& machine,
 
 } // namespace
 
-const TargetKind modbus_kind{"modbus, modbus-tcp://, modbus-rtu:// (docs/reference/modbus.md)", is_modbus, check_modbus,
-                             make_modbus_target, report};
+extern const TargetKind modbus_kind{
+    .names = "modbus, modbus-tcp://, modbus-rtu:// (docs/reference/modbus.md)",
+    .help = "modbus: each axis's drive as the machine file names it; modbus-tcp://HOST:PORT?unit=1 or "
+            "modbus-rtu:///dev/ttyUSB0?baud=115200: one drive with all axes",
+    .is = is_modbus,
+    .check = check_modbus,
+    .make = make_modbus_target,
+    .report = report,
+};
 
 } // namespace splinefeed::host

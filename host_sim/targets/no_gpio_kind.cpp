@@ -29,6 +29,13 @@ std::string report(const std::string& /*target*/, const MachineDescription& /*ma
 
 } // namespace
 
-const TargetKind gpio_kind{"gpio:// (docs/reference/gpio.md)", is_gpio_address, check, make, report};
+extern const TargetKind gpio_kind{
+    .names = "gpio:// (docs/reference/gpio.md)",
+    .help = "gpio:///dev/gpiochip0?map=FILE.toml: step lines",
+    .is = is_gpio_address,
+    .check = check,
+    .make = make,
+    .report = report,
+};
 
 } // namespace splinefeed::host

@@ -10,11 +10,24 @@
 
 namespace splinefeed::host {
 
+// Each is in a source of its own. A new one adds its name here, and in the table.
+extern const TargetKind modbus_kind;
+extern const TargetKind gpio_kind; // of a build without libgpiod: one that says so
+
 namespace {
 
 const std::array kinds{&modbus_kind, &gpio_kind};
 
 } // namespace
+
+std::string target_help() {
+    std::string text;
+    for (const TargetKind* const kind : kinds) {
+        text += text.empty() ? "" : "; ";
+        text += kind->help;
+    }
+    return text;
+}
 
 const TargetKind& target_kind(const std::string& target) {
     std::string names = "sim";

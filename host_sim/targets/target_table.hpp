@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// target_table: the kinds of targets that --target may name, in addition to the simulated machine. A new kind is a row
-// here.
+// target_table: the kinds of targets that --target may name, beside the simulated machine. A new one is a row in
+// target_table.cpp.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
@@ -13,8 +13,9 @@
 namespace splinefeed::host {
 
 struct TargetKind {
-    std::string_view names; ///< the forms that a user may write, and the page that explains them
-    /// Whether a target has the form of this kind.
+    std::string_view names; ///< what a user may write, and the page that says more
+    std::string_view help;  ///< what --help says
+    /// Whether a target is meant to be one of these.
     bool (*is)(const std::string& target);
     /// Throws AddressError if the address is wrong, and UsageError if this build does not support it.
     void (*check)(const std::string& target);
@@ -26,13 +27,8 @@ struct TargetKind {
                           double seconds);
 };
 
-extern const TargetKind modbus_kind;
-extern const TargetKind gpio_kind; // in a build without libgpiod: a kind that reports this
-
-/// The text of --help about targets.
-inline constexpr const char* target_text =
-    "modbus: each axis's drive as the machine file names it; modbus-tcp://HOST:PORT?unit=1 or "
-    "modbus-rtu:///dev/ttyUSB0?baud=115200: one drive with all axes; gpio:///dev/gpiochip0?map=FILE.toml: step lines";
+/// What --help says of all kinds.
+[[nodiscard]] std::string target_help();
 
 /// The kind of a target whose address is right. Throws UsageError, with the option, if there is none.
 /// @pre not "sim"

@@ -2,6 +2,16 @@
 # Builds the images of a microcontroller. To be sourced.
 # shellcheck shell=bash
 
+# board_of CPU: QEMU's board with that processor
+board_of() {
+    case $1 in
+        cortex-m0) echo microbit ;;
+        cortex-m3) echo mps2-an385 ;;
+        cortex-m4f) echo mps2-an386 ;;
+        *) return 1 ;;
+    esac
+}
+
 # build_images CPU BUILD_DIRECTORY
 build_images() {
     local without=

@@ -9,11 +9,7 @@ source tests/arm/build.sh
 cpu=$1
 host=$2
 need arm-none-eabi-g++ qemu-system-arm
-case $cpu in
-    cortex-m0) board=microbit ;;
-    cortex-m3) board=mps2-an385 ;;
-    cortex-m4f) board=mps2-an386 ;;
-esac
+board=$(board_of "$cpu")
 
 build=build/arm-$cpu
 build_images "$cpu" "$build"
@@ -24,7 +20,7 @@ forbidden+='|^__aeabi_(c?d[^i]|[fiul]+2d$)|df[23x]$|^__(float|extend|fix|trunc).
 # The board of the Cortex-M0 has 16 KB of RAM: what needs more runs on a Cortex-M3, which executes the same instructions.
 run() {
     local on=$board
-    if [[ $cpu == cortex-m0 && $1 == *_jerk.elf ]]; then on=mps2-an385; fi
+    if [[ $cpu == cortex-m0 && $1 == *_jerk.elf ]]; then on=$(board_of cortex-m3); fi
     timeout 60 qemu-system-arm -M "$on" -nographic -monitor none -serial none -chardev stdio,id=host \
         -semihosting-config enable=on,target=native,chardev=host -kernel "$1"
 }

@@ -10,8 +10,7 @@ cpu=$1
 host=$2
 need arm-none-eabi-g++ qemu-system-arm
 # The code of a Cortex-M0 runs on a Cortex-M3, too; the board of the former has no SysTick.
-board=mps2-an385
-if [[ $cpu == cortex-m4f ]]; then board=mps2-an386; fi
+board=$(board_of "${cpu/%m0/m3}")
 
 build=build/arm-$cpu
 build_images "$cpu" "$build"
@@ -33,7 +32,7 @@ for source in crossing monotone_parts step_dir_sequencer; do
         exit 1
     fi
 done
-output=$(timeout 60 qemu-system-arm -M $board -icount shift=10,sleep=off -nographic -monitor none -serial none \
+output=$(timeout 60 qemu-system-arm -M "$board" -icount shift=10,sleep=off -nographic -monitor none -serial none \
     -chardev stdio,id=host -semihosting-config enable=on,target=native,chardev=host -kernel "$image")
 echo "$output"
 here=$(said 3 '^hash of [a-z]+ +0x' "$output")

@@ -23,6 +23,7 @@ const char* describe(Error error) noexcept {
         return "float has too few digits for a jerk limit; --scalar fixed or double, or no max_jerk_mm_s3";
     case Error::centripetal_out_of_range: return "centripetal_mm_s2 must lie between 0.1 and 1000000";
     case Error::chord_error_out_of_range: return "chord_error_mm must lie between 0.000001 and 1";
+    case Error::speed_limit_out_of_range: return "a limit of the speed is out of its range; speed_limits has them";
     case Error::sample_period_out_of_range: return "sample_period_us must be a whole number from 50 to 100000";
     case Error::segments_per_sample_invalid:
         return "segments_per_sample must be 0 to 8 and divide the sample period into whole eighths of a us";

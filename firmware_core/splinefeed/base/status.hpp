@@ -27,6 +27,7 @@ enum class Error : std::uint8_t {
     jerk_in_float,
     centripetal_out_of_range,
     chord_error_out_of_range,
+    speed_limit_out_of_range,
     sample_period_out_of_range,
     segments_per_sample_invalid,
     period_too_short,

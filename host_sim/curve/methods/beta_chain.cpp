@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/curve/methods/method_table.hpp"
+#include "host_sim/curve/methods/points_input.hpp"
 
 #include "splinefeed/splines/beta_chain.hpp"
 
@@ -203,6 +204,36 @@ DescribedCurve describe_beta_chain(const json& input) {
         points.push_back(joint_json(joint, chain, unit));
     }
     return curve;
+}
+
+// The first polygon takes degree + 1 points, each further one the degree - 2 that G2 leaves free.
+nlohmann::json chain_input(const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes) {
+    nlohmann::json input;
+    input["closed"] = choice.closed;
+    constexpr std::size_t order = 2;
+    const auto degree = static_cast<std::size_t>(choice.degree);
+    const std::size_t free = degree - order;
+    const std::size_t first = choice.closed ? 0 : degree + 1;
+    if (points.size() < first || (free > 0 && (points.size() - first) % free != 0) ||
+        (free == 0 && points.size() != first)) {
+        throw DescriptionError(fmt::format(
+            "there are {} points; a chain of degree {} takes {} for its first polygon and {} for each one after it",
+            points.size(), degree, first, free));
+    }
+    input["degree"] = choice.degree;
+    input["order"] = order;
+    input["first_polygon"] = choice.closed ? json(nullptr) : points_json(points, 0, first, axes);
+    json polygons = json::array();
+    for (std::size_t i = first; i < points.size(); i += free) {
+        polygons.push_back(points_json(points, i, free, axes));
+    }
+    json betas = json::array();
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        betas.push_back({{"beta1", choice.beta1.value_or(1.0)}, {"beta2", choice.beta2}});
+    }
+    input["free_points"] = polygons;
+    input["betas"] = betas;
+    return input;
 }
 
 template DescribedCurve describe_beta_chain<double>(const json&);

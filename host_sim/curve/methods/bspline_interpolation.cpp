@@ -3,6 +3,7 @@
 
 #include "host_sim/curve/methods/joint_report.hpp"
 #include "host_sim/curve/methods/method_table.hpp"
+#include "host_sim/curve/methods/points_input.hpp"
 #include "splinefeed/splines/knot_insertion.hpp"
 #include "splinefeed/splines/spline_parameters.hpp"
 
@@ -258,6 +259,32 @@ DescribedCurve describe_bspline_interpolation(const nlohmann::json& input) {
                                              request.kind.degree));
     }
     return curve;
+}
+
+nlohmann::json interpolation_input(const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes) {
+    nlohmann::json input;
+    input["closed"] = choice.closed;
+    input["points"] = points_json(points, 0, points.size(), axes);
+    constexpr std::array<const char*, 3> parameters{"uniform", "chord", "centripetal"};
+    input["degree"] = choice.degree;
+    input["parameters"] = parameters[static_cast<std::size_t>(choice.parameterization)];
+    const bool tangents = choice.start_tangent && choice.end_tangent;
+    if (choice.start_tangent.has_value() != choice.end_tangent.has_value()) {
+        throw DescriptionError("bspline-interpolation takes both end tangents, or none; give --start-tangent and "
+                               "--end-tangent");
+    }
+    if (choice.knots) {
+        input["knots"] = *choice.knots == "uniform" ? "uniform" : tangents ? "average_tangents" : "average";
+    } else if (tangents) {
+        input["knots"] = "average_tangents";
+    } else if (choice.closed) {
+        input["knots"] = choice.degree % 2 == 1 ? "params" : "midpoints";
+    } else {
+        input["knots"] = "average";
+    }
+    input["derivative_start"] = tangent_json(choice.start_tangent, axes);
+    input["derivative_end"] = tangent_json(choice.end_tangent, axes);
+    return input;
 }
 
 template DescribedCurve describe_bspline_interpolation<double>(const nlohmann::json&);

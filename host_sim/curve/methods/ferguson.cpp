@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/curve/methods/method_table.hpp"
+#include "host_sim/curve/methods/points_input.hpp"
 
 #include "splinefeed/splines/ferguson.hpp"
 
@@ -180,6 +181,18 @@ DescribedCurve describe_ferguson(const json& input) {
         results["first_vanishing_tangent"] = report.first_vanishing + 1;
     }
     return curve;
+}
+
+nlohmann::json ferguson_input(const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes) {
+    nlohmann::json input;
+    input["closed"] = choice.closed;
+    input["points"] = points_json(points, 0, points.size(), axes);
+    input["lambda"] = choice.lambda;
+    input["mu"] = choice.mu ? json(*choice.mu) : json("auto");
+    input["delta"] = choice.curvature_sign ? json(*choice.curvature_sign) : json("auto");
+    input["t_start"] = tangent_json(choice.start_tangent, axes);
+    input["t_end"] = tangent_json(choice.end_tangent, axes);
+    return input;
 }
 
 template DescribedCurve describe_ferguson<double>(const json&);

@@ -10,6 +10,26 @@
 
 namespace splinefeed::host {
 
+// A method's own results and its curve, from the "input" of a description. Each is in a source of its own, and throws
+// DescriptionError.
+template <Scalar S>
+DescribedCurve describe_beta_chain(const nlohmann::json& input);
+template <Scalar S>
+DescribedCurve describe_boehm(const nlohmann::json& input);
+template <Scalar S>
+DescribedCurve describe_bspline_interpolation(const nlohmann::json& input);
+template <Scalar S>
+DescribedCurve describe_catmull_rom(const nlohmann::json& input);
+template <Scalar S>
+DescribedCurve describe_catmull_rom_modified(const nlohmann::json& input);
+template <Scalar S>
+DescribedCurve describe_ferguson(const nlohmann::json& input);
+
+// That input, from waypoints.
+nlohmann::json chain_input(const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes);
+nlohmann::json ferguson_input(const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes);
+nlohmann::json interpolation_input(const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes);
+
 namespace {
 
 using Describe = DescribedCurve (*)(const nlohmann::json&);
@@ -39,6 +59,26 @@ constexpr std::array table{
         describe_ferguson<double>},
 };
 
+constexpr std::array of_points{
+    PointsMethod{{.name = "bspline-interpolation",
+                  .takes = takes_degree | takes_parameterization | takes_knots | takes_tangents | takes_smooth,
+                  .lowest_degree = 1,
+                  .highest_degree = max_degree},
+                 "bspline_interpolation",
+                 interpolation_input},
+    PointsMethod{
+        {.name = "ferguson", .takes = takes_joints | takes_tangents | takes_smooth}, "ferguson", ferguson_input},
+    PointsMethod{{.name = "beta-chain",
+                  .takes = takes_degree | takes_betas,
+                  .usual = Parameterization::uniform,
+                  .lowest_beta2 = -1e3,
+                  .lowest_degree = 2,
+                  .highest_degree = max_degree,
+                  .passes_waypoints = false},
+                 "beta_chain",
+                 chain_input},
+};
+
 const Row* find(std::string_view method) noexcept {
     for (const Row& row : table) {
         if (row.name == method) {
@@ -49,6 +89,19 @@ const Row* find(std::string_view method) noexcept {
 }
 
 } // namespace
+
+std::span<const PointsMethod> points_methods() noexcept {
+    return of_points;
+}
+
+const PointsMethod* points_method(std::string_view curve_name) noexcept {
+    for (const PointsMethod& row : of_points) {
+        if (row.method.name == curve_name) {
+            return &row;
+        }
+    }
+    return nullptr;
+}
 
 std::vector<std::string_view> described_methods() {
     std::vector<std::string_view> names;

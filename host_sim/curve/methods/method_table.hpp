@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: MIT
-// MethodTable: the methods that a description may name, and the functions that compute them.
+// MethodTable: the methods that a description may name, and those of all points that --curve may name. A new one adds
+// its functions and rows in method_table.cpp.
 #pragma once
 
 #include "host_sim/base/scalar_kind.hpp"
+#include "host_sim/curve/methods/curve_choice.hpp"
+#include "host_sim/curve/methods/curve_method.hpp"
 #include "host_sim/curve/methods/description.hpp"
+
+#include <span>
 
 namespace splinefeed::host {
 
-/// A method's own results and its curve, computed from the "input" of a description. Throws DescriptionError.
-template <Scalar S>
-[[nodiscard]] DescribedCurve describe_catmull_rom(const nlohmann::json& input);
-template <Scalar S>
-[[nodiscard]] DescribedCurve describe_beta_chain(const nlohmann::json& input);
-template <Scalar S>
-[[nodiscard]] DescribedCurve describe_boehm(const nlohmann::json& input);
-template <Scalar S>
-[[nodiscard]] DescribedCurve describe_bspline_interpolation(const nlohmann::json& input);
+/// A method that sees all points at once, as --curve names it.
+struct PointsMethod {
+    CurveMethod method;
+    std::string_view description; ///< its name in descriptions
+    /// The "input" of a description of it. Throws DescriptionError where the points do not make up what it needs.
+    /// @param axes  numbers a point
+    nlohmann::json (*input)(const CurveChoice& choice, const std::vector<PerAxis<double>>& points, int axes);
+};
 
-template <Scalar S>
-[[nodiscard]] DescribedCurve describe_catmull_rom_modified(const nlohmann::json& input);
-template <Scalar S>
-[[nodiscard]] DescribedCurve describe_ferguson(const nlohmann::json& input);
+[[nodiscard]] std::span<const PointsMethod> points_methods() noexcept;
+/// The one of that name; null: there is none, or it streams.
+[[nodiscard]] const PointsMethod* points_method(std::string_view curve_name) noexcept;
 
 /// Names of the methods, as descriptions spell them.
 [[nodiscard]] std::vector<std::string_view> described_methods();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
+#include "splinefeed/base/status.hpp"
 
 #include <cstdint>
 
@@ -39,7 +40,14 @@ enum class JerkTier : std::uint8_t {
     optimal  ///< JerkPlan: in double
 };
 
-/// A machine, as its file states it. For the optional limits zero means "no such limit".
+/// As machine files name it.
+struct JerkTierName {
+    const char* name;
+    JerkTier tier;
+};
+inline constexpr JerkTierName jerk_tiers[] = {{"optimal", JerkTier::optimal}, {"bounded", JerkTier::bounded}};
+
+/// A machine as its file states it. Zero means "no such limit" for the optional ones.
 struct MachineSettings {
     int axes = 3;
     PerAxis<AxisSettings> axis{};
@@ -52,7 +60,23 @@ struct MachineSettings {
     JerkTier jerk_tier = JerkTier::optimal;
 };
 
-/// Values that all axes of a machine have together.
+/// A limit of the speed along the path that a machine file may state in [path]: it lies between `low` and `high`, or is
+/// 0.
+struct SpeedLimit {
+    const char* key;
+    double MachineSettings::*value;
+    double low;
+    double high;
+    const char* unit;
+    Error error;
+};
+/// One row per limit: a new one adds its own, with Error::speed_limit_out_of_range.
+inline constexpr SpeedLimit speed_limits[] = {
+    {"centripetal_mm_s2", &MachineSettings::centripetal_mm_s2, 0.1, 1e6, "mm/s^2", Error::centripetal_out_of_range},
+    {"chord_error_mm", &MachineSettings::chord_error_mm, 1e-6, 1.0, "mm", Error::chord_error_out_of_range},
+};
+
+/// What all axes of a machine have together.
 struct AxisTotals {
     double acceleration_sq = 0.0; ///< sum of squares
     double softest = 1e9;         ///< smallest acceleration

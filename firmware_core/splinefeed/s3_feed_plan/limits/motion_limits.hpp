@@ -234,11 +234,10 @@ constexpr Error machine_error(const MachineSettings& settings) noexcept {
     if (!within(settings.max_feed_mm_s, 0.001, 10000.0)) {
         return Error::feed_out_of_range;
     }
-    if (settings.centripetal_mm_s2 != 0.0 && !within(settings.centripetal_mm_s2, 0.1, 1e6)) {
-        return Error::centripetal_out_of_range;
-    }
-    if (settings.chord_error_mm != 0.0 && !within(settings.chord_error_mm, 1e-6, 1.0)) {
-        return Error::chord_error_out_of_range;
+    for (const SpeedLimit& limit : speed_limits) {
+        if (const double value = settings.*limit.value; value != 0.0 && !within(value, limit.low, limit.high)) {
+            return limit.error;
+        }
     }
     if (settings.sample_period_us < 50 || settings.sample_period_us > 100000) {
         return Error::sample_period_out_of_range;

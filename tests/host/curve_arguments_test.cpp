@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/curve/curve_choice.hpp"
+#include "host_sim/curve/curve_arguments.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "refusal.hpp"
@@ -18,15 +18,28 @@ std::string refusal(const CurveArguments& arguments) {
 
 TEST_CASE("Curve options have defaults that depend on the method") {
     const CurveChoice usual = choose_curve({});
-    CHECK(usual.method == Method::g2);
+    CHECK(usual.method == "g2");
     CHECK(usual.parameterization == Parameterization::chordal);
     CHECK(usual.corner_angle_deg == 60.0);
     CurveArguments rom;
     rom.method = "catmull-rom";
     CHECK(choose_curve(rom).parameterization == Parameterization::centripetal);
     CHECK(choose_curve(rom).tension == 0.5);
-    CHECK(method_name(Method::bezier) == "bezier");
-    CHECK(method_name(choose_curve(rom).method) == "catmull-rom");
+    CHECK(choose_curve(rom).method == "catmull-rom");
+}
+
+TEST_CASE("Each method that --curve may name is chosen by its name") {
+    const std::vector<std::string_view> names = curve_names();
+    CHECK(names.size() >= 9);
+    for (const std::string_view name : names) {
+        CurveArguments arguments;
+        arguments.method = name;
+        CHECK(choose_curve(arguments).method == name);
+    }
+    CHECK(passes_waypoints("g2"));
+    CHECK(passes_waypoints("bezier"));
+    CHECK_FALSE(passes_waypoints("bspline"));
+    CHECK_FALSE(passes_waypoints("beta-chain"));
 }
 
 TEST_CASE("Curve options are read") {

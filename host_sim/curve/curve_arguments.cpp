@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/curve/curve_choice.hpp"
+#include "host_sim/curve/curve_arguments.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/option_number.hpp"
+#include "host_sim/curve/methods/method_table.hpp"
+#include "host_sim/curve/streamed_curve.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,75 +15,28 @@ namespace splinefeed::host {
 
 namespace {
 
-/// What a method may be told.
-enum Option : unsigned {
-    takes_nothing = 0U,
-    takes_parameterization = 1U,
-    takes_tension = 1U << 1U,
-    takes_factor = 1U << 2U,
-    takes_corners = 1U << 3U,
-    takes_tangents = 1U << 4U,
-    takes_degree = 1U << 5U,
-    takes_knots = 1U << 6U,
-    takes_betas = 1U << 7U,
-    takes_joints = 1U << 8U, ///< lambda, mu, curvature sign
-    takes_smooth = 1U << 9U,
-};
-
-/// One row per method: a new method adds its own.
-struct Row {
-    Method method;
-    std::string_view name;
-    unsigned takes;
-    Parameterization usual = Parameterization::chordal;
-    double usual_tension = 0.5;
-    double highest_tension = 10.0;
-    int lowest_degree = 3;
-    int highest_degree = 3;
-    double usual_corner_angle_deg = 60.0;
-};
-
-constexpr std::array table{
-    Row{Method::g2, "g2", takes_parameterization | takes_corners | takes_tangents},
-    Row{Method::g2_bezier, "g2-bezier", takes_betas | takes_corners | takes_tangents},
-    Row{Method::catmull_rom, "catmull-rom", takes_parameterization | takes_tension | takes_corners | takes_smooth,
-        Parameterization::centripetal},
-    // With --factor constant the tension is a length.
-    Row{Method::catmull_rom_modified, "catmull-rom-modified",
-        takes_tension | takes_factor | takes_corners | takes_smooth, Parameterization::chordal, 1.0, 65536.0},
-    Row{Method::bspline, "bspline", takes_degree | takes_corners | takes_smooth, Parameterization::uniform, 0.5, 10.0,
-        2, 3, 180.0}, // a polygon of control points turns sharply where the curve does not
-    Row{Method::bspline_interpolation, "bspline-interpolation",
-        takes_degree | takes_parameterization | takes_knots | takes_tangents | takes_smooth, Parameterization::chordal,
-        0.5, 10.0, 1, max_degree},
-    Row{Method::ferguson, "ferguson", takes_joints | takes_tangents | takes_smooth},
-    Row{Method::beta_chain, "beta-chain", takes_degree | takes_betas, Parameterization::uniform, 0.5, 10.0, 2,
-        max_degree},
-    Row{Method::polyline, "polyline", takes_nothing},
-};
-
-std::string available() {
-    std::array<std::string_view, table.size()> names{};
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        names[i] = table[i].name;
-    }
-    return listed(names);
-}
-
-const Row& find_method(std::string_view name) {
-    for (const Row& row : table) {
-        if (row.name == name) {
-            return row;
+const CurveMethod* find_method(std::string_view name) noexcept {
+    for (const StreamingMethod& row : streaming_methods()) {
+        if (row.method.name == name) {
+            return &row.method;
         }
     }
+    const PointsMethod* const of_points = points_method(name);
+    return of_points == nullptr ? nullptr : &of_points->method;
+}
+
+const CurveMethod& known_method(std::string_view name) {
+    if (const CurveMethod* const method = find_method(name)) {
+        return *method;
+    }
+    const std::string available = listed(curve_names());
     if (name == "bezier") {
         throw UsageError(
             "--curve bezier: a Bezier curve is read from a curve file (.json), without --curve; from waypoints "
             "there are " +
-            available());
+            available);
     }
-    throw UsageError(
-        fmt::format("--curve {}: there is no such method; available are {}", in_quotes(name), available()));
+    throw UsageError(fmt::format("--curve {}: there is no such method; available are {}", in_quotes(name), available));
 }
 
 Parameterization read_parameterization(std::string_view text) {
@@ -121,19 +76,26 @@ Tangent read_tangent(std::string_view option, std::string_view text, bool deriva
 
 } // namespace
 
-std::string_view method_name(Method method) noexcept {
-    for (const Row& row : table) {
-        if (row.method == method) {
-            return row.name;
-        }
+std::vector<std::string_view> curve_names() {
+    std::vector<std::string_view> names;
+    for (const StreamingMethod& row : streaming_methods()) {
+        names.push_back(row.method.name);
     }
-    return "bezier";
+    for (const PointsMethod& row : points_methods()) {
+        names.push_back(row.method.name);
+    }
+    return names;
+}
+
+bool passes_waypoints(std::string_view curve_name) noexcept {
+    const CurveMethod* const method = find_method(curve_name);
+    return method == nullptr || method->passes_waypoints;
 }
 
 CurveChoice choose_curve(const CurveArguments& arguments) {
-    const Row& row = find_method(arguments.method.value_or("g2"));
+    const CurveMethod& row = known_method(arguments.method.value_or("g2"));
     CurveChoice choice;
-    choice.method = row.method;
+    choice.method = row.name;
     choice.closed = arguments.closed;
     choice.smooth = arguments.smooth;
     choice.parameterization = row.usual;
@@ -191,8 +153,7 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
     }
     take(arguments.tension, takes_tension, "--tension", 0.0, row.highest_tension, "the tension", choice.tension);
     take(arguments.beta1, takes_betas, "--beta1", 1e-3, 1e3, "the bias", choice.beta1);
-    take(arguments.beta2, takes_betas, "--beta2", row.method == Method::beta_chain ? -1e3 : 0.0, 1e3, "the tension",
-         choice.beta2);
+    take(arguments.beta2, takes_betas, "--beta2", row.lowest_beta2, 1e3, "the tension", choice.beta2);
     // What FergusonJoint takes in every scalar.
     take(arguments.lambda, takes_joints, "--lambda", 0.0625, 16.0, "lambda", choice.lambda);
     if (!arguments.mu || *arguments.mu != "auto") {
@@ -210,7 +171,7 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
         if (choice.closed) {
             throw UsageError(fmt::format("{} and --closed exclude each other: a closed curve has no ends", option));
         }
-        *tangent = read_tangent(option, **text, needs_all_points(choice.method));
+        *tangent = read_tangent(option, **text, points_method(choice.method) != nullptr);
     }
     return choice;
 }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/input_format.hpp"
+
+#include "host_sim/base/input_stream.hpp"
+
+#include <array>
+#include <istream>
+
+namespace splinefeed::host {
+
+namespace {
+
+/// Rows of a file or a pipe, by a reader of its text.
+template <class Reader>
+class TextRows final : public WaypointRows {
+public:
+    TextRows(const std::string& path, const std::string& name, const std::vector<std::string>& axes)
+        : file_(path, name), reader_(stream_, name, axes.empty() ? every_axis : axes, axes.empty()) {}
+
+    bool next(WaypointRow& out) override { return reader_.next(out); }
+    [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return reader_.axes(); }
+
+    void stop() noexcept override { file_.stop(); }
+
+private:
+    InputStream file_;
+    std::istream stream_{&file_};
+    Reader reader_;
+};
+
+template <class Reader>
+OpenedRows open_text(const std::string& path, const std::string& name, const std::vector<std::string>& machine_axes) {
+    auto rows = std::make_unique<TextRows<Reader>>(path, name, machine_axes);
+    std::vector<std::string> axes = rows->axes();
+    return {std::move(rows), std::move(axes)};
+}
+
+/// One row per format: a new one adds its own.
+constexpr std::array formats{
+    InputFormat{"csv", open_text<WaypointReader>},
+    InputFormat{"json", nullptr},
+};
+
+} // namespace
+
+const InputFormat* input_format(std::string_view name) noexcept {
+    for (const InputFormat& format : formats) {
+        if (format.name == name) {
+            return &format;
+        }
+    }
+    return nullptr;
+}
+
+std::string input_formats(std::string_view between, std::string_view before) {
+    std::string names;
+    for (const InputFormat& format : formats) {
+        names += names.empty() ? "" : between;
+        names += before;
+        names += format.name;
+    }
+    return names;
+}
+
+} // namespace splinefeed::host
