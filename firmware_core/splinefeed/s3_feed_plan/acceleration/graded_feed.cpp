@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// In a cell of length L that is entered with v and has one pseudo-jerk u, v^2 changes by at most about 2 L sqrt(u L /
-// v) ... The speed v can change by itself within the way sqrt(v^3 / J): a third of that is fine enough
-// (docs/explanation/feed.md has what other parts give). At the ends of a leg, where v = 0, ArcLength grades cells away
-// from the stop.
+// A jerk-limited plan has one pseudo-jerk u for each cell, with |u| <= 2 J / sqrt(b) for the largest b in the cell. So
+// in a cell of length L beside a bend the speed v can change much only where L is not longer than the way in which a
+// jerk J changes v by itself, sqrt(v^3 / J). docs/explanation/feed.md shows what the constant below does. A motion from
+// rest needs no such parts: ArcLength grades the cells near a stop.
 #include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
 
 #include "splinefeed/base/assertion.hpp"
@@ -12,9 +12,9 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double graded_part = 0.3;    // of sqrt(v^3 / J)
-constexpr double shortest_mm = 4e-6;   // no part is cut that is shorter: Fixed has no digits for it
-constexpr double least_share = 0x1p-8; // nor into less than that of its cell
+constexpr double graded_part = 0.3;    // length of a part, in sqrt(v^3 / J)
+constexpr double shortest_mm = 4e-6;   // a shorter part is not cut: Fixed has no digits for its halves
+constexpr double least_share = 0x1p-8; // of the cell: a smaller part is not cut
 
 } // namespace
 

@@ -8,9 +8,9 @@
 
 namespace splinefeed {
 
-/// A jerk-limited plan gives each cell one pseudo-jerk, so in a cell that is long for its speed it can hardly leave
-/// that speed: the cells beside a short bend have to be short, whatever comes farther away. Memory: a few words. Cost:
-/// a root and three divisions a part, and cutting it where it is a part.
+/// Delivers the cells of a FeedPlan to a plan that limits the jerk, in parts that are short where the speed is low.
+/// Without that the cells beside a short bend would keep the low speed of the bend. Memory: a few words. Cost per part:
+/// two roots, a few divisions, and cutting the part if it is not a whole cell.
 template <Scalar S>
 class GradedFeed {
 public:
@@ -19,8 +19,8 @@ public:
         source.lead();
     }
 
-    /// Gets the next part of the path: `take(cell, cap_sq, exit_sq)` is called with it if there is one, the largest v^2
-    /// anywhere in it that the machine allows, and the acceleration-limited v^2 at its end.
+    /// Calls `take(cell, cap_sq, exit_sq)` with the next part of the path if there is one. `cap_sq` is the largest v^2
+    /// anywhere in the part that the machine allows, `exit_sq` the acceleration-limited v^2 at its end.
     template <class Take>
     Pull next(UnderrunPolicy underrun, Take&& take) noexcept {
         if (const Pull pull = prepare(underrun); pull != Pull::item) {
@@ -54,7 +54,7 @@ private:
 
     FeedPlan<S>* source_;
     const MotionLimits<S>* limits_;
-    S from_{}; // of the front cell, what is before it was taken
+    S from_{}; // where the next part of the front cell begins
 };
 
 } // namespace splinefeed
