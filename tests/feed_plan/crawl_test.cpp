@@ -8,7 +8,7 @@
 
 using namespace splinefeed_test;
 
-TEMPLATE_TEST_CASE("crawling keeps every limit on the worst of paths, and no more than that", "[feed_plan][smooth]",
+TEMPLATE_TEST_CASE("crawling keeps every limit on the worst of paths, and no more than that", "[feed_plan][limits]",
                    double, Fixed) {
     using S = TestType;
     Random random(70411);

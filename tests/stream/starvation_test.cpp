@@ -212,3 +212,31 @@ TEMPLATE_TEST_CASE("a hold while the input is late stops the motion", "[stream][
         require_limits(run, machines[i]);
     }
 }
+
+TEMPLATE_TEST_CASE("what is known is travelled to its end, be it one short move behind a corner",
+                   "[stream][starvation][jerk]", double, Fixed) {
+    using S = TestType;
+    for (const JerkTier tier : {JerkTier::optimal, JerkTier::bounded}) {
+        for (const double length : {0.004, 0.02, 0.1, 0.5}) {
+            MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+            machine.jerk_tier = tier;
+            machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e5;
+            const auto limits = MotionLimits<S>::make(machine).value();
+            // The last move is kept back until the next is known, and no stop lies before it
+            const BezierPath path(
+                {line_shape(2, 3, {5.0, 0.0}), line_shape(2, 3, {0.0, length}), line_shape(2, 3, {0.0, 5.0})});
+            const SteeredRun least = run_steered<S>({path[0], path[1]}, machine, 64, {});
+            ListSource<S> list(segments_of<S>(path, {}), 0, 0);
+            GatedSource<S> source(list, path.size() + 1);
+            source.release(path.size());
+            AnyTrajectory<S> any(source, limits, 64);
+            SteeredRun run;
+            run_steered<S>(any.trajectory(), {}, run, {}, UnderrunPolicy::drain);
+            CAPTURE(static_cast<int>(tier), length, run.segments.size(), least.segments.size());
+            REQUIRE(any.trajectory().state() == Pull::starved);
+            require_limits(run, machine);
+            CHECK(run.segments.back().end == least.segments.back().end);
+            CHECK(run.segments.size() <= least.segments.size() + least.segments.size() / 20 + 10);
+        }
+    }
+}
