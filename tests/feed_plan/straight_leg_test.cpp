@@ -6,6 +6,8 @@
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"
 
+#include <optional>
+
 using namespace splinefeed_test;
 
 namespace {

@@ -5,6 +5,8 @@
 #include "support/emitted.hpp"
 #include "support/steered_run.hpp"
 
+#include <cmath>
+
 using namespace splinefeed_test;
 
 TEMPLATE_TEST_CASE("an override that hardly changes makes the motion no slower, and no feed is exceeded",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How many random runs a test makes: a few, and half of them under sanitizers, which take several times as long. ./check --long runs
-// twenty times as many, in the build by g++ with assertions (`gcc_tests`).
+// How many random runs a test makes: a few, and half of them under sanitizers, which take several times as long.
+// ./check --long runs twenty times as many, in the build by g++ with assertions (`gcc_tests`).
 #pragma once
 
 #include <cstdlib>
