@@ -95,11 +95,18 @@ Pull SmoothPlan<S>::refill(UnderrunPolicy underrun) noexcept {
 }
 
 // The motion brakes, and the input is late: it may be for the cells at the end that are not prepared, as the average
-// may go beyond them. If that end is to be a rest, they are known as well.
+// may go beyond them. If that end is to be a rest, they are known as well. Where K is at a cap before it, what is
+// braked for is that cap, whatever comes behind it.
 template <Scalar S>
 bool SmoothPlan<S>::ends_here() noexcept {
     if (!(profile_segment_.exit_sq < profile_segment_.entry_sq) || window_.prepared() == window_.size()) {
         return false;
+    }
+    for (std::size_t i = 1; i < known(); ++i) {
+        const S cap = smaller(ahead(i).bound_sq, smaller(wanted_sq(ahead(i)), wanted_sq(ahead(i - 1))));
+        if (!(ahead(i).override_controllable_sq < cap)) {
+            return false;
+        }
     }
     window_.end_here();
     window_.prepare(false);
