@@ -74,7 +74,8 @@ JerkUse use_of(const Trial& trial, const SpeedState& entry, double u) {
 
 } // namespace
 
-TEST_CASE("from every state inside some motion leads to an exit, within the limits all along the cell") {
+TEST_CASE("from every state inside some motion leads to an exit, within the limits all along the cell",
+          "[feed_plan][jerk]") {
     Trials trials;
     CAPTURE(seed);
     Trial trial;
@@ -106,7 +107,7 @@ TEST_CASE("from every state inside some motion leads to an exit, within the limi
     CHECK(most > 0.98L);
 }
 
-TEST_CASE("few states are left out from which an exit is reached, and none by the range of u") {
+TEST_CASE("few states are left out from which an exit is reached, and none by the range of u", "[feed_plan][jerk]") {
     Trials trials;
     CAPTURE(seed);
     Trial trial;
@@ -135,7 +136,83 @@ TEST_CASE("few states are left out from which an exit is reached, and none by th
     CHECK(left_out < reached / 100);
 }
 
-TEST_CASE("where nothing is expected but rest, no exit in motion is reached") {
+TEST_CASE("what keeps the limits all along the cell with a twentieth to spare is allowed", "[feed_plan][jerk]") {
+    Trials trials;
+    CAPTURE(seed);
+    Trial trial;
+    int within = 0;
+    int allowed = 0;
+    for (int i = 0; i < 3000; ++i) {
+        trials.next(trial);
+        const ControllableSet reach(trial.passage, trial.expected);
+        const double l = trial.cell.length_mm;
+        for (int j = 0; j < 20; ++j) {
+            const SpeedState exit = trials.inside(trial.exits);
+            const double steep = 2.0 * JerkLimits{}.jerk / std::sqrt(std::max(exit.b, 1.0));
+            const double u = trials.between(-steep, steep);
+            const SpeedState entry{exit.b - (exit.slope - 0.5 * u * l) * l, exit.slope - u * l};
+            const auto expected = [](double b, double of) { // nearly; what is far from that is taken for more
+                return std::abs(b - of) < 0.2 * of;
+            };
+            if (!expected(entry.b, trial.expected.entry_sq) || !expected(exit.b, trial.expected.exit_sq)) {
+                continue;
+            }
+            const JerkUse use = use_of(trial, entry, u);
+            if (use.jerk <= 0.95L && use.acceleration <= 0.95L) {
+                const CurvatureRange range = reach.range(entry, trial.exits);
+                ++within;
+                allowed += range.low <= u && u <= range.high ? 1 : 0;
+            }
+        }
+    }
+    CAPTURE(within, allowed);
+    CHECK(within > 300);
+    CHECK(allowed > within - within / 50);
+}
+
+TEST_CASE("the states of a node are those with speeds and accelerations that both its cells allow",
+          "[feed_plan][jerk]") {
+    Trials trials;
+    CAPTURE(seed);
+    int allowed = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Wave wave{{trials.between(0, 1), trials.between(0, 0.5)}, {trials.between(0, 2), trials.between(0, 4)}};
+        const double at = trials.between(0, 10);
+        const double lengths[] = {trials.between(0.05, 1.0), trials.between(0.05, 1.0)};
+        JerkCell cells[] = {wave.cell(at - lengths[0], lengths[0], JerkLimits{}),
+                            wave.cell(at, lengths[1], JerkLimits{})};
+        cells[0].cap_sq = trials.between(100.0, 10000.0);
+        cells[1].cap_sq = trials.between(100.0, 10000.0);
+        const double most = trials.between(50.0, 10000.0);
+        const StatePolygon states = states_at({cells, false}, {cells + 1, false}, most);
+        // The largest part that is used of what it is between; b of a parabola from 0 to the cap has a middle of its
+        // Bezier points between them, too, whatever is at the other end
+        const auto used = [&](const SpeedState& state) {
+            double part =
+                std::max({std::abs(2.0 * state.b / std::min({most, cells[0].cap_sq, cells[1].cap_sq}) - 1.0),
+                          std::abs(2.0 * (state.b - 0.5 * state.slope * lengths[0]) / cells[0].cap_sq - 1.0),
+                          std::abs(2.0 * (state.b + 0.5 * state.slope * lengths[1]) / cells[1].cap_sq - 1.0)});
+            for (const AxisEnd& end : cells[1].end[0]) {
+                const double acceleration = end.second * state.b + 0.5 * end.first * state.slope;
+                part = std::max(part, std::abs(acceleration) / JerkLimits{}.acceleration);
+            }
+            return part;
+        };
+        for (const SpeedState& corner : states.corners()) {
+            REQUIRE(used(corner) <= 1.0 + 1e-6);
+        }
+        for (int j = 0; j < 200; ++j) {
+            const SpeedState state{trials.between(0.0, most), trials.between(-1.0, 1.0) * 2.0 * most / lengths[j % 2]};
+            if (used(state) < 1.0 - 1e-6) {
+                REQUIRE(outside(states, state) <= 1.0);
+                ++allowed;
+            }
+        }
+    }
+    CHECK(allowed > 1000);
+}
+
+TEST_CASE("where nothing is expected but rest, no exit in motion is reached", "[feed_plan][jerk]") {
     Trials trials;
     Trial trial;
     trials.next(trial);

@@ -40,7 +40,7 @@ long double jerk_from_rest(const JerkCell& cell, unsigned moving, long double la
 
 } // namespace
 
-TEST_CASE("from rest and to rest the jerk is kept all along the cell, and used") {
+TEST_CASE("from rest and to rest the jerk is kept all along the cell, and used", "[feed_plan][jerk]") {
     std::mt19937 random{71};
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     CAPTURE("seed 71");
@@ -58,7 +58,7 @@ TEST_CASE("from rest and to rest the jerk is kept all along the cell, and used")
     CHECK(least > 0.7L);
 }
 
-TEST_CASE("on a straight line a cell from rest takes the time of constant jerk") {
+TEST_CASE("on a straight line a cell from rest takes the time of constant jerk", "[feed_plan][jerk]") {
     const JerkCell cell = Wave{{0.0, 0.0}, {1.0, 1.0}}.cell(0.0, 0.5, {1e9, 1000.0, 1e9});
     const double along = 1000.0 / std::cos(0.3); // the first axis has more to do
     const double t = std::cbrt(6.0 * 0.5 / along);
@@ -66,7 +66,7 @@ TEST_CASE("on a straight line a cell from rest takes the time of constant jerk")
     CHECK(std::sqrt(cell.largest_from_rest(0)) == Approx(0.5 * along * t * t));
 }
 
-TEST_CASE("the limits of a move keep those of the axes, whatever the motion") {
+TEST_CASE("the limits of a move keep those of the axes, whatever the motion", "[feed_plan][jerk]") {
     std::mt19937 random{72};
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     CAPTURE("seed 72");

@@ -14,6 +14,7 @@ using namespace splinefeed_test;
 namespace {
 
 constexpr std::uint32_t seed = 91;
+constexpr double about = 1e-3; // of a time that motions are compared by
 
 std::vector<JerkNode> leg_along(const Wave& wave, double start, std::size_t cells, double length,
                                 const JerkLimits& limits) {
@@ -82,7 +83,7 @@ double checked(const std::vector<JerkNode>& nodes, bool moving) {
 
 } // namespace
 
-TEST_CASE("legs along curves keep every limit, from rest and in motion") {
+TEST_CASE("legs along curves keep every limit, from rest and in motion", "[feed_plan][jerk]") {
     std::mt19937 random{seed};
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     CAPTURE(seed);
@@ -94,23 +95,24 @@ TEST_CASE("legs along curves keep every limit, from rest and in motion") {
         const Wave wave{{unit(random), 0.5 * unit(random)}, {unit(random), 2.0 * unit(random)}};
         const double length = 0.1 + 0.1 * unit(random);
         std::vector<JerkNode> nodes = leg_along(wave, 0.0, 120, length, limits);
-        REQUIRE(JerkLeg(nodes, nullptr, 0).plan());
-        checked(nodes, false);
+        JerkLeg whole(nodes, nullptr, 0);
+        REQUIRE(whole.plan());
+        CHECK(whole.seconds() == Approx(checked(nodes, false)).epsilon(about));
 
         // From the middle of the plan on, with what is known of it.
         std::vector<JerkNode> rest(nodes.begin() + 40, nodes.end());
         const SpeedState start = rest.front().state;
-        if (JerkLeg(rest, &start, rest.size() - 1).plan()) {
+        if (JerkLeg leg(rest, &start, rest.size() - 1); leg.plan()) {
             REQUIRE(rest.front().state.b == Approx(start.b));
             REQUIRE(rest.front().state.slope == Approx(start.slope));
-            checked(rest, true);
+            CHECK(leg.seconds() == Approx(checked(rest, true)).epsilon(about));
             ++moving_plans;
         }
     }
     CHECK(moving_plans >= 19);
 }
 
-TEST_CASE("a straight line takes the time of the seven phases, and little more") {
+TEST_CASE("a straight line takes the time of the seven phases, and little more", "[feed_plan][jerk]") {
     const Wave line{{0.0, 0.0}, {1.0, 1.0}};
     const double share = std::cos(0.3); // of the axis that has most to do
     JerkLimits limits;
@@ -139,7 +141,7 @@ TEST_CASE("a straight line takes the time of the seven phases, and little more")
     }
 }
 
-TEST_CASE("a leg from rest where much more was expected") {
+TEST_CASE("a leg from rest where much more was expected", "[feed_plan][jerk]") {
     // As after a hold: nothing in the speeds of the acceleration-limited plan says that the leg begins at rest.
     std::mt19937 random(seed + 1);
     std::uniform_real_distribution<double> unit(0.0, 1.0);

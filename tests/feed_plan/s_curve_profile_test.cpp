@@ -42,7 +42,7 @@ double least_seconds(const Sample& s) {
 
 } // namespace
 
-TEST_CASE("a straight move ends where it should, within its limits, in the least time", "[feed_plan]") {
+TEST_CASE("a straight move ends where it should, within its limits, in the least time", "[feed_plan][jerk]") {
     Random random(seed);
     for (int run = 0; run < 20000; ++run) {
         const Sample s = random_sample(random);
@@ -63,7 +63,7 @@ TEST_CASE("a straight move ends where it should, within its limits, in the least
     }
 }
 
-TEST_CASE("travelled piece by piece a straight move is the same", "[feed_plan]") {
+TEST_CASE("travelled piece by piece a straight move is the same", "[feed_plan][jerk]") {
     Random random(seed + 1);
     for (int run = 0; run < 2000; ++run) {
         const Sample s = random_sample(random);
@@ -95,7 +95,7 @@ TEST_CASE("travelled piece by piece a straight move is the same", "[feed_plan]")
     }
 }
 
-TEST_CASE("two thirds of a power", "[feed_plan]") {
+TEST_CASE("two thirds of a power", "[feed_plan][jerk]") {
     Random random(seed + 2);
     for (int run = 0; run < 1000; ++run) {
         const double x = random.decades(1e-30, 1e30);
@@ -139,7 +139,7 @@ void require_within(const SCurveProfile& move, const MoveLimits& limits, double 
 
 } // namespace
 
-TEST_CASE("in motion: the nearest rest, and a rest further on", "[feed_plan]") {
+TEST_CASE("in motion: the nearest rest, and a rest further on", "[feed_plan][jerk]") {
     Random random(seed + 7);
     for (int run = 0; run < 2000; ++run) {
         Sample s = random_sample(random);
@@ -164,7 +164,7 @@ TEST_CASE("in motion: the nearest rest, and a rest further on", "[feed_plan]") {
     }
 }
 
-TEST_CASE("in motion: a move that is interrupted for nothing goes on as it was", "[feed_plan]") {
+TEST_CASE("in motion: a move that is interrupted for nothing goes on as it was", "[feed_plan][jerk]") {
     Random random(seed + 8);
     for (int run = 0; run < 500; ++run) {
         const Sample s = random_sample(random);

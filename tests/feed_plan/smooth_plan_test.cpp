@@ -117,3 +117,27 @@ TEMPLATE_TEST_CASE("no cell of a motion to be averaged is passed faster than the
         CHECK(seconds >= least * 0.999L);
     }
 }
+
+TEMPLATE_TEST_CASE("along a straight line a motion to be averaged takes the time of the trapezoid",
+                   "[feed_plan][smooth]", double, Fixed) {
+    using S = TestType;
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+    machine.jerk_tier = JerkTier::bounded;
+    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e5;
+    for (const double length : {13.0, 17.3, 40.0, 100.0}) {
+        Averaged<S> planned({line_shape(2, 1, {length, 0.0})}, machine, 256);
+        Real seconds = 0.0L;
+        while (planned.plan.prepare() == Pull::item) {
+            seconds += exact(planned.plan.ticks()) / exact(planned.limits.segments_per_s);
+            planned.plan.advance();
+            while (planned.plan.can_release()) {
+                planned.plan.release();
+            }
+        }
+        const Real v = exact(planned.limits.feed_mm_s);
+        const Real least = real(length) / v + v / exact(planned.limits.acceleration_mm_s2[0]);
+        CAPTURE(length, static_cast<double>(seconds), static_cast<double>(least));
+        CHECK(seconds >= least * 0.9999L);
+        CHECK(seconds <= least * 1.002L);
+    }
+}

@@ -75,10 +75,14 @@ TEST_CASE("a cell's demand is that of all that the average can reach", "[feed_pl
         while (moves_behind(cells, end - 1)) {
             ++end;
         }
+        PathDerivativeBounds<double> most;          // of no more than a hundredth of the reach beyond it
         for (std::size_t j = first; j < end; ++j) { // of the same leg
             const Real way = static_cast<Real>(units_between(cells[i].start, cells[j].start)) * 0x1p-40L;
             const Real from = way - real(cells[i].cell.length_mm);
             const Real to = way + real(cells[j].cell.length_mm);
+            if (from < 1.01L * ahead && -to < 1.01L * behind) {
+                most.join(PathDerivativeBounds<double>::of(cells[j].cell, limits, 1e4, 1e4), 2);
+            }
             if (from < ahead && -to < behind) {
                 const auto own = PathDerivativeBounds<double>::of(cells[j].cell, limits, 1e4, 1e4);
                 for (unsigned k = 0; k < 2; ++k) {
@@ -91,6 +95,55 @@ TEST_CASE("a cell's demand is that of all that the average can reach", "[feed_pl
                 ++wide;
             }
         }
+        for (unsigned k = 0; k < 2; ++k) {
+            CAPTURE(seed, i, k);
+            REQUIRE(cells[i].demand.axis[k].second <= most.axis[k].second);
+            REQUIRE(cells[i].demand.axis[k].third_with <= most.axis[k].third_with);
+            REQUIRE(cells[i].demand.axis[k].third_against <= most.axis[k].third_against);
+        }
     }
     CHECK(wide > 2 * cells.size() / 3); // more than the cells themselves
+}
+
+TEST_CASE("in a window that is too small the average stays in what is known", "[feed_plan][smooth]") {
+    MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);
+    machine.jerk_tier = JerkTier::bounded;
+    machine.axis[0].max_jerk_mm_s3 = 1e4; // averaged over up to 100 ms, in which it goes 10 mm
+    const auto limits = MotionLimits<double>::make(machine).value();
+    ListSource<double> source(BezierPath(1000, line_shape(1, 3, {0.05})));
+    const Planned<double> planned = plan_of<double>(source, limits, 4096);
+    std::vector<SmoothCell<double>> storage(24);
+    SmoothWindow<double> window(limits, storage);
+    std::size_t slower = 0;
+    for (const PlannedCell<double>& c : planned.cells) {
+        while (!window.has_room()) {
+            window.prepare(false);
+            const std::size_t known = window.prepared();
+            window.prepare(true);
+            REQUIRE(window.prepared() > window.front());
+            slower += window.prepared() > known ? 1U : 0U;
+            std::vector<SmoothCell<double>> cells;
+            Real length = 0.0L;
+            for (std::size_t i = 0; i < window.size(); ++i) {
+                cells.push_back(window.at(i));
+                length += real(cells[i].cell.length_mm);
+            }
+            // And what comes behind it, at the speed at its end
+            cells.push_back(cells.back());
+            cells.back().cell.length_mm *= 1e6;
+            cells.back().bound_ticks *= 1e6;
+            for (std::size_t i = 0; i < window.prepared(); ++i) {
+                length -= real(cells[i].cell.length_mm); // behind cell i
+                const Real ticks = static_cast<Real>(cells[i].smoothing_q8) / 256.0L;
+                CAPTURE(i, window.size(), static_cast<double>(length), static_cast<double>(ticks));
+                REQUIRE((i < window.front() || reach(cells, i, ticks, false) <= length * 1.001L));
+            }
+            window.pass_front();
+            if (window.front() > 4) {
+                window.release();
+            }
+        }
+        window.append(c.cell, c.cap_sq, 1e4, c.exit_sq);
+    }
+    CHECK(slower > 20);
 }

@@ -53,7 +53,7 @@ bool convex(const StatePolygon& polygon) {
 
 } // namespace
 
-TEST_CASE("what is left of a polygon is what all cuts allow") {
+TEST_CASE("what is left of a polygon is what all cuts allow", "[feed_plan][jerk]") {
     Sets sets;
     CAPTURE(seed);
     int inside = 0;
@@ -82,7 +82,7 @@ TEST_CASE("what is left of a polygon is what all cuts allow") {
     CHECK(inside > 1000);
 }
 
-TEST_CASE("a cut says how many corners stay where they are") {
+TEST_CASE("a cut says how many corners stay where they are", "[feed_plan][jerk]") {
     Sets sets;
     CAPTURE(seed);
     for (int trial = 0; trial < 1000; ++trial) {
@@ -98,7 +98,7 @@ TEST_CASE("a cut says how many corners stay where they are") {
     }
 }
 
-TEST_CASE("a simplified polygon is a part of what it was, and a large one") {
+TEST_CASE("a simplified polygon is a part of what it was, and a large one", "[feed_plan][jerk]") {
     Sets sets;
     CAPTURE(seed);
     for (int trial = 0; trial < 200; ++trial) {
@@ -121,7 +121,7 @@ TEST_CASE("a simplified polygon is a part of what it was, and a large one") {
     }
 }
 
-TEST_CASE("a state that is included, and all that was, is in the polygon") {
+TEST_CASE("a state that is included, and all that was, is in the polygon", "[feed_plan][jerk]") {
     Sets sets;
     CAPTURE(seed);
     int outside = 0;
@@ -149,7 +149,7 @@ TEST_CASE("a state that is included, and all that was, is in the polygon") {
     CHECK(outside > 200);
 }
 
-TEST_CASE("points and lines have bounds, and are cut") {
+TEST_CASE("points and lines have bounds, and are cut", "[feed_plan][jerk]") {
     StatePolygon line;
     line.append({0.0, 0.0});
     line.append({1.0, -1.0});

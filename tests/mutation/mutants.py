@@ -44,7 +44,7 @@ class Build:
             self.candidates[module.name] = chosen(every, seed, 2 * count)
         self.count, self.left_out, self.mutants = count, set(), {}
         self.targets = sorted({program for module in modules for program, _ in module.tests})
-        self.options = [] if any(module.host for module in modules) else ["-DSPLINEFEED_HOST=OFF"]
+        self.options = [f"-DSPLINEFEED_HOST={'ON' if any(module.host for module in modules) else 'OFF'}"]  # of a folder that is kept, too
 
     def number(self):
         """Gives each mutant that is left a number: of each module the first `count`."""
@@ -79,7 +79,7 @@ class Build:
             failed = {site.name for _, site in self.mutants.values()
                       if any(file.endswith(site.file) and int(line) == site.line + 1 for file, line in named)}
             if not failed:
-                print(made.stdout[-4000:])
+                print(made.stdout[-4000:], made.stderr[-4000:])
                 break
             self.left_out |= failed
         raise SystemExit("the mutants do not compile")

@@ -100,3 +100,21 @@ TEMPLATE_TEST_CASE("a jerk limit that is reached within the last digit of a cell
         require_ends(stream, machine, {}, {59.7, 40.0});
     }
 }
+
+TEMPLATE_TEST_CASE("a bend that begins behind the first of all cells", "[stream][jerk]", double, Fixed) {
+    // From a straight line into a circle: the acceleration jumps, but for a stop.
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+    machine.jerk_tier = JerkTier::optimal;
+    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e5;
+    for (const double length : {0.01, 0.03, 0.1, 0.3}) {
+        for (const double radius : {0.1, 0.3, 1.0, 3.0}) {
+            const double handle = 0.5522847498 * radius;
+            const BezierPath path{line_shape(2, 1, {length, 0.0}),
+                                  cubic_shape(handle, 0.0, radius, radius - handle, radius, radius)};
+            CAPTURE(length, radius);
+            const Stream stream = stream_of<TestType>(path, machine, 64);
+            require_limits(stream, machine);
+            require_ends(stream, machine, {}, {length + radius, radius});
+        }
+    }
+}

@@ -143,6 +143,28 @@ TEMPLATE_TEST_CASE("an averaged straight move takes the time of the S-curve", "[
     }
 }
 
+TEMPLATE_TEST_CASE("an override of a long straight line is followed by an averaged motion at once",
+                   "[stream][jerk][smooth][steering]", double, Fixed) {
+    MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);
+    machine.jerk_tier = JerkTier::bounded;
+    machine.axis[0].max_jerk_mm_s3 = 1e5;
+    const BezierPath path{line_shape(1, 1, {300.0})};
+    for (const std::size_t at : {1000U, 1300U, 1700U}) { // anywhere in cells of 16 mm
+        const SteeredRun run = run_steered<TestType>(
+            path, machine, 64,
+            {{0, Order::override_feed, 0.1}, {at, Order::override_feed, 1.0}, {at + 1000, Order::override_feed, 0.1}});
+        const auto speed = [&](std::size_t i) {
+            return static_cast<Real>(run.segments[i].start_velocity[0]) / (units_per_mm(machine.axis[0]) * 1e-3L);
+        };
+        CAPTURE(at);
+        require_limits(run, machine);
+        // 90 ms for 90 mm/s, 10 ms of averaging, and a few segments
+        CHECK(speed(at) < 10.0L * 1.001L);
+        CHECK(speed(at + 105) > 99.0L);
+        CHECK(speed(at + 1105) < 10.0L * 1.001L);
+    }
+}
+
 TEMPLATE_TEST_CASE("axes without a jerk limit beside one that takes ten seconds to its acceleration",
                    "[stream][jerk][smooth]", double, Fixed) {
     // The averaged time is up to 10 s: times the largest jerk it is beyond Fixed, which an assertion notices.

@@ -212,3 +212,83 @@ TEMPLATE_TEST_CASE("a hold while the input is late stops the motion", "[stream][
         require_limits(run, machines[i]);
     }
 }
+
+TEMPLATE_TEST_CASE("what is known is travelled to its end, be it one short move", "[stream][starvation][jerk]", double,
+                   Fixed) {
+    using S = TestType;
+    for (const JerkTier tier : {JerkTier::optimal, JerkTier::bounded}) {
+        for (const double length : {0.004, 0.02, 0.1, 0.5}) {
+            for (const double before : {0.0, 5.0}) { // to a corner
+                MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+                machine.jerk_tier = tier;
+                machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e5;
+                const auto limits = MotionLimits<S>::make(machine).value();
+                BezierPath known{line_shape(2, 3, {0.0, length})};
+                if (before > 0.0) {
+                    known.insert(known.begin(), line_shape(2, 3, {before, 0.0}));
+                }
+                const SteeredRun least = run_steered<S>(known, machine, 64, {});
+                // The last move is kept back until the next is known, and no stop lies before it
+                BezierPath path = known;
+                path.push_back(line_shape(2, 3, {0.0, 5.0}));
+                ListSource<S> list(segments_of<S>(path, {}), 0, 0);
+                GatedSource<S> source(list, path.size() + 1);
+                source.release(path.size());
+                AnyTrajectory<S> any(source, limits, 64);
+                SteeredRun run;
+                run_steered<S>(any.trajectory(), {}, run, {}, UnderrunPolicy::drain);
+                CAPTURE(static_cast<int>(tier), length, before, run.segments.size(), least.segments.size());
+                REQUIRE(any.trajectory().state() == Pull::starved);
+                REQUIRE_FALSE(run.segments.empty());
+                require_limits(run, machine);
+                CHECK(run.segments.back().end == least.segments.back().end);
+                CHECK(run.segments.size() <= least.segments.size() + least.segments.size() / 20 + 10);
+            }
+        }
+    }
+}
+
+TEST_CASE("a motion of which the input comes in time rests for no end of it that was known",
+          "[stream][starvation][jerk]") {
+    constexpr std::pair<JerkTier, double> cases[] = {
+        {JerkTier::optimal, 5.0},  {JerkTier::optimal, 20.0}, {JerkTier::optimal, 50.0}, {JerkTier::bounded, 5.0},
+        {JerkTier::bounded, 20.0}, {JerkTier::bounded, 50.0}, {JerkTier::bounded, 99.0}};
+    for (const auto& [tier, slow] : cases) {
+        MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);
+        machine.jerk_tier = tier;
+        machine.axis[0].max_jerk_mm_s3 = 2e5;
+        const auto limits = MotionLimits<double>::make(machine).value();
+        BezierPath path(90, line_shape(1, 3, {0.5}));
+        for (std::size_t i = 0; i < path.size(); i += 6) {
+            path[i].max_feed_mm_s = slow;
+        }
+        ListSource<double> list(segments_of<double>(path, {}), 0, 0);
+        GatedSource<double> source(list, path.size());
+        source.release(24); // twice the way that braking takes
+        AnyTrajectory<double> any(source, limits, 256);
+        SteeredRun run;
+        FeedSegment segment;
+        Real released = 24.0L;
+        while (any.trajectory().next(segment, UnderrunPolicy::drain) == Pull::item) {
+            run.segments.push_back(segment);
+            const Real at = static_cast<Real>(segment.end[0]) / units_per_mm(machine.axis[0]);
+            while (released < at / 0.5L + 24.0L) { // one by one: each is the last that is known for a while
+                source.release(1);
+                released += 1.0L;
+            }
+        }
+        CAPTURE(static_cast<int>(tier), slow, run.segments.size());
+        REQUIRE(any.trajectory().state() == Pull::finished);
+        require_limits(run, machine);
+        std::size_t rests = 0;
+        for (const FeedSegment& s : run.segments) {
+            rests += ends_at_rest(s, 1) ? 1U : 0U;
+        }
+        CAPTURE(rests, any.slow_legs());
+        CHECK(any.slow_legs() < rests);
+        CHECK((any.slow_legs() > 0) == (rests > 1)); // as those of the optimal plan may be
+        if (tier == JerkTier::bounded) {
+            CHECK(run.segments.size() <= run_steered<double>(path, machine, 256, {}).segments.size() + 1);
+        }
+    }
+}

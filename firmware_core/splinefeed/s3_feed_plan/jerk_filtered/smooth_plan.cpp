@@ -82,11 +82,18 @@ Pull SmoothPlan<S>::refill(UnderrunPolicy underrun) noexcept {
 }
 
 // The motion brakes, and the input is late. The reason may be the cells at the end that are not prepared, because the
-// average may go beyond them. If that end is taken as a standstill, they are known as well.
+// average may go beyond them. If that end is taken as a standstill, they are known as well. Where K is at a cap before
+// the end, the motion brakes for that cap, whatever comes behind it.
 template <Scalar S>
 bool SmoothPlan<S>::ends_here() noexcept {
     if (!(profile_segment_.exit_sq < profile_segment_.entry_sq) || window_.prepared() == window_.size()) {
         return false;
+    }
+    for (std::size_t i = 1; i < known(); ++i) {
+        const S cap = smaller(ahead(i).bound_sq, smaller(wanted_sq(ahead(i)), wanted_sq(ahead(i - 1))));
+        if (!(ahead(i).override_controllable_sq < cap)) {
+            return false;
+        }
     }
     window_.end_here();
     window_.prepare(false);
