@@ -19,7 +19,7 @@ public:
     explicit MotorAxis(const ShaftParameters& parameters = {}) noexcept;
 
     /// The shaft and its reference are here, at rest.
-    void place(double position_counts) noexcept;
+    void preset_position(double position_counts) noexcept;
     /// Another reference; the shaft stays, what lies between becomes following error.
     void refer(double reference_counts) noexcept;
     /// Nothing drives the shaft: it stands where it is, and the reference with it.

@@ -15,7 +15,7 @@ struct MoveLimits {
 class PositionGenerator {
 public:
     /// Here, at rest.
-    void place(double position_counts) noexcept;
+    void preset_position(double position_counts) noexcept;
     /// To the target from wherever it is and however fast. Where it cannot stop before the target any more it
     /// overshoots and comes back.
     void move(double target_counts, const MoveLimits& limits) noexcept;

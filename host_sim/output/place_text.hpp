@@ -14,8 +14,8 @@ public:
     explicit PlaceText(std::string_view before = "; the machine stands at", int decimals = 4)
         : text_(before), decimals_(decimals) {}
 
-    /// @param heard  that is where it is now; else where it was when its drive was last heard
-    void add(std::string_view axis, double mm, bool heard = true);
+    /// @param online  that is where it is now; else where it was when its drive was last online
+    void add(std::string_view axis, double mm, bool online = true);
     [[nodiscard]] std::string text() const { return text_ + " mm"; }
 
 private:

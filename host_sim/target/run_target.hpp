@@ -56,7 +56,7 @@ public:
     /// For the second time: at once.
     virtual void quick_stop() = 0;
     /// Before each poll of the port.
-    virtual void look() {}
+    virtual void update() {}
     /// Why the plan is to be held on its path, and ends there; empty: it is not. A planner that does not deliver the
     /// way to standstill in time is the target's business: its port becomes halted then.
     [[nodiscard]] virtual std::string holds() const { return {}; }

@@ -107,7 +107,7 @@ Outcome run(Bench& bench, const Story& story) {
             twice = true;
             run_target.quick_stop();
         }
-        run_target.look();
+        run_target.update();
         if (!target.holds().empty()) {
             motion.hold();
         }

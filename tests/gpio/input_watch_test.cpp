@@ -113,7 +113,7 @@ TEST_CASE("an input acts since its first edge, however it bounces, and tells whe
 }
 
 TEST_CASE("an input that cuts does so at its first edge, debounced or not") {
-    Bench bench({{.bit = 0, .active_level = true, .debounce_us = 100'000, .cuts = true}, {.bit = 1}});
+    Bench bench({{.bit = 0, .active_level = true, .debounce_us = 100'000, .trips_estop = true}, {.bit = 1}});
     REQUIRE(bench.watch.start());
     bench.source.drive(1, true, hal::system_clock().now_ns());
     CHECK(bench.next().input == 1);
@@ -124,7 +124,7 @@ TEST_CASE("an input that cuts does so at its first edge, debounced or not") {
 }
 
 TEST_CASE("an edge that the system lost is noticed by the level") {
-    Bench bench({{.bit = 5, .active_level = true, .cuts = true}});
+    Bench bench({{.bit = 5, .active_level = true, .trips_estop = true}});
     REQUIRE(bench.watch.start());
     bench.source.drive(5, true, 0, false);
     CHECK(soon([&] { return bench.cuts > 0; }));

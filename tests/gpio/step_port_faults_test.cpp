@@ -17,7 +17,7 @@ TEST_CASE("a port that was cut enables nothing, before and after", "[stopping]")
     SimulatedLines lines(map, clock);
     hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
     SECTION("before the start") {
-        port.cut();
+        port.disable();
         CHECK(port.start().empty());
         CHECK(lines.rows().empty());
     }
@@ -27,7 +27,7 @@ TEST_CASE("a port that was cut enables nothing, before and after", "[stopping]")
         port.complete();
         clock.sleep_us(10'000);
         CHECK(port.poll().phase == hal::PortPhase::idle);
-        port.cut();
+        port.disable();
         clock.sleep_us(1000);
         CHECK_FALSE(lines.enabled());
         port.stop();

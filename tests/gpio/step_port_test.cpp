@@ -235,7 +235,7 @@ TEST_CASE("a cut stops all edges and switches the drives off") {
     CHECK(run(port, segments, [&](std::size_t i) {
               if (i == 150) {
                   cut_ns = hal::system_clock().now_ns();
-                  port.cut();
+                  port.disable();
               }
           }) == PortPhase::fault);
     const auto rows = writer.rows();
@@ -245,7 +245,7 @@ TEST_CASE("a cut stops all edges and switches the drives off") {
     // The last call switches off: within the slice, and what a wake-up takes on this host.
     CHECK(rows.back().at_ns <= cut_ns + StepPort::slice_ns + 2 * host.latest_ns() + 100'000);
     CHECK((rows[rows.size() - 2].levels & enable_mask) == 0);
-    CHECK(port.was_cut());
+    CHECK(port.was_disabled());
     CHECK_FALSE(port.submit(segments[0]));
 }
 
@@ -302,7 +302,7 @@ TEST_CASE("the drives have the time to switch on that they were given, and a cut
     slow.settle_ms = 60'000;
     StepPort port({wired(writer)}, slow);
     INFO(port.start());
-    port.cut();
+    port.disable();
     while (port.poll().phase != PortPhase::fault) {
         sleep_ms(1);
     }

@@ -78,7 +78,7 @@ TEST_CASE("Output lines: those that are kept have the same level when they are r
     {
         OutputLines lines("chip", "test", three);
         CHECK(lines.set(all, 5));
-        lines.keep(4);
+        lines.retain_levels(4);
         fake_chip.writes.clear();
     }
     CHECK((fake_chip.writes == Writes{{all, safe | 4}}));

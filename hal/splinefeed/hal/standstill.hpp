@@ -13,13 +13,13 @@ public:
     explicit Standstill(std::int64_t tolerance) noexcept : tolerance_(tolerance) {}
 
     /// Its position at an instant, not before the last one.
-    void see(std::uint64_t said_us, std::int64_t position) noexcept {
+    void update(std::uint64_t status_us, std::int64_t position) noexcept {
         const std::int64_t way = position > anchor_ ? position - anchor_ : anchor_ - position;
         if (since_us_ == 0 || way > tolerance_) {
             anchor_ = position;
-            since_us_ = said_us;
+            since_us_ = status_us;
         }
-        last_us_ = said_us;
+        last_us_ = status_us;
     }
     /// For how long it stands by now, as far as it said. [us]
     [[nodiscard]] std::uint64_t still_us() const noexcept { return last_us_ - since_us_; }

@@ -38,8 +38,8 @@ enum class StopState : std::uint8_t {
 
 /// What is known of an axis (or of a drive with several axes that stop as one). Instants are those of one clock.
 struct StopFacts {
-    std::uint64_t said_us = 0; ///< when it said what follows, at the earliest; 0: it never did
-    bool standstill = false;   ///< it says that it stands
+    std::uint64_t status_us = 0; ///< when it said what follows, at the earliest; 0: it never did
+    bool standstill = false;     ///< it says that it stands
     /// It was told to start and has not, or such an order is under way: it may begin to move without being told again.
     bool start_pending = false;
     StopRequest executed = StopRequest::none; ///< the strongest request that it is known to have executed
@@ -61,8 +61,8 @@ struct StopTimes {
 struct StopReport {
     StopRequest request = StopRequest::none; ///< the one that is in force
     StopState state = StopState::moving;
-    std::uint64_t said_us = 0; ///< when it was heard last; 0: never
-    bool on_path = false;      ///< StopFacts::on_path
+    std::uint64_t status_us = 0; ///< when it was heard last; 0: never
+    bool on_path = false;        ///< StopFacts::on_path
 
     /// It was held, on the path, and that is known.
     [[nodiscard]] bool held() const noexcept {
@@ -85,9 +85,9 @@ public:
     /// Cost: linear in the axes. @pre facts.size() is the number of axes
     void update(std::uint64_t now_us, std::span<const StopFacts> facts) noexcept;
 
-    [[nodiscard]] bool requested() const noexcept { return asked_ != StopRequest::none; }
+    [[nodiscard]] bool requested() const noexcept { return strongest_ != StopRequest::none; }
     /// The strongest that was asked for by request().
-    [[nodiscard]] StopRequest asked() const noexcept { return asked_; }
+    [[nodiscard]] StopRequest strongest_request() const noexcept { return strongest_; }
     /// What the axis is to be told now; none: it has executed what it was asked for.
     [[nodiscard]] StopRequest to_send(std::size_t axis) const noexcept;
     [[nodiscard]] StopReport report(std::size_t axis) const noexcept;
@@ -98,18 +98,18 @@ public:
 private:
     struct Axis {
         StopReport report;
-        std::uint64_t since_us = 0; // the request in force was made
-        std::uint64_t stood_us = 0; // it stands since then, by what it says; 0: it does not
-        bool executed = false;      // the request in force
+        std::uint64_t since_us = 0;            // the request in force was made
+        std::uint64_t standstill_since_us = 0; // it stands since then, by what it says; 0: it does not
+        bool executed = false;                 // the request in force
     };
 
     [[nodiscard]] std::uint64_t bound_us(StopRequest request) const noexcept;
-    void judge(Axis& axis, const StopFacts& facts) const noexcept;
+    void assess(Axis& axis, const StopFacts& facts) const noexcept;
     void escalate(Axis& axis, std::uint64_t now_us) const noexcept;
 
     StopTimes times_;
     std::vector<Axis> axes_;
-    StopRequest asked_ = StopRequest::none;
+    StopRequest strongest_ = StopRequest::none;
 };
 
 } // namespace splinefeed::hal

@@ -162,19 +162,19 @@ std::string GpioTarget::prepare(const FeedSegment& first) {
     PerAxis<double> begin_mm{};
     for (int k = 0; k < machine_->settings.axes; ++k) {
         const auto axis = static_cast<unsigned>(k);
-        mover_.stands_at(k, nearest_step(first.start[axis]));
+        mover_.preset_position(k, nearest_step(first.start[axis]));
         begin_mm[axis] = static_cast<double>(first.start[axis]) / static_cast<double>(units_per_count) /
                          machine_->settings.axis[axis].steps_per_mm;
     }
     if (wishes_.home) {
         if (std::string what = mover_.home(); !what.empty()) {
-            return port_.was_cut() ? fault() : what;
+            return port_.was_disabled() ? fault() : what;
         }
         if (std::string what = inputs_.in_the_way(true); !what.empty()) {
             return what;
         }
         if (std::string what = mover_.go_to(begin_mm); !what.empty()) {
-            return port_.was_cut() ? fault() : what;
+            return port_.was_disabled() ? fault() : what;
         }
     }
     while (inputs_.take()) { // what homing told is no news
@@ -186,7 +186,7 @@ std::string GpioTarget::prepare(const FeedSegment& first) {
     return {};
 }
 
-void GpioTarget::look() {
+void GpioTarget::update() {
     take_changes();
     // Levels, too: a change may have been taken before the run.
     if (const auto input = inputs_.stopping(); input && holds_.empty()) {
@@ -202,18 +202,20 @@ void GpioTarget::follow_stop() {
         stop_.request(hal::StopRequest::hold, now_us);
     }
     const hal::PortPhase phase = port_.poll().phase;
-    const hal::StopRequest executed = port_.was_cut() && phase == hal::PortPhase::fault ? hal::StopRequest::disable
-                                      : port_.halted()                                  ? hal::StopRequest::quick_stop
-                                      : completed_ && phase == hal::PortPhase::idle     ? hal::StopRequest::hold
-                                                                                        : hal::StopRequest::none;
+    const hal::StopRequest executed = port_.was_disabled() && phase == hal::PortPhase::fault ? hal::StopRequest::disable
+                                      : port_.halted()                              ? hal::StopRequest::quick_stop
+                                      : completed_ && phase == hal::PortPhase::idle ? hal::StopRequest::hold
+                                                                                    : hal::StopRequest::none;
     executed_us_ = executed == hal::StopRequest::none ? 0 : executed_us_ == 0 ? now_us : executed_us_;
-    const hal::StopFacts facts{
-        .said_us = port_.looked_us(), .standstill = port_.stands(), .executed = executed, .executed_us = executed_us_};
+    const hal::StopFacts facts{.status_us = port_.last_cycle_us(),
+                               .standstill = port_.at_standstill(),
+                               .executed = executed,
+                               .executed_us = executed_us_};
     stop_.update(now_us, {&facts, 1});
     if (stop_.to_send(0) == hal::StopRequest::quick_stop) {
         port_.quick_stop();
     } else if (stop_.to_send(0) == hal::StopRequest::disable) {
-        port_.cut();
+        port_.disable();
     }
 }
 
@@ -232,7 +234,7 @@ void GpioTarget::take_changes() {
                 told.position_mm->push_back(mover_.position_at(k, (*change->counts)[static_cast<unsigned>(k)]));
             }
         }
-        seen_.add(std::move(told));
+        input_summary_.add(std::move(told));
         const bool stops = input.role == InputRole::limit || input.role == InputRole::drive_fault;
         if (!change->active || !holds_.empty()) {
             continue;
@@ -267,7 +269,7 @@ std::string GpioTarget::halted(bool /*quick*/) const {
 
 std::string GpioTarget::finish() {
     port_.stop();
-    if (machine_->drives_on_at_end.value_or(false) && port_.place_known()) {
+    if (machine_->drives_on_at_end.value_or(false) && port_.position_known()) {
         chips_->keep_drives_on();
     } else {
         port_.park();
@@ -287,7 +289,7 @@ std::string GpioTarget::fault() const {
     if (const std::string what = inputs_.trouble(); !what.empty()) {
         return what + ": cut off";
     }
-    if (!port_.was_cut()) {
+    if (!port_.was_disabled()) {
         return port_.trouble();
     }
     // Asked of the port as the last means, or of the switch.
@@ -299,7 +301,7 @@ std::string GpioTarget::where() const {
     if (!began_) {
         return "; nothing was moved";
     }
-    PlaceText place(port_.place_known() ? "; the machine stands at"
+    PlaceText place(port_.position_known() ? "; the machine stands at"
                     : port_.may_be_on()
                         ? "; drives may still be on, since a line cannot be set, and where the machine "
                           "stands is not known (find the references again); the last steps were those to"
@@ -323,8 +325,8 @@ void GpioTarget::describe(Summary& summary) const {
                                .buffer_underruns = report.buffer_underruns,
                                .began_monotonic_s = static_cast<double>(began_ns_) / ns_per_s,
                                .missed = inputs_.missed(),
-                               .changes = seen_.changes,
-                               .changes_left_out = seen_.changes_left_out};
+                               .changes = input_summary_.changes,
+                               .changes_left_out = input_summary_.changes_left_out};
 }
 
 } // namespace splinefeed::host

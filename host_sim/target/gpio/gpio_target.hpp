@@ -36,7 +36,7 @@ private:
     [[nodiscard]] std::string halted(bool quick) const override;
     [[nodiscard]] std::string finish() override;
     void release() noexcept override;
-    void look() override;
+    void update() override;
     [[nodiscard]] std::string fault() const override;
 
     void take_changes();
@@ -53,9 +53,9 @@ private:
     GpioMover mover_;
     hal::StopSequence stop_; // all axes stop as one
     std::uint64_t executed_us_ = 0;
-    std::string missing_; // of real time
-    std::string holds_;   // why the motion is held, and ends
-    GpioSummary seen_;    // of inputs
+    std::string missing_;       // of real time
+    std::string holds_;         // why the motion is held, and ends
+    GpioSummary input_summary_; // of inputs
     std::uint64_t began_ns_;
     bool began_ = false; // the lines may have changed
     bool probed_ = false;

@@ -29,10 +29,10 @@ public:
     void start(std::uint64_t at_ns, std::int64_t motion_ns) noexcept;
     /// Its time slows down from that instant on. @pre running
     void stop(std::uint64_t at_ns) noexcept { clock_.stop(at_ns); }
-    /// It stands, and begins to move at that instant. @pre stands(at_ns)
+    /// It stands, and begins to move at that instant. @pre at_standstill(at_ns)
     void resume(std::uint64_t at_ns) noexcept { clock_.resume(at_ns); }
     [[nodiscard]] bool stopping() const noexcept { return clock_.stopping(); }
-    [[nodiscard]] bool stands(std::uint64_t now_ns) const noexcept { return clock_.stands(now_ns); }
+    [[nodiscard]] bool at_standstill(std::uint64_t now_ns) const noexcept { return clock_.at_standstill(now_ns); }
 
     /// The motion's time at that instant.
     [[nodiscard]] std::int64_t motion_ns(std::uint64_t now_ns) const noexcept;

@@ -22,7 +22,8 @@ struct WatchedInput {
     std::uint8_t bit = 0; ///< of its chip's source
     bool active_level = true;
     std::uint32_t debounce_us = 0;
-    bool cuts = false; ///< at its first edge the machine is cut off; without debouncing, since noise does less harm
+    bool trips_estop =
+        false; ///< at its first edge the machine is cut off; without debouncing, since noise does less harm
 };
 
 /// An input began to act, or ended to.
@@ -43,10 +44,10 @@ struct InputWatchSettings {
 /// Watches the inputs of one chip from start() to its end.
 class InputWatch {
 public:
-    /// @param cut  from its thread: cuts the machine off; also where the chip says nothing any more
+    /// @param cut  from its thread: trips_estop the machine off; also where the chip says nothing any more
     /// All arguments must outlive it.
     InputWatch(InputSource& source, const std::vector<WatchedInput>& inputs, const StepLog& log,
-               std::function<void()> cut, const InputWatchSettings& settings = {});
+               std::function<void()> disable, const InputWatchSettings& settings = {});
     InputWatch(const InputWatch&) = delete;
     InputWatch& operator=(const InputWatch&) = delete;
     ~InputWatch();
@@ -64,17 +65,17 @@ public:
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_.load(); }
 
 private:
-    struct Place {
+    struct EdgeRecord {
         std::uint64_t time_ns = 0;
         std::optional<PerAxis<std::int64_t>> counts;
     };
-    static constexpr std::size_t remembered = 64; // edges of an input while it bounces
+    static constexpr std::size_t max_edges = 64; // edges of an input while it bounces
 
     struct Watched {
         WatchedInput input;
         Debounce debounce{false, 0};
-        std::array<Place, remembered> place{};
-        std::size_t places = 0;
+        std::array<EdgeRecord, max_edges> edges{};
+        std::size_t edge_count = 0;
         int differs = 0; // looks in a row without an edge at which the level was another one
     };
 
@@ -82,15 +83,15 @@ private:
     void edge(std::size_t index, std::uint64_t time_ns, bool level);
     void settle(std::uint64_t now_ns);
     void change(std::size_t index, bool active);
-    void look(std::uint64_t now_ns);
+    void check_levels(std::uint64_t now_ns);
     void fail(int error);
-    [[nodiscard]] std::uint32_t patience_us(std::uint64_t now_ns) const noexcept;
+    [[nodiscard]] std::uint32_t wait_timeout_us(std::uint64_t now_ns) const noexcept;
 
     InputSource* source_;
     std::vector<Watched> watched_;
     std::vector<std::atomic<bool>> active_;
     StepLog::Reader reader_;
-    std::function<void()> cut_;
+    std::function<void()> disable_;
     mutable std::mutex mutex_; // of what follows
     std::vector<InputChange> changes_;
     int error_ = 0;

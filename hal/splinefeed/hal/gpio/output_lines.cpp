@@ -80,7 +80,7 @@ void OutputLines::make_safe() noexcept {
     errno = before;
 }
 
-void OutputLines::keep(std::uint64_t mask) noexcept {
+void OutputLines::retain_levels(std::uint64_t mask) noexcept {
     safe_levels_.store((safe_levels_.load() & ~mask) | (levels_.load() & mask));
 }
 

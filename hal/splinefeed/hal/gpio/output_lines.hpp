@@ -39,7 +39,7 @@ public:
 
     /// From now on the safe levels of these lines are what they have: they keep them when all are released.
     /// @pre nobody sets any more
-    void keep(std::uint64_t mask) noexcept;
+    void retain_levels(std::uint64_t mask) noexcept;
 
     [[nodiscard]] int size() const noexcept { return size_; }
 

@@ -43,10 +43,10 @@ public:
                     break;
                 }
                 counts_[(entry >> 1U) & 7U] += (entry & 1U) != 0 ? 1 : -1;
-                seen_ = entry;
+                last_entry_ = entry;
                 any_ = true;
             }
-            return lost_ || (any_ && after(seen_, instant_ns)) ? std::nullopt : std::optional(counts_);
+            return lost_ || (any_ && after(last_entry_, instant_ns)) ? std::nullopt : std::optional(counts_);
         }
 
     private:
@@ -57,7 +57,7 @@ public:
 
         const StepLog* log_;
         std::uint64_t tail_ = 0;
-        std::uint64_t seen_ = 0; // the last entry, where there is any
+        std::uint64_t last_entry_ = 0; // the last entry, where there is any
         PerAxis<std::int64_t> counts_{};
         bool any_ = false;
         bool lost_ = false;

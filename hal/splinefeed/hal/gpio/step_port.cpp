@@ -46,19 +46,19 @@ StepPort::~StepPort() {
 }
 
 std::string StepPort::start() {
-    if (was_cut()) {
-        state_.store(State::cut);
+    if (was_disabled()) {
+        state_.store(State::disabled);
     }
-    if (!place_known()) {
+    if (!position_known()) {
         return {};
     }
     if (!lines_.enable(true)) {
         fail(errno);
         return {};
     }
-    if (!on_) {
-        on_ = true;
-        settled_ns_ = time_->now_ns() + settings_.settle_ms * ns_per_ms;
+    if (!drives_on_) {
+        drives_on_ = true;
+        drives_ready_ns_ = time_->now_ns() + settings_.settle_ms * ns_per_ms;
     }
     std::string missing;
     ends_.store(false);
@@ -83,7 +83,7 @@ void StepPort::stop() noexcept {
 }
 
 void StepPort::park() noexcept {
-    if (!on_ || !place_known()) {
+    if (!drives_on_ || !position_known()) {
         return; // never on, or off at once
     }
     if (!lines_.brake(false)) {
@@ -93,8 +93,8 @@ void StepPort::park() noexcept {
     if (!lines_.enable(false)) {
         may_be_on_.store(true);
     }
-    on_ = false;
-    released_ = false;
+    drives_on_ = false;
+    brake_released_ = false;
 }
 
 void StepPort::reset() noexcept {
@@ -108,9 +108,9 @@ void StepPort::reset() noexcept {
     submitted_ticks_.store(0);
     motion_ns_.store(0);
     complete_.store(false);
-    dry_.store(false);
+    clock_stopped_.store(false);
     quick_stop_.store(false);
-    if (place_known()) {
+    if (position_known()) {
         state_.store(State::idle);
     }
 }
@@ -132,8 +132,8 @@ std::string StepPort::trouble() const {
 // Nothing is on the way any more. What cannot be set now is tried again by the thread.
 void StepPort::switch_off() noexcept {
     lines_.drop();
-    off_ = lines_.enable(false);
-    may_be_on_.store(!off_);
+    switched_off_ = lines_.enable(false);
+    may_be_on_.store(!switched_off_);
 }
 
 void StepPort::fail(int error) noexcept {
@@ -142,7 +142,7 @@ void StepPort::fail(int error) noexcept {
     state_.store(State::failed);
 }
 
-bool StepPort::filled() const noexcept {
+bool StepPort::buffer_filled() const noexcept {
     const std::uint64_t held = submitted_ticks_.load(std::memory_order_relaxed) * ns_per_tick;
     return complete_.load(std::memory_order_acquire) || ring_.room() == 0 ||
            held >= motion_ns_.load(std::memory_order_relaxed) + settings_.buffer_ms * ns_per_ms;
@@ -150,7 +150,7 @@ bool StepPort::filled() const noexcept {
 
 // The clock slows down before the segments run out, and goes on when there are enough of them. It never runs ahead of
 // what is still to be made: a process that stood still goes on where it was.
-void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
+void StepPort::check_supply(std::uint64_t now_ns) noexcept {
     const std::int64_t to_be_made =
         gathered_ ? gathered_tick_ * ns_per_tick
                   : static_cast<std::int64_t>(submitted_ticks_.load(std::memory_order_relaxed)) * ns_per_tick;
@@ -165,11 +165,12 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
     const auto motion = static_cast<std::uint64_t>(std::max<std::int64_t>(clock_.motion_ns(now_ns), 0));
     motion_ns_.store(motion, std::memory_order_relaxed);
     if (clock_.stopping()) {
-        const bool resumes = clock_.stands(now_ns) && filled() && !quick_stop_.load(std::memory_order_relaxed);
+        const bool resumes =
+            clock_.at_standstill(now_ns) && buffer_filled() && !quick_stop_.load(std::memory_order_relaxed);
         if (resumes) {
             clock_.resume(now_ns);
         }
-        dry_.store(!resumes && clock_.stands(now_ns), std::memory_order_relaxed);
+        clock_stopped_.store(!resumes && clock_.at_standstill(now_ns), std::memory_order_relaxed);
         return;
     }
     const std::uint64_t end = submitted_ticks_.load(std::memory_order_relaxed) * ns_per_tick;
@@ -266,14 +267,14 @@ bool StepPort::steps(const Edge& edge) const noexcept {
 }
 
 // False: no step is to be made any more.
-bool StepPort::obey(std::uint64_t now_ns) noexcept {
+bool StepPort::apply_requests(std::uint64_t now_ns) noexcept {
     State state = state_.load(std::memory_order_relaxed);
-    if (cut_.load(std::memory_order_acquire) && state != State::cut) {
+    if (disable_requested_.load(std::memory_order_acquire) && state != State::disabled) {
         switch_off();
-        state_.store(state = State::cut);
+        state_.store(state = State::disabled);
     }
-    if (state == State::cut || state == State::failed) {
-        if (!off_) {
+    if (state == State::disabled || state == State::failed) {
+        if (!switched_off_) {
             switch_off();
         }
         return false;
@@ -281,7 +282,7 @@ bool StepPort::obey(std::uint64_t now_ns) noexcept {
     if (quick_stop_.load(std::memory_order_acquire)) {
         if (state == State::running && !clock_.stopping()) {
             clock_.stop(now_ns);
-        } else if (state == State::idle || (state == State::running && clock_.stands(now_ns))) {
+        } else if (state == State::idle || (state == State::running && clock_.at_standstill(now_ns))) {
             state_.store(state = State::halted);
         }
     }
@@ -289,26 +290,26 @@ bool StepPort::obey(std::uint64_t now_ns) noexcept {
 }
 
 // The brake is released once the drives hold the axes.
-bool StepPort::drives_hold(std::uint64_t now_ns) noexcept {
-    if (now_ns < settled_ns_) {
+bool StepPort::drives_ready(std::uint64_t now_ns) noexcept {
+    if (now_ns < drives_ready_ns_) {
         return false;
     }
-    if (!released_) {
+    if (!brake_released_) {
         if (!lines_.brake(true)) {
             fail(errno);
             return false;
         }
-        released_ = true;
-        freed_ns_ = now_ns + settings_.brake_release_ms * ns_per_ms;
+        brake_released_ = true;
+        brake_open_ns_ = now_ns + settings_.brake_release_ms * ns_per_ms;
     }
-    return now_ns >= freed_ns_;
+    return now_ns >= brake_open_ns_;
 }
 
 void StepPort::advance(std::uint64_t now_ns) noexcept {
     const bool idle = state_.load(std::memory_order_relaxed) == State::idle;
-    const bool ready = !(idle && (!drives_hold(now_ns) || !filled())) && (gathered_ || gather());
+    const bool ready = !(idle && (!drives_ready(now_ns) || !buffer_filled())) && (gathered_ || gather());
     if (!idle) {
-        watch_supply(now_ns);
+        check_supply(now_ns);
         if (state_.load(std::memory_order_relaxed) == State::failed) {
             return;
         }
@@ -337,8 +338,8 @@ void StepPort::advance(std::uint64_t now_ns) noexcept {
 void StepPort::work() noexcept {
     while (!ends_.load(std::memory_order_relaxed)) {
         const std::uint64_t now_ns = time_->now_ns();
-        looked_us_.store(now_ns / ns_per_us, std::memory_order_relaxed);
-        if (obey(now_ns)) {
+        last_cycle_us_.store(now_ns / ns_per_us, std::memory_order_relaxed);
+        if (apply_requests(now_ns)) {
             advance(now_ns);
         } else {
             wait_until(now_ns + slice_ns, 0);
@@ -346,14 +347,14 @@ void StepPort::work() noexcept {
     }
 }
 
-bool StepPort::stands() const noexcept {
+bool StepPort::at_standstill() const noexcept {
     switch (state_.load()) {
-    case State::running: return dry_.load(std::memory_order_relaxed);
+    case State::running: return clock_stopped_.load(std::memory_order_relaxed);
     case State::failed:
     case State::idle:
     case State::done:
     case State::halted:
-    case State::cut: break;
+    case State::disabled: break;
     }
     return true;
 }
@@ -366,7 +367,7 @@ int StepPort::do_room() const noexcept {
 
 bool StepPort::do_submit(const FeedSegment& segment) noexcept {
     const State state = state_.load();
-    if (state == State::halted || state == State::cut || state == State::failed) {
+    if (state == State::halted || state == State::disabled || state == State::failed) {
         return false;
     }
     const auto moving = std::span(segment.end_velocity).first(static_cast<std::size_t>(settings_.axes));
@@ -379,7 +380,7 @@ bool StepPort::do_submit(const FeedSegment& segment) noexcept {
 PortState StepPort::do_poll() noexcept {
     const std::uint64_t taken = taken_.load(std::memory_order_relaxed);
     switch (state_.load()) {
-    case State::cut:
+    case State::disabled:
     case State::failed: return {PortPhase::fault, taken};
     case State::done: return {PortPhase::idle, taken};
     case State::halted: return {PortPhase::halted, taken};

@@ -61,7 +61,7 @@ public:
     /// From any thread, also a handler of signals: within slice_ns, and what a wake-up and one call that sets lines
     /// take, no line changes any more, but enable, to off. So it is from start() to stop(), whether anything moves or
     /// not.
-    void cut() noexcept { cut_.store(true, std::memory_order_release); }
+    void disable() noexcept { disable_requested_.store(true, std::memory_order_release); }
     /// From any thread: all axes slow down on the path, over twice the clock's reserve (40 ms), whatever the plan says,
     /// and stay there: the port is halted.
     void quick_stop() noexcept { quick_stop_.store(true, std::memory_order_release); }
@@ -77,17 +77,19 @@ public:
     [[nodiscard]] std::int64_t counts(int axis) const noexcept {
         return counts_[static_cast<unsigned>(axis)].load(std::memory_order_relaxed);
     }
-    [[nodiscard]] bool was_cut() const noexcept { return cut_.load(std::memory_order_relaxed); }
+    [[nodiscard]] bool was_disabled() const noexcept { return disable_requested_.load(std::memory_order_relaxed); }
     /// No axis moves: nothing has begun, all is executed, or the clock stands (where more segments come, it goes on).
-    [[nodiscard]] bool stands() const noexcept;
+    [[nodiscard]] bool at_standstill() const noexcept;
     /// The port is fault-free, and its thread has ended a motion by quick_stop().
     [[nodiscard]] bool halted() const noexcept { return state_.load() == State::halted; }
     /// When its thread looked around last. [us]
-    [[nodiscard]] std::uint64_t looked_us() const noexcept { return looked_us_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::uint64_t last_cycle_us() const noexcept {
+        return last_cycle_us_.load(std::memory_order_relaxed);
+    }
     /// Drives that were to be off may be on: the line could not be set.
     [[nodiscard]] bool may_be_on() const noexcept { return may_be_on_.load(std::memory_order_relaxed); }
     /// Whether the counts are where the motors stand, as far as a stepper tells.
-    [[nodiscard]] bool place_known() const noexcept { return !was_cut() && state_.load() != State::failed; }
+    [[nodiscard]] bool position_known() const noexcept { return !was_disabled() && state_.load() != State::failed; }
     /// Where all axes stood at an instant.
     [[nodiscard]] const StepLog& log() const noexcept { return log_; }
     [[nodiscard]] const TimeHistogram& late() const noexcept { return late_; }
@@ -96,7 +98,7 @@ public:
     [[nodiscard]] std::string trouble() const;
 
 private:
-    enum class State : std::uint8_t { idle, running, done, halted, cut, failed };
+    enum class State : std::uint8_t { idle, running, done, halted, disabled, failed };
 
     [[nodiscard]] int do_room() const noexcept override;
     [[nodiscard]] bool do_submit(const FeedSegment& segment) noexcept override;
@@ -104,8 +106,8 @@ private:
     void do_halt() noexcept override { quick_stop(); }
 
     void work() noexcept;
-    bool obey(std::uint64_t now_ns) noexcept;
-    [[nodiscard]] bool drives_hold(std::uint64_t now_ns) noexcept;
+    bool apply_requests(std::uint64_t now_ns) noexcept;
+    [[nodiscard]] bool drives_ready(std::uint64_t now_ns) noexcept;
     void advance(std::uint64_t now_ns) noexcept;
     void switch_off() noexcept;
     void fail(int error) noexcept;
@@ -114,8 +116,8 @@ private:
     [[nodiscard]] bool next(Edge& edge) noexcept;
     template <class Engine>
     [[nodiscard]] bool next_of(PulseTrain<Engine>& train, Edge& edge) noexcept;
-    [[nodiscard]] bool filled() const noexcept;
-    void watch_supply(std::uint64_t now_ns) noexcept;
+    [[nodiscard]] bool buffer_filled() const noexcept;
+    void check_supply(std::uint64_t now_ns) noexcept;
     [[nodiscard]] bool gather() noexcept;
     void make() noexcept;
     [[nodiscard]] bool steps(const Edge& edge) const noexcept;
@@ -139,22 +141,22 @@ private:
     std::atomic<int> error_{0};
     std::atomic<bool> at_rest_{true}; // at the end of what was submitted
     std::atomic<bool> complete_{false};
-    std::atomic<bool> cut_{false};
+    std::atomic<bool> disable_requested_{false};
     std::atomic<bool> ends_{false};
     std::atomic<bool> quick_stop_{false};
-    std::atomic<bool> dry_{false}; // the clock stands
+    std::atomic<bool> clock_stopped_{false}; // the clock stands
     std::atomic<bool> may_be_on_{false};
     std::atomic<bool> claimed_{false}; // the thread has what it asked the system for
-    std::atomic<std::uint64_t> looked_us_{0};
+    std::atomic<std::uint64_t> last_cycle_us_{0};
     Edge edge_; // the next one, where have_
     std::int64_t gathered_tick_ = 0;
-    PerAxis<bool> stepped_{};      // by what was gathered
-    std::uint64_t overdue_ns_ = 0; // it was already when the thread looked at it
-    std::uint64_t settled_ns_ = 0; // since they were switched on
-    std::uint64_t freed_ns_ = 0;   // since the brake was released
-    bool on_ = false;              // the drives
-    bool off_ = false;             // and they were switched off for good
-    bool released_ = false;        // the brake
+    PerAxis<bool> stepped_{};           // by what was gathered
+    std::uint64_t overdue_ns_ = 0;      // it was already when the thread looked at it
+    std::uint64_t drives_ready_ns_ = 0; // since they were switched on
+    std::uint64_t brake_open_ns_ = 0;   // since the brake was released
+    bool drives_on_ = false;            // the drives
+    bool switched_off_ = false;         // and they were switched off for good
+    bool brake_released_ = false;       // the brake
     bool have_ = false;
     bool gathered_ = false;
     bool finished_ = false; // the train's

@@ -20,15 +20,15 @@ public:
     void start(std::uint64_t at) noexcept;
     /// Its time slows down from that instant on, or from its start where that is later. @pre not stopping()
     void stop(std::uint64_t at) noexcept;
-    /// It stands, and begins to move at that instant. @pre stands(at)
+    /// It stands, and begins to move at that instant. @pre at_standstill(at)
     void resume(std::uint64_t at) noexcept;
     /// The whole motion comes that much later from now on.
     void delay(std::uint64_t by) noexcept;
 
     [[nodiscard]] bool stopping() const noexcept { return stopping_; }
-    [[nodiscard]] bool stands(std::uint64_t now) const noexcept { return stopping_ && now >= standing_from(); }
+    [[nodiscard]] bool at_standstill(std::uint64_t now) const noexcept { return stopping_ && now >= standstill_from(); }
     /// When it stands at the earliest. @pre stopping()
-    [[nodiscard]] std::uint64_t standing_from() const noexcept { return stop_ + fall(); }
+    [[nodiscard]] std::uint64_t standstill_from() const noexcept { return stop_ + fall(); }
 
     /// The motion's time at that instant; 0 before its start.
     [[nodiscard]] std::uint64_t time(std::uint64_t now) const noexcept;

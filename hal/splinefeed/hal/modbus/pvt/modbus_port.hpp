@@ -88,16 +88,16 @@ private:
     PortState do_poll() noexcept override;
     void do_halt() noexcept override;
 
-    void look() noexcept;
+    void update_drives() noexcept;
     void enter(ModbusPhase phase) noexcept;
     void fail(std::size_t drive, DriveProblem problem) noexcept;
     [[nodiscard]] bool filled() const noexcept;
     void start() noexcept;
     [[nodiscard]] std::uint64_t start_lead_us() const noexcept;
-    void watch() noexcept;
-    void stop() noexcept;
-    [[nodiscard]] bool all_stand() const noexcept;
-    void wait() noexcept;
+    void check_drives() noexcept;
+    void stop_together() noexcept;
+    [[nodiscard]] bool all_at_standstill() const noexcept;
+    void await_all() noexcept;
     void begin_stop(StopRequest request) noexcept;
     void follow_stop() noexcept;
     void await_stop() noexcept;

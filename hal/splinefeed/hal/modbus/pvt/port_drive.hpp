@@ -33,17 +33,17 @@ public:
     /// @pre carries(segment)
     void push(const FeedSegment& segment, bool rests) noexcept;
 
-    /// What it said last becomes seen().
-    void look(std::uint64_t now_us, const PortTimes& times) noexcept;
-    [[nodiscard]] const DriveReport& seen() const noexcept { return seen_; }
-    [[nodiscard]] const PvtStatus& status() const noexcept { return seen_.status; }
+    /// What it said last becomes last_report().
+    void update(std::uint64_t now_us, const PortTimes& times) noexcept;
+    [[nodiscard]] const DriveReport& last_report() const noexcept { return report_; }
+    [[nodiscard]] const PvtStatus& status() const noexcept { return report_.status; }
     /// How old that is. [us]
     [[nodiscard]] std::uint64_t age_us() const noexcept { return age_us_; }
-    [[nodiscard]] bool heard(const PortTimes& times) const noexcept { return age_us_ < times.silent_us; }
+    [[nodiscard]] bool online(const PortTimes& times) const noexcept { return age_us_ < times.silent_us; }
     /// It says that it stands.
-    [[nodiscard]] bool says_it_stands() const noexcept;
+    [[nodiscard]] bool at_standstill() const noexcept;
     /// The same, or, where it says nothing that counts, by what it had when it was last heard.
-    [[nodiscard]] bool stands(const PortTimes& times) const noexcept;
+    [[nodiscard]] bool presumed_at_standstill(const PortTimes& times) const noexcept;
     /// Executed everything that was pushed.
     [[nodiscard]] bool executed_all() const noexcept { return status().executed == client_->pushed(); }
     [[nodiscard]] bool has_all() const noexcept { return status().next == client_->pushed(); }
@@ -58,17 +58,17 @@ public:
     static constexpr double lag_limit_us = 300.0; ///< a drive that is behind by more is out of step
 
     /// Within what its clock was known when it was started, at the worst. [us]
-    [[nodiscard]] double clock_uncertainty_us() const noexcept { return most_unsure_us_; }
+    [[nodiscard]] double clock_uncertainty_us() const noexcept { return max_clock_uncertainty_us_; }
 
-    /// Gives a command, once until forget() and if none is pending.
-    void tell(PvtCommand command, std::uint32_t argument) noexcept;
+    /// Gives a command, once until clear_sent() and if none is pending.
+    void send_once(PvtCommand command, std::uint32_t argument) noexcept;
     /// The last of them is no longer of interest.
-    void forget() noexcept { told_ = false; }
+    void clear_sent() noexcept { sent_ = false; }
     /// `place` and what goes before it, on the way to the start.
     void command(PvtCommand command, std::uint32_t argument) noexcept { client_->command(command, argument, last_); }
-    [[nodiscard]] bool pending() const noexcept { return seen_.command_pending; }
-    /// What tell() told was refused.
-    [[nodiscard]] bool refused() const noexcept { return told_ && seen_.command_refused; }
+    [[nodiscard]] bool pending() const noexcept { return report_.command_pending; }
+    /// What send_once() told was refused.
+    [[nodiscard]] bool refused() const noexcept { return sent_ && report_.command_refused; }
     /// It is to begin, or to go on, at that instant of our clock.
     void start(std::uint64_t at_us, const PortTimes& times) noexcept;
     /// To the end of that segment; where that is too near by now, as soon as it can.
@@ -85,18 +85,18 @@ private:
     PvtClient* client_;
     PvtSegment last_;
     ClockDriftCompensation trim_;
-    DriveReport seen_;
+    DriveReport report_;
     std::uint64_t age_us_ = 0;
-    double start_us_ = 0.0;       // of our clock: it was to begin then
-    double full_rate_us_ = 0.0;   // of our clock: it runs at full rate from then on,
-    double began_us_ = 0.0;       // as if it had started then
-    std::uint64_t ran_ = 0;       // segments that it executed since
-    std::uint32_t ran_to_ = 0;    // the number of the next one
-    double unsure_us_ = 0.0;      // of its clock, then
-    double most_unsure_us_ = 0.0; // of all its starts
+    double start_us_ = 0.0;                 // of our clock: it was to begin then
+    double full_rate_us_ = 0.0;             // of our clock: it runs at full rate from then on,
+    double began_us_ = 0.0;                 // as if it had started then
+    std::uint64_t ran_ = 0;                 // segments that it executed since
+    std::uint32_t ran_to_ = 0;              // the number of the next one
+    double clock_uncertainty_us_ = 0.0;     // of its clock, then
+    double max_clock_uncertainty_us_ = 0.0; // of all its starts
     double lag_us_ = 0.0;
     double gained_us_ = 0.0; // its clock less ours, at the anchor
-    bool told_ = false;
+    bool sent_ = false;
     bool starting_ = false;  // its start was not answered yet
     bool from_joint_ = true; // it was started from a joint
 };

@@ -28,7 +28,7 @@ PvtClient::PvtClient(ModbusLine& link, int unit, bool both_in_one)
 
 // A few times, with a new connection where the old one broke.
 template <class Attempt>
-bool PvtClient::persist(const Attempt& attempt) noexcept {
+bool PvtClient::retry(const Attempt& attempt) noexcept {
     for (int i = 0; i < opening_attempts; ++i) {
         if (!link_->connected() && !link_->connect()) {
             continue;
@@ -46,7 +46,7 @@ bool PvtClient::read_status() noexcept {
     std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
     const std::span<std::uint16_t> whole(raw.data(), pvt::status_registers(axes_));
     for (int i = 0; i < opening_attempts; ++i) {
-        if (persist([&] { return link_->read(unit_, pvt::status_address, whole); }) && status_holds(whole)) {
+        if (retry([&] { return link_->read(unit_, pvt::status_address, whole); }) && status_holds(whole)) {
             report_.status = decode_status(whole, axes_);
             return true;
         }
@@ -60,7 +60,7 @@ DriveProblem PvtClient::open(int least_axes) noexcept {
         return report_.problem = DriveProblem::unreachable;
     }
     std::array<std::uint16_t, pvt::identity_registers> raw{};
-    if (!persist([&] { return link_->read(unit_, pvt::identity_address, raw); })) {
+    if (!retry([&] { return link_->read(unit_, pvt::identity_address, raw); })) {
         const bool answers = report_.last_fault == LinkFault::exception;
         return report_.problem = answers ? DriveProblem::not_pvt : DriveProblem::silent;
     }
@@ -89,14 +89,14 @@ DriveProblem PvtClient::configure(const PvtSettings& wanted) noexcept {
     const std::lock_guard lock(mutex_);
     report_.clock.clear(); // a run goes by exchanges with a nonce alone
     std::array<std::uint16_t, pvt::configuration_registers> registers{};
-    bool done = persist([&] { return link_->read(unit_, pvt::configuration_address, registers); });
+    bool done = retry([&] { return link_->read(unit_, pvt::configuration_address, registers); });
     if (done) {
         PvtConfiguration configuration = decode_configuration(registers);
         configuration.stop_reserve_ms = wanted.stop_reserve_ms.value_or(configuration.stop_reserve_ms);
         configuration.watchdog_ms = wanted.watchdog_ms.value_or(configuration.watchdog_ms);
         configuration.following_window = wanted.following_window.value_or(configuration.following_window);
         encode(configuration, registers);
-        done = persist([&] { return link_->write(unit_, pvt::configuration_address, registers); });
+        done = retry([&] { return link_->write(unit_, pvt::configuration_address, registers); });
     }
     return report_.problem = done                                         ? DriveProblem::none
                              : report_.last_fault == LinkFault::exception ? DriveProblem::refused
@@ -120,16 +120,16 @@ LinkAnswer PvtClient::probe() noexcept {
     if (answer.ok()) {
         report_.status = decode_status(whole, axes_);
         if (nothing_late) {
-            see_clock(answer);
+            sample_clock(answer);
         }
     }
     return answer;
 }
 
-void PvtClient::see_clock(const LinkAnswer& answer) noexcept {
+void PvtClient::sample_clock(const LinkAnswer& answer) noexcept {
     report_.clock.sample(answer.arrived_us, answer.replied_us, report_.status.clock_us);
     report_.answered_us = answer.answered_us;
-    report_.said_us = answer.arrived_us;
+    report_.status_us = answer.arrived_us;
 }
 
 bool PvtClient::at_joint(const PvtStatus& status) const noexcept {
@@ -157,16 +157,16 @@ void PvtClient::push(const PvtSegment& segment) noexcept {
     tail_.store(tail + 1, std::memory_order_release);
 }
 
-void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSegment& place) noexcept {
+void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSegment& preset) noexcept {
     const std::lock_guard lock(mutex_);
-    SPLINEFEED_ASSERT(order_.command == PvtCommand::none);
+    SPLINEFEED_ASSERT(pending_.command == PvtCommand::none);
     if (command == PvtCommand::begin) {
         head_.store(argument);
         tail_.store(argument);
         sent_ = argument;
         executed_ = 0;
     }
-    order_ = {command, argument, place};
+    pending_ = {command, argument, preset};
     report_.command_pending = true;
     report_.command_refused = false;
     ++counter_;
@@ -174,7 +174,7 @@ void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSeg
 
 void PvtClient::interrupt(PvtCommand command, std::uint32_t argument) noexcept {
     const std::lock_guard lock(mutex_);
-    order_ = {command, argument, {}};
+    pending_ = {command, argument, {}};
     report_.command_pending = true;
     report_.command_refused = false;
     ++counter_;
@@ -192,7 +192,7 @@ DriveReport PvtClient::report() const noexcept {
 
 // Whether the drive is to be asked now; `waiting` segments are ready that it does not have.
 bool PvtClient::due(std::uint64_t now_us, std::uint32_t waiting) const noexcept {
-    if (order_.command != PvtCommand::none) {
+    if (pending_.command != PvtCommand::none) {
         return true;
     }
     // Whole blocks, as long as the drive has plenty.
@@ -208,13 +208,13 @@ void PvtClient::fill(PvtBlock& block, std::uint32_t waiting) noexcept {
     block.nonce = ++nonce_;
     block.session = session_;
     block.first = report_.status.next;
-    if (order_.command != PvtCommand::none) {
-        block.command = order_.command;
+    if (pending_.command != PvtCommand::none) {
+        block.command = pending_.command;
         block.command_counter = counter_;
-        block.argument = order_.argument;
-        if (order_.command == PvtCommand::place) {
+        block.argument = pending_.argument;
+        if (pending_.command == PvtCommand::preset_position) {
             block.count = 1;
-            batch_[0] = order_.place;
+            batch_[0] = pending_.preset;
         }
         return;
     }
@@ -275,7 +275,7 @@ bool PvtClient::step() noexcept {
     const LinkAnswer answer = exchange(std::span(block_).first(size), status);
     last_exchange_us_ = answer.answered_us;
     const std::lock_guard lock(mutex_);
-    take(answer, block, status);
+    handle_answer(answer, block, status);
     return true;
 }
 
@@ -285,7 +285,8 @@ void PvtClient::count(const LinkAnswer& answer) noexcept {
     report_.counts.count(answer.fault);
 }
 
-void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<const std::uint16_t> raw) noexcept {
+void PvtClient::handle_answer(const LinkAnswer& answer, const PvtBlock& block,
+                              std::span<const std::uint16_t> raw) noexcept {
     count(answer);
     if (!answer.ok()) {
         return;
@@ -302,20 +303,20 @@ void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<
         link_->resynchronise();
         return;
     }
-    if (const DriveProblem problem = judge(status); problem != DriveProblem::none) {
+    if (const DriveProblem problem = check_status(status); problem != DriveProblem::none) {
         report_.problem = problem;
         report_.status = status;
         report_.answered_us = answer.answered_us;
-        report_.said_us = answer.arrived_us;
-        answer_order(status, block); // it can still be stopped
+        report_.status_us = answer.arrived_us;
+        resolve_command(status, block); // it can still be stopped
         return;
     }
-    keep(status, block);
-    see_clock(answer);
+    publish_report(status, block);
+    sample_clock(answer);
 }
 
 // Whether what the drive says can be.
-DriveProblem PvtClient::judge(const PvtStatus& status) const noexcept {
+DriveProblem PvtClient::check_status(const PvtStatus& status) const noexcept {
     if (status.boot != report_.identity.boot) {
         return status.boot == swapped_words(report_.identity.boot) ? DriveProblem::words_swapped
                                                                    : DriveProblem::power_cycled;
@@ -326,30 +327,32 @@ DriveProblem PvtClient::judge(const PvtStatus& status) const noexcept {
     return began_ && (executed < 0 || next < executed || next > sent) ? DriveProblem::out_of_step : DriveProblem::none;
 }
 
-void PvtClient::end_order() noexcept {
-    order_.command = PvtCommand::none;
+void PvtClient::clear_command() noexcept {
+    pending_.command = PvtCommand::none;
     report_.command_pending = false;
 }
 
 // What became of the order in the block.
-void PvtClient::answer_order(const PvtStatus& status, const PvtBlock& block) noexcept {
-    if (order_.command == PvtCommand::none || block.command != order_.command || block.command_counter != counter_) {
+void PvtClient::resolve_command(const PvtStatus& status, const PvtBlock& block) noexcept {
+    if (pending_.command == PvtCommand::none || block.command != pending_.command ||
+        block.command_counter != counter_) {
         return;
     }
     if (status.refused == PvtRefusal::none) {
         if (status.last_command == counter_) {
-            const bool loses_ring = order_.command == PvtCommand::quick_stop || order_.command == PvtCommand::disable;
-            began_ = (began_ || order_.command == PvtCommand::begin) && !loses_ring;
-            end_order();
+            const bool loses_ring =
+                pending_.command == PvtCommand::quick_stop || pending_.command == PvtCommand::disable;
+            began_ = (began_ || pending_.command == PvtCommand::begin) && !loses_ring;
+            clear_command();
         }
     } else if (status.refused != PvtRefusal::checksum && status.refused != PvtRefusal::no_room &&
                status.refused != PvtRefusal::gap) {
         report_.command_refused = true; // its state changed on the way: whoever gave the order looks at it again
-        end_order();
+        clear_command();
     }
 }
 
-void PvtClient::keep(const PvtStatus& status, const PvtBlock& block) noexcept {
+void PvtClient::publish_report(const PvtStatus& status, const PvtBlock& block) noexcept {
     LinkCounts& counts = report_.counts;
     if (status.refused == PvtRefusal::none) {
         refusals_in_row_ = 0;
@@ -363,7 +366,7 @@ void PvtClient::keep(const PvtStatus& status, const PvtBlock& block) noexcept {
             report_.problem = DriveProblem::refused;
         }
     }
-    answer_order(status, block);
+    resolve_command(status, block);
     report_.status = status;
     if (began_) {
         executed_ += status.executed - head_.load(std::memory_order_relaxed); // numbers wrap

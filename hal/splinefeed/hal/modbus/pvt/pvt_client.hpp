@@ -34,7 +34,7 @@ struct DriveReport {
     bool command_pending = false;  ///< the last command() is still under way
     bool command_refused = false;  ///< it was refused, in the state in which the drive was
     std::uint64_t answered_us = 0; ///< the line's clock, of the last good answer
-    std::uint64_t said_us = 0;     ///< and when the drive said it, at the earliest
+    std::uint64_t status_us = 0;   ///< and when the drive said it, at the earliest
 };
 
 /// Two threads use it: the planner's (push, command, report) and the bus's (step). It allocates when it is made.
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] bool at_joint(const PvtStatus& status) const noexcept;
     /// Has the drive carry out a command, before any more segments. `begin` has the number of the next segment that is
     /// pushed as its argument. @pre none is pending
-    void command(PvtCommand command, std::uint32_t argument = 0, const PvtSegment& place = {}) noexcept;
+    void command(PvtCommand command, std::uint32_t argument = 0, const PvtSegment& preset = {}) noexcept;
     /// The same, in place of one that is pending: should that one still arrive, the drive does not execute it any more
     /// once it has executed this one.
     void interrupt(PvtCommand command, std::uint32_t argument = 0) noexcept;
@@ -84,23 +84,23 @@ public:
     bool step() noexcept;
 
 private:
-    struct Order {
+    struct PendingCommand {
         PvtCommand command = PvtCommand::none;
         std::uint32_t argument = 0;
-        PvtSegment place;
+        PvtSegment preset;
     };
 
     template <class Attempt>
-    [[nodiscard]] bool persist(const Attempt& attempt) noexcept;
+    [[nodiscard]] bool retry(const Attempt& attempt) noexcept;
     [[nodiscard]] bool read_status() noexcept;
     [[nodiscard]] bool due(std::uint64_t now_us, std::uint32_t waiting) const noexcept;
     void fill(PvtBlock& block, std::uint32_t waiting) noexcept;
-    void take(const LinkAnswer& answer, const PvtBlock& block, std::span<const std::uint16_t> raw) noexcept;
-    [[nodiscard]] DriveProblem judge(const PvtStatus& status) const noexcept;
-    void keep(const PvtStatus& status, const PvtBlock& block) noexcept;
-    void see_clock(const LinkAnswer& answer) noexcept;
-    void answer_order(const PvtStatus& status, const PvtBlock& block) noexcept;
-    void end_order() noexcept;
+    void handle_answer(const LinkAnswer& answer, const PvtBlock& block, std::span<const std::uint16_t> raw) noexcept;
+    [[nodiscard]] DriveProblem check_status(const PvtStatus& status) const noexcept;
+    void publish_report(const PvtStatus& status, const PvtBlock& block) noexcept;
+    void sample_clock(const LinkAnswer& answer) noexcept;
+    void resolve_command(const PvtStatus& status, const PvtBlock& block) noexcept;
+    void clear_command() noexcept;
     void count(const LinkAnswer& answer) noexcept;
     bool reconnect(std::uint64_t now_us) noexcept;
     LinkAnswer exchange(std::span<const std::uint16_t> block, std::span<std::uint16_t> status) noexcept;
@@ -117,7 +117,7 @@ private:
 
     mutable std::mutex mutex_; // of what follows
     DriveReport report_;
-    Order order_;
+    PendingCommand pending_;
 
     std::uint64_t executed_ = 0; // of the session
     std::uint64_t last_exchange_us_ = 0;

@@ -22,7 +22,7 @@ public:
     void request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
                  std::span<const PortDrive> drives) noexcept;
     /// Takes what the drives said last, and tells them what is to be told.
-    void follow(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
+    void update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
     [[nodiscard]] const StopSequence& sequence() const noexcept { return sequence_; }
 
 private:

@@ -65,7 +65,7 @@ enum class PvtCommand : std::uint16_t {
     end,
     fault_reset,
     home,
-    place
+    preset_position
 };
 
 struct PvtIdentity {

@@ -32,7 +32,7 @@ public:
     [[nodiscard]] static bool carried_out(const std::vector<PortDrive>& drives) noexcept;
 
 private:
-    void wait() noexcept;
+    void poll() noexcept;
 
     std::vector<PortDrive>& drives_;
     const PortTimes& times_;

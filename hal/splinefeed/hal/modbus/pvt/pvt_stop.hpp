@@ -22,10 +22,10 @@ public:
     explicit PvtStop(PvtClient& client) noexcept : client_(&client) {}
 
     /// What the drive said last. @pre not older than what was seen before
-    void see(const DriveReport& report, const PortTimes& times) noexcept;
+    void update(const DriveReport& report, const PortTimes& times) noexcept;
     /// Tells the drive, once, in place of whatever it is to be told; again where it refused.
     /// @param hold_at_us  when all drives begin to slow down, of our clock
-    void tell(StopRequest request, std::uint64_t hold_at_us) noexcept;
+    void send_once(StopRequest request, std::uint64_t hold_at_us) noexcept;
     [[nodiscard]] StopFacts facts() const noexcept;
     [[nodiscard]] Hold hold() const noexcept { return hold_; }
 
@@ -36,9 +36,9 @@ private:
     [[nodiscard]] bool still() const noexcept;
 
     PvtClient* client_;
-    DriveReport seen_;
-    PerAxis<Standstill> shaft_{};
-    StopRequest told_ = StopRequest::none; // and not answered yet
+    DriveReport report_;
+    PerAxis<Standstill> standstill_{};
+    StopRequest pending_ = StopRequest::none; // and not answered yet
     PvtCommand command_ = PvtCommand::none;
     PvtState state_then_ = PvtState::disabled;
     std::uint64_t hold_at_us_ = 0;

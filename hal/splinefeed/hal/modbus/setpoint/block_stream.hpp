@@ -50,20 +50,20 @@ public:
     [[nodiscard]] std::span<const RegisterWrite> prime() noexcept;
     /// The last block arrived at that instant instead; UINT64_MAX: it did not, and the one before goes on. Else it
     /// counts as in time.
-    void arrived(std::uint64_t arrival_us) noexcept;
+    void on_arrival(std::uint64_t arrival_us) noexcept;
     /// A register could not hold a target or a speed.
     [[nodiscard]] bool clamped() const noexcept { return clamped_; }
     /// The last block led to the end of the motion.
-    [[nodiscard]] bool told_end() const noexcept { return told_end_; }
+    [[nodiscard]] bool end_sent() const noexcept { return end_sent_; }
     /// The last frames once more, as a start of their own.
-    [[nodiscard]] std::span<const RegisterWrite> again() noexcept { return frames_.build(); }
+    [[nodiscard]] std::span<const RegisterWrite> repeat() noexcept { return frames_.build(); }
     /// Where the last block sent the drive.
     [[nodiscard]] double target_counts() const noexcept { return target_; }
     /// It has executed the block before the last one, and stands, as far as its blocks tell.
-    [[nodiscard]] bool at_rest() const noexcept { return here_.velocity == 0.0 && here_.position == here_.target; }
+    [[nodiscard]] bool at_rest() const noexcept { return model_.velocity == 0.0 && model_.position == model_.target; }
     /// Where the drive is at the instant of the last block, as far as its blocks tell.
-    [[nodiscard]] double position_counts() const noexcept { return here_.position; }
-    [[nodiscard]] double velocity_counts_s() const noexcept { return here_.velocity; }
+    [[nodiscard]] double position_counts() const noexcept { return model_.position; }
+    [[nodiscard]] double velocity_counts_s() const noexcept { return model_.velocity; }
     [[nodiscard]] SetpointFrames& frames() noexcept { return frames_; }
 
 private:
@@ -87,20 +87,20 @@ private:
     void commit() noexcept;
     [[nodiscard]] std::optional<double> velocity_to(double there, double period_s) const noexcept;
     [[nodiscard]] double beyond(double speed) const noexcept;
-    void tell(double target, double speed) noexcept;
+    void set_move(double target, double speed) noexcept;
 
     BlockSettings settings_;
     SetpointFrames frames_;
     double ramp_;          // as the register has it [counts/s^2]
     double slowest_ = 0.0; // the register's unit [counts/s]
-    Move move_;            // at begun_us_, as the block before the last one has it
-    Move here_;            // at told_us_, by the same
+    Move committed_;       // at previous_arrival_us_, as the block before the last one has it
+    Move model_;           // at arrival_us_, by the same
     double target_ = 0.0;  // of the last block
     double speed_ = 0.0;
-    std::uint64_t begun_us_ = 0;
-    std::uint64_t told_us_ = 0; // when the last block arrives
+    std::uint64_t previous_arrival_us_ = 0;
+    std::uint64_t arrival_us_ = 0; // when the last block arrives
     bool clamped_ = false;
-    bool told_end_ = false;
+    bool end_sent_ = false;
 };
 
 } // namespace splinefeed::hal::modbus

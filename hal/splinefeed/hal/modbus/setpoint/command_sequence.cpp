@@ -30,7 +30,7 @@ void CommandSequence::prepare() noexcept {
     write_ = frames_.single(step.field, raw);
 }
 
-void CommandSequence::told(std::uint64_t now_us) noexcept {
+void CommandSequence::on_sent(std::uint64_t now_us) noexcept {
     constexpr std::uint64_t us_per_ms = 1000;
     const CommandStep& step = (*steps_)[step_];
     const bool first_of_two = two_frames() && !second_;

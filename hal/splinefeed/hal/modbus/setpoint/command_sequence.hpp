@@ -8,10 +8,10 @@
 
 namespace splinefeed::hal::modbus {
 
-/// Use: begin(command); until finished(): if (due() <= now) { write next(); told(now); }
+/// Use: begin(command); until finished(): if (due() <= now) { write next(); on_sent(now); }
 /// The frames of the steps: a level is one, an edge, a pulse and a toggle as docs/reference/profiles.md has them. A
 /// field of the target group goes out with the whole group. A write that was not answered is simply written again:
-/// next() stays the same until told(). But a toggle: whoever does not know whether it arrived must look. It does not
+/// next() stays the same until on_sent(). But a toggle: whoever does not know whether it arrived must look. It does not
 /// allocate.
 class CommandSequence {
 public:
@@ -27,7 +27,7 @@ public:
     [[nodiscard]] const RegisterWrite& next() const noexcept { return write_; }
     [[nodiscard]] std::uint64_t due_us() const noexcept { return due_us_; }
     /// next() has arrived, at this instant.
-    void told(std::uint64_t now_us) noexcept;
+    void on_sent(std::uint64_t now_us) noexcept;
 
 private:
     void prepare() noexcept;

@@ -37,23 +37,23 @@ public:
     }
     /// Its frames were lost for longer than the period: it stands where it was told to be last. From the next frame on
     /// it comes back to the path, smoothly.
-    void stood(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
+    void on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
     /// A register could not hold a target: it was clamped.
     [[nodiscard]] bool clamped() const noexcept { return clamped_; }
     /// At that time of the motion the drive has been told where it ends.
-    [[nodiscard]] bool told_end(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
+    [[nodiscard]] bool end_sent(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
         return fading_us_ == 0.0 && motion_us + settings_.interval_us >= track.end_us() &&
                (settings_.interval_us == settings_.period_us || motion_us >= track.end_us());
     }
     [[nodiscard]] SetpointFrames& frames() noexcept { return frames_; }
 
 private:
-    [[nodiscard]] double off_q16(double elapsed_us) const noexcept;
+    [[nodiscard]] double offset_q16(double elapsed_us) const noexcept;
 
     CyclicSettings settings_;
     SetpointFrames frames_;
     std::int64_t target_q16_ = 0; // the last one
-    double off_q16_ = 0.0;        // from the path, when it came back
+    double offset_q16_ = 0.0;     // from the path, when it came back
     double fading_us_ = 0.0;      // for how long it fades
     double elapsed_us_ = 0.0;     // of it
     bool clamped_ = false;

@@ -17,40 +17,41 @@ namespace splinefeed::hal::modbus {
 /// What the buses of a port share. Locked for as long as a frame is computed.
 struct SetpointMotion {
     SetpointMotion(std::size_t segments, std::uint32_t reserve_us)
-        : track(segments), clock(reserve_us), reserve(reserve_us) {}
+        : trajectory(segments), clock(reserve_us), reserve(reserve_us) {}
 
-    /// The motion's time at that instant. Where the track is about to end before the motion does, it begins to stop.
+    /// The motion's time at that instant. Where the trajectory is about to end before the motion does, it begins to
+    /// stop.
     [[nodiscard]] std::uint64_t time_us(std::uint64_t now_us) noexcept;
 
     std::mutex mutex;
-    TrajectoryBuffer track;
+    TrajectoryBuffer trajectory;
     MotionClock clock;
-    std::uint64_t reserve;      ///< motion on which it comes to a stop [us]
-    std::uint64_t ahead_us = 0; ///< how far ahead of its time targets are
-    std::uint64_t told_us = 0;  ///< when the last target arrived at any drive
-    bool complete = false;      ///< the track has the end of the motion
-    bool stops = false;         ///< a stop was asked for: who stands is not to move any more
+    std::uint64_t reserve;              ///< motion on which it comes to a stop [us]
+    std::uint64_t ahead_us = 0;         ///< how far ahead of its time targets are
+    std::uint64_t last_setpoint_us = 0; ///< when the last target arrived at any drive
+    bool complete = false;              ///< the trajectory has the end of the motion
+    bool stop_requested = false;        ///< a stop was asked for: who stands is not to move any more
 };
 
 /// How a drive of a bus does.
 struct SetpointReport {
     DriveReading reading;
-    std::uint64_t heard_us = 0;
-    std::uint64_t said_us = 0;  ///< when it said the reading, at the earliest; 0: it has not yet, while it runs
-    std::uint64_t still_us = 0; ///< for how long its position has not changed by then
-    std::uint64_t told_us = 0;  ///< when the last target arrived; 0: none did
+    std::uint64_t answered_us = 0;
+    std::uint64_t status_us = 0;   ///< when it said the reading, at the earliest; 0: it has not yet, while it runs
+    std::uint64_t still_us = 0;    ///< for how long its position has not changed by then
+    std::uint64_t setpoint_us = 0; ///< when the last target arrived; 0: none did
     StopRequest executed = StopRequest::none; ///< of what stop() asked for
     std::uint64_t executed_us = 0;
     LinkCounts counts;
     std::uint64_t late_us = 0;         ///< most that a target came later than a period after the one before
     LinkFault fault = LinkFault::none; ///< of the last exchange
     bool clamped = false;
-    bool told_end = false;
+    bool end_sent = false;
     bool at_target = true; ///< it is where it was told to be, or is told that each period
 };
 
 /// A position that has not changed for this long stands. [us]
-inline constexpr std::uint64_t stand_still_us = 40'000;
+inline constexpr std::uint64_t standstill_us = 40'000;
 
 class SetpointBus {
 public:
@@ -81,38 +82,38 @@ public:
     /// Has a drive stop, ahead of everything, again and again until it has answered; from then on it gets no targets.
     /// @pre a quick stop or more
     void stop_drive(std::size_t drive, StopRequest request) noexcept {
-        drives_[drive].wanted.store(request, std::memory_order_relaxed);
+        drives_[drive].stop_request.store(request, std::memory_order_relaxed);
     }
 
 private:
-    struct Place {
-        Place(const DriveProfile& profile, ModbusLine& link, int unit) : drive(profile, link, unit) {}
+    struct Slot {
+        Slot(const DriveProfile& profile, ModbusLine& link, int unit) : drive(profile, link, unit) {}
 
         SetpointDrive drive;
         SetpointReport report;
-        Standstill shaft{2 << physical_bits};
-        std::atomic<StopRequest> wanted{StopRequest::none};
-        std::uint64_t told_us = 0;  // when the last target arrived; 0: none did
-        std::uint64_t ended_us = 0; // when it was told the end; 0: not yet
-        std::uint64_t rests_us = 0; // the path stands since then, and so should the drive; 0: it does not
+        Standstill standstill{2 << physical_bits};
+        std::atomic<StopRequest> stop_request{StopRequest::none};
+        std::uint64_t setpoint_us = 0;  // when the last target arrived; 0: none did
+        std::uint64_t end_sent_us = 0;  // when it was told the end; 0: not yet
+        std::uint64_t path_rest_us = 0; // the path stands since then, and so should the drive; 0: it does not
     };
 
     void run(SetpointMotion& motion, std::uint32_t period_us) noexcept;
-    void tell(Place& place, SetpointMotion& motion, std::uint32_t period_us) noexcept;
-    static void watch(const Place& place, SetpointMotion& motion, std::uint64_t now_us,
-                      std::uint32_t period_us) noexcept;
-    void told(Place& place, SetpointMotion& motion, bool sent, std::uint32_t period_us) noexcept;
-    void keep(Place& place) noexcept;
-    void carry_out(Place& place, StopRequest request) noexcept;
+    void send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_t period_us) noexcept;
+    static void check_lateness(const Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
+                               std::uint32_t period_us) noexcept;
+    void on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint32_t period_us) noexcept;
+    void publish_report(Slot& slot) noexcept;
+    void carry_out(Slot& slot, StopRequest request) noexcept;
     void read_statuses() noexcept;
-    void turn(SetpointMotion& motion, std::uint32_t period_us) noexcept;
+    void run_period(SetpointMotion& motion, std::uint32_t period_us) noexcept;
 
     std::unique_ptr<ModbusLine> link_;
-    std::deque<Place> drives_;
+    std::deque<Slot> drives_;
     mutable std::mutex mutex_; // of the reports
     std::unique_ptr<ClockThread> thread_;
     std::atomic<bool> stopping_{false};
-    std::size_t asked_ = 0; // of the statuses
+    std::size_t next_read_ = 0; // of the statuses
     std::atomic<std::uint64_t> busy_us_{0};
 };
 

@@ -43,19 +43,19 @@ public:
     [[nodiscard]] std::string begin(const SetpointSettings& settings);
 
     /// Computes the frames that arrive at that instant.
-    void aim(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
+    void prepare_frames(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
     /// Writes them. False: they were not answered, or refused. Then the next ones are written twice: where a toggle
     /// starts a block, nobody knows how the drive saw it last.
     bool send() noexcept;
     /// It was not told anything for longer than it goes on by itself: it stands.
-    void stood(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
+    void on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
     /// A drive that is told blocks stands, as far as they tell.
     [[nodiscard]] bool at_rest() const noexcept { return block_ && block_->at_rest(); }
-    /// It has stood for some time, as far as its blocks tell. Where it says that it is elsewhere, since it is not known
-    /// which of them it got, the next one goes on from there.
-    void correct() noexcept;
+    /// It has on_setpoint_timeout for some time, as far as its blocks tell. Where it says that it is elsewhere, since
+    /// it is not known which of them it got, the next one goes on from there.
+    void resync_position() noexcept;
     /// When the last block arrived; UINT64_MAX: it did not.
-    void arrived(std::uint64_t arrival_us) noexcept;
+    void on_arrival(std::uint64_t arrival_us) noexcept;
     /// Reads what reading() tells: all frames of it, or the next one in turn.
     bool read_status() noexcept;
     bool read_next() noexcept;
@@ -67,7 +67,7 @@ public:
     bool stop(StopRequest request) noexcept;
 
     [[nodiscard]] const DriveReading& reading() const noexcept { return reading_; }
-    [[nodiscard]] bool told_end(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept;
+    [[nodiscard]] bool end_sent(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept;
     /// It stands within what a loop in position may be off where the last block sent it; a cyclic drive: true.
     [[nodiscard]] bool at_target() const noexcept;
     /// A register could not hold what it was to be told.
@@ -75,9 +75,9 @@ public:
     /// Its segments are the targets.
     [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
     [[nodiscard]] const LinkAnswer& last_answer() const noexcept { return answer_; }
-    [[nodiscard]] std::uint64_t heard_us() const noexcept { return heard_us_; }
+    [[nodiscard]] std::uint64_t answered_us() const noexcept { return answered_us_; }
     /// When reading() was said, the oldest part of it; 0: not all of it was read yet.
-    [[nodiscard]] std::uint64_t said_us() const noexcept;
+    [[nodiscard]] std::uint64_t status_us() const noexcept;
     [[nodiscard]] const DriveProfile& profile() const noexcept { return *profile_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
@@ -86,19 +86,19 @@ private:
     [[nodiscard]] SetpointFrames& frames() noexcept { return block_ ? block_->frames() : cyclic_->frames(); }
     bool command(DriveCommand command, int failures) noexcept;
     template <class Work>
-    [[nodiscard]] std::string attended(const SetpointSettings& settings, const Work& work);
+    [[nodiscard]] std::string run_with_meanwhile(const SetpointSettings& settings, const Work& work);
     [[nodiscard]] std::string switch_on(const SetpointSettings& settings);
     [[nodiscard]] bool wait_until(std::uint64_t instant_us) noexcept;
     bool write(const RegisterWrite& write) noexcept;
     bool read(std::uint16_t address, std::span<std::uint16_t> out) noexcept;
-    bool note(const LinkAnswer& answer) noexcept;
+    bool record(const LinkAnswer& answer) noexcept;
     template <class Try>
-    [[nodiscard]] bool persist(const Try& attempt);
+    [[nodiscard]] bool retry(const Try& attempt);
     [[nodiscard]] bool set_field(FieldIndex field, std::int64_t raw);
     [[nodiscard]] bool set_role(FieldRole role, std::int64_t physical_q16);
     [[nodiscard]] bool initialise();
     [[nodiscard]] std::string home(const SetpointSettings& settings);
-    [[nodiscard]] std::string follow();
+    [[nodiscard]] std::string prime_blocks();
     [[nodiscard]] std::string not_enabled() const;
     [[nodiscard]] std::string check_identity();
     [[nodiscard]] std::string trouble(const char* what) const;
@@ -109,16 +109,16 @@ private:
     StatusFrames status_;
     std::optional<BlockStream> block_;
     std::optional<CyclicStream> cyclic_;
-    std::span<const RegisterWrite> aimed_;
-    bool unsure_ = false; // whether it got the last ones
+    std::span<const RegisterWrite> prepared_;
+    bool delivery_unknown_ = false; // whether it got the last ones
     DriveReading reading_;
     LinkAnswer answer_;
     LinkCounts counts_;
     std::function<std::string()> meanwhile_; // SetpointSettings
     std::string trouble_elsewhere_;          // that it told
-    std::uint64_t heard_us_ = 0;
-    std::size_t asked_ = 0;                                         // frames of the status so far
-    std::array<std::uint64_t, StatusFrames::most_reads> said_us_{}; // each of them
+    std::uint64_t answered_us_ = 0;
+    std::size_t next_read_ = 0;                                       // frames of the status so far
+    std::array<std::uint64_t, StatusFrames::most_reads> status_us_{}; // each of them
 };
 
 } // namespace splinefeed::hal::modbus

@@ -33,7 +33,7 @@ public:
     /// What a physical value of that role becomes on its way through the register; the value itself without a field.
     [[nodiscard]] double rounded(FieldRole role, double physical) const noexcept;
     /// Whoever writes a field by other ways (enable, mode) says so: bits of commands are laid over it.
-    void told(FieldIndex field, std::int64_t raw) noexcept { last_[field] = raw; }
+    void set_last(FieldIndex field, std::int64_t raw) noexcept { last_[field] = raw; }
     [[nodiscard]] std::int64_t last(FieldIndex field) const noexcept { return last_[field]; }
     /// The frame that writes one field; of the target group, with all of it and without a start. It counts as told.
     [[nodiscard]] RegisterWrite single(FieldIndex field, std::int64_t raw) noexcept;

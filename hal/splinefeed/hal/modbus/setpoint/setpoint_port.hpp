@@ -12,7 +12,7 @@
 namespace splinefeed::hal::modbus {
 
 struct SetpointPortSettings {
-    std::uint32_t reserve_us = 100'000; ///< motion on which a stop on the path takes place
+    std::uint32_t reserve_us = 100'000; ///< motion on which a stop on the path takes slot
     bool home = false;                  ///< prepare() has the drives find their references first, one after the other
     bool (*interrupted)() = nullptr;    ///< asked meanwhile: a quick stop
     std::uint32_t buffer_us = 300'000;  ///< motion that is planned ahead
@@ -58,24 +58,24 @@ public:
     /// Why it is in fault, or did not take a segment; the drive that it is about.
     [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
     [[nodiscard]] std::size_t trouble_with() const noexcept { return trouble_with_; }
-    [[nodiscard]] std::size_t drives() const noexcept { return places_.size(); }
+    [[nodiscard]] std::size_t drives() const noexcept { return slots_.size(); }
     [[nodiscard]] SetpointReport report(std::size_t drive) const noexcept {
-        return places_[drive].bus->report(places_[drive].index);
+        return slots_[drive].bus->report(slots_[drive].index);
     }
     /// Before prepare(): where the drive itself says that it is, and how its wire did.
     [[nodiscard]] double standing_counts(std::size_t drive) const noexcept {
-        const DriveReading& reading = places_[drive].bus->drive(places_[drive].index).reading();
+        const DriveReading& reading = slots_[drive].bus->drive(slots_[drive].index).reading();
         return static_cast<double>(reading.position_q16) / (1 << physical_bits);
     }
     [[nodiscard]] const LinkCounts& counts(std::size_t drive) const noexcept {
-        return places_[drive].bus->drive(places_[drive].index).counts();
+        return slots_[drive].bus->drive(slots_[drive].index).counts();
     }
     /// Where a machine's axis stands by what its drive says, in counts of the machine.
     [[nodiscard]] double position_counts(std::size_t drive) const noexcept {
-        return places_[drive].frame.axis_counts(report(drive).reading.position_q16);
+        return slots_[drive].frame.axis_counts(report(drive).reading.position_q16);
     }
     /// Whether it was heard just now.
-    [[nodiscard]] bool heard(std::size_t drive) const noexcept;
+    [[nodiscard]] bool online(std::size_t drive) const noexcept;
     /// How far the drive may have been from the path between two targets, by what was submitted so far, with what its
     /// registers round and how late its targets came. [counts]
     [[nodiscard]] double deviation_counts(std::size_t drive) const noexcept;
@@ -90,7 +90,7 @@ public:
 private:
     enum class Phase : std::uint8_t { filling, running, arriving, stopping, waiting, ending, halted, done, fault };
 
-    struct Place {
+    struct Slot {
         SetpointWiring wiring;
         SetpointBus* bus = nullptr;
         std::size_t index = 0; // on the bus
@@ -106,12 +106,12 @@ private:
     void do_halt() noexcept override;
 
     [[nodiscard]] std::uint64_t answers_us() const noexcept;
-    bool watch() noexcept;
+    bool check_drives() noexcept;
     void begin_stop(StopRequest request) noexcept;
     void follow_stop(std::uint64_t now_us) noexcept;
     void await_stop() noexcept;
     void follow_clock(std::uint64_t now_us) noexcept;
-    [[nodiscard]] bool takes() const noexcept {
+    [[nodiscard]] bool accepts_segments() const noexcept {
         return phase_ == Phase::filling || phase_ == Phase::running || phase_ == Phase::waiting ||
                phase_ == Phase::stopping;
     }
@@ -121,7 +121,7 @@ private:
     SetpointPortSettings settings_;
     mutable SetpointMotion motion_; // the buses' threads use it to their end
     std::vector<std::unique_ptr<SetpointBus>> buses_;
-    std::vector<Place> places_;
+    std::vector<Slot> slots_;
     std::vector<StopFacts> facts_; // of each drive
     StopSequence stop_;
     StopTimes stop_times_;
@@ -130,9 +130,9 @@ private:
     std::size_t trouble_with_ = 0;
     Phase phase_ = Phase::filling;
     std::uint64_t arriving_us_ = 0;
-    std::uint64_t began_us_ = 0; // the buses' threads; 0: not yet
-    std::uint64_t stood_us_ = 0; // when it began to wait
-    std::uint64_t there_us_ = 0; // all have arrived since then; 0: not yet
+    std::uint64_t began_us_ = 0;         // the buses' threads; 0: not yet
+    std::uint64_t waiting_since_us_ = 0; // when it began to wait
+    std::uint64_t arrived_since_us_ = 0; // all have arrived since then; 0: not yet
     std::uint64_t submitted_ = 0;
     std::uint64_t segment_us_ = 1;
     std::uint32_t period_us_ = 0;

@@ -7,10 +7,11 @@
 namespace splinefeed::hal::modbus {
 
 /// @param began_us  when the stop was asked for
-[[nodiscard]] StopFacts stop_facts(const SetpointReport& seen, SetpointMotion& motion, std::uint64_t began_us) noexcept;
+[[nodiscard]] StopFacts stop_facts(const SetpointReport& report, SetpointMotion& motion,
+                                   std::uint64_t began_us) noexcept;
 
 /// Whether it follows, and is where the motion stands. [counts] @pre the motion is stopping, or never began
-[[nodiscard]] bool stands_on_path(const SetpointReport& seen, SetpointMotion& motion, int axis,
+[[nodiscard]] bool stands_on_path(const SetpointReport& report, SetpointMotion& motion, int axis,
                                   double tolerance_counts) noexcept;
 
 } // namespace splinefeed::hal::modbus

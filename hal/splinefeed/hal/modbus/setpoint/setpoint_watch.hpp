@@ -12,11 +12,11 @@ public:
     /// What is wrong with it; empty: nothing.
     /// @param away_us   not having answered for this long is trouble
     /// @param began_us  since when it is to follow
-    [[nodiscard]] std::string trouble(const SetpointReport& seen, std::uint64_t now_us, std::uint64_t away_us,
+    [[nodiscard]] std::string trouble(const SetpointReport& report, std::uint64_t now_us, std::uint64_t away_us,
                                       std::uint64_t began_us);
 
 private:
-    std::uint64_t lost_us_ = 0; // its state is unknown since then; 0: it is not
+    std::uint64_t unknown_since_us_ = 0; // its state is unknown since then; 0: it is not
 };
 
 } // namespace splinefeed::hal::modbus

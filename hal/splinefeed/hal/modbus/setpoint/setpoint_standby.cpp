@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/setpoint/setpoint_company.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_standby.hpp"
 
 namespace splinefeed::hal::modbus {
 
-std::string SetpointCompany::attend(const SetpointDrive& but) {
+std::string SetpointStandby::poll_others(const SetpointDrive& but) {
     for (troubled_ = 0; troubled_ < drives_.size(); ++troubled_) {
         SetpointDrive& drive = *drives_[troubled_];
         if (&drive == &but) {
@@ -17,7 +17,7 @@ std::string SetpointCompany::attend(const SetpointDrive& but) {
         if (reading.state == DriveState::disabled) {
             return "it was disabled while another drive was made ready";
         }
-        if (drive.link().clock().now_us() > drive.heard_us() + away_us_) {
+        if (drive.link().clock().now_us() > drive.answered_us() + away_us_) {
             return std::string("it does not answer any more: ") + describe(drive.last_answer().fault);
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SetpointCompany: the drives of a run that are enabled, while another one is made ready.
+// SetpointStandby: the drives of a run that are enabled, while another one is made ready.
 #pragma once
 
 #include "splinefeed/hal/modbus/setpoint/setpoint_drive.hpp"
@@ -7,15 +7,15 @@
 namespace splinefeed::hal::modbus {
 
 /// They are heard all the while, so that their watchdogs do not run out, and a fault of one is seen.
-class SetpointCompany {
+class SetpointStandby {
 public:
     /// @param away_us  a drive that was not heard for this long is in trouble
-    explicit SetpointCompany(std::uint64_t away_us) noexcept : away_us_(away_us) {}
+    explicit SetpointStandby(std::uint64_t away_us) noexcept : away_us_(away_us) {}
 
     /// An enabled drive, which must outlive it.
     void add(SetpointDrive& drive) { drives_.push_back(&drive); }
     /// Hears each but that one, once. What is wrong with troubled(); empty: nothing.
-    [[nodiscard]] std::string attend(const SetpointDrive& but);
+    [[nodiscard]] std::string poll_others(const SetpointDrive& but);
     /// Index in the order of add().
     [[nodiscard]] std::size_t troubled() const noexcept { return troubled_; }
 
