@@ -35,8 +35,8 @@ void StopSequence::request(StopRequest request, std::uint64_t now_us) noexcept {
     }
 }
 
-// What was said before the request was executed tells of the time before. Standing counts from the first status that
-// says so: a shaft still settles behind it.
+// A status from before the execution says nothing about the stop. The settling time counts from the first status that
+// reports standstill.
 void StopSequence::assess(Axis& axis, const StopFacts& facts) const noexcept {
     axis.report.status_us = facts.status_us;
     axis.report.on_path = facts.on_path;
@@ -48,7 +48,7 @@ void StopSequence::assess(Axis& axis, const StopFacts& facts) const noexcept {
     axis.report.state = settled ? StopState::confirmed : axis.executed ? StopState::stopping : StopState::moving;
 }
 
-// What was confirmed once and moves again has no time left.
+// An axis that was confirmed and moves again has used up its time: it escalates at once.
 void StopSequence::escalate(Axis& axis, std::uint64_t now_us) const noexcept {
     if (now_us <= axis.since_us + bound_us(axis.report.request)) {
         return;

@@ -11,11 +11,11 @@ namespace splinefeed::hal::gpio {
 
 namespace {
 
-constexpr std::uint32_t level_check_us = 5000;  // between two looks at the levels
-constexpr std::uint64_t behind_ns = 50'000'000; // edges come sooner than that: older steps are of no interest
+constexpr std::uint32_t level_check_us = 5000;  // between two reads of the levels
+constexpr std::uint64_t behind_ns = 50'000'000; // edges arrive within this time: older steps are not needed
 constexpr std::size_t events_at_once = 256;
 constexpr std::uint64_t ns_per_us = 1000;
-constexpr int lost_edge_checks = 3; // so many looks with another level than the edges told
+constexpr int lost_edge_checks = 3; // consecutive checks with a level that contradicts the edges
 
 } // namespace
 
@@ -48,7 +48,7 @@ bool InputWatch::start() {
         active_[i].store(level == input.active_level);
     }
     thread_ = time_->start([this] {
-        if (priority_ > 0) { // what it lacks then is what the thread that makes edges lacks, which says so
+        if (priority_ > 0) { // StepPort's thread reports what the system refuses
             static_cast<void>(claim_real_time({.priority = priority_}));
         }
         work();
@@ -71,7 +71,7 @@ std::string InputWatch::trouble() const {
     return error_ == 0 ? std::string() : std::strerror(error_); // NOLINT(concurrency-mt-unsafe)
 }
 
-// A machine whose switches are not heard must not move.
+// A machine whose switches cannot be read must not move.
 void InputWatch::fail(int error) {
     disable_();
     const std::lock_guard lock(mutex_);
@@ -114,7 +114,8 @@ void InputWatch::settle(std::uint64_t now_ns) {
     }
 }
 
-// An edge that was lost shows as a level that stays another one. One look could be before an edge that is on its way.
+// A level that keeps contradicting the edges means that an edge was lost. A single contradiction may be an edge that is
+// still on its way.
 void InputWatch::check_levels(std::uint64_t now_ns) {
     const std::optional<std::uint64_t> levels = source_->levels();
     if (!levels) {

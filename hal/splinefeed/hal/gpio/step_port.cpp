@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// One thread makes all edges:
+// One thread writes all edges:
 //
 //     segment ring ──► PulseTrain ──► edges of one tick ──► EdgeClock: wait until due ──► one write a chip
 //
-// It sleeps in slices, so that a cut is seen within one.
+// It sleeps in slices, so disable() takes effect within one slice.
 #include "splinefeed/hal/gpio/step_port.hpp"
 
 #include <algorithm>
@@ -20,9 +20,9 @@ constexpr std::int64_t ns_per_tick = 125;
 constexpr std::uint64_t ns_per_ms = 1'000'000;
 constexpr std::size_t ring_segments = 4096;
 constexpr std::uint64_t lead_ns = 5 * ns_per_ms;   // longer than any set-up time
-constexpr std::uint64_t supply_ns = ns_per_ms / 5; // between two looks for more segments
-constexpr std::uint64_t claim_ns = ns_per_ms / 10; // between two looks whether the thread has begun
-constexpr std::int64_t slow_ns = 10'000'000;       // steps further apart: any motor stops between two of them
+constexpr std::uint64_t supply_ns = ns_per_ms / 5; // between two checks for more segments
+constexpr std::uint64_t claim_ns = ns_per_ms / 10; // between two checks whether the thread has started
+constexpr std::int64_t slow_ns = 10'000'000;       // with steps further apart than this, any motor stops between them
 constexpr std::uint64_t ns_per_us = 1000;
 constexpr int stall_error = -1; // no errno
 
@@ -32,7 +32,7 @@ std::uint64_t guard_of(const StepTiming& timing) noexcept {
 
 } // namespace
 
-// What is held is twice the reserve and more, so that a motion that has just begun is not told to slow down.
+// The buffer is more than twice the reserve, so a motion that has just begun does not slow down.
 StepPort::StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& settings)
     : lines_(std::move(chips), settings.axes, settings.timing.step_on_edge), settings_(settings),
       train_(make_pulse_train(settings.axes, settings.timing)),
@@ -84,7 +84,7 @@ void StepPort::stop() noexcept {
 
 void StepPort::park() noexcept {
     if (!drives_on_ || !position_known()) {
-        return; // never on, or off at once
+        return; // never enabled, or disabled already
     }
     if (!lines_.brake(false)) {
         may_be_on_.store(true);
@@ -129,7 +129,7 @@ std::string StepPort::trouble() const {
                       : std::string("a line cannot be set: ") + std::strerror(error); // NOLINT(concurrency-mt-unsafe)
 }
 
-// Nothing is on the way any more. What cannot be set now is tried again by the thread.
+// Drops pending edges and disables the drives. The thread tries again if a line cannot be set.
 void StepPort::switch_off() noexcept {
     lines_.drop();
     switched_off_ = lines_.enable(false);
@@ -148,8 +148,8 @@ bool StepPort::buffer_filled() const noexcept {
            held >= motion_ns_.load(std::memory_order_relaxed) + settings_.buffer_ms * ns_per_ms;
 }
 
-// The clock slows down before the segments run out, and goes on when there are enough of them. It never runs ahead of
-// what is still to be made: a process that stood still goes on where it was.
+// Slows the clock down before the segments run out, and resumes it when there are enough. The clock never runs ahead of
+// edges that are still to be written: after a pause of the process the motion resumes where it was.
 void StepPort::check_supply(std::uint64_t now_ns) noexcept {
     const std::int64_t to_be_made =
         gathered_ ? gathered_tick_ * ns_per_tick
@@ -181,7 +181,7 @@ void StepPort::check_supply(std::uint64_t now_ns) noexcept {
     }
 }
 
-// Edges of axes that were at rest, or as good as that, may come as late as they like.
+// Edges of axes at rest, or nearly at rest, may be arbitrarily late.
 bool StepPort::stalled(std::uint64_t late_ns) const noexcept {
     if (late_ns <= settings_.stall_ns || !clock_.has_made()) {
         return false;
@@ -200,7 +200,7 @@ template <class Engine>
 bool StepPort::next_of(PulseTrain<Engine>& train, Edge& edge) noexcept {
     while (!train.next(edge)) {
         FeedSegment segment;
-        // In this order: what was submitted before complete() is seen.
+        // Read in this order, so that segments submitted before complete() are not missed.
         const bool complete = complete_.load(std::memory_order_acquire);
         if (ring_.pop(segment)) {
             train.take(segment);
@@ -215,7 +215,7 @@ bool StepPort::next_of(PulseTrain<Engine>& train, Edge& edge) noexcept {
     return true;
 }
 
-// The next edge of the motion, as far as it is known.
+// The next edge of the motion; false: none yet.
 bool StepPort::next(Edge& edge) noexcept {
     if (auto* const train = std::get_if<PulseTrain<StepIntervals>>(&train_)) {
         return next_of(*train, edge);
@@ -223,7 +223,7 @@ bool StepPort::next(Edge& edge) noexcept {
     return next_of(*std::get_if<PulseTrain<FixedRate>>(&train_), edge);
 }
 
-// All edges of the next instant, as far as they are known: before the wait, so that a line changes when it is over.
+// Collects all edges of the next instant before the wait, so that the lines change at its end without computation.
 bool StepPort::gather() noexcept {
     if (!have_ && !(have_ = next(edge_))) {
         return false;
@@ -266,7 +266,7 @@ bool StepPort::steps(const Edge& edge) const noexcept {
     return edge.line == Line::step && (edge.level || settings_.timing.step_on_edge);
 }
 
-// False: no step is to be made any more.
+// Applies disable() and quick_stop(). Returns false if no further edge may be written.
 bool StepPort::apply_requests(std::uint64_t now_ns) noexcept {
     State state = state_.load(std::memory_order_relaxed);
     if (disable_requested_.load(std::memory_order_acquire) && state != State::disabled) {
@@ -289,7 +289,7 @@ bool StepPort::apply_requests(std::uint64_t now_ns) noexcept {
     return state == State::idle || state == State::running;
 }
 
-// The brake is released once the drives hold the axes.
+// Releases the brake when the drives hold the axes. Returns true when the brake is open.
 bool StepPort::drives_ready(std::uint64_t now_ns) noexcept {
     if (now_ns < drives_ready_ns_) {
         return false;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// All drives have the same segments by number, the same stop reserve and, as far as their clocks are known, one time of
-// start: so they are at the same place of the path at all times. Where one of them is about to run dry (its ring would
-// last for less than the reserve and a guard, as far as is known of it), all are told to treat the same segment as
-// their last: each slows down by the map's rule, and they stand together, on the path. What they were told beyond that
-// they drop; it is sent again.
+// All drives have the same numbered segments, the same stop reserve and, within the uncertainty of their clocks, the
+// same start time: so they are always at the same point of the path. If one of them is about to run dry (its ring lasts
+// for less than the reserve and a guard time), all drives get the same last segment: each slows down by the rule of the
+// map, and they stop together, on the path. They drop the segments beyond it, which are sent again.
 #include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
@@ -17,12 +16,12 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t lead_us = 60'000;   // from a command to the instant that it names
-constexpr std::uint64_t settle_us = 40'000; // until a drive's state tells of its start
-constexpr double guard_us = 60'000.0;       // to tell the others that one runs dry
+constexpr std::uint64_t lead_us = 60'000;   // from sending a command to the instant that it names
+constexpr std::uint64_t settle_us = 40'000; // from a start until the drive's state reflects it
+constexpr double guard_us = 60'000.0;       // to send the last segment when one drive runs dry
 constexpr std::uint64_t poll_interval_us = 1000;
 constexpr double ticks_per_us = 8.0;
-constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before a hold becomes a quick stop
+constexpr std::uint64_t stop_exchanges = 8; // lost in a row before a hold becomes a quick stop
 
 } // namespace
 
@@ -35,7 +34,7 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
     }
     const WireGroups groups = group_by_wire(uses, settings.timing);
     for (const WireUse& wire : groups.wires) {
-        settings_.timing = settings_.timing.slower(wire.timing); // for what is waited for on any wire
+        settings_.timing = settings_.timing.slower(wire.timing); // the slowest wire determines the waiting times
         buses_.push_back(std::make_unique<ModbusBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
     }
     for (const DriveWiring& drive : wiring) {
@@ -111,7 +110,7 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
     failure = failure ? failure : setup.command(PvtCommand::begin, settings_.first_sequence);
     if (!failure && settings_.home) {
         failure = setup.home(settings_.interrupted);
-        if (failure) { // what still looks for its reference moves
+        if (failure) { // drives that are still homing move
             quick_stop();
             await_stop();
         }
@@ -155,7 +154,7 @@ bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
         return false;
     }
     for (std::size_t i = 0; i < drives_.size(); ++i) {
-        if (!drives_[i].carries(segment)) { // nobody gets it
+        if (!drives_[i].carries(segment)) { // no drive gets it
             fail(i, DriveProblem::range);
             return false;
         }
@@ -185,14 +184,14 @@ void ModbusPort::enter(ModbusPhase phase) noexcept {
     }
 }
 
-// The others stop on the path; then it is in fault.
+// Stops the other drives on the path; the port is in fault when they stand.
 void ModbusPort::fail(std::size_t drive, DriveProblem problem) noexcept {
     failure_ = DriveFailure{drive, problem};
     begin_stop(StopRequest::hold);
 }
 
-// Whether every drive has what it is to start with, counted from the one that is furthest behind: it is by that one
-// that there is room, and a drive that stands ahead of it starts later and gets its own in between, or is at the end.
+// Whether every drive has enough segments to start, counted from the drive that is furthest behind, which determines
+// the room. A drive ahead of it starts later and gets its segments meanwhile, or is at the end.
 bool ModbusPort::filled() const noexcept {
     const std::uint32_t first = executed();
     return std::all_of(drives_.begin(), drives_.end(), [&](const PortDrive& drive) {
@@ -202,13 +201,13 @@ bool ModbusPort::filled() const noexcept {
     });
 }
 
-// So that a start that is lost is told again in time.
+// Includes time to repeat a lost start command.
 std::uint64_t ModbusPort::start_lead_us() const noexcept {
     constexpr std::uint64_t lost = 2;
     return lead_us + lost * settings_.timing.answer_us;
 }
 
-// At one instant of our clock; a drive that stands ahead of the others that much later.
+// Starts all drives at one instant; a drive that stands ahead of the others starts later by that much.
 void ModbusPort::start() noexcept {
     const std::uint32_t first = executed();
     for (PortDrive& drive : drives_) {
@@ -220,7 +219,7 @@ void ModbusPort::start() noexcept {
     enter(ModbusPhase::starting);
 }
 
-// Whether all drives run, and go on running for long enough to tell the others if one does not.
+// Checks whether all drives run and have segments for long enough to stop the others in time. If not, stops all.
 void ModbusPort::check_drives() noexcept {
     if (now_us_ < started_us_) {
         return;
@@ -266,7 +265,7 @@ bool ModbusPort::all_at_standstill() const noexcept {
                        [&](const PortDrive& drive) { return drive.presumed_at_standstill(times_); });
 }
 
-// For whoever is away; then all go on together.
+// Waits until every drive is online and ready, then starts or resumes all together.
 void ModbusPort::await_all() noexcept {
     bool ready = true;
     bool done = complete_;
@@ -342,7 +341,7 @@ PortState ModbusPort::do_poll() noexcept {
                             : phase_ == ModbusPhase::halted ? PortPhase::halted
                                                             : PortPhase::running;
     const std::uint32_t now = executed();
-    executed_ += now - executed_to_; // numbers wrap
+    executed_ += now - executed_to_; // sequence numbers wrap
     executed_to_ = now;
     return {phase, executed_};
 }

@@ -9,7 +9,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr double command_transit_us = 10'000.0; // a command
+constexpr double command_transit_us = 10'000.0; // time for a command to arrive
 
 } // namespace
 
@@ -50,17 +50,17 @@ void PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
     client_->push(last_);
 }
 
-// At a count of n executed segments the motion is within the next one: no further than its end. Each answer comes at
-// another place in its segment, so some say it closely.
+// After n executed segments the drive is within the next one, no further than its end. Answers come at different points
+// of a segment, so some of them bound the lag closely.
 void PortDrive::update(std::uint64_t now_us, const PortTimes& times) noexcept {
     report_ = client_->report();
     age_us_ = now_us > report_.answered_us ? now_us - report_.answered_us : 0;
     const auto status_us = static_cast<double>(report_.status_us);
-    if (starting_ && !report_.command_pending) { // one that was told too late began then
+    if (starting_ && !report_.command_pending) { // a start that arrived too late took place then
         starting_ = false;
         lag_us_ = std::max(lag_us_, status_us - start_us_);
     }
-    ran_ += status().executed - ran_to_; // numbers wrap
+    ran_ += status().executed - ran_to_; // sequence numbers wrap
     ran_to_ = status().executed;
     if (trim_.anchored() && status_us > full_rate_us_ && !executed_all()) {
         const double most_us = static_cast<double>(ran_ + 1) * times.segment_us;
@@ -105,7 +105,7 @@ void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
     starting_ = true;
     start_us_ = static_cast<double>(at_us);
     from_joint_ = client_->at_joint(status());
-    // A drive that speeds up from rest loses as much as its reserve.
+    // A drive that speeds up from rest loses one reserve of motion time.
     began_us_ = static_cast<double>(at_us) + (held ? times.reserve_us : 0.0);
     full_rate_us_ = began_us_ + (held ? times.reserve_us : 0.0);
     ran_ = 0;

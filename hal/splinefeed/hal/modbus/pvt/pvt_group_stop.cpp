@@ -14,10 +14,10 @@ void PvtGroupStop::request(StopRequest request, std::uint64_t now_us, std::uint6
     sequence_.request(request, now_us);
 }
 
-// Whether all drives stand at one place of the path: all slowed down from one instant on, or none moved and all are at
-// one joint; at the end of the motion it does not matter how.
+// Whether all drives stand at one point of the path: all slowed down from one instant on, or none moved and all are at
+// the same joint, or all are at the end of the motion.
 bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
-    const std::uint32_t first = drives.front().status().executed; // numbers wrap
+    const std::uint32_t first = drives.front().status().executed; // sequence numbers wrap
     std::int32_t least = 0;
     std::int32_t most = 0;
     bool stands = true;

@@ -21,7 +21,7 @@ bool PvtSetup::carried_out(const std::vector<PortDrive>& drives) noexcept {
     return std::none_of(drives.begin(), drives.end(), [](const PortDrive& drive) { return drive.pending(); });
 }
 
-// And looks at what the drives said meanwhile.
+// Waits for one poll interval and reads the drives' reports.
 void PvtSetup::poll() noexcept {
     clock_.sleep_us(poll_interval_us);
     now_us_ = clock_.now_us();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A drive in state `standing` may have a start whose time has not come: `hold` does not fit there, and a quick stop
-// that is late would take it off the path. `begin` with the segment that comes next calls the start off and is refused
-// once the drive runs: then it is held like the others.
+// A drive in state `standing` may have a pending start: `hold` is not allowed there, and a late quick stop would take
+// the drive off the path. `begin` with the next segment cancels the start, and the drive refuses it if it runs already:
+// then it gets a hold like the others.
 #include "splinefeed/hal/modbus/pvt/pvt_stop.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t still_us = 15'000; // of what has no power, by its position
+constexpr std::uint64_t still_us = 15'000; // standstill of an unpowered drive, by its position
 
 } // namespace
 
@@ -24,8 +24,8 @@ bool PvtStop::still() const noexcept {
                        [](const Standstill& axis) { return axis.still_us() >= still_us; });
 }
 
-// Up to the instant of the hold it gets nothing more: a ring that is shorter than the reserve by then slows it down
-// before, unless a place to stand is in it.
+// The drive gets no more segments before the hold. If its ring is shorter than the reserve by then, it slows down
+// earlier, unless a segment in it ends at rest.
 PvtStop::Hold PvtStop::hold_by(const DriveReport& answer, const PortTimes& times) const noexcept {
     const PvtStatus& status = answer.status;
     const bool held_then = state_then_ == PvtState::held && status.state == PvtState::held;
@@ -51,7 +51,8 @@ void PvtStop::update(const DriveReport& report, const PortTimes& times) noexcept
     }
     if (!report_.command_refused) {
         hold_ = pending_ == StopRequest::hold ? hold_by(report_, times) : hold_;
-        const bool quick = command_ == PvtCommand::quick_stop; // in place of a power off that does not fit yet
+        const bool quick =
+            command_ == PvtCommand::quick_stop; // instead of a power off, which its state does not allow yet
         executed_ = std::max(executed_, quick ? std::min(pending_, StopRequest::quick_stop) : pending_);
         executed_us_ = report_.status_us;
     }
@@ -71,18 +72,18 @@ PvtCommand PvtStop::command_for(StopRequest request) const noexcept {
 
 void PvtStop::send_once(StopRequest request, std::uint64_t hold_at_us) noexcept {
     if (request <= pending_) {
-        return; // it is on its way
+        return; // the command is on its way
     }
     pending_ = request;
     command_ = command_for(request);
     state_then_ = report_.status.state;
     hold_at_us_ = hold_at_us;
-    const std::uint32_t hold_at =
-        report_.clock.known() ? report_.clock.drive_clock(hold_at_us) : report_.status.clock_us; // in the past: at once
+    const std::uint32_t hold_at = report_.clock.known() ? report_.clock.drive_clock(hold_at_us)
+                                                        : report_.status.clock_us; // in the past, so it acts at once
     client_->interrupt(command_, command_ == PvtCommand::begin ? report_.status.executed : hold_at);
 }
 
-// What has no power, or stops in a fault, needs not be told, and would refuse; but it must not be told to enable.
+// A drive without power or in fault needs no command and would refuse one. But a pending command may be `enable`.
 StopFacts PvtStop::facts() const noexcept {
     const PvtState state = report_.status.state;
     StopFacts facts{.status_us = report_.status_us,

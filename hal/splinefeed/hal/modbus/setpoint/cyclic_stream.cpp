@@ -18,8 +18,8 @@ CyclicStream::CyclicStream(const DriveProfile& profile, const CyclicSettings& se
     }
 }
 
-// Peak acceleration of 3 u^2 - 2 u^3 over T: 6 / T^2. A path that moves meanwhile is joined at its speed at once, as it
-// was left: to catch up by the axis's acceleration would take it far off.
+// Peak acceleration of 3 u^2 - 2 u^3 over T: 6 / T^2. If the path moves meanwhile, the drive takes its speed at once,
+// as it lost it: with the axis's acceleration it would fall far behind.
 void CyclicStream::on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
     offset_q16_ = static_cast<double>(target_q16_ - track.at(settings_.axis, instant.motion_us).position_q16);
     fading_us_ = us_per_s * std::sqrt(6.0 * std::fabs(offset_q16_) / (settings_.acceleration * (1 << physical_bits)));

@@ -8,11 +8,11 @@ namespace splinefeed::hal::modbus {
 namespace {
 
 constexpr int probes = 20;
-constexpr std::uint32_t frames_a_target = 3; // of a drive without a group: speed, target, start
+constexpr std::uint32_t frames_a_target = 3; // for a drive without a target group: speed, target, start
 constexpr std::uint32_t least_period_us = 2000;
-constexpr std::uint64_t end_retry_us = 300'000; // a drive that was told the end says that it is there
-constexpr double margin = 1.3;                  // of what was measured
-constexpr std::uint32_t slack_us = 1000;        // and of a line's rate
+constexpr std::uint64_t end_retry_us = 300'000; // if a drive does not report arrival by then, the end is sent again
+constexpr double margin = 1.3;                  // on measured times
+constexpr std::uint32_t slack_us = 1000;        // on the line's rate
 
 } // namespace
 
@@ -48,7 +48,7 @@ std::uint32_t SetpointBus::shortest_period_us() {
         }
         sum += cost.target_us;
         longest_read = std::max(longest_read, cost.read_us);
-        // A cyclic drive's own period is how long it takes to get to a target: the next one may come before.
+        // A cyclic drive's own period is its time to reach a target; the next target may come earlier.
         longest_own = std::max(longest_own, profile.stream == StreamWay::blocks ? profile.period_us : 0U);
     }
     return std::max(longest_own, sum + longest_read + (serial ? slack_us : 0U));
@@ -86,7 +86,7 @@ void SetpointBus::publish_report(Slot& slot) noexcept {
     slot.report.counts = slot.drive.counts();
 }
 
-// By the time at which its frame arrives.
+// Sends a drive its target for the instant at which the frame arrives.
 void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_t period_us) noexcept {
     const std::uint64_t arrives_us = link_->next_us() + stream_cost(slot.drive.profile(), link_->address()).arrival_us;
     bool end_sent = false;
@@ -95,12 +95,12 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
         check_lateness(slot, motion, arrives_us, period_us);
         const MotionInstant instant{arrives_us, motion.time_us(arrives_us), motion.time_us(arrives_us + period_us)};
         if (motion.trajectory.empty() || instant.motion_us == 0) {
-            return; // not started
+            return; // the motion has not started
         }
         if (!motion.stop_requested && slot.end_sent_us != 0 && !(slot.drive.reading().done && slot.drive.at_target()) &&
             arrives_us > slot.end_sent_us + end_retry_us) {
             slot.end_sent_us = 0;
-            slot.drive.on_arrival(UINT64_MAX); // it may not have seen the last one
+            slot.drive.on_arrival(UINT64_MAX); // the last block may be lost
         }
         if (slot.setpoint_us != 0 &&
             arrives_us > slot.setpoint_us + std::max(period_us, slot.drive.profile().period_us)) {
@@ -122,8 +122,8 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
     on_sent(slot, motion, sent, period_us);
 }
 
-// The drive goes on as it was told before, but not for long: then all stop. Where nobody was told anything meanwhile
-// they have all stopped by themselves, and the path waits for them there.
+// A drive without a new target continues for a short time only, so all drives stop. If no drive got a target meanwhile,
+// all have stopped by themselves: the clock then stops from the last target on, and the path waits there.
 void SetpointBus::check_lateness(const Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
                                  std::uint32_t period_us) noexcept {
     const std::uint64_t due_us = slot.setpoint_us + period_us;
@@ -164,7 +164,7 @@ void SetpointBus::carry_out(Slot& slot, StopRequest request) noexcept {
     slot.report.executed_us = slot.drive.last_answer().answered_us;
 }
 
-// One frame of one drive's in turn; of drives that are to stop of each, since they get no targets.
+// Reads one status frame of one drive in turn, and one of each drive that is being stopped, because it gets no targets.
 void SetpointBus::read_statuses() noexcept {
     const std::size_t next = next_read_++ % drives_.size();
     for (std::size_t i = 0; i < drives_.size() && link_->connected(); ++i) {
@@ -176,7 +176,7 @@ void SetpointBus::read_statuses() noexcept {
     }
 }
 
-// What a bus does in a period.
+// The work of one period.
 void SetpointBus::run_period(SetpointMotion& motion, std::uint32_t period_us) noexcept {
     if (!link_->connected() && !link_->connect()) {
         for (Slot& slot : drives_) {
@@ -206,7 +206,7 @@ void SetpointBus::run(SetpointMotion& motion, std::uint32_t period_us) noexcept 
         run_period(motion, period_us);
         busy_us_.store(thread_us(), std::memory_order_relaxed);
         const std::uint64_t now = clock.now_us();
-        if (now > next_us + period_us) { // behind: never a burst of old targets
+        if (now > next_us + period_us) { // late: skip periods, never send a burst of old targets
             next_us += (now - next_us) / period_us * period_us;
         }
     }

@@ -8,7 +8,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr int enable_polls = 5; // until a drive says that it is enabled
+constexpr int enable_polls = 5; // polls until a drive reports that it is enabled
 constexpr std::uint64_t settle_us = 20'000;
 constexpr std::uint64_t homing_begins_us = 200'000;
 constexpr std::uint64_t homing_us = 300'000'000;
@@ -47,7 +47,7 @@ bool SetpointDrive::read(std::uint16_t address, std::span<std::uint16_t> out) no
     return record(link_->read(unit_, address, out));
 }
 
-// A connection that broke is made anew, whatever `retries` says.
+// Repeats a failed exchange; connects again after the connection was lost.
 template <class Try>
 bool SetpointDrive::retry(const Try& attempt) {
     for (int i = 0; i <= profile_->link.retries; ++i) {
@@ -65,14 +65,14 @@ bool SetpointDrive::set_field(FieldIndex field, std::int64_t raw) {
     return retry([&] { return write(frames().single(field, raw)); });
 }
 
-// True as well where the drive has no such register.
+// Returns true also if the drive has no such register.
 bool SetpointDrive::set_role(FieldRole role, std::int64_t physical_q16) {
     const RegisterField* const field = profile_->field_of(role);
     return field == nullptr || !field->writable() ||
            set_field(static_cast<FieldIndex>(field - profile_->fields.data()), raw_of(*field, physical_q16).raw);
 }
 
-// A register that wears with every write only where it holds something else.
+// Writes the init list; a flash register only if its value differs.
 bool SetpointDrive::initialise() {
     return std::all_of(profile_->init.begin(), profile_->init.end(), [&](const DriveProfile::InitialValue& value) {
         const RegisterField& field = profile_->fields[value.field];
@@ -134,7 +134,7 @@ std::string SetpointDrive::open() {
         return std::string("there is no connection (") + link_->error() + "); check address, port and cable";
     }
     if (profile_->link.reads_zero_until_written) {
-        SetpointFrames neutral(*profile_); // all as the profile has it: nothing starts
+        SetpointFrames neutral(*profile_); // all fields at their defaults: nothing starts
         const RegisterField* const control = profile_->field_of(FieldRole::control);
         const auto index = static_cast<FieldIndex>(control - profile_->fields.data());
         if (control != nullptr && !retry([&] { return write(neutral.single(index, control->value)); })) {
@@ -161,7 +161,7 @@ bool SetpointDrive::stop(StopRequest request) noexcept {
     return false;
 }
 
-// False: something is wrong with another drive.
+// Returns false if another drive has failed.
 bool SetpointDrive::wait_until(std::uint64_t instant_us) noexcept {
     Clock& clock = link_->clock();
     while (meanwhile_ && trouble_elsewhere_.empty() && clock.now_us() < instant_us) {
@@ -264,7 +264,7 @@ std::string SetpointDrive::not_enabled() const {
                                                : "it does not say that it is enabled";
 }
 
-// From where it stands.
+// Sends the present position as the first target.
 std::string SetpointDrive::prime_blocks() {
     if (!block_) {
         return {};
@@ -286,7 +286,7 @@ std::string SetpointDrive::home(const SetpointSettings& settings) {
     const std::uint64_t begun = link_->clock().now_us();
     for (;;) {
         if (!wait_until(link_->clock().now_us() + settle_us)) {
-            meanwhile_ = nullptr; // the others have been told
+            meanwhile_ = nullptr; // the other drive's failure is known
             static_cast<void>(command(DriveCommand::quick_stop));
             return trouble("");
         }
@@ -299,7 +299,7 @@ std::string SetpointDrive::home(const SetpointSettings& settings) {
         }
         const bool stands = reading_.state == DriveState::enabled && (profile_->homed ? reading_.homed : reading_.done);
         const std::uint64_t now = link_->clock().now_us();
-        if (stands && now > begun + homing_begins_us) { // what it says may be of the time before
+        if (stands && now > begun + homing_begins_us) { // an earlier status may be from before the start of homing
             break;
         }
         if (reading_.state == DriveState::fault || reading_.state == DriveState::disabled) {
@@ -319,7 +319,7 @@ void SetpointDrive::prepare_frames(const TrajectoryBuffer& track, const MotionIn
     prepared_ = block_ ? block_->block(track, instant) : cyclic_->frame(track, instant);
 }
 
-// Again where it was lost: what did not change is not told again.
+// Retries lost frames: values that do not change are not sent with the next target.
 bool SetpointDrive::send() noexcept {
     counts_.segments += prepared_.empty() ? 0U : 1U;
     const auto write_retried = [this](const RegisterWrite& frame) {
@@ -340,7 +340,7 @@ bool SetpointDrive::send() noexcept {
 }
 
 bool SetpointDrive::at_target() const noexcept {
-    constexpr double window_counts = 64.0; // drives call less `in position`
+    constexpr double window_counts = 64.0; // wider than the window in which drives report `in position`
     const double reported_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
     return !block_ || std::fabs(reported_counts - block_->target_counts()) <= window_counts;
 }
@@ -352,7 +352,7 @@ void SetpointDrive::on_setpoint_timeout(const TrajectoryBuffer& track, const Mot
 }
 
 void SetpointDrive::resync_position() noexcept {
-    constexpr double rounding_counts = 1.5; // of what it says, and of the model
+    constexpr double rounding_counts = 1.5; // rounding of the report and of the model
     const double reported_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
     if (block_ && std::fabs(reported_counts - block_->position_counts()) > rounding_counts) {
         block_->begin(reported_counts);

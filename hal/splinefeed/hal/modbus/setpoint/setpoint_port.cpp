@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The positions of a drive are its own: what it has where the machine's motion begins is taken off for good, so that
-// nothing jumps. Where a drive is in fault or away, the motion's clock slows down for all the others: they stay on the
-// path. The one that is away stops by itself, off it.
+// A drive counts its own positions: its position at the start of the motion becomes a constant offset, so that nothing
+// jumps. If a drive is in fault or offline, the motion's clock slows down for all others, which stay on the path. The
+// offline drive stops by itself and leaves the path.
 #include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
@@ -20,13 +20,13 @@ constexpr std::size_t buffer_segments = 4096;
 constexpr double ticks_per_us = 8.0;
 constexpr std::uint64_t lead_us = 50'000;
 constexpr std::uint64_t online_us = 50'000;
-constexpr std::uint64_t retain_us = 100'000;   // of the track: threads look at it a little later
-constexpr std::uint64_t arrive_us = 5'000'000; // for the drives to say that they have arrived
-constexpr std::uint64_t settle_us = 50'000;    // of their shafts
+constexpr std::uint64_t retain_us = 100'000;   // of past segments: bus threads may still read them
+constexpr std::uint64_t arrive_us = 5'000'000; // time limit for the drives to report arrival
+constexpr std::uint64_t settle_us = 50'000;    // settling time of the shafts
 constexpr double us_per_s = 1e6;
 constexpr std::uint64_t poll_interval_us = 1000;
-constexpr double standstill_counts = 2.0; // from where it was told to stand, when it does
-constexpr unsigned stop_turns = 10;       // of the buses, until what a drive was told and says is known
+constexpr double standstill_counts = 2.0; // distance from the target that still counts as standing there
+constexpr unsigned stop_turns = 10;       // periods of a bus until a command and its status have passed
 
 } // namespace
 
@@ -76,7 +76,7 @@ LinkAnswer SetpointPort::probe(std::size_t drive) noexcept {
 std::string SetpointPort::prepare(const FeedSegment& first) {
     segment_us_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(first.duration_ticks / ticks_per_us));
     SetpointStandby standby(settings_.away_us);
-    for (const bool enabled : {false, true}) { // all are enabled before the first one is homed
+    for (const bool enabled : {false, true}) { // enable all drives before the first one is homed
         for (trouble_with_ = 0; trouble_with_ < slots_.size(); ++trouble_with_) {
             Slot& slot = slots_[trouble_with_];
             SetpointDrive& drive = slot.bus->drive(slot.index);
@@ -123,7 +123,7 @@ std::string SetpointPort::prepare(const FeedSegment& first) {
     return {};
 }
 
-// A few exchanges in a row that fail, on the slowest wire.
+// Duration of a few consecutive failed exchanges on the slowest wire.
 std::uint64_t SetpointPort::answers_us() const noexcept {
     constexpr std::uint64_t lost = 4;
     std::uint64_t longest_us = settings_.timing.answer_us;
@@ -197,7 +197,7 @@ bool SetpointPort::do_submit(const FeedSegment& segment) noexcept {
     FeedSegment moved = segment;
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         if (!slots_[i].frame.apply(moved,
-                                   static_cast<std::size_t>(slots_[i].wiring.axis))) { // nobody is told any of it
+                                   static_cast<std::size_t>(slots_[i].wiring.axis))) { // no drive gets any of it
             trouble_ = AxisFrame::out_of_range;
             trouble_with_ = i;
             begin_stop(StopRequest::hold); // on the path
@@ -218,7 +218,7 @@ bool SetpointPort::do_submit(const FeedSegment& segment) noexcept {
     return motion_.trajectory.push(moved);
 }
 
-// All of them slow down, on the path; what is not on it stops for itself.
+// All drives slow down on the path; a drive that is not on the path stops by itself.
 void SetpointPort::begin_stop(StopRequest request) noexcept {
     const std::uint64_t now = settings_.clock->now_us();
     if (!stop_.requested()) {
@@ -227,13 +227,13 @@ void SetpointPort::begin_stop(StopRequest request) noexcept {
     stop_.request(request, now);
     const std::lock_guard lock(motion_.mutex);
     motion_.stop_requested = true;
-    if (phase_ != Phase::filling && !motion_.clock.stopping()) { // else it was never started, and never will be
+    if (phase_ != Phase::filling && !motion_.clock.stopping()) { // otherwise the clock was never started
         motion_.clock.stop(now);
     }
     phase_ = Phase::ending;
 }
 
-// False: a drive is in trouble.
+// Returns false if a drive has failed.
 bool SetpointPort::check_drives() noexcept {
     const std::uint64_t now = settings_.clock->now_us();
     for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -268,7 +268,7 @@ void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
     }
 }
 
-// A cyclic drive has no move that could be done: it counts where it stands.
+// A cyclic drive has no move to complete: its position decides.
 bool SetpointPort::arrived() noexcept {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         const SetpointReport last = report(i);
@@ -286,17 +286,17 @@ bool SetpointPort::arrived() noexcept {
     return true;
 }
 
-// As far as the clock tells.
+// Estimated by the clock.
 std::uint64_t SetpointPort::executed() const noexcept {
     const std::lock_guard lock(motion_.mutex);
     return std::min(motion_.clock.time(settings_.clock->now_us()) / segment_us_, submitted_);
 }
 
-// Any bus may have stopped the clock, for all.
+// Updates the phase: any bus may have stopped the clock for all drives.
 void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
     bool all_online = true;
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-        // A drive that is told blocks may not have got some of them: then it is to get to the path first.
+        // A drive that lost blocks must first reach the path.
         const bool returns = phase_ == Phase::waiting && slots_[i].wiring.profile->stream == StreamWay::blocks &&
                              report(i).still_us < standstill_us;
         all_online = all_online && online(i) && !returns;
@@ -329,7 +329,7 @@ void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
             phase_ = Phase::running;
         }
         break;
-    case Phase::arriving: // a bus may have stopped the clock since then, from an instant before the end on
+    case Phase::arriving: // a bus may have stopped the clock meanwhile, at an instant before the end
         phase_ = motion_.clock.stopping() ? Phase::stopping : phase_;
         break;
     case Phase::ending:

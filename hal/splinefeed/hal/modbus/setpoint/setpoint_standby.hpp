@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// SetpointStandby: the drives of a run that are enabled, while another one is made ready.
+// SetpointStandby: polls the enabled drives of a run while another drive is prepared.
 #pragma once
 
 #include "splinefeed/hal/modbus/setpoint/setpoint_drive.hpp"
 
 namespace splinefeed::hal::modbus {
 
-/// They are heard all the while, so that their watchdogs do not run out, and a fault of one is seen.
+/// Polling feeds their watchdogs and detects their faults.
 class SetpointStandby {
 public:
-    /// @param away_us  a drive that was not heard for this long is in trouble
+    /// @param away_us  a drive without an answer for this long is a failure
     explicit SetpointStandby(std::uint64_t away_us) noexcept : away_us_(away_us) {}
 
-    /// An enabled drive, which must outlive it.
+    /// Adds an enabled drive, which must outlive this object.
     void add(SetpointDrive& drive) { drives_.push_back(&drive); }
-    /// Hears each but that one, once. What is wrong with troubled(); empty: nothing.
+    /// Polls each drive except `but` once. Returns what is wrong with drive troubled(); empty: nothing.
     [[nodiscard]] std::string poll_others(const SetpointDrive& but);
-    /// Index in the order of add().
+    /// Index of the failed drive, in the order of add().
     [[nodiscard]] std::size_t troubled() const noexcept { return troubled_; }
 
 private:

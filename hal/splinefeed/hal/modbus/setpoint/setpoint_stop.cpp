@@ -7,7 +7,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-// What a drive that has stopped for itself did; none: it follows, as far as is known.
+// The stop that a drive made by itself, by its state; none: it follows its targets.
 StopRequest stopped_itself(DriveState state) noexcept {
     switch (state) {
     case DriveState::fault:
@@ -25,7 +25,7 @@ StopRequest stopped_itself(DriveState state) noexcept {
 
 } // namespace
 
-// A hold is executed when a target arrived behind the instant at which the motion stands, or if it never began.
+// A hold is executed when a target has arrived after the clock's standstill, or if the motion never began.
 StopFacts stop_facts(const SetpointReport& report, SetpointMotion& motion, std::uint64_t began_us) noexcept {
     StopFacts facts{.status_us = report.status_us,
                     .standstill = report.still_us >= standstill_us,

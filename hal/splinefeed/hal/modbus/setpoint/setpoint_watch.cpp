@@ -7,11 +7,12 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t unknown_us = 200'000; // a state that no test of the profile fits, on its way to another one
+constexpr std::uint64_t unknown_us =
+    200'000; // allowed duration of a transition state that matches no test of the profile
 
 } // namespace
 
-// A drive that stops for itself, or lost its power, is none that follows.
+// A drive that has stopped by itself or lost its power does not follow.
 std::string SetpointWatch::trouble(const SetpointReport& report, std::uint64_t now_us, std::uint64_t away_us,
                                    std::uint64_t began_us) {
     const bool unknown = report.status_us != 0 && report.reading.state == DriveState::unknown;
