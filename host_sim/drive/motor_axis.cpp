@@ -14,7 +14,7 @@ namespace {
 constexpr double nothing_counts = 1e-12; // an error below is none, so that a standing shaft costs nothing
 }
 
-MotorAxis::MotorAxis(const ShaftParameters& parameters) noexcept
+MotorAxis::MotorAxis(const MotorAxisParameters& parameters) noexcept
     : frequency_(2.0 * std::numbers::pi * parameters.bandwidth_hz), decay_(parameters.damping * frequency_),
       ringing_(frequency_ * std::sqrt(1.0 - parameters.damping * parameters.damping)),
       not_fed_(1.0 - parameters.feed_forward) {}

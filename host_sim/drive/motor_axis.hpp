@@ -4,7 +4,7 @@
 
 namespace splinefeed::host {
 
-struct ShaftParameters {
+struct MotorAxisParameters {
     double bandwidth_hz = 60.0; ///< undamped frequency of the loop, above 0
     double damping = 0.7;       ///< 0 to below 1
     double feed_forward = 1.0;  ///< share of the reference's acceleration that is fed forward; 1 follows without error
@@ -16,7 +16,7 @@ struct ShaftParameters {
 /// multiplications; an exponential and two circular functions where its duration changes, nothing where e is at rest.
 class MotorAxis {
 public:
-    explicit MotorAxis(const ShaftParameters& parameters = {}) noexcept;
+    explicit MotorAxis(const MotorAxisParameters& parameters = {}) noexcept;
 
     /// The shaft and its reference are here, at rest.
     void preset_position(double position_counts) noexcept;

@@ -14,7 +14,7 @@ struct PvtAxisParameters {
     double homing_counts_s2 = 5e5;
     double largest_counts_s = 0.0;  ///< beyond: fault 3; 0: any
     double largest_counts_s2 = 0.0; ///< beyond: fault 3; 0: any
-    ShaftParameters shaft;
+    MotorAxisParameters shaft;
 };
 
 /// Where the axes are to be, and how fast; those that a drive does not have are at rest at 0.

@@ -19,7 +19,7 @@ struct TargetKind {
     void (*check)(const std::string& target);
     /// Connects to the drives. `machine` must outlive the target. Throws UsageError, InputError, TargetError.
     std::unique_ptr<RunTarget> (*make)(const std::string& target, const MachineDescription& machine,
-                                       const RunOptions& wishes);
+                                       const RunOptions& options);
     /// What `splinefeed link` prints. @param any_machine  the user named none. Throws as make().
     std::string (*report)(const std::string& target, const MachineDescription& machine, bool any_machine,
                           double seconds);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StepPort on a virtual clock: cuts, and lines that cannot be set.
+// StepPort on a virtual clock: disable(), and lines that cannot be set.
 #include "gpio_bench.hpp"
 #include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/target/gpio/gpio_target.hpp"
@@ -10,7 +10,7 @@ using namespace splinefeed;
 using namespace splinefeed::host;
 using namespace splinefeed_test;
 
-TEST_CASE("a port that was cut enables nothing, before and after", "[stopping]") {
+TEST_CASE("a port that was disabled enables nothing, before and after", "[stopping]") {
     VirtualClock clock;
     const MachineDescription machine = two_axes();
     const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");

@@ -20,7 +20,7 @@ struct SwitchChange {
 
 class GpioInputs {
 public:
-    /// Watches from here on. An e-stop, or a chip that is not heard any more, cuts the port off.
+    /// Watches from here on. An e-stop, or a chip that is not heard any more, disables the drives.
     /// Throws TargetError where levels cannot be read. All arguments outlive it.
     GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& machine, GpioLines& chips,
                hal::gpio::StepPort& port, const hal::gpio::InputWatchSettings& settings);

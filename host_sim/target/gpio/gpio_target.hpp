@@ -16,7 +16,7 @@ public:
     /// @param lines  of the map
     /// @param clock  null: the system's, and the target asks the system for real time. Outlives it.
     GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
-               const MachineDescription& machine, const RunOptions& wishes, hal::Clock* clock = nullptr);
+               const MachineDescription& machine, const RunOptions& options, hal::Clock* clock = nullptr);
     ~GpioTarget() override;
 
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
@@ -43,7 +43,7 @@ private:
     void follow_stop();
 
     const MachineDescription* machine_;
-    RunOptions wishes_;
+    RunOptions options_;
     hal::Clock* time_;
     std::optional<hal::AwakeHost> awake_;
     std::unique_ptr<hal::gpio::LineMap> map_;
@@ -65,8 +65,8 @@ private:
 };
 
 /// Reads the map and takes the lines. Throws InputError, TargetError and UsageError.
-[[nodiscard]] std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address,
-                                                           const MachineDescription& machine, const RunOptions& wishes);
+[[nodiscard]] std::unique_ptr<GpioTarget>
+make_gpio_target(const GpioAddress& address, const MachineDescription& machine, const RunOptions& options);
 
 /// How many lines a second may be set where a call takes so long: half of the time.
 [[nodiscard]] double most_edges_per_s(double call_ns) noexcept;

@@ -39,11 +39,11 @@ std::optional<DriveFailure> PvtSetup::command(PvtCommand command, std::uint32_t 
         poll();
     } while (!carried_out(drives_) && now_us_ < until);
     for (std::size_t i = 0; i < drives_.size(); ++i) {
-        const DriveReport& seen = drives_[i].last_report();
-        if (seen.command_pending || seen.command_refused || seen.problem != DriveProblem::none) {
-            return DriveFailure{i, seen.problem != DriveProblem::none ? seen.problem
-                                   : seen.command_refused             ? DriveProblem::refused
-                                                                      : DriveProblem::silent};
+        const DriveReport& report = drives_[i].last_report();
+        if (report.command_pending || report.command_refused || report.problem != DriveProblem::none) {
+            return DriveFailure{i, report.problem != DriveProblem::none ? report.problem
+                                   : report.command_refused             ? DriveProblem::refused
+                                                                        : DriveProblem::silent};
         }
     }
     return std::nullopt;
