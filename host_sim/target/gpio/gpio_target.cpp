@@ -287,15 +287,15 @@ void GpioTarget::release() noexcept {
 
 std::string GpioTarget::fault() const {
     if (const std::string what = inputs_.trouble(); !what.empty()) {
-        return what + ": cut off";
+        return what + ": the drives were disabled";
     }
     if (!port_.was_disabled()) {
         return port_.trouble();
     }
     // Asked of the port as the last means, or of the switch.
     return stop_.report(0).request == hal::StopRequest::disable
-               ? holds_ + ", but the port did not stop: cut off"
-               : "the e-stop was pressed: cut off";
+               ? holds_ + ", but the port did not stop: the drives were disabled"
+               : "the e-stop was pressed: the drives were disabled";
 }
 
 std::string GpioTarget::where() const {

@@ -123,9 +123,10 @@ std::string StepPort::trouble() const {
     const int error = error_.load();
     if (error == stall_error) {
         return "no step was made for longer than " + std::to_string(settings_.stall_ns / ns_per_ms) +
-               " ms while axes moved, since the process or its host stood still; motors that stop at once lose steps";
+               " ms while axes moved, because the process or its host was suspended; motors that stop abruptly lose "
+               "steps";
     }
-    return error == 0 ? std::string("it was cut off")
+    return error == 0 ? std::string("the drives were disabled")
                       : std::string("a line cannot be set: ") + std::strerror(error); // NOLINT(concurrency-mt-unsafe)
 }
 

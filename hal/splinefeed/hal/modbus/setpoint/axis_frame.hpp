@@ -15,8 +15,8 @@ class AxisFrame {
 public:
     /// Message for a position out of range.
     static constexpr const char* out_of_range =
-        "the program goes beyond what the register of its target position holds, or beyond 2147483647 counts; find its "
-        "reference nearer to the program, lower steps_per_mm, or look at width and clamp in its profile";
+        "the program exceeds the range of its target position register, or 2147483647 counts; move its reference "
+        "nearer to the program, lower steps_per_mm, or check width and clamp in its profile";
 
     /// @param inverted  the drive counts in the opposite direction
     /// @param target  register of the drive's target position, must outlive the frame; nullptr: no limit by a register

@@ -230,7 +230,7 @@ std::string SetpointDrive::switch_on(const SetpointSettings& settings) {
     }
     if (profile_->following_error_window_counts &&
         !set_role(FieldRole::following_error_window, *profile_->following_error_window_counts * one)) {
-        return trouble("its window for following errors cannot be set");
+        return trouble("its following-error window cannot be set");
     }
     if (reading_.state == DriveState::fault && !command(DriveCommand::fault_reset)) {
         return trouble("its fault cannot be reset");
@@ -261,7 +261,7 @@ std::string SetpointDrive::begin(const SetpointSettings& settings) {
 
 std::string SetpointDrive::not_enabled() const {
     return reading_.state == DriveState::fault ? "it is in fault, code " + std::to_string(reading_.fault_code)
-                                               : "it does not say that it is enabled";
+                                               : "it does not report that it is enabled";
 }
 
 // Sends the present position as the first target.
@@ -271,13 +271,13 @@ std::string SetpointDrive::prime_blocks() {
     }
     block_->begin(static_cast<double>(reading_.position_q16) / (1 << physical_bits));
     prepared_ = block_->prime();
-    return retry([&] { return send(); }) ? std::string() : trouble("it cannot be told where to be");
+    return retry([&] { return send(); }) ? std::string() : trouble("its setpoint cannot be written");
 }
 
 std::string SetpointDrive::home(const SetpointSettings& settings) {
     const std::int64_t one = std::int64_t{1} << physical_bits;
     if (profile_->steps_of(DriveCommand::home).empty()) {
-        return "its profile has no command to home it; leave --home out, or home it by its own means";
+        return "its profile has no home command; omit --home, or home it by its own means";
     }
     if ((profile_->homing_mode && !set_role(FieldRole::mode, *profile_->homing_mode * one)) ||
         !command(DriveCommand::home)) {
@@ -292,10 +292,10 @@ std::string SetpointDrive::home(const SetpointSettings& settings) {
         }
         if (settings.interrupted != nullptr && settings.interrupted()) {
             static_cast<void>(command(DriveCommand::quick_stop));
-            return "interrupted while it was homed; it was stopped";
+            return "interrupted during homing; it was stopped";
         }
         if (!retry([&] { return read_status(); })) {
-            return trouble("it does not answer while it is homed");
+            return trouble("it does not answer during homing");
         }
         const bool stands = reading_.state == DriveState::enabled && (profile_->homed ? reading_.homed : reading_.done);
         const std::uint64_t now = link_->clock().now_us();
@@ -307,7 +307,7 @@ std::string SetpointDrive::home(const SetpointSettings& settings) {
         }
         if (now > begun + homing_us) {
             static_cast<void>(command(DriveCommand::quick_stop));
-            return "its homing did not come to its end; look at its switches and its settings";
+            return "its homing was not completed; check its switches and its settings";
         }
     }
     return profile_->stream_mode && !set_role(FieldRole::mode, *profile_->stream_mode * one)

@@ -350,7 +350,7 @@ PortState SetpointPort::do_poll() noexcept {
     if (arrived_since_us_ != 0 && now > arrived_since_us_ + settle_us) {
         phase_ = Phase::done;
     } else if (phase_ == Phase::arriving && now > arriving_us_ + arrive_us) {
-        trouble_ = "it does not say that it has arrived";
+        trouble_ = "it does not report that it has arrived";
         begin_stop(StopRequest::hold);
     }
     if (stop_.requested()) {

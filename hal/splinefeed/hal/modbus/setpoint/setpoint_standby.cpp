@@ -15,7 +15,7 @@ std::string SetpointStandby::poll_others(const SetpointDrive& but) {
             return "it is in fault, code " + std::to_string(reading.fault_code) + "; see its manual";
         }
         if (reading.state == DriveState::disabled) {
-            return "it was disabled while another drive was made ready";
+            return "it was disabled while another drive was prepared";
         }
         if (drive.link().clock().now_us() > drive.answered_us() + away_us_) {
             return std::string("it does not answer any more: ") + describe(drive.last_answer().fault);

@@ -21,20 +21,19 @@ std::string SetpointWatch::trouble(const SetpointReport& report, std::uint64_t n
         return std::string("it does not answer any more: ") + describe(report.fault);
     }
     if (report.clamped) {
-        return "a register cannot hold the position or speed that it was to be told; check scale and clamp in its "
-               "profile";
+        return "a position or speed exceeds the range of its register; check scale and clamp in its profile";
     }
     switch (report.reading.state) {
     case DriveState::fault:
         return "it is in fault, code " + std::to_string(report.reading.fault_code) + "; see its manual";
     case DriveState::disabled:
     case DriveState::not_ready: return "it was disabled while it moved";
-    case DriveState::quick_stop: return "it made a quick stop of its own; look at its inputs and its watchdog";
-    case DriveState::halted: return "it was halted by somebody else; look at its inputs";
-    case DriveState::homing: return "it began to home while it moved; look at its inputs";
+    case DriveState::quick_stop: return "it made a quick stop by itself; check its inputs and its watchdog";
+    case DriveState::halted: return "it was halted from outside; check its inputs";
+    case DriveState::homing: return "it began to home while it moved; check its inputs";
     case DriveState::unknown:
         return unknown && now_us > unknown_since_us_ + unknown_us
-                   ? "its status is none that its profile knows; check the profile's states"
+                   ? "its status matches no state of its profile; check the profile's states"
                    : "";
     case DriveState::enabled:
     case DriveState::moving: break;
