@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All ports that are linked: each library behind splinefeed::hal says with a macro that it is there.
+// All ports that are linked. Each port library of splinefeed::hal defines a macro that enables its headers here.
 #pragma once
 
 #include "splinefeed/hal/motion_port.hpp"

@@ -101,9 +101,9 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     if (executes) {
         app.add_option("--target", job.run.target,
                        "sim: the simulated machine in this process (default); " + target_help());
-        app.add_flag("--home", job.run.wishes.home, "find the references of the axes before the program begins")
+        app.add_flag("--home", job.run.options.home, "find the references of the axes before the program begins")
             ->disable_flag_override();
-        app.add_flag("--probe", job.run.wishes.probe,
+        app.add_flag("--probe", job.run.options.probe,
                      "end the run where the probe touches (gpio://); exit status 1 if it never does")
             ->disable_flag_override();
     }
@@ -360,11 +360,11 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
                                                  : Command::curve;
     job.run.motion.enforce = job.command == Command::run;
     check_target(job.run.target);
-    if ((job.run.wishes.home || job.run.wishes.probe) && job.run.target == "sim") {
+    if ((job.run.options.home || job.run.options.probe) && job.run.target == "sim") {
         throw UsageError(
             fmt::format("--{} is for machines with switches or drives, and the simulated one has none; name "
                         "yours with --target",
-                        job.run.wishes.home ? "home" : "probe"));
+                        job.run.options.home ? "home" : "probe"));
     }
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));

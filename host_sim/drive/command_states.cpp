@@ -21,7 +21,7 @@ bool fits(PvtCommand command, PvtState state) noexcept {
     case PvtCommand::begin: return in({PvtState::standing, PvtState::held});
     case PvtCommand::start:
     case PvtCommand::home:
-    case PvtCommand::place: return in({PvtState::standing});
+    case PvtCommand::preset_position: return in({PvtState::standing});
     case PvtCommand::hold:
     case PvtCommand::end: return in({PvtState::running, PvtState::stopping, PvtState::held});
     case PvtCommand::resume: return in({PvtState::held});

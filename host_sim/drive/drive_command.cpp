@@ -71,8 +71,8 @@ std::size_t choose_axes(const DriveArguments& arguments, const hal::modbus::Driv
     return named == 1 ? std::min<std::size_t>(usual, max_axes) : std::min<std::size_t>(named, max_axes);
 }
 
-ShaftParameters shaft_parameters(const DriveArguments& arguments) {
-    ShaftParameters shaft;
+MotorAxisParameters shaft_parameters(const DriveArguments& arguments) {
+    MotorAxisParameters shaft;
     if (arguments.bandwidth) {
         shaft.bandwidth_hz = read_option_number("--bandwidth", *arguments.bandwidth, 0.1, 10000.0);
     }
@@ -89,7 +89,7 @@ PvtDriveParameters pvt_parameters(const DriveArguments& arguments, std::size_t a
     constexpr double fastest = 1e12;
     PvtDriveParameters out;
     out.axes.assign(axes, {});
-    const ShaftParameters shaft = shaft_parameters(arguments);
+    const MotorAxisParameters shaft = shaft_parameters(arguments);
     for (PvtAxisParameters& axis : out.axes) {
         axis.shaft = shaft;
     }

@@ -140,7 +140,7 @@ void DriveLine::accept_connections() {
     connections_.push_back({++channels_, descriptor, false, false, {}});
 }
 
-DriveLine::Frame DriveLine::look(const Connection& connection) {
+DriveLine::Frame DriveLine::peek(const Connection& connection) {
     std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> bytes{};
     const ssize_t size = recv(connection.descriptor, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
     if (size < 0) {
@@ -157,7 +157,7 @@ DriveLine::Frame DriveLine::look(const Connection& connection) {
 
 void DriveLine::receive_from(Connection& connection, std::vector<Request>& requests) {
     const Clock::time_point now = Clock::now();
-    const Frame frame = look(connection);
+    const Frame frame = peek(connection);
     if (frame == Frame::partial) {
         connection.began = connection.partial ? connection.began : now;
         connection.partial = true;

@@ -47,7 +47,7 @@ private:
 
     void listen();
     void accept_connections();
-    [[nodiscard]] static Frame look(const Connection& connection);
+    [[nodiscard]] static Frame peek(const Connection& connection);
     void receive_from(Connection& connection, std::vector<Request>& requests);
     void receive_serial(std::vector<Request>& requests);
     void close_connections();

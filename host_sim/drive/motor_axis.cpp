@@ -14,12 +14,12 @@ namespace {
 constexpr double nothing_counts = 1e-12; // an error below is none, so that a standing shaft costs nothing
 }
 
-MotorAxis::MotorAxis(const ShaftParameters& parameters) noexcept
+MotorAxis::MotorAxis(const MotorAxisParameters& parameters) noexcept
     : frequency_(2.0 * std::numbers::pi * parameters.bandwidth_hz), decay_(parameters.damping * frequency_),
       ringing_(frequency_ * std::sqrt(1.0 - parameters.damping * parameters.damping)),
       not_fed_(1.0 - parameters.feed_forward) {}
 
-void MotorAxis::place(double position_counts) noexcept {
+void MotorAxis::preset_position(double position_counts) noexcept {
     reference_ = position_counts;
     error_ = 0.0;
     error_rate_ = 0.0;
@@ -31,7 +31,7 @@ void MotorAxis::refer(double reference_counts) noexcept {
 }
 
 void MotorAxis::let_go() noexcept {
-    place(position_counts());
+    preset_position(position_counts());
 }
 
 void MotorAxis::prepare(double duration_s) noexcept {

@@ -4,7 +4,7 @@
 
 namespace splinefeed::host {
 
-struct ShaftParameters {
+struct MotorAxisParameters {
     double bandwidth_hz = 60.0; ///< undamped frequency of the loop, above 0
     double damping = 0.7;       ///< 0 to below 1
     double feed_forward = 1.0;  ///< part of the reference's acceleration that is fed forward; with 1 the shaft follows
@@ -17,10 +17,10 @@ struct ShaftParameters {
 /// a few multiplications; an exponential and two circular functions if its duration changes; nothing if e is at rest.
 class MotorAxis {
 public:
-    explicit MotorAxis(const ShaftParameters& parameters = {}) noexcept;
+    explicit MotorAxis(const MotorAxisParameters& parameters = {}) noexcept;
 
     /// Sets shaft and reference to this position, at standstill.
-    void place(double position_counts) noexcept;
+    void preset_position(double position_counts) noexcept;
     /// Changes the reference; the shaft stays, and the difference becomes following error.
     void refer(double reference_counts) noexcept;
     /// Removes the drive: the shaft stands where it is, and so does the reference.

@@ -10,7 +10,7 @@ namespace {
 constexpr double nothing_counts = 1e-9; // rounding of positions up to 2^31 counts is 5e-7 of it per step
 }
 
-void PositionGenerator::place(double position_counts) noexcept {
+void PositionGenerator::preset_position(double position_counts) noexcept {
     course_ = Course::rest;
     position_ = position_counts;
     velocity_ = 0.0;

@@ -15,7 +15,7 @@ struct MoveLimits {
 class PositionGenerator {
 public:
     /// Sets the position, at standstill.
-    void place(double position_counts) noexcept;
+    void preset_position(double position_counts) noexcept;
     /// Moves to the target from the present position and speed. If it can no longer stop before the target, it
     /// overshoots and comes back.
     void move(double target_counts, const MoveLimits& limits) noexcept;

@@ -7,8 +7,8 @@ namespace splinefeed::host {
 
 PositioningAxis::PositioningAxis(const PositioningAxisParameters& parameters) noexcept
     : parameters_(parameters), shaft_(parameters.shaft) {
-    generator_.place(parameters.start_counts);
-    shaft_.place(parameters.start_counts);
+    generator_.preset_position(parameters.start_counts);
+    shaft_.preset_position(parameters.start_counts);
 }
 
 void PositioningAxis::enable() noexcept {
@@ -20,7 +20,7 @@ void PositioningAxis::enable() noexcept {
 // Nothing drives the shaft: it stands where it is, and the reference with it.
 void PositioningAxis::drop() noexcept {
     shaft_.let_go();
-    generator_.place(shaft_.position_counts());
+    generator_.preset_position(shaft_.position_counts());
     homing_ = false;
 }
 

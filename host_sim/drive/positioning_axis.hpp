@@ -13,7 +13,7 @@ enum class AxisPower : std::uint8_t { off, on, stopping_fault, fault };
 enum class AxisFault : std::uint8_t { none, following_error, watchdog };
 
 struct PositioningAxisParameters {
-    ShaftParameters shaft;
+    MotorAxisParameters shaft;
     double start_counts = 0.0;
     double stop_counts_s2 = 2e6; ///< deceleration of a quick stop and of a fault
     double homing_counts_s = 2e4;

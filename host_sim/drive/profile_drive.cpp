@@ -87,9 +87,9 @@ ModbusException ProfileDrive::write(int address, std::span<const std::uint16_t> 
     written_once_ = true;
     take_settings();
     if (profile_.cia402) {
-        obey_control();
+        execute_control();
     } else {
-        obey_masks(before);
+        execute_masks(before);
     }
     return ModbusException::none;
 }
@@ -140,7 +140,7 @@ bool ProfileDrive::follows_targets() const {
            (machine_.word() & steps.back().mask) == steps.back().value;
 }
 
-void ProfileDrive::obey_control() {
+void ProfileDrive::execute_control() {
     const bool follows = written(FieldRole::target_position) && follows_targets();
     Cia402Orders orders;
     if (written(FieldRole::control)) {
@@ -171,7 +171,7 @@ void ProfileDrive::obey_control() {
     }
 }
 
-bool ProfileDrive::seen(DriveCommand command, const std::vector<std::int64_t>& before) const {
+bool ProfileDrive::is_commanded(DriveCommand command, const std::vector<std::int64_t>& before) const {
     const std::vector<CommandStep>& steps = profile_.steps_of(command);
     if (steps.empty() || !registers_.was_written(steps.front().field)) {
         return false;
@@ -188,20 +188,20 @@ bool ProfileDrive::seen(DriveCommand command, const std::vector<std::int64_t>& b
     return ((now ^ before[step.field]) & static_cast<std::int64_t>(step.mask)) != 0;
 }
 
-void ProfileDrive::obey_masks(const std::vector<std::int64_t>& before) {
+void ProfileDrive::execute_masks(const std::vector<std::int64_t>& before) {
     constexpr std::array<DriveCommand, drive_commands> by_priority{
         DriveCommand::disable, DriveCommand::enable, DriveCommand::fault_reset, DriveCommand::quick_stop,
         DriveCommand::halt,    DriveCommand::resume, DriveCommand::home,        DriveCommand::start_move};
     bool stopped = false;
     for (const DriveCommand command : by_priority) {
-        if (seen(command, before) && !(stopped && command == DriveCommand::halt)) {
-            obey(command);
+        if (is_commanded(command, before) && !(stopped && command == DriveCommand::halt)) {
+            execute(command);
             stopped = stopped || command == DriveCommand::quick_stop;
         }
     }
 }
 
-void ProfileDrive::obey(DriveCommand command) {
+void ProfileDrive::execute(DriveCommand command) {
     const bool blocked = quick_stopped_ || halted_;
     switch (command) {
     case DriveCommand::enable: axis_.enable(); break;
@@ -215,11 +215,11 @@ void ProfileDrive::obey(DriveCommand command) {
         break;
     case DriveCommand::quick_stop:
         axis_.quick_stop();
-        quick_stopped_ = axis_.power() == AxisPower::on && tells(DriveState::quick_stop);
+        quick_stopped_ = axis_.power() == AxisPower::on && reports(DriveState::quick_stop);
         break;
     case DriveCommand::halt:
         halt();
-        halted_ = axis_.power() == AxisPower::on && tells(DriveState::halted);
+        halted_ = axis_.power() == AxisPower::on && reports(DriveState::halted);
         break;
     case DriveCommand::resume:
         if (halted_) {
@@ -243,8 +243,8 @@ void ProfileDrive::stop_by_itself() {
     constexpr std::uint16_t quick_stop_word = 0x0002;
     if (profile_.cia402) {
         static_cast<void>(machine_.control(quick_stop_word, axis_));
-    } else if (tells(DriveState::quick_stop)) {
-        obey(DriveCommand::quick_stop);
+    } else if (reports(DriveState::quick_stop)) {
+        execute(DriveCommand::quick_stop);
     } else {
         axis_.trip(AxisFault::following_error);
     }
@@ -289,7 +289,7 @@ void ProfileDrive::refresh() {
     }
 }
 
-bool ProfileDrive::tells(DriveState state) const {
+bool ProfileDrive::reports(DriveState state) const {
     return std::any_of(profile_.states.begin(), profile_.states.end(),
                        [state](const StateTest& test) { return test.state == state; });
 }
@@ -304,10 +304,10 @@ DriveState ProfileDrive::state() const {
     if (quick_stopped_ || halted_) {
         return quick_stopped_ ? DriveState::quick_stop : DriveState::halted;
     }
-    if (axis_.homing() && tells(DriveState::homing)) {
+    if (axis_.homing() && reports(DriveState::homing)) {
         return DriveState::homing;
     }
-    return axis_.moving() && tells(DriveState::moving) ? DriveState::moving : DriveState::enabled;
+    return axis_.moving() && reports(DriveState::moving) ? DriveState::moving : DriveState::enabled;
 }
 
 std::int64_t ProfileDrive::with_tests(std::int64_t status) const {
@@ -364,13 +364,13 @@ void ProfileDrive::advance(std::uint64_t now_us) {
             queued_.reset();
             axis_.move(target_, limits());
         }
-        watch();
+        check_watchdog();
         machine_.update(axis_);
     }
     machine_.update(axis_);
 }
 
-void ProfileDrive::watch() {
+void ProfileDrive::check_watchdog() {
     const double timeout_ms = physical(FieldRole::watchdog, 0.0);
     constexpr double us_per_ms = 1000.0;
     if (timeout_ms <= 0.0 || watchdog_fired_ || axis_.power() != AxisPower::on ||

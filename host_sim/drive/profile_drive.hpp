@@ -51,10 +51,10 @@ private:
     void show(hal::modbus::FieldRole role, double physical);
 
     void take_settings();
-    void obey_control();
-    void obey_masks(const std::vector<std::int64_t>& before);
-    [[nodiscard]] bool seen(hal::modbus::DriveCommand command, const std::vector<std::int64_t>& before) const;
-    void obey(hal::modbus::DriveCommand command);
+    void execute_control();
+    void execute_masks(const std::vector<std::int64_t>& before);
+    [[nodiscard]] bool is_commanded(hal::modbus::DriveCommand command, const std::vector<std::int64_t>& before) const;
+    void execute(hal::modbus::DriveCommand command);
     [[nodiscard]] bool follows_targets() const;
     void start(bool immediately, bool relative);
     void halt();
@@ -65,9 +65,9 @@ private:
     [[nodiscard]] hal::modbus::DriveState state() const;
     [[nodiscard]] std::int64_t status_by_masks() const;
     [[nodiscard]] std::int64_t status_by_cia402() const;
-    [[nodiscard]] bool tells(hal::modbus::DriveState state) const;
+    [[nodiscard]] bool reports(hal::modbus::DriveState state) const;
     [[nodiscard]] std::int64_t with_tests(std::int64_t status) const;
-    void watch();
+    void check_watchdog();
 
     hal::modbus::DriveProfile profile_;
     ProfileDriveParameters parameters_;

@@ -14,7 +14,7 @@ struct PvtAxisParameters {
     double homing_counts_s2 = 5e5;
     double largest_counts_s = 0.0;  ///< a larger speed is fault 3; 0: no limit
     double largest_counts_s2 = 0.0; ///< a larger acceleration is fault 3; 0: no limit
-    ShaftParameters shaft;
+    MotorAxisParameters shaft;
 };
 
 /// Reference positions and speeds of the axes; axes that a drive does not have stand at 0.

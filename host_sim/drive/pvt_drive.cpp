@@ -217,7 +217,7 @@ PvtRefusal PvtDrive::take(const PvtBlock& block, std::span<const PvtSegment> seg
         }
         last_command_ = block.command_counter;
     }
-    if (block.command == PvtCommand::place) {
+    if (block.command == PvtCommand::preset_position) {
         return PvtRefusal::none; // its segment is a place
     }
     if (machine_.session() != block.session) { // a late `begin` begins nothing; the others end sessions or need none
@@ -229,7 +229,7 @@ PvtRefusal PvtDrive::take(const PvtBlock& block, std::span<const PvtSegment> seg
 PvtRefusal PvtDrive::command(const PvtBlock& block, std::span<const PvtSegment> segments) {
     switch (block.command) {
     case PvtCommand::begin: return machine_.begin(block.session, block.argument);
-    case PvtCommand::place: return machine_.place(segments);
+    case PvtCommand::preset_position: return machine_.preset_position(segments);
     default: return machine_.execute(block.command, block.argument);
     }
 }

@@ -24,7 +24,7 @@ constexpr double us_per_s = 1e6;
 PvtMachine::PvtMachine(std::vector<PvtAxisParameters> axes, std::uint16_t ring, std::uint64_t clock_start_us)
     : axes_(std::move(axes)), path_(static_cast<int>(axes_.size()), ring), clock_start_us_(clock_start_us) {
     for (const PvtAxisParameters& axis : axes_) {
-        shafts_.emplace_back(axis.shaft).place(axis.start_counts);
+        shafts_.emplace_back(axis.shaft).preset_position(axis.start_counts);
     }
     stand(PvtState::disabled);
 }
@@ -79,7 +79,7 @@ PvtRefusal PvtMachine::execute(PvtCommand command, std::uint32_t argument) {
         return PvtRefusal::none;
     case PvtCommand::home: return home();
     case PvtCommand::begin:
-    case PvtCommand::place: break;
+    case PvtCommand::preset_position: break;
     }
     return PvtRefusal::state;
 }
@@ -99,17 +99,17 @@ bool PvtMachine::waits_empty() const noexcept {
     return ring().empty() && !schedule_.start_waits();
 }
 
-PvtRefusal PvtMachine::place(std::span<const PvtSegment> segments) {
+PvtRefusal PvtMachine::preset_position(std::span<const PvtSegment> segments) {
     if (segments.size() != 1) {
         return PvtRefusal::malformed;
     }
-    if (!fits(PvtCommand::place, state_) || !waits_empty()) {
+    if (!fits(PvtCommand::preset_position, state_) || !waits_empty()) {
         return PvtRefusal::state;
     }
     path_.ring().begin(ring().executed(), segments[0].end);
     for (std::size_t k = 0; k < shafts_.size(); ++k) {
         reference_.counts[k] = ring().start(static_cast<int>(k));
-        shafts_[k].place(reference_.counts[k]);
+        shafts_[k].preset_position(reference_.counts[k]);
     }
     return PvtRefusal::none;
 }
@@ -235,7 +235,7 @@ void PvtMachine::fire_events() {
     if (schedule_.take_hold(now_us_)) {
         slow_down();
     }
-    watch();
+    check_watchdog();
 }
 
 void PvtMachine::start_ring() {
@@ -261,7 +261,7 @@ void PvtMachine::slow_down() {
     state_ = PvtState::stopping;
 }
 
-void PvtMachine::watch() {
+void PvtMachine::check_watchdog() {
     if (!schedule_.starves(now_us_, configuration_.watchdog_ms)) {
         return;
     }

@@ -23,7 +23,7 @@ public:
     /// Executes a command other than `begin` and `place`; refused if it does not fit the state.
     [[nodiscard]] hal::modbus::PvtRefusal execute(hal::modbus::PvtCommand command, std::uint32_t argument);
     [[nodiscard]] hal::modbus::PvtRefusal begin(std::uint16_t session, std::uint32_t first);
-    [[nodiscard]] hal::modbus::PvtRefusal place(std::span<const hal::modbus::PvtSegment> segments);
+    [[nodiscard]] hal::modbus::PvtRefusal preset_position(std::span<const hal::modbus::PvtSegment> segments);
     [[nodiscard]] hal::modbus::PvtRefusal take(std::uint32_t first, std::span<const hal::modbus::PvtSegment> segments);
     /// A valid exchange: restarts the watchdog.
     void feed_watchdog() noexcept { schedule_.feed(now_us_); }
@@ -63,7 +63,7 @@ private:
     void fire_events();
     void start_ring();
     void slow_down();
-    void watch();
+    void check_watchdog();
     void step(std::uint64_t duration_us);
     void follow_ring(double duration_s);
     void follow_moves(double duration_s);

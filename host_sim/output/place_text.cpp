@@ -5,8 +5,8 @@
 
 namespace splinefeed::host {
 
-void PlaceText::add(std::string_view axis, double mm, bool heard) {
-    text_ += fmt::format(" {}={:.{}f}{}", axis, mm, decimals_, heard ? "" : " (when it was last heard)");
+void PlaceText::add(std::string_view axis, double mm, bool online) {
+    text_ += fmt::format(" {}={:.{}f}{}", axis, mm, decimals_, online ? "" : " (when it was last heard)");
 }
 
 } // namespace splinefeed::host

@@ -14,8 +14,8 @@ public:
     explicit PlaceText(std::string_view before = "; the machine stands at", int decimals = 4)
         : text_(before), decimals_(decimals) {}
 
-    /// @param heard  true: this is the present position; false: the last reported position of its drive
-    void add(std::string_view axis, double mm, bool heard = true);
+    /// @param online  true: this is the present position; false: the last reported position of its drive
+    void add(std::string_view axis, double mm, bool online = true);
     [[nodiscard]] std::string text() const { return text_ + " mm"; }
 
 private:

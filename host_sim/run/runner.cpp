@@ -156,7 +156,7 @@ int move_machine(const RunArguments& arguments) {
     std::unique_ptr<RunTarget> target;
     std::optional<Supervision> supervision;
     if (signals) {
-        target = target_kind(arguments.target).make(arguments.target, machine, arguments.wishes);
+        target = target_kind(arguments.target).make(arguments.target, machine, arguments.options);
         limits = fitted<S>(machine, *target, arguments.motion.quiet);
         target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
         supervision.emplace(*target, *signals);

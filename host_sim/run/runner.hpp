@@ -18,7 +18,7 @@ struct RunArguments {
     MotionArguments motion;
     std::string machine;        ///< empty: the default machine
     std::string target = "sim"; ///< "sim": only the simulated machine; or "modbus", or an address
-    RunOptions wishes;
+    RunOptions options;
     OutputNames outputs;
     SummaryKind summary = SummaryKind::text;
 };

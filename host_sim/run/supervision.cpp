@@ -107,7 +107,7 @@ std::string Supervision::supervise() {
          next_us = std::max(next_us + poll_every_us, system_clock().now_us())) {
         system_clock().sleep_until_us(next_us);
         obey();
-        target_->look();
+        target_->update();
         hold_asked_.store(!target_->holds().empty());
         hand_over();
         const hal::PortPhase phase = target_->port().poll().phase;

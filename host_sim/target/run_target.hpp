@@ -57,7 +57,7 @@ public:
     /// The second request: stops the axes at once.
     virtual void quick_stop() = 0;
     /// Called before each poll of the port.
-    virtual void look() {}
+    virtual void update() {}
     /// Why the plan has to be held on its path, and ends there; empty: it has not. If the planner does not deliver the
     /// way to standstill in time, the target deals with it: its port then becomes halted.
     [[nodiscard]] virtual std::string holds() const { return {}; }

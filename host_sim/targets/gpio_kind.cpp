@@ -13,8 +13,8 @@ void check_gpio(const std::string& target) {
 }
 
 std::unique_ptr<RunTarget> make(const std::string& target, const MachineDescription& machine,
-                                const RunOptions& wishes) {
-    return make_gpio_target(parse_gpio_address(target), machine, wishes);
+                                const RunOptions& options) {
+    return make_gpio_target(parse_gpio_address(target), machine, options);
 }
 
 std::string report(const std::string& target, const MachineDescription& machine, bool /*any_machine*/, double seconds) {

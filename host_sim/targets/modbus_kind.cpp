@@ -21,15 +21,15 @@ void check_modbus(const std::string& target) {
 }
 
 std::unique_ptr<RunTarget> make_modbus_target(const std::string& target, const MachineDescription& machine,
-                                              const RunOptions& wishes) {
-    if (wishes.probe) {
+                                              const RunOptions& options) {
+    if (options.probe) {
         throw UsageError("--probe needs a probe: an input of a target gpio://");
     }
     DriveTable table = drive_table(target, machine);
     if (table.interpolate) {
-        return std::make_unique<PvtTarget>(std::move(table), machine, wishes.home);
+        return std::make_unique<PvtTarget>(std::move(table), machine, options.home);
     }
-    return std::make_unique<SetpointTarget>(std::move(table), machine, wishes.home);
+    return std::make_unique<SetpointTarget>(std::move(table), machine, options.home);
 }
 
 std::string report(const std::string& target, const MachineDescription& machine, bool any_machine, double seconds) {

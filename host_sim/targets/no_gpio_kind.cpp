@@ -18,7 +18,7 @@ void check(const std::string& /*target*/) {
 }
 
 std::unique_ptr<RunTarget> make(const std::string& /*target*/, const MachineDescription& /*machine*/,
-                                const RunOptions& /*wishes*/) {
+                                const RunOptions& /*options*/) {
     refuse();
 }
 

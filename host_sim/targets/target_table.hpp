@@ -21,7 +21,7 @@ struct TargetKind {
     void (*check)(const std::string& target);
     /// Connects to the drives. `machine` must outlive the target. Throws UsageError, InputError, TargetError.
     std::unique_ptr<RunTarget> (*make)(const std::string& target, const MachineDescription& machine,
-                                       const RunOptions& wishes);
+                                       const RunOptions& options);
     /// The text that `splinefeed link` prints. @param any_machine  the user named no machine. Throws like make().
     std::string (*report)(const std::string& target, const MachineDescription& machine, bool any_machine,
                           double seconds);

@@ -37,7 +37,7 @@ struct Integrated {
 
 TEST_CASE("shaft: with full feed-forward it is where its reference is", "[drive][shaft]") {
     MotorAxis shaft;
-    shaft.place(1000.0);
+    shaft.preset_position(1000.0);
     for (int i = 1; i <= 100; ++i) {
         shaft.step(1e-4, 1000.0 + i * i, 2e8);
         CHECK(shaft.position_counts() == 1000.0 + i * i);
@@ -77,7 +77,7 @@ TEST_CASE("shaft: the closed form is the solution of its equation, however time 
 
 TEST_CASE("shaft: a load bends it by f / w^2, and without it it comes to rest", "[drive][shaft]") {
     MotorAxis shaft;
-    shaft.place(5.0);
+    shaft.preset_position(5.0);
     shaft.disturb(1e5);
     for (int i = 0; i < 10000; ++i) {
         shaft.step(1e-4, 5.0, 0.0);
@@ -94,7 +94,7 @@ TEST_CASE("shaft: a load bends it by f / w^2, and without it it comes to rest", 
 
 TEST_CASE("shaft: another reference moves nothing, and let go it stands", "[drive][shaft]") {
     MotorAxis shaft;
-    shaft.place(5.0);
+    shaft.preset_position(5.0);
     shaft.refer(8.0);
     CHECK(shaft.position_counts() == 5.0);
     CHECK(shaft.following_error_counts() == 3.0);

@@ -25,7 +25,7 @@ TEST_CASE("Position generator: a move from rest to rest is a trapezoid or a tria
         for (const double target_sign : {1.0, -1.0}) {
             const MoveLimits limits{20000.0, 100000.0, 300000.0};
             PositionGenerator generator;
-            generator.place(7.0);
+            generator.preset_position(7.0);
             generator.move(7.0 + target_sign * distance, limits);
             const double duration_s = trapezoid_s(distance, limits);
             CAPTURE(distance, target_sign, duration_s);
@@ -42,7 +42,7 @@ TEST_CASE("Position generator: a move from rest to rest is a trapezoid or a tria
 TEST_CASE("Position generator: a target that moves ahead keeps it cruising, one that is passed is come back to") {
     const MoveLimits limits{10000.0, 100000.0, 100000.0};
     PositionGenerator generator;
-    generator.place(0.0);
+    generator.preset_position(0.0);
     for (int i = 1; i <= 20; ++i) {
         generator.move(1000.0 * i + 2000.0, limits);
         generator.advance(0.1);
@@ -60,7 +60,7 @@ TEST_CASE("Position generator: a target that moves ahead keeps it cruising, one 
 
 TEST_CASE("Position generator: speed 0 is a stop, and a slower one is braked to") {
     PositionGenerator generator;
-    generator.place(0.0);
+    generator.preset_position(0.0);
     generator.move(1e6, {10000.0, 1e5, 1e5});
     generator.advance(1.0);
     generator.move(1e6, {4000.0, 1e5, 2e5});
@@ -84,8 +84,8 @@ TEST_CASE("Position generator: at random, within its limits, the same in small s
     for (int round = 0; round < 200; ++round) {
         PositionGenerator generator;
         PositionGenerator fine;
-        generator.place(0.0);
-        fine.place(0.0);
+        generator.preset_position(0.0);
+        fine.preset_position(0.0);
         double fastest = 0.0;
         MoveLimits limits;
         double target = 0.0;
@@ -117,7 +117,7 @@ TEST_CASE("Position generator: at random, within its limits, the same in small s
 
 TEST_CASE("Position generator: cyclic targets are lines, and it stands when none comes") {
     PositionGenerator generator;
-    generator.place(10.0);
+    generator.preset_position(10.0);
     generator.follow(20.0, 0.002);
     generator.advance(0.001);
     CHECK(generator.position_counts() == Approx(15.0));

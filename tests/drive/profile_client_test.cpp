@@ -25,7 +25,7 @@ public:
             drive.advance(now_us);
             const RegisterWrite& write = sequence.next();
             REQUIRE(drive.write(write.address, write.registers()) == ModbusException::none);
-            sequence.told(now_us);
+            sequence.on_sent(now_us);
         }
     }
     void wait_ms(std::uint64_t duration_ms) { drive.advance(now_us += 1000 * duration_ms); }
@@ -106,15 +106,15 @@ TEST_CASE("Command sequence: pulses last, edges have two frames, a quick stop go
     CHECK(sequence.next().address == 0x007C);
     CHECK(sequence.next().count == 2);
     CHECK(sequence.next().values[1] == 0x0080);
-    sequence.told(5000);
+    sequence.on_sent(5000);
     CHECK_FALSE(sequence.finished());
     CHECK(sequence.due_us() == 25000);
     CHECK(sequence.next().values[1] == 0);
     REQUIRE(sequence.begin(DriveCommand::quick_stop)); // now
     CHECK(sequence.due_us() == 0);
     CHECK(sequence.next().values[1] == 0x0020);
-    sequence.told(6000);
-    sequence.told(30000);
+    sequence.on_sent(6000);
+    sequence.on_sent(30000);
     CHECK(sequence.finished());
 
     const DriveProfile lexium = find_profile("lexium32m");
@@ -123,13 +123,13 @@ TEST_CASE("Command sequence: pulses last, edges have two frames, a quick stop go
     REQUIRE(edges.begin(DriveCommand::enable));
     CHECK(edges.next().count == 13);
     CHECK(edges.next().values[4] == 0x0001);
-    edges.told(1000);
+    edges.on_sent(1000);
     CHECK(edges.due_us() == 1000);
     CHECK(edges.next().values[4] == 0x0201);
-    edges.told(2000);
+    edges.on_sent(2000);
     CHECK(edges.due_us() == 12000);
     CHECK(edges.next().values[4] == 0x0001);
-    edges.told(12000);
+    edges.on_sent(12000);
     CHECK(edges.finished());
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("PVT drive: every command in every state", "[drive][pvt]") {
         {PvtCommand::end, {s, n, r, t, h, s, n}},
         {PvtCommand::fault_reset, {d, n, n, n, n, d, n}},
         {PvtCommand::home, {s, yes(S::homing), n, n, n, s, n}},
-        {PvtCommand::place, {s, i, n, n, n, s, n}},
+        {PvtCommand::preset_position, {s, i, n, n, n, s, n}},
         {static_cast<PvtCommand>(12), {s, n, n, n, n, s, n}},
         {static_cast<PvtCommand>(65535), {s, n, n, n, n, s, n}},
     };
@@ -94,7 +94,7 @@ TEST_CASE("PVT drive: every command in every state", "[drive][pvt]") {
             const PvtStatus before = bench->status();
             REQUIRE(before.state == static_cast<S>(state));
             const Answer& expected = answers[state];
-            const std::vector<PvtSegment> place(command == PvtCommand::place ? 1 : 0);
+            const std::vector<PvtSegment> place(command == PvtCommand::preset_position ? 1 : 0);
             const PvtStatus after = bench->command(command, before.clock_us, place);
             CHECK(after.refused == expected.refusal);
             CHECK(after.state == (expected.refusal == PvtRefusal::none ? expected.state : before.state));
@@ -168,12 +168,12 @@ TEST_CASE("PVT drive: place, home and quick stop are off the path, and end where
     auto bench = bench_in(PvtState::standing);
     std::vector<PvtSegment> place(1);
     place[0].end = {-(5 << 16), (std::int64_t{7} << 16) + 32768};
-    PvtStatus status = bench->command(PvtCommand::place, 0, place);
+    PvtStatus status = bench->command(PvtCommand::preset_position, 0, place);
     CHECK(status.refused == PvtRefusal::none);
     CHECK(status.next == 0);
     CHECK(bench->drive.position_counts(0) == -5.0);
     CHECK(bench->drive.position_counts(1) == 7.5);
-    CHECK(bench->command(PvtCommand::place, 0, {place[0], place[0]}).refused == PvtRefusal::malformed);
+    CHECK(bench->command(PvtCommand::preset_position, 0, {place[0], place[0]}).refused == PvtRefusal::malformed);
     CHECK(bench->command(PvtCommand::home).state == PvtState::homing);
     bench->wait_us(1'000'000);
     status = bench->status();

@@ -180,8 +180,8 @@ TEST_CASE("Cyclic targets: more often than the drive's period, shafts stay withi
     CHECK(axes[0]->worst < chord + 0.5 * 10000 / interval_us + 0.51); // its register rounds four times as much
     CHECK(axes[1]->worst < chord + 0.5 * 10000 / interval_us + 0.51);
     check_end(axes);
-    CHECK(streams[0].told_end(track, track.end_us()));
-    CHECK_FALSE(streams[0].told_end(track, track.end_us() - 1));
+    CHECK(streams[0].end_sent(track, track.end_us()));
+    CHECK_FALSE(streams[0].end_sent(track, track.end_us() - 1));
 }
 
 TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands with its acceleration") {
@@ -203,7 +203,7 @@ TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands w
         }
         if (now_us == gone_us + 400'000) {
             furthest = std::fabs(axis.drive.model().position_counts(0));
-            stream.stood(track, {now_us, now_us, now_us + interval_us});
+            stream.on_setpoint_timeout(track, {now_us, now_us, now_us + interval_us});
         }
         axis.send(stream.frame(track, now_us));
         if (now_us >= gone_us + 400'000) {
@@ -217,7 +217,7 @@ TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands w
     }
     CHECK(furthest > 100.0);
     CHECK(axis.drive.position() == 0);
-    CHECK(stream.told_end(track, track.end_us()));
+    CHECK(stream.end_sent(track, track.end_us()));
 }
 
 TEST_CASE("Blocks on the fly: what arrived late is known when the next one is made") {
@@ -247,7 +247,7 @@ TEST_CASE("Blocks on the fly: what arrived late is known when the next one is ma
             const std::uint64_t late_us = random() % 4000;
             driven.axis.drive.wait_us(late_us);
             driven.axis.send(writes);
-            driven.stream.arrived(now_us + late_us);
+            driven.stream.on_arrival(now_us + late_us);
             driven.axis.drive.wait_us(10'000 - late_us);
             now_us += 10'000;
         }
@@ -276,7 +276,7 @@ TEST_CASE("Blocks on the fly: each profile's shafts stay near the path, and end 
             CHECK(axes[1]->worst < bound);
             check_end(axes);
             CHECK(axes[0]->drive.done());
-            CHECK(streams[0].told_end());
+            CHECK(streams[0].end_sent());
             CHECK_FALSE(streams[0].clamped());
         }
     }
@@ -370,8 +370,8 @@ TEST_CASE("Target frames: one frame for a group, only what changed without, and 
     CHECK(writes[3].values[1] == 0x0001);
     CHECK(writes[4].values[0] == 0x002F);
     CHECK(writes[5].values[0] == 0x103F);
-    CHECK(frames.build().size() == 1);              // the target alone
-    frames.told(kinco.index_of("control"), 0x000F); // somebody enabled anew
+    CHECK(frames.build().size() == 1);                  // the target alone
+    frames.set_last(kinco.index_of("control"), 0x000F); // somebody enabled anew
     CHECK(frames.build().size() == 3);
 
     const DriveProfile lexium = host::find_profile("lexium32m");

@@ -43,7 +43,7 @@ struct Bench {
                 caused = true;
                 cause();
             }
-            run_target.look();
+            run_target.update();
             if (!run_target.holds().empty()) {
                 motion.hold();
             }

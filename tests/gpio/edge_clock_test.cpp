@@ -64,7 +64,7 @@ TEST_CASE("a host that stood still goes on where it was, also where time slows d
             std::uint64_t due = clock.due_ns(motion);
             if (due == EdgeClock::never) {
                 now += 50'000'000;
-                REQUIRE(clock.stands(now));
+                REQUIRE(clock.at_standstill(now));
                 clock.resume(now);
                 due = clock.due_ns(motion);
             }
@@ -103,12 +103,12 @@ TEST_CASE("time slows down to stand over twice the reserve and goes on alike, at
             const std::int64_t before = clock.motion_ns(at);
             clock.stop(at);
             CHECK(clock.stopping());
-            CHECK_FALSE(clock.stands(at));
+            CHECK_FALSE(clock.at_standstill(at));
             const auto falls = static_cast<std::uint64_t>(std::ceil(2.0 * static_cast<double>(reserve) * rate)) + 2;
             // What passes is reserve x rate^2, and no more, however long it stands.
             const double way = static_cast<double>(clock.motion_ns(at + falls) - before);
             CHECK(way == Approx(static_cast<double>(reserve) * rate * rate).margin(2.0));
-            CHECK(clock.stands(at + falls));
+            CHECK(clock.at_standstill(at + falls));
             CHECK(clock.motion_ns(at + 100 * falls) == clock.motion_ns(at + falls));
             CHECK(clock.due_ns(clock.motion_ns(at + falls) + 2) == EdgeClock::never);
             for (int i = 1; i < 20; ++i) { // the two directions of the same law
@@ -142,7 +142,7 @@ TEST_CASE("a clock keeps its law after hundreds of years") {
         CHECK(clock.made(motion + 12'345, now + 12'345 + 250'000) == 250'000); // late: the motion moves
         CHECK(clock.due_ns(motion + 13'345) == now + 263'345);
         clock.stop(now + 1'000'000);
-        CHECK(clock.stands(now + 1'000'000 + 2 * reserve));
+        CHECK(clock.at_standstill(now + 1'000'000 + 2 * reserve));
         CHECK(clock.motion_ns(now + 1'000'000 + 2 * reserve) - motion == 750'000 + std::int64_t{reserve});
         CHECK(clock.due_ns(motion + 100'000'000) == EdgeClock::never);
         clock.resume(now + 100'000'000);

@@ -61,8 +61,8 @@ struct Story {
     enum class Cause { none, hold, quick_stop, hold_then_quick_stop, e_stop, limit, broken_line };
     Cause cause = Cause::none;
     double at_ms = 0.0;
-    bool blocked = false; ///< from that instant on the planner delivers nothing
-    bool told = true;     ///< a switch tells its edge; else only its level shows
+    bool blocked = false;  ///< from that instant on the planner delivers nothing
+    bool with_edge = true; ///< the switch reports an edge; else only its level changes
 };
 
 struct Outcome {
@@ -98,8 +98,8 @@ Outcome run(Bench& bench, const Story& story) {
             case Story::Cause::hold:
             case Story::Cause::hold_then_quick_stop: run_target.hold(); break;
             case Story::Cause::quick_stop: run_target.quick_stop(); break;
-            case Story::Cause::e_stop: bench.lines->drive(e_stop, true, story.told); break;
-            case Story::Cause::limit: bench.lines->drive(limit, true, story.told); break;
+            case Story::Cause::e_stop: bench.lines->drive(e_stop, true, story.with_edge); break;
+            case Story::Cause::limit: bench.lines->drive(limit, true, story.with_edge); break;
             case Story::Cause::broken_line: bench.lines->fail(true); break;
             }
         }
@@ -107,7 +107,7 @@ Outcome run(Bench& bench, const Story& story) {
             twice = true;
             run_target.quick_stop();
         }
-        run_target.look();
+        run_target.update();
         if (!target.holds().empty()) {
             motion.hold();
         }
@@ -183,9 +183,10 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
         Kind{"limit switch", Cause::limit, false, 154.0, hal::PortPhase::idle, "the limit of axis x (line 1) acts"},
         Kind{"limit switch, planner blocked", Cause::limit, true, 94.0, hal::PortPhase::halted,
              "the limit of axis x (line 1) acts"},
-        Kind{"e-stop", Cause::e_stop, false, 0.6, hal::PortPhase::fault, "the e-stop was pressed: cut off"},
+        Kind{"e-stop", Cause::e_stop, false, 0.6, hal::PortPhase::fault,
+             "the e-stop was pressed: the drives were disabled"},
         Kind{"e-stop, planner blocked", Cause::e_stop, true, 0.6, hal::PortPhase::fault,
-             "the e-stop was pressed: cut off"},
+             "the e-stop was pressed: the drives were disabled"},
         Kind{"a line that cannot be set", Cause::broken_line, false, 0.6, hal::PortPhase::fault,
              "a line cannot be set"},
     };
@@ -200,7 +201,7 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
             Story story{.cause = kinds[kind].cause,
                         .at_ms = random.between(10.0, 2000.0),
                         .blocked = kinds[kind].blocked,
-                        .told = true};
+                        .with_edge = true};
             Bench bench;
             CAPTURE(kinds[kind].name, story.at_ms, round);
             const Outcome outcome = run(bench, story);
@@ -228,13 +229,13 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
 TEST_CASE("a switch whose edge nobody told stops the machine by its level", "[stopping]") {
     Bench bench;
     SECTION("limit") {
-        const Outcome outcome = run(bench, {.cause = Story::Cause::limit, .at_ms = 300.0, .told = false});
+        const Outcome outcome = run(bench, {.cause = Story::Cause::limit, .at_ms = 300.0, .with_edge = false});
         CHECK(outcome.phase == hal::PortPhase::idle);
         CHECK(outcome.why.find("the limit of axis x") != std::string::npos);
         CHECK(outcome.standstill_ms < 200.0);
     }
     SECTION("e-stop") {
-        const Outcome outcome = run(bench, {.cause = Story::Cause::e_stop, .at_ms = 300.0, .told = false});
+        const Outcome outcome = run(bench, {.cause = Story::Cause::e_stop, .at_ms = 300.0, .with_edge = false});
         CHECK(outcome.phase == hal::PortPhase::fault);
         CHECK(outcome.standstill_ms < 25.0); // levels are looked at every 5 ms, three times
     }

@@ -43,10 +43,10 @@ public:
         }
     }
 
-    void drive(unsigned line, bool level, std::uint64_t time_ns, bool told = true) {
+    void drive(unsigned line, bool level, std::uint64_t time_ns, bool with_edge = true) {
         const std::lock_guard lock(mutex_);
         levels_ = (levels_ & ~(std::uint64_t{1} << line)) | (std::uint64_t{level} << line);
-        if (told) {
+        if (with_edge) {
             events_.push_back({static_cast<std::uint8_t>(line), level, time_ns, 0});
         }
     }
@@ -72,7 +72,7 @@ bool soon(F condition) {
 
 struct Bench {
     explicit Bench(const std::vector<WatchedInput>& inputs)
-        : watch(source, inputs, log, [this] { cuts.fetch_add(1); }) {}
+        : watch(source, inputs, log, [this] { trips.fetch_add(1); }) {}
 
     InputChange next() {
         std::optional<InputChange> change;
@@ -82,7 +82,7 @@ struct Bench {
 
     ScriptedSource source;
     StepLog log;
-    std::atomic<int> cuts{0};
+    std::atomic<int> trips{0};
     InputWatch watch;
 };
 
@@ -107,37 +107,37 @@ TEST_CASE("an input acts since its first edge, however it bounces, and tells whe
     REQUIRE(change.counts.has_value());
     CHECK((*change.counts)[0] == 41); // at t, t + 10 us, ... t + 400 us
     CHECK(bench.watch.active(0));
-    CHECK(bench.cuts == 0);
+    CHECK(bench.trips == 0);
     bench.source.drive(3, false, edge + 900'000'000);
     CHECK_FALSE(bench.next().active);
 }
 
-TEST_CASE("an input that cuts does so at its first edge, debounced or not") {
-    Bench bench({{.bit = 0, .active_level = true, .debounce_us = 100'000, .cuts = true}, {.bit = 1}});
+TEST_CASE("an input that trips the e-stop does so at its first edge, debounced or not") {
+    Bench bench({{.bit = 0, .active_level = true, .debounce_us = 100'000, .trips_estop = true}, {.bit = 1}});
     REQUIRE(bench.watch.start());
     bench.source.drive(1, true, hal::system_clock().now_ns());
     CHECK(bench.next().input == 1);
-    CHECK(bench.cuts == 0);
+    CHECK(bench.trips == 0);
     bench.source.drive(0, true, hal::system_clock().now_ns());
-    CHECK(soon([&] { return bench.cuts > 0; }));
+    CHECK(soon([&] { return bench.trips > 0; }));
     CHECK_FALSE(bench.watch.active(0)); // that needs the time of debouncing
 }
 
 TEST_CASE("an edge that the system lost is noticed by the level") {
-    Bench bench({{.bit = 5, .active_level = true, .cuts = true}});
+    Bench bench({{.bit = 5, .active_level = true, .trips_estop = true}});
     REQUIRE(bench.watch.start());
     bench.source.drive(5, true, 0, false);
-    CHECK(soon([&] { return bench.cuts > 0; }));
+    CHECK(soon([&] { return bench.trips > 0; }));
     CHECK(bench.next().active);
     CHECK(bench.watch.missed() == 1);
 }
 
-TEST_CASE("a chip that vanishes cuts the machine off, with the system's reason") {
+TEST_CASE("a chip that vanishes disables the drives, with the system's reason") {
     Bench bench({WatchedInput{.bit = 5}});
     REQUIRE(bench.watch.start());
     CHECK(bench.watch.trouble().empty());
     bench.source.vanish();
-    CHECK(soon([&] { return bench.cuts > 0; }));
+    CHECK(soon([&] { return bench.trips > 0; }));
     CHECK(soon([&] { return bench.watch.trouble() == "No such device"; }));
 }
 

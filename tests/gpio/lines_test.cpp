@@ -41,8 +41,8 @@ TEST_CASE("GPIO lines: what is there, and is no chip") {
     std::ofstream(folder.file("text")) << "no chip\n";
     for (const std::string& path : {std::string("/dev/null"), std::string("/tmp"), folder.file("text")}) {
         INFO(path);
-        CHECK(output_refusal(path).find(path + " is no GPIO chip; this machine has ") == 0);
-        CHECK(input_refusal(path).find(path + " is no GPIO chip; this machine has ") == 0);
+        CHECK(output_refusal(path).find(path + " is not a GPIO chip; this machine has ") == 0);
+        CHECK(input_refusal(path).find(path + " is not a GPIO chip; this machine has ") == 0);
     }
 }
 
@@ -65,8 +65,8 @@ TEST_CASE("GPIO lines: a chip that one may not open is told with the group that 
     REQUIRE(back);
     INFO(refusal);
     // libgpiod 2.x looks at what it is before it opens it.
-    const std::string expected =
-        SPLINEFEED_HAS_GPIO == 2 ? chip + " is no GPIO chip" : "you may not open " + chip + ": group audio may; ";
+    const std::string expected = SPLINEFEED_HAS_GPIO == 2 ? chip + " is not a GPIO chip"
+                                                          : "no permission to open " + chip + ": group audio may; ";
     CHECK(refusal.find(expected) == 0);
     if (SPLINEFEED_HAS_GPIO == 1) {
         REQUIRE(chmod(chip.c_str(), 0600) == 0);

@@ -31,12 +31,12 @@ public:
         safe_ = levels_;
     }
 
-    /// An input of the map changes, as an edge that is told or without one.
-    void drive(std::size_t input, bool active, bool told = true) {
+    /// An input of the map changes, with an edge or without one.
+    void drive(std::size_t input, bool active, bool with_edge = true) {
         const auto& mapped = map_->inputs[input];
         const bool level = active == mapped.active_level;
         inputs_ = (inputs_ & ~mapped.line.mask()) | (level ? mapped.line.mask() : 0);
-        if (told) {
+        if (with_edge) {
             events_.push_back({mapped.line.bit, level, clock_->now_ns(), 0});
         }
     }

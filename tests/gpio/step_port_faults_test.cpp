@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StepPort on a virtual clock: cuts, and lines that cannot be set.
+// StepPort on a virtual clock: disable(), and lines that cannot be set.
 #include "gpio_bench.hpp"
 #include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/target/gpio/gpio_target.hpp"
@@ -10,14 +10,14 @@ using namespace splinefeed;
 using namespace splinefeed::host;
 using namespace splinefeed_test;
 
-TEST_CASE("a port that was cut enables nothing, before and after", "[stopping]") {
+TEST_CASE("a port that was disabled enables nothing, before and after", "[stopping]") {
     VirtualClock clock;
     const MachineDescription machine = two_axes();
     const hal::gpio::LineMap map = parse_gpio_map(map_text, "m.toml", machine, "chip");
     SimulatedLines lines(map, clock);
     hal::gpio::StepPort port(lines.outputs(), port_settings(machine, map, &clock));
     SECTION("before the start") {
-        port.cut();
+        port.disable();
         CHECK(port.start().empty());
         CHECK(lines.rows().empty());
     }
@@ -27,7 +27,7 @@ TEST_CASE("a port that was cut enables nothing, before and after", "[stopping]")
         port.complete();
         clock.sleep_us(10'000);
         CHECK(port.poll().phase == hal::PortPhase::idle);
-        port.cut();
+        port.disable();
         clock.sleep_us(1000);
         CHECK_FALSE(lines.enabled());
         port.stop();

@@ -225,27 +225,27 @@ TEST_CASE("a thread that stood still goes on where it was, and catches nothing u
     }
 }
 
-TEST_CASE("a cut stops all edges and switches the drives off") {
+TEST_CASE("disable stops all edges and switches the drives off") {
     const std::vector<FeedSegment> segments = RandomSegments(5).smooth(axes, 300, 8000, 4000.0);
     RecordingWriter writer;
     StepPort port({wired(writer)}, settings());
     INFO(port.start());
     const HostWatch host;
-    std::uint64_t cut_ns = 0;
+    std::uint64_t disable_ns = 0;
     CHECK(run(port, segments, [&](std::size_t i) {
               if (i == 150) {
-                  cut_ns = hal::system_clock().now_ns();
-                  port.cut();
+                  disable_ns = hal::system_clock().now_ns();
+                  port.disable();
               }
           }) == PortPhase::fault);
     const auto rows = writer.rows();
     CHECK((rows.back().levels & enable_mask) != 0);
     CHECK((rows.back().levels & 0b101U) == 0b100U); // steps idle: low, and high where inverted
-    CHECK(rows.back().at_ns > cut_ns);
+    CHECK(rows.back().at_ns > disable_ns);
     // The last call switches off: within the slice, and what a wake-up takes on this host.
-    CHECK(rows.back().at_ns <= cut_ns + StepPort::slice_ns + 2 * host.latest_ns() + 100'000);
+    CHECK(rows.back().at_ns <= disable_ns + StepPort::slice_ns + 2 * host.latest_ns() + 100'000);
     CHECK((rows[rows.size() - 2].levels & enable_mask) == 0);
-    CHECK(port.was_cut());
+    CHECK(port.was_disabled());
     CHECK_FALSE(port.submit(segments[0]));
 }
 
@@ -288,7 +288,7 @@ TEST_CASE("one motion after another: counts go on, and so do lines of which each
     }
 }
 
-TEST_CASE("the drives have the time to switch on that they were given, and a cut does not wait for it") {
+TEST_CASE("the drives have the time to switch on that they were given, and disable does not wait for it") {
     const std::vector<FeedSegment> segments = RandomSegments(10).smooth(axes, 60, 8000, 3000.0);
     RecordingWriter writer;
     StepPortSettings slow = settings();
@@ -302,7 +302,7 @@ TEST_CASE("the drives have the time to switch on that they were given, and a cut
     slow.settle_ms = 60'000;
     StepPort port({wired(writer)}, slow);
     INFO(port.start());
-    port.cut();
+    port.disable();
     while (port.poll().phase != PortPhase::fault) {
         sleep_ms(1);
     }

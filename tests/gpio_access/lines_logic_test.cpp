@@ -78,7 +78,7 @@ TEST_CASE("Output lines: those that are kept have the same level when they are r
     {
         OutputLines lines("chip", "test", three);
         CHECK(lines.set(all, 5));
-        lines.keep(4);
+        lines.retain_levels(4);
         fake_chip.writes.clear();
     }
     CHECK((fake_chip.writes == Writes{{all, safe | 4}}));
@@ -92,7 +92,7 @@ TEST_CASE("Output lines: who has a line that is busy, and what cannot be an outp
     CHECK(refusal("refused", {"D", {}}) ==
           "line 3 ('D') of chip is in use by 'other'; stop that, or take another line");
     CHECK(refusal("refused", {"C", {}}) ==
-          "line 2 ('C') of chip is in use by something that gave no name; stop that, or take another line");
+          "line 2 ('C') of chip is in use by an unnamed consumer; stop that, or take another line");
     CHECK(refusal("no outputs", {"A", {}}).find("line 0 ('A') of chip cannot become an output: ") == 0);
 }
 

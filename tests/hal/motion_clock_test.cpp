@@ -15,7 +15,7 @@ TEST_CASE("Motion clock: it stands before its start, and then runs as ours does"
     CHECK(clock.time(1'000'000) == 0);
     CHECK(clock.time(1'000'001) == 1);
     CHECK(clock.time(9'000'000) == 8'000'000);
-    CHECK_FALSE(clock.stands(9'000'000));
+    CHECK_FALSE(clock.at_standstill(9'000'000));
 }
 
 TEST_CASE("Motion clock: a stop takes the reserve of motion in twice its time, a resume the same") {
@@ -24,8 +24,8 @@ TEST_CASE("Motion clock: a stop takes the reserve of motion in twice its time, a
     clock.stop(1'000'000);
     CHECK(clock.time(1'000'000) == 1'000'000);
     CHECK(clock.time(1'100'000) == 1'075'000); // t - t^2 / 4 S
-    CHECK_FALSE(clock.stands(1'199'999));
-    CHECK(clock.stands(1'200'000));
+    CHECK_FALSE(clock.at_standstill(1'199'999));
+    CHECK(clock.at_standstill(1'200'000));
     CHECK(clock.time(1'200'000) == 1'100'000);
     CHECK(clock.time(5'000'000) == 1'100'000);
     clock.resume(5'000'000);
@@ -49,7 +49,7 @@ TEST_CASE("Motion clock: its rate changes by 1 within twice the reserve at most,
         for (std::uint64_t now = 1000; now < 3'000'000; now += step_us) {
             if (!clock.stopping() && random() % 300 == 0) { // also while it still rises
                 clock.stop(now);
-            } else if (clock.stands(now) && random() % 50 == 0) {
+            } else if (clock.at_standstill(now) && random() % 50 == 0) {
                 clock.resume(now);
             }
             const auto next = static_cast<double>(clock.time(now + step_us) - clock.time(now)) / step_us;
@@ -79,15 +79,15 @@ TEST_CASE("Motion clock: instants are when the motion's time is that, and what c
             const auto passed = static_cast<std::int64_t>(clock.time(at));
             clock.stop(at);
             CHECK(clock.instant(passed - 5) == at); // due then at the latest
-            const auto stands = static_cast<std::int64_t>(clock.time(clock.standing_from()));
+            const auto stands = static_cast<std::int64_t>(clock.time(clock.standstill_from()));
             CHECK(clock.instant(stands + 2) == MotionClock::never);
             const std::int64_t halfway = (passed + stands) / 2;
             const std::uint64_t due = clock.instant(halfway);
             CHECK(std::llabs(static_cast<std::int64_t>(clock.time(due)) - halfway) <= 2);
             clock.delay(1234);
             CHECK(clock.instant(halfway) == due + 1234);
-            CHECK(clock.stands(clock.standing_from()));
-            at = clock.standing_from() + random() % 1'000'000;
+            CHECK(clock.at_standstill(clock.standstill_from()));
+            at = clock.standstill_from() + random() % 1'000'000;
             clock.resume(at);
             CHECK(clock.instant(stands) == at);
         }

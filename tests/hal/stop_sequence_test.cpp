@@ -13,15 +13,15 @@ namespace {
 
 constexpr StopTimes times{.hold_us = 1000, .quick_stop_us = 500, .disable_us = 200, .settle_us = 20};
 
-StopFacts stands(std::uint64_t said_us, StopRequest executed, std::uint64_t executed_us) {
-    return {.said_us = said_us, .standstill = true, .executed = executed, .executed_us = executed_us};
+StopFacts stands(std::uint64_t status_us, StopRequest executed, std::uint64_t executed_us) {
+    return {.status_us = status_us, .standstill = true, .executed = executed, .executed_us = executed_us};
 }
 
-StopFacts moves(std::uint64_t said_us, StopRequest executed, std::uint64_t executed_us) {
-    return {.said_us = said_us, .executed = executed, .executed_us = executed_us};
+StopFacts moves(std::uint64_t status_us, StopRequest executed, std::uint64_t executed_us) {
+    return {.status_us = status_us, .executed = executed, .executed_us = executed_us};
 }
 
-/// One axis that is told what a sequence says.
+/// One axis that executes what a sequence sends.
 struct One {
     StopSequence stop{1, times};
 
@@ -33,7 +33,7 @@ struct One {
 
 } // namespace
 
-TEST_CASE("Stop: an axis that stood before the request is told it, and confirms it afterwards only") {
+TEST_CASE("Stop: an axis at standstill before the request gets it too, and confirms it only afterwards") {
     One one;
     CHECK_FALSE(one.stop.settled());
     one.stop.request(StopRequest::hold, 100);
@@ -55,11 +55,11 @@ TEST_CASE("Stop: an axis with a start pending is never confirmed, however it sta
     StopFacts facts = stands(200, StopRequest::hold, 110);
     facts.start_pending = true;
     CHECK(one.at(200, facts).state == StopState::stopping);
-    facts.said_us = 400;
+    facts.status_us = 400;
     CHECK(one.at(400, facts).state == StopState::stopping);
     facts.start_pending = false; // called off: it counts from here
     CHECK(one.at(401, facts).state == StopState::stopping);
-    facts.said_us = 421;
+    facts.status_us = 421;
     CHECK(one.at(421, facts).state == StopState::confirmed);
 }
 
@@ -75,10 +75,10 @@ TEST_CASE("Stop: a hold that is not confirmed in time becomes a quick stop, then
     CHECK(one.at(1703, moves(1700, StopRequest::quick_stop, 1010)).state == StopState::unconfirmed);
     CHECK(one.stop.settled());
     CHECK_FALSE(one.stop.all_confirmed());
-    CHECK(one.stop.to_send(0) == StopRequest::disable); // it is told again for as long as anybody asks
+    CHECK(one.stop.to_send(0) == StopRequest::disable); // it is sent again until the axis executes it
     CHECK(one.at(1800, stands(1790, StopRequest::disable, 1780)).state == StopState::unconfirmed);
     CHECK(one.at(1810, stands(1810, StopRequest::disable, 1780)).state == StopState::confirmed);
-    CHECK(one.stop.asked() == StopRequest::hold);
+    CHECK(one.stop.strongest_request() == StopRequest::hold);
 }
 
 TEST_CASE("Stop: the strongest request that an axis is asked for unasked can be limited") {
@@ -95,7 +95,7 @@ TEST_CASE("Stop: requests only grow, and a stronger one is for every axis, also 
     stop.request(StopRequest::hold, 0);
     std::vector<StopFacts> facts{stands(50, StopRequest::hold, 5), moves(50, StopRequest::hold, 5)};
     stop.update(50, facts);
-    facts[0].said_us = 80;
+    facts[0].status_us = 80;
     stop.update(80, facts);
     CHECK(stop.report(0).state == StopState::confirmed);
     CHECK_FALSE(stop.settled());
@@ -116,8 +116,8 @@ TEST_CASE("Stop: an axis that escalates does so alone") {
     stop.request(StopRequest::hold, 0);
     std::vector<StopFacts> facts{stands(50, StopRequest::hold, 5), moves(50, StopRequest::hold, 5)};
     stop.update(50, facts);
-    facts[0].said_us = 80;
-    facts[1].said_us = 1100;
+    facts[0].status_us = 80;
+    facts[1].status_us = 1100;
     stop.update(1100, facts);
     CHECK(stop.report(0).held());
     CHECK(stop.report(1).request == StopRequest::quick_stop);
@@ -144,15 +144,15 @@ TEST_CASE("Stop: whatever an axis does, confirmed means that it stands, and ther
             return std::uniform_int_distribution<std::uint64_t>(0, most)(random);
         };
         One one;
-        const std::uint64_t obeys_us = dice(1200);           // after it was told
+        const std::uint64_t reaction_us = dice(1200);        // after it was sent
         const std::uint64_t stands_us = dice(600);           // after it obeyed
         const std::uint64_t start_us = dice(1) * dice(3000); // a start that was under way when the stop was asked for
         const std::uint64_t deaf_us = dice(2) == 0 ? dice(2000) : 0;
         const StopRequest first = dice(1) == 0 ? StopRequest::hold : StopRequest::quick_stop;
         const std::uint64_t second_us = dice(2) == 0 ? dice(1500) : UINT64_MAX;
-        StopRequest told = StopRequest::none;
+        StopRequest sent = StopRequest::none;
         StopRequest executed = StopRequest::none;
-        std::uint64_t told_us = 0;
+        std::uint64_t sent_us = 0;
         std::uint64_t executed_us = 0;
         StopFacts facts;
         one.stop.request(first, 1);
@@ -161,15 +161,15 @@ TEST_CASE("Stop: whatever an axis does, confirmed means that it stands, and ther
             if (now >= second_us) {
                 one.stop.request(StopRequest::disable, now);
             }
-            if (executed < told && now >= told_us + obeys_us) {
-                executed = told;
+            if (executed < sent && now >= sent_us + reaction_us) {
+                executed = sent;
                 executed_us = now;
             }
             // A start that has its instant before anything was executed is a motion.
             const bool pending = executed == StopRequest::none && start_us > now;
             const bool still = (executed != StopRequest::none && now >= executed_us + stands_us) || pending;
             if (now >= deaf_us) {
-                facts = {.said_us = now,
+                facts = {.status_us = now,
                          .standstill = still,
                          .start_pending = pending,
                          .executed = executed,
@@ -184,9 +184,9 @@ TEST_CASE("Stop: whatever an axis does, confirmed means that it stands, and ther
                 REQUIRE_FALSE(pending);
                 ++confirmed;
             }
-            if (const StopRequest send = one.stop.to_send(0); send > told) {
-                told = send;
-                told_us = now;
+            if (const StopRequest send = one.stop.to_send(0); send > sent) {
+                sent = send;
+                sent_us = now;
             }
         }
         INFO("run " << run);

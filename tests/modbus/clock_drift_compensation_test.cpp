@@ -13,17 +13,17 @@ TEST_CASE("Duration trim: a drive whose clock is fast or slow stays in step for 
         INFO("skew " << skew_ppm << " ppm");
         ClockDriftCompensation trim;
         trim.anchor(1e6);
-        double told_us = 1e6; // by the drive's clock
+        double drive_end_us = 1e6; // by the drive's clock
         double largest = 0.0;
         std::uint32_t longest = 0;
         std::uint32_t shortest = ticks;
         for (int i = 0; i < 3'600'000; ++i) {
             const double end_us = trim.next_end_us(ticks);
-            const std::uint32_t told = trim.trimmed(ticks, 1e-6 * skew_ppm * (end_us - 1e6));
-            longest = told > longest ? told : longest;
-            shortest = told < shortest ? told : shortest;
-            told_us += told / 8.0;
-            largest = std::fmax(largest, std::fabs(told_us - (end_us + 1e-6 * skew_ppm * (end_us - 1e6))));
+            const std::uint32_t corrected = trim.trimmed(ticks, 1e-6 * skew_ppm * (end_us - 1e6));
+            longest = corrected > longest ? corrected : longest;
+            shortest = corrected < shortest ? corrected : shortest;
+            drive_end_us += corrected / 8.0;
+            largest = std::fmax(largest, std::fabs(drive_end_us - (end_us + 1e-6 * skew_ppm * (end_us - 1e6))));
         }
         CHECK(largest < ClockDriftCompensation::tolerated_us + 0.2);
         CHECK(longest <= ticks + 2);
@@ -38,9 +38,9 @@ TEST_CASE("Duration trim: a jump of the estimate is taken up gently") {
     CHECK(trim.anchored());
     double gained = 0.0;
     for (int i = 0; i < 2000; ++i) {
-        const std::uint32_t told = trim.trimmed(8000, 40.0);
-        CHECK(told <= 8002);
-        gained += (told - 8000.0) / 8.0;
+        const std::uint32_t corrected = trim.trimmed(8000, 40.0);
+        CHECK(corrected <= 8002);
+        gained += (corrected - 8000.0) / 8.0;
     }
     CHECK(std::fabs(gained - 40.0) <= 3.0);
     for (int i = 0; i < 100; ++i) { // what moves little is left alone

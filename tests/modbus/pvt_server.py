@@ -27,12 +27,12 @@ from pvt_motion import DISABLED, FAULT, HELD, HOMING, NEVER, RUNNING, STANDING, 
 
 IDENTITY, CONFIGURATION, STATUS, BLOCK = 0x0000, 0x0010, 0x0020, 0x0100
 CHECKSUM, SESSION, GAP, NO_ROOM, MALFORMED, NOT_NOW = range(1, 7)
-ENABLE, DISABLE, BEGIN, START, HOLD, RESUME, QUICK_STOP, END, FAULT_RESET, HOME, PLACE = range(1, 12)
+ENABLE, DISABLE, BEGIN, START, HOLD, RESUME, QUICK_STOP, END, FAULT_RESET, HOME, PRESET_POSITION = range(1, 12)
 WITHOUT_SESSION = (ENABLE, DISABLE, BEGIN, QUICK_STOP, FAULT_RESET)
 ALLOWED = {
     ENABLE: (DISABLED, STANDING), DISABLE: (DISABLED, STANDING, HELD), BEGIN: (STANDING, HELD), START: (STANDING,),
     HOLD: (RUNNING, STOPPING, HELD), RESUME: (HELD,), QUICK_STOP: range(7), END: (RUNNING, STOPPING, HELD),
-    FAULT_RESET: (DISABLED, FAULT), HOME: (STANDING,), PLACE: (STANDING,)}
+    FAULT_RESET: (DISABLED, FAULT), HOME: (STANDING,), PRESET_POSITION: (STANDING,)}
 REST_MARK = 0x80000000
 FEW_SEGMENTS = 250  # with --spoil few it takes no more while it runs
 LATE_SEGMENTS = 80  # with --spoil late it stops so far behind where it is told to; 1 ms each
@@ -133,7 +133,7 @@ class PvtDrive:
         if command and (1 <= ahead <= 32767 if mine else ahead != 0):
             self.command(command, session, argument, segments)
             self.last_command = counter
-            if command == PLACE:
+            if command == PRESET_POSITION:
                 return
         if segments and session != self.session:  # a begin that came late
             raise Refused(SESSION)
@@ -176,7 +176,7 @@ class PvtDrive:
     def command(self, command, session, argument, segments):
         motion = self.motion
         idle = not motion.ring and motion.start_at == NEVER
-        if motion.state not in ALLOWED.get(command, ()) or (command in (HOME, PLACE) and not idle):
+        if motion.state not in ALLOWED.get(command, ()) or (command in (HOME, PRESET_POSITION) and not idle):
             raise Refused(NOT_NOW)
         if command == ENABLE:
             motion.state = STANDING

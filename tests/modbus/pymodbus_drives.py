@@ -24,7 +24,7 @@ NAMED = {
     "count": "is not the plan's",
     "shaft": "they end 1.0",
     "twice": "sequence numbers are missing, twice or out of order",
-    "crc": "the checksum of its status never holds",
+    "crc": "the checksum of its status is always wrong",
 }
 
 

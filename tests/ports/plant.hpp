@@ -24,8 +24,8 @@ public:
     Plant(const Plant&) = delete;
     Plant& operator=(const Plant&) = delete;
     ~Plant() {
-        looking_ = false;
-        looker_.reset();
+        sampling_ = false;
+        sampler_.reset();
     }
 
     void add(std::unique_ptr<splinefeed::host::DriveModel> model, int unit, double clock_ppm, SimulatedWire& wire) {
@@ -45,15 +45,15 @@ public:
         };
     }
     /// From now on the shafts are looked at.
-    void look() {
-        looker_ = clock.start([this] {
-            while (looking_) {
-                look_once();
+    void sample_positions() {
+        sampler_ = clock.start([this] {
+            while (sampling_) {
+                sample_once();
                 clock.sleep_us(1000);
             }
         });
     }
-    void look_once() {
+    void sample_once() {
         const std::uint64_t now_us = clock.now_us();
         for (auto& [at_us, what] : events) {
             if (what && now_us >= at_us) {
@@ -95,8 +95,8 @@ public:
     double highest_counts = 0.0;
 
 private:
-    bool looking_ = true;
-    std::unique_ptr<splinefeed::hal::ClockThread> looker_;
+    bool sampling_ = true;
+    std::unique_ptr<splinefeed::hal::ClockThread> sampler_;
 };
 
 } // namespace splinefeed_test

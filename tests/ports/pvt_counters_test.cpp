@@ -71,7 +71,7 @@ TEST_CASE("PVT port, virtual: sequence numbers wrap on the way, and nothing is l
             ModbusPortSettings settings;
             settings.first_sequence = first;
             plant.make(settings);
-            plant.look();
+            plant.sample_positions();
             const Run done = run(plant);
             CHECK(done.state.phase == PortPhase::idle);
             CHECK(done.state.executed == motion.segments.size());
@@ -99,7 +99,7 @@ TEST_CASE("PVT port, virtual: command counters and nonces wrap on the way", "[po
             age(*drive, static_cast<std::uint16_t>(0xFFFFU - left), static_cast<std::uint16_t>(0xFFFFU - left));
         }
         plant.make();
-        plant.look();
+        plant.sample_positions();
         const Run done = run(plant);
         CHECK(done.state.phase == PortPhase::idle);
         CHECK(done.resumes == 0);
@@ -113,7 +113,7 @@ TEST_CASE("PVT port, virtual: command counters and nonces wrap on the way", "[po
 TEST_CASE("PVT port, virtual: what a segment cannot carry stops all on the path before it", "[ports]") {
     PvtPlant plant({});
     plant.make();
-    plant.look();
+    plant.sample_positions();
     ModbusPort& port = *plant.port;
     REQUIRE_FALSE(port.open());
     REQUIRE_FALSE(port.prepare(motion.segments.front()));

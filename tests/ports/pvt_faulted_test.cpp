@@ -169,7 +169,7 @@ void run_seed(std::uint64_t seed, Tally& tally) {
     Scenario scenario(seed);
     PvtPlant plant(scenario.parameters);
     plant.make(scenario.settings);
-    plant.look();
+    plant.sample_positions();
     REQUIRE_FALSE(plant.port->open());
     const double least_us = std::max(1000.0, plant.port->least_segment_us());
     const auto segment_us =

@@ -14,7 +14,7 @@ const SmoothMotion motion = smooth_motion(20000.0, 2, 150, 2000);
 
 void prepare(PvtPlant& plant) {
     plant.make();
-    plant.look();
+    plant.sample_positions();
     REQUIRE_FALSE(plant.port->open());
     REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
     plant.began_us = plant.clock.now_us();

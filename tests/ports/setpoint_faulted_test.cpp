@@ -151,7 +151,7 @@ void run_seed(std::uint64_t seed, Tally& tally) {
     Scenario scenario(seed);
     SetpointPlant plant(scenario.parameters);
     plant.make({.away_us = away_us});
-    plant.look();
+    plant.sample_positions();
     REQUIRE(plant.port->open() == "");
     const SmoothMotion motion = smooth_motion(way_counts, 2, 60 + static_cast<int>(scenario.dice(80)), 4000);
     REQUIRE(plant.port->prepare(motion.segments.front()) == "");

@@ -28,7 +28,7 @@ void watch(DriveProfile& profile) {
 TEST_CASE("Set-point port, virtual: no watchdog runs out while other drives are enabled and homed", "[ports]") {
     SetpointPlant plant({.change = watch});
     plant.make({.home = true});
-    plant.look();
+    plant.sample_positions();
     REQUIRE(plant.port->open() == "");
     const std::uint64_t begun_us = plant.clock.now_us();
     CHECK(plant.port->prepare(motion.segments.front()) == "");

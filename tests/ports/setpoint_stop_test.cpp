@@ -15,7 +15,7 @@ constexpr std::array profiles{"cia402-index", "lexium32m", "leadshine-pr", "orie
 
 void prepare(SetpointPlant& plant) {
     plant.make();
-    plant.look();
+    plant.sample_positions();
     REQUIRE(plant.port->open() == "");
     REQUIRE(plant.port->prepare(motion.segments.front()) == "");
     plant.began_us = plant.clock.now_us();

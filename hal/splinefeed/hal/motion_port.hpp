@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MotionPort: where feed segments go: drives, step lines, the simulated machine. Virtual, at segment rate.
+// MotionPort: interface of everything that executes feed segments: drives, step lines, the simulated machine. The
+// virtual calls are at the rate of segments.
 #pragma once
 
 #include "splinefeed/base/status.hpp"
@@ -10,8 +11,8 @@ namespace splinefeed::hal {
 enum class PortPhase : std::uint8_t {
     idle,    ///< nothing queued, all axes at rest
     running, ///< executing segments
-    halted,  ///< stopped by halt(); nothing queued executes any more
-    fault,   ///< stopped by the port itself; the port says why
+    halted,  ///< stopped by halt(); queued segments are not executed
+    fault,   ///< stopped by the port itself; the port reports the cause
 };
 
 /// What a port reports when it is polled.
@@ -23,13 +24,15 @@ struct PortState {
 /// Use: while (trajectory.next(segment)) { while (port.room() == 0) port.poll(); port.submit(segment); }
 class MotionPort {
 public:
-    /// How many segments submit would take now.
+    /// Number of segments that submit() accepts now.
     [[nodiscard]] int room() const noexcept { return do_room(); }
-    /// Queues one segment. @pre room() > 0. False: the port is halted or in fault and took nothing.
+    /// Queues one segment. Returns false if the port is halted or in fault; the segment is then dropped. @pre room() >
+    /// 0
     [[nodiscard]] bool submit(const FeedSegment& segment) noexcept { return do_submit(segment); }
-    /// Lets the port work and returns its state. Call it at least once per segment duration on a real machine.
+    /// Does the port's periodic work and returns its state. On a real machine call it at least once per segment
+    /// duration.
     PortState poll() noexcept { return do_poll(); }
-    /// Stops as fast as the port can, dropping what is queued. Best effort, never fails.
+    /// Stops the motion as fast as the port can and drops queued segments. Best effort; never fails.
     void halt() noexcept { do_halt(); }
 
 protected:

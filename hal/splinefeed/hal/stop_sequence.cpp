@@ -17,7 +17,7 @@ const char* name(StopRequest request) noexcept {
 
 void StopSequence::reset() noexcept {
     std::fill(axes_.begin(), axes_.end(), Axis());
-    asked_ = StopRequest::none;
+    strongest_ = StopRequest::none;
 }
 
 std::uint64_t StopSequence::bound_us(StopRequest request) const noexcept {
@@ -27,27 +27,28 @@ std::uint64_t StopSequence::bound_us(StopRequest request) const noexcept {
 }
 
 void StopSequence::request(StopRequest request, std::uint64_t now_us) noexcept {
-    asked_ = std::max(asked_, request);
+    strongest_ = std::max(strongest_, request);
     for (Axis& axis : axes_) {
         if (request > axis.report.request) {
-            axis = {.report = {.request = request, .said_us = axis.report.said_us}, .since_us = now_us};
+            axis = {.report = {.request = request, .status_us = axis.report.status_us}, .since_us = now_us};
         }
     }
 }
 
-// What was said before the request was executed tells of the time before. Standing counts from the first status that
-// says so: a shaft still settles behind it.
-void StopSequence::judge(Axis& axis, const StopFacts& facts) const noexcept {
-    axis.report.said_us = facts.said_us;
+// A status from before the execution says nothing about the stop. The settling time counts from the first status that
+// reports standstill.
+void StopSequence::assess(Axis& axis, const StopFacts& facts) const noexcept {
+    axis.report.status_us = facts.status_us;
     axis.report.on_path = facts.on_path;
     axis.executed = facts.executed >= axis.report.request;
-    const bool stands = axis.executed && facts.standstill && !facts.start_pending && facts.said_us >= facts.executed_us;
-    axis.stood_us = !stands ? 0 : axis.stood_us == 0 ? facts.said_us : axis.stood_us;
-    const bool settled = stands && facts.said_us >= axis.stood_us + times_.settle_us;
+    const bool stands =
+        axis.executed && facts.standstill && !facts.start_pending && facts.status_us >= facts.executed_us;
+    axis.standstill_since_us = !stands ? 0 : axis.standstill_since_us == 0 ? facts.status_us : axis.standstill_since_us;
+    const bool settled = stands && facts.status_us >= axis.standstill_since_us + times_.settle_us;
     axis.report.state = settled ? StopState::confirmed : axis.executed ? StopState::stopping : StopState::moving;
 }
 
-// What was confirmed once and moves again has no time left.
+// An axis that was confirmed and moves again has used up its time: it escalates at once.
 void StopSequence::escalate(Axis& axis, std::uint64_t now_us) const noexcept {
     if (now_us <= axis.since_us + bound_us(axis.report.request)) {
         return;
@@ -58,14 +59,14 @@ void StopSequence::escalate(Axis& axis, std::uint64_t now_us) const noexcept {
     }
     axis.report.request = static_cast<StopRequest>(static_cast<int>(axis.report.request) + 1);
     axis.since_us = now_us;
-    axis.stood_us = 0;
+    axis.standstill_since_us = 0;
     axis.executed = false;
     axis.report.state = StopState::moving;
 }
 
 void StopSequence::update(std::uint64_t now_us, std::span<const StopFacts> facts) noexcept {
     for (std::size_t i = 0; i < axes_.size() && requested(); ++i) {
-        judge(axes_[i], facts[i]);
+        assess(axes_[i], facts[i]);
         if (axes_[i].report.state != StopState::confirmed) {
             escalate(axes_[i], now_us);
         }

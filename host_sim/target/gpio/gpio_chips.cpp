@@ -117,10 +117,10 @@ void GpioChips::make_safe() noexcept {
 
 void GpioChips::keep_drives_on() noexcept {
     if (map_->enable) {
-        writer_[map_->enable->line.chip]->lines().keep(map_->enable->line.mask());
+        writer_[map_->enable->line.chip]->lines().retain_levels(map_->enable->line.mask());
     }
     if (map_->brake) {
-        writer_[map_->brake->line.chip]->lines().keep(map_->brake->line.mask());
+        writer_[map_->brake->line.chip]->lines().retain_levels(map_->brake->line.mask());
     }
 }
 

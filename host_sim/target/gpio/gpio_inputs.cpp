@@ -33,10 +33,10 @@ GpioInputs::GpioInputs(const hal::gpio::LineMap& map, const MachineDescription& 
             watched.push_back({.bit = input.line.bit,
                                .active_level = input.active_level,
                                .debounce_us = input.debounce_us,
-                               .cuts = input.role == InputRole::e_stop});
+                               .trips_estop = input.role == InputRole::e_stop});
         }
         auto watch = std::make_unique<InputWatch>(
-            *inputs.source, watched, port.log(), [&port] { port.cut(); }, settings);
+            *inputs.source, watched, port.log(), [&port] { port.disable(); }, settings);
         if (!watch->start()) {
             throw TargetError(fmt::format("the inputs of {} cannot be read: {}",
                                           map.chips[map.inputs[inputs.input.front()].line.chip].chip,

@@ -26,7 +26,7 @@ double GpioMover::mm_of(int axis, std::int64_t count) const noexcept {
     return static_cast<double>(count) / machine_->settings.axis[static_cast<unsigned>(axis)].steps_per_mm;
 }
 
-void GpioMover::stands_at(int axis, std::int64_t count) noexcept {
+void GpioMover::preset_position(int axis, std::int64_t count) noexcept {
     origin_[static_cast<unsigned>(axis)] = count - port_->counts(axis);
 }
 
@@ -60,7 +60,7 @@ void GpioMover::begin(const PerAxis<bool>& moves, Way way, const std::optional<U
 
 // Takes what the switches tell: changes, and levels, since a change may have come before the move. False: the move
 // shall be held.
-bool GpioMover::look(const std::optional<Until>& until, Moved& moved) {
+bool GpioMover::check_inputs(const std::optional<Until>& until, Moved& moved) {
     const auto acts = [&](std::size_t input) {
         if (ends_move(input, until) && !moved.came && moved.trouble.empty()) {
             moved.trouble = fmt::format("the {} acts", inputs_->name(input));
@@ -116,7 +116,7 @@ GpioMover::Moved GpioMover::move(const PerAxis<double>& to_mm, double feed_mm_s,
     bool over = false;
     while (!over && motion.next(segment)) {
         for (;;) {
-            if (!look(until, moved)) {
+            if (!check_inputs(until, moved)) {
                 motion.hold();
             }
             over = stopped();
@@ -129,7 +129,7 @@ GpioMover::Moved GpioMover::move(const PerAxis<double>& to_mm, double feed_mm_s,
     }
     port_->complete();
     while (!over && port_->poll().phase != hal::PortPhase::idle) {
-        static_cast<void>(look(until, moved));
+        static_cast<void>(check_inputs(until, moved));
         over = stopped();
         time_->sleep_us(poll_every_us);
     }

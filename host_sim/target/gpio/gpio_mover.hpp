@@ -29,7 +29,7 @@ public:
     [[nodiscard]] std::string go_to(const PerAxis<double>& mm);
 
     /// Defines the present position as this count of the machine.
-    void stands_at(int axis, std::int64_t count) noexcept;
+    void preset_position(int axis, std::int64_t count) noexcept;
     [[nodiscard]] std::int64_t count(int axis) const noexcept {
         return port_->counts(axis) + origin_[static_cast<unsigned>(axis)];
     }
@@ -61,7 +61,7 @@ private:
     /// Moves one axis by a distance.
     [[nodiscard]] Moved move_by(int axis, double mm, double feed_mm_s, Way way,
                                 std::optional<Until> until = std::nullopt);
-    [[nodiscard]] bool look(const std::optional<Until>& until, Moved& moved);
+    [[nodiscard]] bool check_inputs(const std::optional<Until>& until, Moved& moved);
     void begin(const PerAxis<bool>& moves, Way way, const std::optional<Until>& until, Moved& moved) const;
     [[nodiscard]] bool ends_move(std::size_t input, const std::optional<Until>& until) const noexcept;
 

@@ -96,9 +96,9 @@ hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, con
 }
 
 GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
-                       const MachineDescription& machine, const RunOptions& wishes, hal::Clock* clock)
-    : machine_(&machine), wishes_(wishes), time_(clock != nullptr ? clock : &hal::system_clock()), map_(std::move(map)),
-      chips_(std::move(lines)), port_(chips_->outputs(), port_settings(machine, *map_, clock)),
+                       const MachineDescription& machine, const RunOptions& options, hal::Clock* clock)
+    : machine_(&machine), options_(options), time_(clock != nullptr ? clock : &hal::system_clock()),
+      map_(std::move(map)), chips_(std::move(lines)), port_(chips_->outputs(), port_settings(machine, *map_, clock)),
       // Above the thread that makes edges, which may spin: an e-stop must not wait for it.
       inputs_(*map_, machine, *chips_, port_,
               {.priority = clock == nullptr ? map_->thread.priority + 1 : 0, .clock = clock}),
@@ -122,17 +122,17 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
         return std::any_of(map_->inputs.begin(), map_->inputs.end(),
                            [&](const auto& input) { return input.role == role; });
     };
-    if (wishes.probe && !has(InputRole::probe)) {
+    if (options.probe && !has(InputRole::probe)) {
         throw UsageError("--probe: the map has no input with the role probe");
     }
-    if (wishes.home &&
+    if (options.home &&
         std::none_of(map_->home.begin(), map_->home.end(), [](const auto& home) { return home.has_value(); })) {
         throw UsageError("--home: the map has no axis with a home switch ([home.x] and an input)");
     }
 }
 
 std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const MachineDescription& machine,
-                                             const RunOptions& wishes) {
+                                             const RunOptions& options) {
     auto map = std::make_unique<hal::gpio::LineMap>(read_gpio_map(address.map, machine, address.chip));
     std::unique_ptr<GpioLines> lines;
     try {
@@ -140,7 +140,7 @@ std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const M
     } catch (const hal::gpio::GpioError& error) {
         throw TargetError(error.what());
     }
-    return std::make_unique<GpioTarget>(std::move(map), std::move(lines), machine, wishes);
+    return std::make_unique<GpioTarget>(std::move(map), std::move(lines), machine, options);
 }
 
 // The lines become safe when nobody sets any more.
@@ -155,29 +155,29 @@ std::string GpioTarget::note() const {
 }
 
 std::string GpioTarget::prepare(const FeedSegment& first) {
-    if (std::string what = inputs_.in_the_way(!wishes_.home); !what.empty()) {
+    if (std::string what = inputs_.in_the_way(!options_.home); !what.empty()) {
         return what;
     }
     began_ = true;
     PerAxis<double> begin_mm{};
     for (int k = 0; k < machine_->settings.axes; ++k) {
         const auto axis = static_cast<unsigned>(k);
-        mover_.stands_at(k, nearest_step(first.start[axis]));
+        mover_.preset_position(k, nearest_step(first.start[axis]));
         begin_mm[axis] = static_cast<double>(first.start[axis]) / static_cast<double>(units_per_count) /
                          machine_->settings.axis[axis].steps_per_mm;
     }
-    if (wishes_.home) {
+    if (options_.home) {
         if (std::string what = mover_.home(); !what.empty()) {
-            return port_.was_cut() ? fault() : what;
+            return port_.was_disabled() ? fault() : what;
         }
         if (std::string what = inputs_.in_the_way(true); !what.empty()) {
             return what;
         }
         if (std::string what = mover_.go_to(begin_mm); !what.empty()) {
-            return port_.was_cut() ? fault() : what;
+            return port_.was_disabled() ? fault() : what;
         }
     }
-    while (inputs_.take()) { // what homing told is no news
+    while (inputs_.take()) { // discard the changes during homing
     }
     port_.stop();
     port_.reset();
@@ -186,7 +186,7 @@ std::string GpioTarget::prepare(const FeedSegment& first) {
     return {};
 }
 
-void GpioTarget::look() {
+void GpioTarget::update() {
     take_changes();
     // Levels, too: a change may have been taken before the run.
     if (const auto input = inputs_.stopping(); input && holds_.empty()) {
@@ -202,44 +202,46 @@ void GpioTarget::follow_stop() {
         stop_.request(hal::StopRequest::hold, now_us);
     }
     const hal::PortPhase phase = port_.poll().phase;
-    const hal::StopRequest executed = port_.was_cut() && phase == hal::PortPhase::fault ? hal::StopRequest::disable
-                                      : port_.halted()                                  ? hal::StopRequest::quick_stop
-                                      : completed_ && phase == hal::PortPhase::idle     ? hal::StopRequest::hold
-                                                                                        : hal::StopRequest::none;
+    const hal::StopRequest executed = port_.was_disabled() && phase == hal::PortPhase::fault ? hal::StopRequest::disable
+                                      : port_.halted()                              ? hal::StopRequest::quick_stop
+                                      : completed_ && phase == hal::PortPhase::idle ? hal::StopRequest::hold
+                                                                                    : hal::StopRequest::none;
     executed_us_ = executed == hal::StopRequest::none ? 0 : executed_us_ == 0 ? now_us : executed_us_;
-    const hal::StopFacts facts{
-        .said_us = port_.looked_us(), .standstill = port_.stands(), .executed = executed, .executed_us = executed_us_};
+    const hal::StopFacts facts{.status_us = port_.last_cycle_us(),
+                               .standstill = port_.at_standstill(),
+                               .executed = executed,
+                               .executed_us = executed_us_};
     stop_.update(now_us, {&facts, 1});
     if (stop_.to_send(0) == hal::StopRequest::quick_stop) {
         port_.quick_stop();
     } else if (stop_.to_send(0) == hal::StopRequest::disable) {
-        port_.cut();
+        port_.disable();
     }
 }
 
 void GpioTarget::take_changes() {
     while (const auto change = inputs_.take()) {
         const hal::gpio::MappedInput& input = map_->inputs[change->input];
-        GpioSummary::Change told{
+        GpioSummary::Change entry{
             .role = role_name(input.role),
             .axis = input.axis >= 0 ? machine_->axis_name[static_cast<unsigned>(input.axis)] : std::string(),
             .active = change->active,
             .time_s = static_cast<double>(static_cast<std::int64_t>(change->time_ns - began_ns_)) / ns_per_s,
             .position_mm = std::nullopt};
         if (change->counts) {
-            told.position_mm.emplace();
+            entry.position_mm.emplace();
             for (int k = 0; k < machine_->settings.axes; ++k) {
-                told.position_mm->push_back(mover_.position_at(k, (*change->counts)[static_cast<unsigned>(k)]));
+                entry.position_mm->push_back(mover_.position_at(k, (*change->counts)[static_cast<unsigned>(k)]));
             }
         }
-        seen_.add(std::move(told));
+        input_summary_.add(std::move(entry));
         const bool stops = input.role == InputRole::limit || input.role == InputRole::drive_fault;
         if (!change->active || !holds_.empty()) {
             continue;
         }
         if (stops) {
             holds_ = fmt::format("the {} acts: held on the path", inputs_.name(change->input));
-        } else if (input.role == InputRole::probe && wishes_.probe) {
+        } else if (input.role == InputRole::probe && options_.probe) {
             holds_ = fmt::format("the {} touched: held on the path", inputs_.name(change->input));
             probed_ = true;
         }
@@ -247,7 +249,7 @@ void GpioTarget::take_changes() {
 }
 
 void GpioTarget::complete() {
-    if (wishes_.probe && !probed_ && holds_.empty()) {
+    if (options_.probe && !probed_ && holds_.empty()) {
         holds_ = "the probe did not touch anything on the way";
     }
     completed_ = true;
@@ -267,7 +269,7 @@ std::string GpioTarget::halted(bool /*quick*/) const {
 
 std::string GpioTarget::finish() {
     port_.stop();
-    if (machine_->drives_on_at_end.value_or(false) && port_.place_known()) {
+    if (machine_->drives_on_at_end.value_or(false) && port_.position_known()) {
         chips_->keep_drives_on();
     } else {
         port_.park();
@@ -285,21 +287,22 @@ void GpioTarget::release() noexcept {
 
 std::string GpioTarget::fault() const {
     if (const std::string what = inputs_.trouble(); !what.empty()) {
-        return what + ": cut off";
+        return what + ": the drives were disabled";
     }
-    if (!port_.was_cut()) {
+    if (!port_.was_disabled()) {
         return port_.trouble();
     }
     // Asked of the port as the last means, or of the switch.
-    return stop_.report(0).request == hal::StopRequest::disable ? holds_ + ", but the port did not stop: cut off"
-                                                                : "the e-stop was pressed: cut off";
+    return stop_.report(0).request == hal::StopRequest::disable
+               ? holds_ + ", but the port did not stop: the drives were disabled"
+               : "the e-stop was pressed: the drives were disabled";
 }
 
 std::string GpioTarget::where() const {
     if (!began_) {
         return "; nothing was moved";
     }
-    PlaceText place(port_.place_known() ? "; the machine stands at"
+    PlaceText place(port_.position_known() ? "; the machine stands at"
                     : port_.may_be_on()
                         ? "; drives may still be on, since a line cannot be set, and where the machine "
                           "stands is not known (find the references again); the last steps were those to"
@@ -323,8 +326,8 @@ void GpioTarget::describe(Summary& summary) const {
                                .buffer_underruns = report.buffer_underruns,
                                .began_monotonic_s = static_cast<double>(began_ns_) / ns_per_s,
                                .missed = inputs_.missed(),
-                               .changes = seen_.changes,
-                               .changes_left_out = seen_.changes_left_out};
+                               .changes = input_summary_.changes,
+                               .changes_left_out = input_summary_.changes_left_out};
 }
 
 } // namespace splinefeed::host

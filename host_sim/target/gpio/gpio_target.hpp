@@ -16,7 +16,7 @@ public:
     /// @param lines  lines of the map
     /// @param clock  null: the system's clock; the target then also requests real-time priority. Must outlive it.
     GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
-               const MachineDescription& machine, const RunOptions& wishes, hal::Clock* clock = nullptr);
+               const MachineDescription& machine, const RunOptions& options, hal::Clock* clock = nullptr);
     ~GpioTarget() override;
 
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
@@ -36,14 +36,14 @@ private:
     [[nodiscard]] std::string halted(bool quick) const override;
     [[nodiscard]] std::string finish() override;
     void release() noexcept override;
-    void look() override;
+    void update() override;
     [[nodiscard]] std::string fault() const override;
 
     void take_changes();
     void follow_stop();
 
     const MachineDescription* machine_;
-    RunOptions wishes_;
+    RunOptions options_;
     hal::Clock* time_;
     std::optional<hal::AwakeHost> awake_;
     std::unique_ptr<hal::gpio::LineMap> map_;
@@ -53,9 +53,9 @@ private:
     GpioMover mover_;
     hal::StopSequence stop_; // all axes stop as one drive
     std::uint64_t executed_us_ = 0;
-    std::string missing_; // real-time rights that are missing
-    std::string holds_;   // why the motion is held and ends
-    GpioSummary seen_;    // changes of inputs
+    std::string missing_;       // real-time rights that are missing
+    std::string holds_;         // why the motion is held and ends
+    GpioSummary input_summary_; // changes of inputs
     std::uint64_t began_ns_;
     bool began_ = false; // the lines may have changed
     bool probed_ = false;
@@ -65,8 +65,8 @@ private:
 };
 
 /// Reads the map and requests the lines. Throws InputError, TargetError and UsageError.
-[[nodiscard]] std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address,
-                                                           const MachineDescription& machine, const RunOptions& wishes);
+[[nodiscard]] std::unique_ptr<GpioTarget>
+make_gpio_target(const GpioAddress& address, const MachineDescription& machine, const RunOptions& options);
 
 /// Number of lines that may be set per second if a call takes this long: half of the time may be spent in calls.
 [[nodiscard]] double most_edges_per_s(double call_ns) noexcept;

@@ -95,8 +95,8 @@ std::string PvtTarget::where() const {
                 const auto axis = static_cast<unsigned>(wiring.axes[k].machine_axis);
                 const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
                 // One that is away went on to where all were to stop.
-                const bool heard = hal::system_clock().now_us() - report.answered_us < stale_us;
-                place.add(machine_->axis_name[axis], counts / machine_->settings.axis[axis].steps_per_mm, heard);
+                const bool online = hal::system_clock().now_us() - report.answered_us < stale_us;
+                place.add(machine_->axis_name[axis], counts / machine_->settings.axis[axis].steps_per_mm, online);
             }
         }
     }

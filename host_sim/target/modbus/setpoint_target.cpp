@@ -163,7 +163,7 @@ std::string SetpointTarget::where() const {
     for (std::size_t i = 0; i < table_.drives.size(); ++i) {
         const std::size_t axis = axis_of(i);
         place.add(machine_->axis_name[axis], port_.position_counts(i) / machine_->settings.axis[axis].steps_per_mm,
-                  port_.heard(i));
+                  port_.online(i));
     }
     return place.text();
 }

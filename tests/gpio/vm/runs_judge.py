@@ -169,7 +169,7 @@ def judge(out):
     path61.check(path61.summary["gpio"]["edges"] > 2500, "few edges")
     whole(run("limit"), 1, "limit of axis x (", "X_LIMIT) acts: held on the path", "; the machine stands at x=")
     at = run("estop")
-    at.ended(1, "the e-stop was pressed: cut off", "is not known")
+    at.ended(1, "the e-stop was pressed: the drives were disabled", "is not known")
     at.safe()
     made, last = at.follows_plan(complete=False)
     at.check(0 < made < len(at.planned), "it is over before the e-stop")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// edit_distance: how near two names are, for messages that say what was probably meant.
+// edit_distance: similarity of two names, for messages that suggest what was meant.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace splinefeed::hal {
 
-/// The fewest edits (insert, delete, replace a letter, swap two neighbours) that make one name the other; case is free,
-/// and no letter is edited twice (optimal string alignment). Cost: the product of the lengths.
+/// The smallest number of edits (insert, delete or replace a letter, swap two neighbours) that turn one name into the
+/// other. Ignores case; edits no letter twice (optimal string alignment). Cost: product of the lengths.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 } // namespace splinefeed::hal

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ChipAccess, OutputAccess, InputAccess: what lines_v1.cpp does with libgpiod 1.x and lines_v2.cpp with 2.x. For this
-// folder alone.
+// ChipAccess, OutputAccess, InputAccess: the interface to libgpiod. lines_v1.cpp implements it with version 1.x,
+// lines_v2.cpp with 2.x. Internal to this folder.
 #pragma once
 
 #include "splinefeed/hal/gpio/line_request.hpp"
@@ -13,14 +13,14 @@
 
 namespace splinefeed::hal::gpio {
 
-/// What the kernel says of a line.
+/// What the kernel reports about a line.
 struct LineFacts {
     std::string name;
-    std::string consumer; ///< of the one that uses it; empty where it did not say
+    std::string consumer; ///< name that the user of the line gave; may be empty
     bool used = false;
 };
 
-/// An open chip. It outlives the lines that were requested of it.
+/// An open chip. It must outlive the lines requested from it.
 class ChipAccess {
 public:
     explicit ChipAccess(const std::string& path); ///< throws GpioError
@@ -43,14 +43,15 @@ private:
 /// Up to 64 requested outputs.
 class OutputAccess {
 public:
-    /// @param levels  bit i: of the line at offsets[i], from the request on
+    /// @param levels  bit i: initial level of the line at offsets[i]
     OutputAccess(const ChipAccess& chip, const std::string& consumer, std::span<const unsigned> offsets,
                  std::uint64_t levels); ///< throws GpioError
     OutputAccess(const OutputAccess&) = delete;
     OutputAccess& operator=(const OutputAccess&) = delete;
     ~OutputAccess();
 
-    /// One ioctl. `levels` has all lines, the mask those that changed. False: errno says why.
+    /// Writes by one ioctl. `levels` has the levels of all lines, `mask` the lines that changed. Returns false on
+    /// failure, with errno.
     bool write(std::uint64_t mask, std::uint64_t levels) noexcept;
 
 private:
@@ -68,7 +69,7 @@ public:
     ~InputAccess();
 
     [[nodiscard]] std::optional<std::uint64_t> levels() noexcept;
-    /// As InputLines::wait, in any order; a signal is -1 with EINTR.
+    /// As InputLines::wait, but events may be unsorted, and a signal gives -1 with EINTR.
     int wait(std::span<InputEvent> out, std::uint64_t timeout_ns) noexcept;
 
 private:
@@ -76,10 +77,10 @@ private:
     std::unique_ptr<Request> request_;
 };
 
-/// A chip that cannot be opened: is it there, may we, is it one? Throws GpioError.
+/// Throws a GpioError that explains why a chip cannot be opened: missing, no permission, or not a GPIO chip.
 [[noreturn]] void refuse_chip(const std::string& path, int error);
-/// Lines that the kernel does not give us: who has them? Throws GpioError.
-/// @param what  "an output"
+/// Throws a GpioError that explains why lines cannot be requested, for example who uses them.
+/// @param what  intended use, for example "an output"
 [[noreturn]] void refuse_lines(const ChipAccess& chip, std::span<const unsigned> offsets, const char* what, int error);
 
 } // namespace splinefeed::hal::gpio

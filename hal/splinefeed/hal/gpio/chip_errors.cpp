@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What to say of a chip or of lines that the system does not give us.
+// Error messages for chips and lines that cannot be opened or requested.
 #include "splinefeed/hal/gpio/chip_access.hpp"
 #include "splinefeed/hal/gpio/line_lookup.hpp"
 
@@ -32,7 +32,7 @@ std::string chips_here() {
     return text.empty() ? "this machine has no GPIO chip (no /dev/gpiochip*)" : "this machine has " + text;
 }
 
-// Who may open it, and how to become that.
+// Which user or group may open the chip, and how to get the permission.
 std::string permission(const std::string& path) {
     struct stat status {};
     if (stat(path.c_str(), &status) != 0) {
@@ -62,13 +62,13 @@ void refuse_chip(const std::string& path, int error) {
     switch (error) {
     case ENOENT: throw GpioError("there is no " + path + "; " + chips_here());
     case EACCES:
-    case EPERM: throw GpioError("you may not open " + path + ": " + permission(path));
+    case EPERM: throw GpioError("no permission to open " + path + ": " + permission(path));
     case ENOTTY:
     case EINVAL:
     case ENOTDIR:
     case ENODEV:
     case ENXIO:
-    case EISDIR: throw GpioError(path + " is no GPIO chip; " + chips_here());
+    case EISDIR: throw GpioError(path + " is not a GPIO chip; " + chips_here());
     default: throw GpioError("cannot open " + path + ": " + reason(error) + "; is it a GPIO chip that is still there?");
     }
 }
@@ -79,7 +79,7 @@ void refuse_lines(const ChipAccess& chip, std::span<const unsigned> offsets, con
         const LineFacts facts = chip.facts(offset);
         if (error == EBUSY && facts.used) {
             throw GpioError(line_text(offset, facts.name) + " of " + chip.path() + " is in use by " +
-                            (facts.consumer.empty() ? "something that gave no name" : "'" + facts.consumer + "'") +
+                            (facts.consumer.empty() ? "an unnamed consumer" : "'" + facts.consumer + "'") +
                             "; stop that, or take another line");
         }
         lines += (lines.empty() ? "" : ", ") + line_text(offset, facts.name);

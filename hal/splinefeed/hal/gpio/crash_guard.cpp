@@ -14,8 +14,8 @@ constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, 
 std::array<std::atomic<OutputLines*>, CrashGuard::most_chips> guarded{};
 static_assert(std::atomic<OutputLines*>::is_always_lock_free);
 
-// The thread that makes edges may go on for as long as this takes; what it sets then is overtaken when the kernel takes
-// the lines back.
+// The thread that writes edges may continue during this handler; its last writes end when the kernel releases the
+// lines.
 extern "C" void make_lines_safe(int signal) {
     for (auto& lines : guarded) {
         if (OutputLines* const chip = lines.load(); chip != nullptr) {

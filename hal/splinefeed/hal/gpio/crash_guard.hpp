@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CrashGuard: what a program that crashes leaves its output lines at.
+// CrashGuard: sets output lines to their safe levels when the program crashes.
 #pragma once
 
 #include "splinefeed/hal/gpio/output_lines.hpp"
@@ -8,13 +8,14 @@
 
 namespace splinefeed::hal::gpio {
 
-/// While one lives, signals that end the program for a fault of its own (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT,
-/// SIGQUIT, SIGXCPU, SIGSYS) make the lines safe first. One at a time. What SIGKILL leaves is the chip's own business.
+/// While an object exists, fatal signals (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGXCPU, SIGSYS) first set
+/// the lines to their safe levels. At most one object may exist. SIGKILL cannot be handled: the chip then decides what
+/// the lines do.
 class CrashGuard {
 public:
     static constexpr std::size_t most_chips = 16;
 
-    /// @param chips  at most 16; they outlive it
+    /// @param chips  at most 16; must outlive the guard
     explicit CrashGuard(std::span<OutputLines* const> chips) noexcept;
     CrashGuard(const CrashGuard&) = delete;
     CrashGuard& operator=(const CrashGuard&) = delete;

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Debounce: which level of a bouncing switch counts, and since when. Integers, no I/O, no allocation.
+// Debounce: the debounced level of one switch, and the instant of its last change. Integers only, no I/O, no
+// allocation.
 #pragma once
 
 #include <cstdint>
 
 namespace splinefeed::hal::gpio {
 
-/// For one input. A level counts when it has lasted for the time of debouncing; with 0 at once. Time stamps do not go
-/// back; one that does is taken as the latest before.
+/// For one input. A level is accepted when it has lasted for the debounce time; with 0 at once. A time stamp that is
+/// earlier than its predecessor is replaced by it.
 class Debounce {
 public:
     static constexpr std::uint64_t never = UINT64_MAX;
 
-    /// @param level  what counts at first
-    /// @param debounce_us  0: every edge counts
+    /// @param level  initial level
+    /// @param debounce_us  debounce time; 0: every edge is accepted
     constexpr Debounce(bool level, std::uint32_t debounce_us) noexcept
         : debounce_ns_(std::uint64_t{debounce_us} * ns_per_us), accepted_(level), raw_(level) {}
 
-    /// An edge to that level. One to the level that already is means that edges in between got lost: the switch moved,
-    /// and the time starts anew. Returns whether what counts has changed by then, be it to the level before this edge:
-    /// ask after every edge, or a short press is not noticed.
+    /// Adds an edge to `level`. An edge to the present level means that an edge in between was lost; the debounce time
+    /// then starts again. Returns true if the accepted level has changed by then, also if it changed to the level
+    /// before this edge. Check it after every edge, or a short press goes unnoticed.
     constexpr bool edge(std::uint64_t time_ns, bool level) noexcept {
         const std::uint64_t now = time_ns > raw_since_ns_ ? time_ns : raw_since_ns_;
         const bool changed = settle(now);
@@ -33,22 +34,22 @@ public:
         return settle(now) || changed;
     }
 
-    /// A level that was read, not told by an edge: where it is another one, an edge got lost. Returns as edge() does.
+    /// Adds a level that was read. If it differs from the last edge, an edge was lost. Returns as edge().
     constexpr bool sample(std::uint64_t now_ns, bool level) noexcept {
         return level != raw_ ? edge(now_ns, level) : settle(now_ns);
     }
 
-    /// The level that counts.
+    /// The accepted level at that instant.
     constexpr bool settled(std::uint64_t now_ns) noexcept {
         settle(now_ns);
         return accepted_;
     }
 
-    /// The first edge to the level that counts: when the switch really closed, the time of debouncing and the bounces
-    /// before settled() told. 0: it has counted from the start.
+    /// Instant of the first edge to the accepted level, when the switch really changed: before the bounces and the
+    /// debounce time. 0: no change since the start.
     [[nodiscard]] constexpr std::uint64_t since_ns() const noexcept { return accepted_since_ns_; }
 
-    /// When settled() will tell something else unless another edge comes; never, where nothing is under way.
+    /// When the result of settled() will change unless another edge comes; `never` if no change is pending.
     [[nodiscard]] constexpr std::uint64_t due_ns() const noexcept {
         return raw_ == accepted_ ? never : raw_since_ns_ + debounce_ns_;
     }
@@ -68,11 +69,11 @@ private:
 
     std::uint64_t debounce_ns_;
     std::uint64_t raw_since_ns_ = 0;
-    std::uint64_t first_ns_ = 0; ///< of the bounces that are under way
+    std::uint64_t first_ns_ = 0; ///< first edge of the present bounces
     std::uint64_t accepted_since_ns_ = 0;
     bool accepted_;
     bool raw_;
-    bool bouncing_ = false; ///< the other level was seen since the last change, or since it was quiet again
+    bool bouncing_ = false; ///< the other level was reported since the last change or quiet period
 };
 
 } // namespace splinefeed::hal::gpio

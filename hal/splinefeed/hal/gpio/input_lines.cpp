@@ -19,7 +19,7 @@ std::vector<unsigned> offsets_of(const ChipAccess& chip, std::span<const InputRe
     return find_lines(chip.path(), chip.names(), wanted);
 }
 
-// By insertion: they are few, nearly in order, and nothing may allocate.
+// Insertion sort: the events are few and nearly sorted, and no allocation is allowed.
 void sort_by_time(std::span<InputEvent> events) noexcept {
     for (std::size_t i = 1; i < events.size(); ++i) {
         for (std::size_t j = i; j > 0 && events[j].time_ns < events[j - 1].time_ns; --j) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// InputLines: the inputs of one GPIO chip: levels, and edges with the kernel's time stamps.
+// InputLines: input lines of one GPIO chip: their levels, and edges with the kernel's time stamps.
 #pragma once
 
 #include "splinefeed/hal/gpio/line_request.hpp"
@@ -10,28 +10,28 @@
 
 namespace splinefeed::hal::gpio {
 
-/// Not copied, not moved; used by one thread. Nothing is debounced here, not by the kernel either: see Debounce.
+/// For one thread. Neither this class nor the kernel debounces: see Debounce.
 class InputLines {
 public:
-    /// Takes the lines; edges are kept from that moment on, by libgpiod 1.x the first 16 of a line that nobody has
-    /// fetched, by 2.x the last 1024 of all.
-    /// @param chip  its path, like "/dev/gpiochip0"
-    /// @param consumer  what the system tells others who has the lines, up to 31 letters
+    /// Requests the lines. From then on edges are queued: with libgpiod 1.x the first 16 unread ones of each line,
+    /// with 2.x the last 1024 of all lines.
+    /// @param chip  path, for example "/dev/gpiochip0"
+    /// @param consumer  name that the system shows as the user of the lines, up to 31 characters
     /// @param requests  1 to 64; bit i of the levels is request i
-    /// Throws GpioError; then no line was taken.
+    /// Throws GpioError; then no line is requested.
     InputLines(const std::string& chip, const std::string& consumer, std::span<const InputRequest> requests);
     InputLines(const InputLines&) = delete;
     InputLines& operator=(const InputLines&) = delete;
     ~InputLines();
 
-    /// Bit i: line i is high. One system call; with libgpiod 1.x one a line. Empty: errno says why. After a storm of
-    /// edges, of which some are lost, this is what tells the truth.
+    /// Reads the levels; bit i: line i is high. Empty on failure, with errno. One system call, with libgpiod 1.x one
+    /// for each line. Use it to recover after edges were lost.
     [[nodiscard]] std::optional<std::uint64_t> levels() noexcept;
 
-    /// Waits for edges, and stores those that are there, as many as fit, in order of time as far as they came with this
-    /// call. Returns their number; 0: none came in time, or a signal did; -1: errno says why, ENODEV where the chip
-    /// has vanished. No allocation. Kernels before 6.6 tell that with the next call rather than waking this one.
-    /// @pre out is not empty; with room for 16 a line none has to wait behind a noisy one
+    /// Waits for edges and stores as many as fit, sorted by time within one call. Returns their number; 0 after a
+    /// time-out or a signal; -1 on failure, with errno (ENODEV: the chip has vanished; kernels before 6.6 report that
+    /// with the next call only). Does not allocate.
+    /// @pre out is not empty; with room for 16 per line, no line waits behind a noisy one
     int wait(std::span<InputEvent> out, std::uint32_t timeout_us) noexcept;
 
     [[nodiscard]] int size() const noexcept { return size_; }

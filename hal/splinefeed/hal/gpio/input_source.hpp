@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// InputSource: where the edges of a chip's input lines come from.
+// InputSource: interface to the input lines of a chip. Tests replace it.
 #pragma once
 
 #include "splinefeed/hal/gpio/line_request.hpp"
@@ -9,7 +9,7 @@
 
 namespace splinefeed::hal::gpio {
 
-/// Used by one thread. As InputLines, which says more.
+/// For one thread. The functions are those of InputLines.
 class InputSource {
 public:
     InputSource() = default;
@@ -17,9 +17,9 @@ public:
     InputSource& operator=(const InputSource&) = delete;
     virtual ~InputSource() = default;
 
-    /// Bit i: line i is high. Empty: errno says why.
+    /// Bit i: line i is high. Empty on failure, with errno.
     [[nodiscard]] virtual std::optional<std::uint64_t> levels() noexcept = 0;
-    /// Stores edges that came; 0: none in time; -1: errno says why.
+    /// Waits for edges and stores them. Returns their number; 0: time-out; -1: failure, with errno.
     [[nodiscard]] virtual int wait(std::span<InputEvent> out, std::uint32_t timeout_us) noexcept = 0;
 };
 

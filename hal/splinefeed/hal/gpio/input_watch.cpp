@@ -11,18 +11,18 @@ namespace splinefeed::hal::gpio {
 
 namespace {
 
-constexpr std::uint32_t look_us = 5000;         // between two looks at the levels
-constexpr std::uint64_t behind_ns = 50'000'000; // edges come sooner than that: older steps are of no interest
+constexpr std::uint32_t level_check_us = 5000;  // between two reads of the levels
+constexpr std::uint64_t behind_ns = 50'000'000; // edges arrive within this time: older steps are not needed
 constexpr std::size_t events_at_once = 256;
 constexpr std::uint64_t ns_per_us = 1000;
-constexpr int lost_edge = 3; // so many looks with another level than the edges told
+constexpr int lost_edge_checks = 3; // consecutive checks with a level that contradicts the edges
 
 } // namespace
 
 InputWatch::InputWatch(InputSource& source, const std::vector<WatchedInput>& inputs, const StepLog& log,
-                       std::function<void()> cut, const InputWatchSettings& settings)
-    : source_(&source), active_(inputs.size()), reader_(log), cut_(std::move(cut)), priority_(settings.priority),
-      time_(settings.clock != nullptr ? settings.clock : &system_clock()) {
+                       std::function<void()> disable, const InputWatchSettings& settings)
+    : source_(&source), active_(inputs.size()), reader_(log), disable_(std::move(disable)),
+      priority_(settings.priority), time_(settings.clock != nullptr ? settings.clock : &system_clock()) {
     for (const WatchedInput& input : inputs) {
         watched_.push_back({.input = input});
     }
@@ -48,7 +48,7 @@ bool InputWatch::start() {
         active_[i].store(level == input.active_level);
     }
     thread_ = time_->start([this] {
-        if (priority_ > 0) { // what it lacks then is what the thread that makes edges lacks, which says so
+        if (priority_ > 0) { // StepPort's thread reports what the system refuses
             static_cast<void>(claim_real_time({.priority = priority_}));
         }
         work();
@@ -71,9 +71,9 @@ std::string InputWatch::trouble() const {
     return error_ == 0 ? std::string() : std::strerror(error_); // NOLINT(concurrency-mt-unsafe)
 }
 
-// A machine whose switches are not heard must not move.
+// A machine whose switches cannot be read must not move.
 void InputWatch::fail(int error) {
-    cut_();
+    disable_();
     const std::lock_guard lock(mutex_);
     error_ = error;
 }
@@ -82,9 +82,9 @@ void InputWatch::change(std::size_t index, bool active) {
     const Watched& watched = watched_[index];
     active_[index].store(active);
     InputChange change{index, active, watched.debounce.since_ns(), std::nullopt};
-    for (std::size_t i = 0; i < std::min(watched.places, remembered); ++i) {
-        if (watched.place[i].time_ns == change.time_ns) {
-            change.counts = watched.place[i].counts;
+    for (std::size_t i = 0; i < std::min(watched.edge_count, max_edges); ++i) {
+        if (watched.edges[i].time_ns == change.time_ns) {
+            change.counts = watched.edges[i].counts;
         }
     }
     const std::lock_guard lock(mutex_);
@@ -93,11 +93,11 @@ void InputWatch::change(std::size_t index, bool active) {
 
 void InputWatch::edge(std::size_t index, std::uint64_t time_ns, bool level) {
     Watched& watched = watched_[index];
-    if (watched.input.cuts && level == watched.input.active_level) {
-        cut_();
+    if (watched.input.trips_estop && level == watched.input.active_level) {
+        disable_();
     }
     watched.differs = 0;
-    watched.place[watched.places++ % remembered] = {time_ns, reader_.counts_at(time_ns)};
+    watched.edges[watched.edge_count++ % max_edges] = {time_ns, reader_.counts_at(time_ns)};
     if (watched.debounce.edge(time_ns, level)) {
         change(index, watched.debounce.settled(time_ns) == watched.input.active_level);
     }
@@ -114,8 +114,9 @@ void InputWatch::settle(std::uint64_t now_ns) {
     }
 }
 
-// An edge that was lost shows as a level that stays another one. One look could be before an edge that is on its way.
-void InputWatch::look(std::uint64_t now_ns) {
+// A level that keeps contradicting the edges means that an edge was lost. A single contradiction may be an edge that is
+// still on its way.
+void InputWatch::check_levels(std::uint64_t now_ns) {
     const std::optional<std::uint64_t> levels = source_->levels();
     if (!levels) {
         fail(errno);
@@ -124,10 +125,10 @@ void InputWatch::look(std::uint64_t now_ns) {
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         Watched& watched = watched_[i];
         const bool level = (*levels >> watched.input.bit & 1U) != 0;
-        const bool told = watched.debounce.due_ns() == Debounce::never ? watched.debounce.settled(now_ns)
-                                                                       : !watched.debounce.settled(now_ns);
-        watched.differs = level == told ? 0 : watched.differs + 1;
-        if (watched.differs == lost_edge) {
+        const bool expected = watched.debounce.due_ns() == Debounce::never ? watched.debounce.settled(now_ns)
+                                                                           : !watched.debounce.settled(now_ns);
+        watched.differs = level == expected ? 0 : watched.differs + 1;
+        if (watched.differs == lost_edge_checks) {
             missed_.fetch_add(1);
             edge(i, now_ns, level);
         }
@@ -135,8 +136,8 @@ void InputWatch::look(std::uint64_t now_ns) {
     static_cast<void>(reader_.counts_at(now_ns - behind_ns));
 }
 
-std::uint32_t InputWatch::patience_us(std::uint64_t now_ns) const noexcept {
-    std::uint64_t until = now_ns + look_us * ns_per_us;
+std::uint32_t InputWatch::wait_timeout_us(std::uint64_t now_ns) const noexcept {
+    std::uint64_t until = now_ns + level_check_us * ns_per_us;
     for (const Watched& watched : watched_) {
         until = std::min(until, watched.debounce.due_ns());
     }
@@ -145,9 +146,9 @@ std::uint32_t InputWatch::patience_us(std::uint64_t now_ns) const noexcept {
 
 void InputWatch::work() noexcept {
     std::array<InputEvent, events_at_once> events;
-    std::uint64_t next_look = time_->now_ns();
+    std::uint64_t next_check = time_->now_ns();
     while (!ends_.load()) {
-        const int count = source_->wait(events, patience_us(time_->now_ns()));
+        const int count = source_->wait(events, wait_timeout_us(time_->now_ns()));
         if (count < 0) {
             fail(errno);
             return;
@@ -162,9 +163,9 @@ void InputWatch::work() noexcept {
         }
         const std::uint64_t now = time_->now_ns();
         settle(now);
-        if (now >= next_look) {
-            look(now);
-            next_look = now + look_us * ns_per_us;
+        if (now >= next_check) {
+            check_levels(now);
+            next_check = now + level_check_us * ns_per_us;
         }
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// InputWatch: switches of a machine, by a thread a chip: what acts, since when, and where the axes stood then.
+// InputWatch: watches the switches of a machine, with one thread per chip: which are active, since when, and at which
+// axis positions.
 #pragma once
 
 #include "splinefeed/hal/gpio/debounce.hpp"
@@ -19,78 +20,79 @@ namespace splinefeed::hal::gpio {
 
 /// One input of a chip.
 struct WatchedInput {
-    std::uint8_t bit = 0; ///< of its chip's source
+    std::uint8_t bit = 0; ///< bit of the line in its chip's source
     bool active_level = true;
     std::uint32_t debounce_us = 0;
-    bool cuts = false; ///< at its first edge the machine is cut off; without debouncing, since noise does less harm
+    bool trips_estop =
+        false; ///< its first edge disables the drives, without debouncing: a false trip is safer than a late one
 };
 
-/// An input began to act, or ended to.
+/// An input became active or inactive.
 struct InputChange {
-    std::size_t input = 0; ///< in the order in which they were given
+    std::size_t input = 0; ///< index in the constructor's list
     bool active = false;
-    std::uint64_t time_ns = 0; ///< of the first edge of it
-    /// Where the axes stood then, relative to the start of the log. Nothing: steps were lost from the log.
+    std::uint64_t time_ns = 0; ///< of the first edge of the change
+    /// Axis positions at that instant, relative to the start of the log. Empty: the log has lost steps.
     std::optional<PerAxis<std::int64_t>> counts;
 };
 
 struct InputWatchSettings {
-    /// SCHED_FIFO; above that of the thread that makes edges, which may spin. 0: an ordinary thread.
+    /// SCHED_FIFO priority, above that of the thread that writes edges, which may spin. 0: an ordinary thread.
     int priority = 0;
-    Clock* clock = nullptr; ///< outlives the watch; null: the system's
+    Clock* clock = nullptr; ///< must outlive the watch; null: the system clock
 };
 
-/// Watches the inputs of one chip from start() to its end.
+/// Watches the inputs of one chip from start() to destruction.
 class InputWatch {
 public:
-    /// @param cut  from its thread: cuts the machine off; also where the chip says nothing any more
-    /// All arguments must outlive it.
+    /// @param disable  disables the drives; called from the watch's thread when an input trips the e-stop or the chip
+    /// cannot be read any more All arguments must outlive the watch.
     InputWatch(InputSource& source, const std::vector<WatchedInput>& inputs, const StepLog& log,
-               std::function<void()> cut, const InputWatchSettings& settings = {});
+               std::function<void()> disable, const InputWatchSettings& settings = {});
     InputWatch(const InputWatch&) = delete;
     InputWatch& operator=(const InputWatch&) = delete;
     ~InputWatch();
 
-    /// Reads the levels. False: they cannot be read.
+    /// Reads the levels and starts the thread. Returns false if the levels cannot be read.
     [[nodiscard]] bool start();
 
-    /// Whether the input acts, as it was last known.
+    /// Whether the input is active, by the last known level.
     [[nodiscard]] bool active(std::size_t input) const noexcept { return active_[input].load(); }
-    /// The oldest change that nobody has taken yet.
+    /// Removes and returns the oldest change.
     [[nodiscard]] std::optional<InputChange> take();
-    /// Why the chip says nothing any more; empty: it does.
+    /// Why the chip cannot be read any more; empty: it can.
     [[nodiscard]] std::string trouble() const;
-    /// Edges that the system dropped.
+    /// Number of edges that were lost.
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_.load(); }
 
 private:
-    struct Place {
+    struct EdgeRecord {
         std::uint64_t time_ns = 0;
         std::optional<PerAxis<std::int64_t>> counts;
     };
-    static constexpr std::size_t remembered = 64; // edges of an input while it bounces
+    static constexpr std::size_t max_edges = 64; // edges of an input while it bounces
 
     struct Watched {
         WatchedInput input;
         Debounce debounce{false, 0};
-        std::array<Place, remembered> place{};
-        std::size_t places = 0;
-        int differs = 0; // looks in a row without an edge at which the level was another one
+        std::array<EdgeRecord, max_edges> edges{};
+        std::size_t edge_count = 0;
+        int differs = 0; // consecutive checks at which the level contradicted the edges
     };
 
     void work() noexcept;
     void edge(std::size_t index, std::uint64_t time_ns, bool level);
     void settle(std::uint64_t now_ns);
     void change(std::size_t index, bool active);
-    void look(std::uint64_t now_ns);
+    void check_levels(std::uint64_t now_ns);
     void fail(int error);
-    [[nodiscard]] std::uint32_t patience_us(std::uint64_t now_ns) const noexcept;
+    [[nodiscard]] std::uint32_t wait_timeout_us(std::uint64_t now_ns) const noexcept;
 
     InputSource* source_;
     std::vector<Watched> watched_;
     std::vector<std::atomic<bool>> active_;
     StepLog::Reader reader_;
-    std::function<void()> cut_;
+    std::function<void()> disable_;
     mutable std::mutex mutex_; // of what follows
     std::vector<InputChange> changes_;
     int error_ = 0;

@@ -29,7 +29,7 @@ bool LineChanges::enable(bool on) noexcept {
         if (!on) {
             take(c, chip.brake, false);
         }
-        // With step_on_edge any change of a step line would be a step.
+        // With step_on_edge every change of a step line is a step, so they keep their level.
         for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
             if (!step_on_edge_) {
                 take(c, chip.step[k], false);
@@ -50,7 +50,7 @@ bool LineChanges::brake(bool released) noexcept {
 }
 
 void LineChanges::add(const Edge& edge) noexcept {
-    // Where each edge is a step a line stays as the motion before left it.
+    // With step_on_edge the line keeps its level from the previous motion.
     const bool turned = edge.line == Line::step && step_on_edge_ && base_[edge.axis];
     const bool level = edge.level != turned;
     for (std::size_t c = 0; c < chips_.size(); ++c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LineChanges: what edges change on the lines of all chips, collected and written at once.
+// LineChanges: collects level changes for the lines of all chips and writes them together.
 #pragma once
 
 #include "splinefeed/hal/gpio/line_writer.hpp"
@@ -9,39 +9,40 @@
 
 namespace splinefeed::hal::gpio {
 
-/// Of one chip: the lines that an axis's edges change, and those that the levels of the edge invert.
+/// Lines of one chip that change together, and which of them are inverted.
 struct LevelMasks {
     std::uint64_t mask = 0;
-    std::uint64_t inverted = 0; ///< of the mask: low where the level is true
+    std::uint64_t inverted = 0; ///< lines of the mask that are low when the level is true
 };
 
 /// A chip's outputs.
 struct ChipOutputs {
-    LineWriter* writer = nullptr; ///< outlives the port
+    LineWriter* writer = nullptr; ///< must outlive the port
     PerAxis<LevelMasks> step{};
     PerAxis<LevelMasks> direction{};
-    LevelMasks enable{}; ///< level true: the drives are on
-    LevelMasks brake{};  ///< level true: it is released
+    LevelMasks enable{}; ///< level true: drives enabled
+    LevelMasks brake{};  ///< level true: brake released
 };
 
-/// Used by one thread at a time. It allocates when it is made, and never again.
+/// For one thread at a time. Allocates in its constructor only.
 class LineChanges {
 public:
     LineChanges(std::vector<ChipOutputs> chips, int axes, bool step_on_edge)
         : chips_(std::move(chips)), change_(chips_.size()), axes_(axes), step_on_edge_(step_on_edge) {}
 
-    /// Another motion, which takes its step lines for low and its directions for down. Drops what is collected.
+    /// Prepares for another motion, whose edges assume low step lines and negative directions. Drops collected changes.
     void begin() noexcept;
     void drop() noexcept;
     void add(const Edge& edge) noexcept;
-    /// One call a chip. False: a chip did not take it, errno says why; all others did.
+    /// Writes collected changes with one call per chip. Returns false if a chip failed, with errno; the others are
+    /// written.
     [[nodiscard]] bool write() noexcept;
-    /// Writes with what is collected: drives on or off, steps idle; on: directions down, where every motion begins;
-    /// off: the brake is engaged with it.
+    /// Enables or disables the drives, together with the collected changes; step lines become idle. Enabling sets all
+    /// directions negative, as every motion begins; disabling also engages the brake.
     [[nodiscard]] bool enable(bool on) noexcept;
-    /// Writes with what is collected: the brake is released or engaged.
+    /// Releases or engages the brake, together with the collected changes.
     [[nodiscard]] bool brake(bool released) noexcept;
-    /// The axis's last direction.
+    /// The axis's last direction; true: positive.
     [[nodiscard]] bool up(unsigned axis) const noexcept { return up_[axis]; }
 
 private:
@@ -58,7 +59,7 @@ private:
     bool step_on_edge_;
     PerAxis<bool> up_{};
     PerAxis<bool> level_{}; // of the step line, with step_on_edge
-    PerAxis<bool> base_{};  // the same where the motion began
+    PerAxis<bool> base_{};  // the same at the start of the motion
 };
 
 } // namespace splinefeed::hal::gpio

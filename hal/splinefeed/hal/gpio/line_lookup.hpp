@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// line_lookup: names of lines to offsets, and what to say where that fails. No I/O.
+// line_lookup: converts line names to offsets, with helpful error messages. No I/O.
 #pragma once
 
 #include "splinefeed/hal/gpio/line_request.hpp"
@@ -11,14 +11,14 @@
 
 namespace splinefeed::hal::gpio {
 
-/// "line 4 ('X_STEP')", without a name "line 4".
+/// Text path of the chip, for messages: "line 4 ('X_STEP')", without a name "line 4".
 [[nodiscard]] std::string line_text(unsigned offset, std::string_view name);
 
-/// The offsets of the lines that are wanted.
+/// Returns the offsets of the wanted lines.
 /// @param chip  for messages
-/// @param names  of all lines of the chip, in order; empty where one has none
-/// Throws GpioError where none or more than 64 are wanted, a line is not there, a name is there twice and no offset
-/// says which, the name at the offset is another one, or two of those wanted are the same line.
+/// @param names  names of all lines of the chip, in order; empty for a line without a name
+/// Throws GpioError if no line or more than 64 are wanted, a line does not exist, a name is ambiguous, name and offset
+/// disagree, or a line is wanted twice.
 [[nodiscard]] std::vector<unsigned> find_lines(const std::string& chip, std::span<const std::string> names,
                                                std::span<const LineName> wanted);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LineMap: which line of which chip does what on a machine; a map file in memory (docs/reference/gpio.md).
+// LineMap: assigns GPIO lines to the functions of a machine; the contents of a map file (docs/reference/gpio.md).
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -13,7 +13,7 @@
 
 namespace splinefeed::hal::gpio {
 
-/// A line among those of LineMap::chips: an output is bit `bit` of the chip's OutputLines, an input of its InputLines.
+/// Refers to a line of LineMap::chips: bit `bit` of the chip's OutputLines or InputLines.
 struct LineBit {
     std::uint8_t chip = 0;
     std::uint8_t bit = 0;
@@ -22,7 +22,7 @@ struct LineBit {
     friend bool operator==(const LineBit&, const LineBit&) = default;
 };
 
-/// All lines that are used of one chip: one OutputLines and one InputLines, where they are not empty.
+/// The lines used on one chip: one OutputLines and one InputLines object, unless empty.
 struct ChipLines {
     std::string chip; ///< "/dev/gpiochip0"
     std::vector<OutputRequest> outputs;
@@ -34,23 +34,23 @@ struct MotorLines {
     LineBit direction;
 };
 
-/// Polarity is not in here: the machine file states it, and the safe levels of ChipLines::outputs have it.
+/// Does not include the polarity: the machine file states it, and the safe levels of ChipLines::outputs include it.
 struct AxisLines {
-    unsigned motors = 1; ///< 1 or 2, as the machine file says
+    unsigned motors = 1; ///< 1 or 2, from the machine file
     std::array<MotorLines, 2> motor{};
 };
 
-/// Switches all drives on.
+/// Enable line of all drives.
 struct EnableLine {
     LineBit line;
-    bool active_level = true;      ///< drives are on; its safe level is the other one
-    std::uint32_t settle_ms = 500; ///< from there to the first step, 0 to 60000
+    bool active_level = true;      ///< level that enables the drives; the safe level is the opposite
+    std::uint32_t settle_ms = 500; ///< from enabling to the first step, 0 to 60000
 };
 
-/// Holds an axis that would fall while the drives are off.
+/// Brake that holds an axis while the drives are off.
 struct BrakeLine {
     LineBit line;
-    bool released_level = true;     ///< the axis is free; its safe level is the other one
+    bool released_level = true;     ///< level that releases the brake; the safe level is the opposite
     std::uint32_t release_ms = 100; ///< from releasing it to the first step, 0 to 5000
     std::uint32_t engage_ms = 100;  ///< from engaging it to switching the drives off, 0 to 5000
 };
@@ -59,28 +59,28 @@ enum class InputRole : std::uint8_t { e_stop, limit, home, drive_fault, probe };
 
 struct MappedInput {
     InputRole role = InputRole::e_stop;
-    int axis = -1; ///< of limit and home: the machine's axis; else -1
+    int axis = -1; ///< limit and home: axis of the machine; else -1
     LineBit line;
-    bool active_level = true;      ///< at which it acts
+    bool active_level = true;      ///< level of the active state
     std::uint32_t debounce_us = 0; ///< 0 to 100000
 };
 
-/// How an axis finds its switch. Its home input is in LineMap::inputs.
+/// How an axis finds its home switch. The home input is in LineMap::inputs.
 struct HomeSearch {
     bool towards_high = false;
     double seek_mm_s = 0.0;
     double latch_mm_s = 0.0; ///< at most seek_mm_s
     double pull_off_mm = 0.0;
-    double position_mm = 0.0; ///< of the switch's edge
+    double position_mm = 0.0; ///< position of the switch's edge
 };
 
-/// Of the thread that makes edges.
+/// Settings of the thread that writes edges.
 struct ThreadSettings {
-    int priority = 80;                     ///< SCHED_FIFO, 1 to 98
-    std::optional<unsigned> cpu{};         ///< the one it is bound to
-    std::uint32_t spin_us = 30;            ///< of each wait spent spinning, 0 to 1000
-    std::uint32_t tolerated_late_us = 100; ///< an edge that comes later stretches time, 0 to 10000
-    std::uint32_t stall_ms = 40;           ///< while axes move, one that comes later is a fault, 1 to 10000
+    int priority = 80;                     ///< SCHED_FIFO priority, 1 to 98
+    std::optional<unsigned> cpu{};         ///< processor to which it is bound
+    std::uint32_t spin_us = 30;            ///< last part of each wait spent spinning, 0 to 1000
+    std::uint32_t tolerated_late_us = 100; ///< an edge that is later than this delays the whole motion, 0 to 10000
+    std::uint32_t stall_ms = 40;           ///< an edge that is later than this while axes move is a fault, 1 to 10000
 };
 
 struct LineMap {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LineName, OutputRequest, InputRequest, InputEvent: lines of a GPIO chip as they are asked for, and what they tell.
+// LineName, OutputRequest, InputRequest, InputEvent: requests for lines of a GPIO chip, and events of inputs.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace splinefeed::hal::gpio {
 
-/// The most lines of one request, and with that of an OutputLines or InputLines: bits of a mask.
+/// Largest number of lines of one request, OutputLines or InputLines; masks have as many bits.
 inline constexpr unsigned most_lines = 64;
 
-/// One sentence: the chip, the line, what is wrong and what would be right.
+/// The message is one sentence: the chip, the line, what is wrong and how to correct it.
 struct GpioError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A line of a chip: by its name, by its offset, or by both, which are then checked against each other.
+/// Identifies a line by name, by offset, or by both, which must then agree.
 struct LineName {
-    std::string name{}; ///< as the kernel has it; empty: the offset counts
+    std::string name{}; ///< name in the kernel; empty: identified by offset
     std::optional<unsigned> offset{};
 
     friend bool operator==(const LineName&, const LineName&) = default;
@@ -27,15 +27,15 @@ struct LineName {
 
 enum class Bias : std::uint8_t { as_is, disabled, pull_up, pull_down };
 
-/// Levels are those of the wire, true is high; nothing is inverted here.
+/// Levels are electrical: true is high. This layer inverts nothing.
 struct OutputRequest {
     LineName line{};
-    bool safe_level = false; ///< from the request on, and on every way out
+    bool safe_level = false; ///< level at the request, after a crash and at the end
 };
 
 struct InputRequest {
     LineName line{};
-    Bias bias = Bias::as_is; ///< a chip that has none ignores it
+    Bias bias = Bias::as_is; ///< ignored by chips without bias settings
 };
 
 /// An edge of an input, with the kernel's time stamp.
@@ -43,7 +43,8 @@ struct InputEvent {
     std::uint8_t line = 0;     ///< index in the requests
     bool rising = false;       ///< to high
     std::uint64_t time_ns = 0; ///< CLOCK_MONOTONIC
-    /// Edges of this line that the kernel dropped since the event before. libgpiod 1.x does not tell: 0.
+    /// Edges of this line that the kernel dropped since the previous event. Always 0 with libgpiod 1.x, which does not
+    /// report them.
     std::uint32_t missed = 0;
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// LineWriter: where the levels of a chip's output lines go. Virtual, at the rate of edges.
+// LineWriter: interface to the output lines of a chip. Tests replace it. The virtual calls are at the rate of edges.
 #pragma once
 
 #include <cstdint>
 
 namespace splinefeed::hal::gpio {
 
-/// Called by the real-time thread alone: it must neither allocate, nor lock, nor wait.
+/// The real-time thread calls set(): implementations must not allocate, lock or wait.
 class LineWriter {
 public:
     LineWriter() = default;
@@ -14,7 +14,7 @@ public:
     LineWriter& operator=(const LineWriter&) = delete;
     virtual ~LineWriter() = default;
 
-    /// The lines of the mask take these levels, all at once. False: they did not, errno says why.
+    /// Sets the lines of the mask to these levels, all at once. Returns false on failure, with errno.
     [[nodiscard]] virtual bool set(std::uint64_t mask, std::uint64_t levels) noexcept = 0;
 };
 

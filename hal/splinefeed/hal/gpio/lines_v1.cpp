@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ChipAccess, OutputAccess and InputAccess on libgpiod 1.x, the kernel's first interface: one file descriptor for all
-// outputs, and one for each input.
+// ChipAccess, OutputAccess and InputAccess for libgpiod 1.x (GPIO uAPI v1): one file descriptor for all outputs, and
+// one for each input.
 #include "splinefeed/hal/gpio/chip_access.hpp"
 #include "splinefeed/hal/gpio/line_lookup.hpp"
 
@@ -39,7 +39,7 @@ gpiod_line* line_at(const ChipAccess& chip, unsigned offset) {
     return line;
 }
 
-// Time stamps of this interface are CLOCK_REALTIME before Linux 5.7.
+// Before Linux 5.7 this interface has CLOCK_REALTIME time stamps.
 void require_monotonic_events(const ChipAccess& chip) {
     utsname system{};
     if (uname(&system) != 0) {
@@ -81,7 +81,7 @@ Values values_of(std::uint64_t levels) noexcept {
     return values;
 }
 
-// Lines go on with the chip: what is released here can be requested again.
+// Requested lines, released at the end. The lines belong to the chip and can be requested again.
 struct Bulk {
     Bulk() { gpiod_line_bulk_init(&lines); }
     Bulk(const Bulk&) = delete;
@@ -176,7 +176,7 @@ std::optional<std::uint64_t> InputAccess::levels() noexcept {
 
 int InputAccess::wait(std::span<InputEvent> out, std::uint64_t timeout_ns) noexcept {
     constexpr std::uint64_t ns_per_s = 1'000'000'000;
-    constexpr std::size_t most_events = 16; // that the kernel keeps of a line
+    constexpr std::size_t most_events = 16; // that the kernel queues for a line
     const timespec timeout{static_cast<time_t>(timeout_ns / ns_per_s), static_cast<long>(timeout_ns % ns_per_s)};
     gpiod_line_bulk ready = GPIOD_LINE_BULK_INITIALIZER;
     const int any = gpiod_line_event_wait_bulk(&request_->lines, &timeout, &ready);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ChipAccess, OutputAccess and InputAccess on libgpiod 2.x: one request for all outputs, and one for all inputs.
+// ChipAccess, OutputAccess and InputAccess for libgpiod 2.x: one request for all outputs, and one for all inputs.
 #include "splinefeed/hal/gpio/chip_access.hpp"
 #include "splinefeed/hal/gpio/line_lookup.hpp"
 
@@ -13,7 +13,7 @@ namespace splinefeed::hal::gpio {
 
 namespace {
 
-/// What libgpiod made, and how it is given back.
+/// Deleter of an object of libgpiod.
 template <class Object, void (*Free)(Object*)>
 struct Freed {
     void operator()(Object* object) const noexcept { Free(object); }
@@ -30,7 +30,7 @@ using RequestConfig = Owned<gpiod_request_config, gpiod_request_config_free>;
 using LineRequest = Owned<gpiod_line_request, gpiod_line_request_release>;
 using EventBuffer = Owned<gpiod_edge_event_buffer, gpiod_edge_event_buffer_free>;
 
-// These fail for want of memory alone.
+// libgpiod's constructors fail only if memory is exhausted.
 template <class Pointer>
 Pointer made(Pointer pointer) {
     if (pointer == nullptr) {
@@ -56,7 +56,7 @@ gpiod_line_bias bias_of(Bias bias) {
     return GPIOD_LINE_BIAS_AS_IS;
 }
 
-// set_line(i, settings) completes the settings of line i.
+// Makes a line configuration; set_line(i, settings) completes the settings of line i.
 template <class SetLine>
 LineConfig config_of(std::span<const unsigned> offsets, const SetLine& set_line) {
     const LineSettings settings(made(gpiod_line_settings_new()));
@@ -140,7 +140,7 @@ OutputAccess::OutputAccess(const ChipAccess& chip, const std::string& consumer, 
 OutputAccess::~OutputAccess() = default;
 
 bool OutputAccess::write(std::uint64_t mask, std::uint64_t levels) noexcept {
-    Offsets offset; // not cleared: the first `count` are written, and this is the way of every edge
+    Offsets offset; // not cleared, to save time for every edge: only the first `count` are used
     Values values;
     unsigned count = 0;
     for (unsigned i = 0; i < request_->count; ++i) {
@@ -157,16 +157,16 @@ struct InputAccess::Request {
     LineRequest lines;
     EventBuffer events;
     Offsets offset{};
-    std::array<std::uint32_t, most_lines> last_event{}; ///< of each line, as the kernel numbers them, from 1
+    std::array<std::uint32_t, most_lines> last_event{}; ///< last sequence number of each line; the kernel counts from 1
     unsigned count = 0;
 };
 
 InputAccess::InputAccess(const ChipAccess& chip, const std::string& consumer, std::span<const unsigned> offsets,
                          std::span<const InputRequest> requests)
     : request_(std::make_unique<Request>()) {
-    constexpr std::size_t most_kept = 1024; // more the kernel does not keep
+    constexpr std::size_t most_kept = 1024; // the kernel's limit
     const LineConfig config = config_of(offsets, [&](unsigned i, gpiod_line_settings* settings) {
-        // As they are by default: no debouncing, CLOCK_MONOTONIC.
+        // Defaults: no debouncing, CLOCK_MONOTONIC.
         const int direction = gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_INPUT);
         const int edges = gpiod_line_settings_set_edge_detection(settings, GPIOD_LINE_EDGE_BOTH);
         const int bias = gpiod_line_settings_set_bias(settings, bias_of(requests[i].bias));

@@ -40,7 +40,7 @@ struct OutputLines::Lines {
     OutputAccess output;
 };
 
-// A signal handler may take none.
+// A signal handler must not take a lock.
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free);
 
 OutputLines::OutputLines(const std::string& chip, const std::string& consumer, std::span<const OutputRequest> requests)
@@ -64,7 +64,7 @@ bool OutputLines::set(std::uint64_t mask, std::uint64_t levels) noexcept {
     if (times_made_safe_.load() == before) {
         return true;
     }
-    // make_safe() came while we were on the way with other levels, and ours may have been the last: safe ones again.
+    // make_safe() ran during our write, and our levels may have been written last: write the safe levels again.
     levels_.store(safe_levels_.load());
     if (lines_->output.write(mask_of(size_), safe_levels_.load())) {
         errno = ECANCELED;
@@ -74,13 +74,13 @@ bool OutputLines::set(std::uint64_t mask, std::uint64_t levels) noexcept {
 
 void OutputLines::make_safe() noexcept {
     const int before = errno;
-    times_made_safe_.fetch_add(1); // first: a set() that overtakes us from here on sees it
+    times_made_safe_.fetch_add(1); // first, so that a concurrent set() notices it
     levels_.store(safe_levels_.load());
     lines_->output.write(mask_of(size_), safe_levels_.load());
     errno = before;
 }
 
-void OutputLines::keep(std::uint64_t mask) noexcept {
+void OutputLines::retain_levels(std::uint64_t mask) noexcept {
     safe_levels_.store((safe_levels_.load() & ~mask) | (levels_.load() & mask));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OutputLines: the outputs of one GPIO chip, set together; and safe levels, whatever happens.
+// OutputLines: output lines of one GPIO chip, which change together and return to safe levels at the end.
 #pragma once
 
 #include "splinefeed/hal/gpio/line_request.hpp"
@@ -10,36 +10,35 @@
 
 namespace splinefeed::hal::gpio {
 
-/// Not copied, not moved. One thread sets; make_safe() may come at any time from another one, or from a signal handler.
+/// One thread calls set(). Another thread or a signal handler may call make_safe() at any time.
 class OutputLines {
 public:
-    /// Takes the lines, which have their safe levels from that moment on.
-    /// @param chip  its path, like "/dev/gpiochip0"
-    /// @param consumer  what the system tells others who has the lines, up to 31 letters
+    /// Requests the lines and sets their safe levels.
+    /// @param chip  path, for example "/dev/gpiochip0"
+    /// @param consumer  name that the system shows as the user of the lines, up to 31 characters
     /// @param requests  1 to 64; bit i of a mask is request i
-    /// Throws GpioError; then no line was taken.
+    /// Throws GpioError; then no line is requested.
     OutputLines(const std::string& chip, const std::string& consumer, std::span<const OutputRequest> requests);
     OutputLines(const OutputLines&) = delete;
     OutputLines& operator=(const OutputLines&) = delete;
-    /// Safe levels, then the lines are released. What a released line does is the chip's own business: most keep the
-    /// level.
+    /// Sets the safe levels and releases the lines. The chip decides what released lines do: most keep their level.
     ~OutputLines();
 
-    /// The lines of the mask take these levels, in one system call, and on chips that can, at the same instant. No
-    /// allocation, no lock. libgpiod 1.x knows no subset: there the others are set to what they are.
-    /// False: errno says why, and the levels are unknown; with ECANCELED make_safe() came in between, and the levels
-    /// are safe.
-    /// @pre mask has bits of lines alone
+    /// Sets the lines of the mask to these levels by one system call; chips that support it change them at the same
+    /// instant. Does not allocate or lock. libgpiod 1.x has no subsets: it writes the other lines with their present
+    /// levels. Returns false on failure, with errno: the levels are unknown; with ECANCELED make_safe() intervened and
+    /// the levels are safe.
+    /// @pre mask has bits of existing lines only
     bool set(std::uint64_t mask, std::uint64_t levels) noexcept;
 
-    /// All lines take their safe levels, as far as the chip still obeys; set() goes on working. As safe in a signal
-    /// handler as libgpiod's call, which is a loop over the lines and one ioctl, without locks or allocation (read in
-    /// 1.6.3 and 2.1.3); errno stays as it was.
+    /// Sets all lines to their safe levels, if the chip still works; set() may be called again afterwards. Preserves
+    /// errno. Safe in a signal handler if libgpiod's call is: a loop over the lines and one ioctl, without locks or
+    /// allocation (checked in the sources of 1.6.3 and 2.1.3).
     void make_safe() noexcept;
 
-    /// From now on the safe levels of these lines are what they have: they keep them when all are released.
-    /// @pre nobody sets any more
-    void keep(std::uint64_t mask) noexcept;
+    /// Makes the present levels of these lines their safe levels, so they keep them after release.
+    /// @pre no thread calls set() any more
+    void retain_levels(std::uint64_t mask) noexcept;
 
     [[nodiscard]] int size() const noexcept { return size_; }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StepLog: the steps that were made and when, from the thread that makes them to one that asks for counts at an
-// instant.
+// StepLog: log of steps with their instants, written by the real-time thread, read to get axis positions at an instant.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
@@ -12,13 +11,13 @@
 
 namespace splinefeed::hal::gpio {
 
-/// One writer, which never waits, and any number of readers, each with a Reader of its own.
+/// Lock-free: one writer, which never waits, and any number of readers, each with its own Reader.
 class StepLog {
 public:
-    /// Room for 2^16 steps that a reader has not seen. Allocated here and never again.
+    /// Holds the last 2^16 steps. Allocates here only.
     StepLog() : entry_(capacity) {}
 
-    /// The writer's. @pre instants do not fall
+    /// Adds a step; for the writer only. @pre instants do not decrease
     void add(std::uint64_t at_ns, unsigned axis, bool up) noexcept {
         const std::uint64_t head = head_.load(std::memory_order_relaxed);
         entry_[head % capacity].store(at_ns << 4U | std::uint64_t{axis} << 1U | (up ? 1U : 0U),
@@ -26,38 +25,39 @@ public:
         head_.store(head + 1, std::memory_order_release);
     }
 
-    /// Counts are relative to those at the start of the log.
+    /// Counts are relative to the start of the log.
     class Reader {
     public:
         explicit Reader(const StepLog& log) noexcept : log_(&log) {}
 
-        /// Where all axes stood at that instant. Nothing: it is before what was asked for already, or so many steps
-        /// were not looked at that the log has lost some.
+        /// Positions of all axes at that instant. Empty if the instant is before that of an earlier call, or if the log
+        /// has overwritten steps that this reader had not read.
         [[nodiscard]] std::optional<PerAxis<std::int64_t>> counts_at(std::uint64_t instant_ns) noexcept {
             const std::uint64_t head = log_->head_.load(std::memory_order_acquire);
             for (; tail_ != head && !lost_; ++tail_) {
                 const std::uint64_t entry = log_->entry_[tail_ % capacity].load(std::memory_order_relaxed);
                 std::atomic_thread_fence(std::memory_order_acquire);
-                lost_ = log_->head_.load(std::memory_order_relaxed) - tail_ >= capacity; // it is being written again
+                lost_ =
+                    log_->head_.load(std::memory_order_relaxed) - tail_ >= capacity; // the writer may be overwriting it
                 if (after(entry, instant_ns) || lost_) {
                     break;
                 }
                 counts_[(entry >> 1U) & 7U] += (entry & 1U) != 0 ? 1 : -1;
-                seen_ = entry;
+                last_entry_ = entry;
                 any_ = true;
             }
-            return lost_ || (any_ && after(seen_, instant_ns)) ? std::nullopt : std::optional(counts_);
+            return lost_ || (any_ && after(last_entry_, instant_ns)) ? std::nullopt : std::optional(counts_);
         }
 
     private:
-        /// Whether an entry is later; instants in entries are modulo 2^60 ns, 36 years.
+        /// Whether an entry is later than the instant. Entries hold instants modulo 2^60 ns, 36 years.
         [[nodiscard]] static bool after(std::uint64_t entry, std::uint64_t instant_ns) noexcept {
             return static_cast<std::int64_t>((entry & ~std::uint64_t{15}) - (instant_ns << 4U)) > 0;
         }
 
         const StepLog* log_;
         std::uint64_t tail_ = 0;
-        std::uint64_t seen_ = 0; // the last entry, where there is any
+        std::uint64_t last_entry_ = 0; // the last entry read
         PerAxis<std::int64_t> counts_{};
         bool any_ = false;
         bool lost_ = false;

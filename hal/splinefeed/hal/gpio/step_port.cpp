@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// One thread makes all edges:
+// One thread writes all edges:
 //
 //     segment ring ──► PulseTrain ──► edges of one tick ──► EdgeClock: wait until due ──► one write a chip
 //
-// It sleeps in slices, so that a cut is seen within one.
+// It sleeps in slices, so disable() takes effect within one slice.
 #include "splinefeed/hal/gpio/step_port.hpp"
 
 #include <algorithm>
@@ -20,9 +20,9 @@ constexpr std::int64_t ns_per_tick = 125;
 constexpr std::uint64_t ns_per_ms = 1'000'000;
 constexpr std::size_t ring_segments = 4096;
 constexpr std::uint64_t lead_ns = 5 * ns_per_ms;   // longer than any set-up time
-constexpr std::uint64_t supply_ns = ns_per_ms / 5; // between two looks for more segments
-constexpr std::uint64_t claim_ns = ns_per_ms / 10; // between two looks whether the thread has begun
-constexpr std::int64_t slow_ns = 10'000'000;       // steps further apart: any motor stops between two of them
+constexpr std::uint64_t supply_ns = ns_per_ms / 5; // between two checks for more segments
+constexpr std::uint64_t claim_ns = ns_per_ms / 10; // between two checks whether the thread has started
+constexpr std::int64_t slow_ns = 10'000'000;       // with steps further apart than this, any motor stops between them
 constexpr std::uint64_t ns_per_us = 1000;
 constexpr int stall_error = -1; // no errno
 
@@ -32,7 +32,7 @@ std::uint64_t guard_of(const StepTiming& timing) noexcept {
 
 } // namespace
 
-// What is held is twice the reserve and more, so that a motion that has just begun is not told to slow down.
+// The buffer is more than twice the reserve, so a motion that has just begun does not slow down.
 StepPort::StepPort(std::vector<ChipOutputs> chips, const StepPortSettings& settings)
     : lines_(std::move(chips), settings.axes, settings.timing.step_on_edge), settings_(settings),
       train_(make_pulse_train(settings.axes, settings.timing)),
@@ -46,19 +46,19 @@ StepPort::~StepPort() {
 }
 
 std::string StepPort::start() {
-    if (was_cut()) {
-        state_.store(State::cut);
+    if (was_disabled()) {
+        state_.store(State::disabled);
     }
-    if (!place_known()) {
+    if (!position_known()) {
         return {};
     }
     if (!lines_.enable(true)) {
         fail(errno);
         return {};
     }
-    if (!on_) {
-        on_ = true;
-        settled_ns_ = time_->now_ns() + settings_.settle_ms * ns_per_ms;
+    if (!drives_on_) {
+        drives_on_ = true;
+        drives_ready_ns_ = time_->now_ns() + settings_.settle_ms * ns_per_ms;
     }
     std::string missing;
     ends_.store(false);
@@ -83,8 +83,8 @@ void StepPort::stop() noexcept {
 }
 
 void StepPort::park() noexcept {
-    if (!on_ || !place_known()) {
-        return; // never on, or off at once
+    if (!drives_on_ || !position_known()) {
+        return; // never enabled, or disabled already
     }
     if (!lines_.brake(false)) {
         may_be_on_.store(true);
@@ -93,8 +93,8 @@ void StepPort::park() noexcept {
     if (!lines_.enable(false)) {
         may_be_on_.store(true);
     }
-    on_ = false;
-    released_ = false;
+    drives_on_ = false;
+    brake_released_ = false;
 }
 
 void StepPort::reset() noexcept {
@@ -108,9 +108,9 @@ void StepPort::reset() noexcept {
     submitted_ticks_.store(0);
     motion_ns_.store(0);
     complete_.store(false);
-    dry_.store(false);
+    clock_stopped_.store(false);
     quick_stop_.store(false);
-    if (place_known()) {
+    if (position_known()) {
         state_.store(State::idle);
     }
 }
@@ -123,17 +123,18 @@ std::string StepPort::trouble() const {
     const int error = error_.load();
     if (error == stall_error) {
         return "no step was made for longer than " + std::to_string(settings_.stall_ns / ns_per_ms) +
-               " ms while axes moved, since the process or its host stood still; motors that stop at once lose steps";
+               " ms while axes moved, because the process or its host was suspended; motors that stop abruptly lose "
+               "steps";
     }
-    return error == 0 ? std::string("it was cut off")
+    return error == 0 ? std::string("the drives were disabled")
                       : std::string("a line cannot be set: ") + std::strerror(error); // NOLINT(concurrency-mt-unsafe)
 }
 
-// Nothing is on the way any more. What cannot be set now is tried again by the thread.
+// Drops pending edges and disables the drives. The thread tries again if a line cannot be set.
 void StepPort::switch_off() noexcept {
     lines_.drop();
-    off_ = lines_.enable(false);
-    may_be_on_.store(!off_);
+    switched_off_ = lines_.enable(false);
+    may_be_on_.store(!switched_off_);
 }
 
 void StepPort::fail(int error) noexcept {
@@ -142,15 +143,15 @@ void StepPort::fail(int error) noexcept {
     state_.store(State::failed);
 }
 
-bool StepPort::filled() const noexcept {
+bool StepPort::buffer_filled() const noexcept {
     const std::uint64_t held = submitted_ticks_.load(std::memory_order_relaxed) * ns_per_tick;
     return complete_.load(std::memory_order_acquire) || ring_.room() == 0 ||
            held >= motion_ns_.load(std::memory_order_relaxed) + settings_.buffer_ms * ns_per_ms;
 }
 
-// The clock slows down before the segments run out, and goes on when there are enough of them. It never runs ahead of
-// what is still to be made: a process that stood still goes on where it was.
-void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
+// Slows the clock down before the segments run out, and resumes it when there are enough. The clock never runs ahead of
+// edges that are still to be written: after a pause of the process the motion resumes where it was.
+void StepPort::check_supply(std::uint64_t now_ns) noexcept {
     const std::int64_t to_be_made =
         gathered_ ? gathered_tick_ * ns_per_tick
                   : static_cast<std::int64_t>(submitted_ticks_.load(std::memory_order_relaxed)) * ns_per_tick;
@@ -165,11 +166,12 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
     const auto motion = static_cast<std::uint64_t>(std::max<std::int64_t>(clock_.motion_ns(now_ns), 0));
     motion_ns_.store(motion, std::memory_order_relaxed);
     if (clock_.stopping()) {
-        const bool resumes = clock_.stands(now_ns) && filled() && !quick_stop_.load(std::memory_order_relaxed);
+        const bool resumes =
+            clock_.at_standstill(now_ns) && buffer_filled() && !quick_stop_.load(std::memory_order_relaxed);
         if (resumes) {
             clock_.resume(now_ns);
         }
-        dry_.store(!resumes && clock_.stands(now_ns), std::memory_order_relaxed);
+        clock_stopped_.store(!resumes && clock_.at_standstill(now_ns), std::memory_order_relaxed);
         return;
     }
     const std::uint64_t end = submitted_ticks_.load(std::memory_order_relaxed) * ns_per_tick;
@@ -180,7 +182,7 @@ void StepPort::watch_supply(std::uint64_t now_ns) noexcept {
     }
 }
 
-// Edges of axes that were at rest, or as good as that, may come as late as they like.
+// Edges of axes at rest, or nearly at rest, may be arbitrarily late.
 bool StepPort::stalled(std::uint64_t late_ns) const noexcept {
     if (late_ns <= settings_.stall_ns || !clock_.has_made()) {
         return false;
@@ -199,7 +201,7 @@ template <class Engine>
 bool StepPort::next_of(PulseTrain<Engine>& train, Edge& edge) noexcept {
     while (!train.next(edge)) {
         FeedSegment segment;
-        // In this order: what was submitted before complete() is seen.
+        // Read in this order, so that segments submitted before complete() are not missed.
         const bool complete = complete_.load(std::memory_order_acquire);
         if (ring_.pop(segment)) {
             train.take(segment);
@@ -214,7 +216,7 @@ bool StepPort::next_of(PulseTrain<Engine>& train, Edge& edge) noexcept {
     return true;
 }
 
-// The next edge of the motion, as far as it is known.
+// The next edge of the motion; false: none yet.
 bool StepPort::next(Edge& edge) noexcept {
     if (auto* const train = std::get_if<PulseTrain<StepIntervals>>(&train_)) {
         return next_of(*train, edge);
@@ -222,7 +224,7 @@ bool StepPort::next(Edge& edge) noexcept {
     return next_of(*std::get_if<PulseTrain<FixedRate>>(&train_), edge);
 }
 
-// All edges of the next instant, as far as they are known: before the wait, so that a line changes when it is over.
+// Collects all edges of the next instant before the wait, so that the lines change at its end without computation.
 bool StepPort::gather() noexcept {
     if (!have_ && !(have_ = next(edge_))) {
         return false;
@@ -265,15 +267,15 @@ bool StepPort::steps(const Edge& edge) const noexcept {
     return edge.line == Line::step && (edge.level || settings_.timing.step_on_edge);
 }
 
-// False: no step is to be made any more.
-bool StepPort::obey(std::uint64_t now_ns) noexcept {
+// Applies disable() and quick_stop(). Returns false if no further edge may be written.
+bool StepPort::apply_requests(std::uint64_t now_ns) noexcept {
     State state = state_.load(std::memory_order_relaxed);
-    if (cut_.load(std::memory_order_acquire) && state != State::cut) {
+    if (disable_requested_.load(std::memory_order_acquire) && state != State::disabled) {
         switch_off();
-        state_.store(state = State::cut);
+        state_.store(state = State::disabled);
     }
-    if (state == State::cut || state == State::failed) {
-        if (!off_) {
+    if (state == State::disabled || state == State::failed) {
+        if (!switched_off_) {
             switch_off();
         }
         return false;
@@ -281,34 +283,34 @@ bool StepPort::obey(std::uint64_t now_ns) noexcept {
     if (quick_stop_.load(std::memory_order_acquire)) {
         if (state == State::running && !clock_.stopping()) {
             clock_.stop(now_ns);
-        } else if (state == State::idle || (state == State::running && clock_.stands(now_ns))) {
+        } else if (state == State::idle || (state == State::running && clock_.at_standstill(now_ns))) {
             state_.store(state = State::halted);
         }
     }
     return state == State::idle || state == State::running;
 }
 
-// The brake is released once the drives hold the axes.
-bool StepPort::drives_hold(std::uint64_t now_ns) noexcept {
-    if (now_ns < settled_ns_) {
+// Releases the brake when the drives hold the axes. Returns true when the brake is open.
+bool StepPort::drives_ready(std::uint64_t now_ns) noexcept {
+    if (now_ns < drives_ready_ns_) {
         return false;
     }
-    if (!released_) {
+    if (!brake_released_) {
         if (!lines_.brake(true)) {
             fail(errno);
             return false;
         }
-        released_ = true;
-        freed_ns_ = now_ns + settings_.brake_release_ms * ns_per_ms;
+        brake_released_ = true;
+        brake_open_ns_ = now_ns + settings_.brake_release_ms * ns_per_ms;
     }
-    return now_ns >= freed_ns_;
+    return now_ns >= brake_open_ns_;
 }
 
 void StepPort::advance(std::uint64_t now_ns) noexcept {
     const bool idle = state_.load(std::memory_order_relaxed) == State::idle;
-    const bool ready = !(idle && (!drives_hold(now_ns) || !filled())) && (gathered_ || gather());
+    const bool ready = !(idle && (!drives_ready(now_ns) || !buffer_filled())) && (gathered_ || gather());
     if (!idle) {
-        watch_supply(now_ns);
+        check_supply(now_ns);
         if (state_.load(std::memory_order_relaxed) == State::failed) {
             return;
         }
@@ -337,8 +339,8 @@ void StepPort::advance(std::uint64_t now_ns) noexcept {
 void StepPort::work() noexcept {
     while (!ends_.load(std::memory_order_relaxed)) {
         const std::uint64_t now_ns = time_->now_ns();
-        looked_us_.store(now_ns / ns_per_us, std::memory_order_relaxed);
-        if (obey(now_ns)) {
+        last_cycle_us_.store(now_ns / ns_per_us, std::memory_order_relaxed);
+        if (apply_requests(now_ns)) {
             advance(now_ns);
         } else {
             wait_until(now_ns + slice_ns, 0);
@@ -346,14 +348,14 @@ void StepPort::work() noexcept {
     }
 }
 
-bool StepPort::stands() const noexcept {
+bool StepPort::at_standstill() const noexcept {
     switch (state_.load()) {
-    case State::running: return dry_.load(std::memory_order_relaxed);
+    case State::running: return clock_stopped_.load(std::memory_order_relaxed);
     case State::failed:
     case State::idle:
     case State::done:
     case State::halted:
-    case State::cut: break;
+    case State::disabled: break;
     }
     return true;
 }
@@ -366,7 +368,7 @@ int StepPort::do_room() const noexcept {
 
 bool StepPort::do_submit(const FeedSegment& segment) noexcept {
     const State state = state_.load();
-    if (state == State::halted || state == State::cut || state == State::failed) {
+    if (state == State::halted || state == State::disabled || state == State::failed) {
         return false;
     }
     const auto moving = std::span(segment.end_velocity).first(static_cast<std::size_t>(settings_.axes));
@@ -379,7 +381,7 @@ bool StepPort::do_submit(const FeedSegment& segment) noexcept {
 PortState StepPort::do_poll() noexcept {
     const std::uint64_t taken = taken_.load(std::memory_order_relaxed);
     switch (state_.load()) {
-    case State::cut:
+    case State::disabled:
     case State::failed: return {PortPhase::fault, taken};
     case State::done: return {PortPhase::idle, taken};
     case State::halted: return {PortPhase::halted, taken};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clock: the monotonic time by which ports wait, and the threads that wait by it. A test replaces both.
+// Clock: monotonic time for ports, and the threads that wait for it. Tests replace both by virtual time.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace splinefeed::hal {
 
-/// A thread that a clock started.
+/// A thread that Clock::start() started.
 class ClockThread {
 public:
     ClockThread() = default;
     ClockThread(const ClockThread&) = delete;
     ClockThread& operator=(const ClockThread&) = delete;
-    /// Joins.
+    /// Joins the thread.
     virtual ~ClockThread() = default;
-    /// Returns when the thread's work has ended; a second call does nothing.
+    /// Blocks until the thread's work has ended. A second call does nothing.
     virtual void join() noexcept = 0;
 };
 
-/// All instants are of one monotonic clock with an arbitrary origin. Several threads may use a clock at once.
+/// All instants are on one monotonic time scale with an arbitrary origin. Thread-safe.
 class Clock {
 public:
     Clock() = default;
@@ -29,9 +29,9 @@ public:
     virtual ~Clock() = default;
 
     [[nodiscard]] virtual std::uint64_t now_ns() const noexcept = 0;
-    /// Returns at that instant, or at once where it has passed.
+    /// Blocks until that instant; returns at once if it has passed.
     virtual void sleep_until_ns(std::uint64_t instant_ns) noexcept = 0;
-    /// Runs the work in a thread of its own, whose waits all go through this clock.
+    /// Runs `work` in a new thread, which must wait by this clock only.
     [[nodiscard]] virtual std::unique_ptr<ClockThread> start(std::function<void()> work) = 0;
 
     [[nodiscard]] std::uint64_t now_us() const noexcept { return now_ns() / ns_per_us; }
@@ -42,10 +42,10 @@ private:
     static constexpr std::uint64_t ns_per_us = 1000;
 };
 
-/// CLOCK_MONOTONIC and the system's threads.
+/// The clock on CLOCK_MONOTONIC and the system's threads.
 [[nodiscard]] Clock& system_clock() noexcept;
 
-/// Processor time of the calling thread. [us]
+/// Processor time that the calling thread has used. [us]
 [[nodiscard]] std::uint64_t thread_us() noexcept;
 
 } // namespace splinefeed::hal

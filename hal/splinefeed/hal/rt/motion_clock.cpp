@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // With the reserve S the rate changes by 1 in 2 S. Rising from 0: m = t^2 / 4 S up to t = 2 S, then t - S. Falling for
-// f from the rate r = f / 2 S: m = r t - t^2 / 4 S up to t = f, where m = S r^2. Both are solved for t. In whole
-// numbers, so that it is exact however large the instants are; f^2 <= 4 S^2 fits 64 bits.
+// f from the rate r = f / 2 S: m = r t - t^2 / 4 S up to t = f, where m = S r^2. instant() solves both for t. time()
+// uses integers, so it is exact for instants of any size; f^2 <= 4 S^2 fits 64 bits.
 #include "splinefeed/hal/rt/motion_clock.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::uint64_t MotionClock::risen(std::uint64_t passed) const noexcept {
     return !rises_ ? passed : passed < 2 * reserve_ ? passed * passed / (4 * reserve_) : passed - reserve_;
 }
 
-/// How long it takes from the rate at its stop.
+/// Duration of the slow-down, from the rate at stop_.
 std::uint64_t MotionClock::fall() const noexcept {
     const std::uint64_t full = 2 * reserve_;
     return rises_ ? std::min(stop_ - start_, full) : full;
@@ -61,7 +61,7 @@ std::uint64_t MotionClock::instant(std::int64_t time) const noexcept {
     const std::uint64_t from = stopping_ ? stop_ : start_;
     const std::int64_t way = time - static_cast<std::int64_t>(this->time(from));
     if (!stopping_ && !rises_) {
-        return from + static_cast<std::uint64_t>(way); // also before its start
+        return from + static_cast<std::uint64_t>(way); // also for negative times
     }
     if (way <= 0) {
         return from;

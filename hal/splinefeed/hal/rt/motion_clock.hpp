@@ -1,39 +1,40 @@
 // SPDX-License-Identifier: MIT
-// MotionClock: the time of a motion against a host's: it runs, slows down to stand for all axes alike, and goes on.
+// MotionClock: maps host time to the time of a motion. It can slow down to standstill and resume, for all axes
+// together.
 #pragma once
 
 #include <cstdint>
 
 namespace splinefeed::hal {
 
-/// The motion's time runs at full rate from `start` on. From a `stop` on its rate falls to 0, from a `resume` on it
-/// rises to 1, both by 1 within twice the reserve. All axes that follow it stay on the path, however they are told.
-/// Instants, times and the reserve are in one unit, which is the caller's: nanoseconds, microseconds.
+/// From start() on motion time runs at rate 1. After stop() the rate falls linearly to 0, after resume() it rises
+/// linearly to 1; each takes twice the reserve. Axes that take their positions at this time stay on the path. The
+/// caller chooses one unit for instants, times and the reserve, for example nanoseconds.
 class MotionClock {
 public:
     static constexpr std::uint64_t never = UINT64_MAX;
 
-    /// @param reserve  motion on which it comes to a stand, 1 to 10^9
+    /// @param reserve  motion time that passes between stop() and standstill, 1 to 10^9
     explicit MotionClock(std::uint64_t reserve) noexcept : reserve_(reserve) {}
 
-    /// At the motion's beginning; the rate is 1 at once.
+    /// Starts a motion at time 0 and at once at rate 1.
     void start(std::uint64_t at) noexcept;
-    /// Its time slows down from that instant on, or from its start where that is later. @pre not stopping()
+    /// Begins to slow down at that instant, or at the start if that is later. @pre not stopping()
     void stop(std::uint64_t at) noexcept;
-    /// It stands, and begins to move at that instant. @pre stands(at)
+    /// Begins to speed up from standstill at that instant. @pre at_standstill(at)
     void resume(std::uint64_t at) noexcept;
-    /// The whole motion comes that much later from now on.
+    /// Shifts the rest of the motion to later instants by that much.
     void delay(std::uint64_t by) noexcept;
 
     [[nodiscard]] bool stopping() const noexcept { return stopping_; }
-    [[nodiscard]] bool stands(std::uint64_t now) const noexcept { return stopping_ && now >= standing_from(); }
-    /// When it stands at the earliest. @pre stopping()
-    [[nodiscard]] std::uint64_t standing_from() const noexcept { return stop_ + fall(); }
+    [[nodiscard]] bool at_standstill(std::uint64_t now) const noexcept { return stopping_ && now >= standstill_from(); }
+    /// The instant of standstill. @pre stopping()
+    [[nodiscard]] std::uint64_t standstill_from() const noexcept { return stop_ + fall(); }
 
-    /// The motion's time at that instant; 0 before its start.
+    /// Motion time at that instant; 0 before the start.
     [[nodiscard]] std::uint64_t time(std::uint64_t now) const noexcept;
-    /// When the motion's time is that, which may be before its beginning; never: it stands before. What was before the
-    /// last stop or resume is due at that.
+    /// The instant of a motion time, which may be negative; `never` if the clock stands before it. A time before the
+    /// last stop() or resume() gives the instant of that call.
     [[nodiscard]] std::uint64_t instant(std::int64_t time) const noexcept;
 
 private:
@@ -41,10 +42,10 @@ private:
     [[nodiscard]] std::uint64_t fall() const noexcept;
 
     std::uint64_t reserve_;
-    std::uint64_t base_ = 0;           // its time at start_
-    std::uint64_t start_ = UINT64_MAX; // not yet
+    std::uint64_t base_ = 0;           // motion time at start_
+    std::uint64_t start_ = UINT64_MAX; // not started
     std::uint64_t stop_ = 0;
-    bool rises_ = false; // from rate 0 at start_
+    bool rises_ = false; // at start_ the rate was 0
     bool stopping_ = false;
 };
 

@@ -36,14 +36,14 @@ AwakeHost::AwakeHost() {
     if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) {
         locked_ = true;
     } else {
-        missing_ += "its memory cannot be kept from being swapped out (" + reason(errno) +
-                    "): grant CAP_IPC_LOCK, or raise `ulimit -l`; ";
+        missing_ +=
+            "the process cannot lock its memory (" + reason(errno) + "): grant CAP_IPC_LOCK, or raise `ulimit -l`; ";
     }
     constexpr std::int32_t longest_us = 0;
     latency_ = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
     if (latency_ < 0 || write(latency_, &longest_us, sizeof longest_us) != sizeof longest_us) {
-        missing_ += "the processors may fall asleep (/dev/cpu_dma_latency: " + reason(errno) +
-                    "): let your user write it, or run as root; ";
+        missing_ += "the processors may enter sleep states (/dev/cpu_dma_latency: " + reason(errno) +
+                    "): give your user write permission, or run as root; ";
     }
 }
 
@@ -61,7 +61,7 @@ std::string claim_real_time(const RealTimeSettings& settings) {
     const sched_param param{.sched_priority = settings.priority};
     if (const int error = settings.priority > 0 ? pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) : 0;
         error != 0) {
-        missing += "its thread cannot go before others (SCHED_FIFO: " + reason(error) +
+        missing += "its thread cannot get real-time priority (SCHED_FIFO: " + reason(error) +
                    "): grant CAP_SYS_NICE, or rtprio in /etc/security/limits.conf; ";
     }
     if (settings.cpu) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// real_time: what a thread asks of Linux so that it is woken in time, and waiting for an instant.
+// real_time: real-time settings of a thread on Linux, and waiting for an instant with little delay.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,17 @@
 namespace splinefeed::hal {
 
 struct RealTimeSettings {
-    int priority = 80;              ///< of SCHED_FIFO, 1 to 99; 0: as it is
-    std::optional<unsigned> cpu{};  ///< to which the thread is bound
-    std::uint32_t spin_ns = 30'000; ///< of each wait is spent spinning
+    int priority = 80;              ///< SCHED_FIFO priority, 1 to 99; 0: unchanged
+    std::optional<unsigned> cpu{};  ///< processor to which the thread is bound
+    std::uint32_t spin_ns = 30'000; ///< last part of each wait, which the thread spends spinning
 };
 
-/// By the system's clock: sleeps until so long before the instant as the thread spins, then spins. Returns when it was
-/// there.
+/// Waits for an instant of the system clock: sleeps until spin_ns before it, then spins. Returns the time at the end of
+/// the wait. [ns]
 std::uint64_t wait_until_ns(std::uint64_t instant_ns, std::uint32_t spin_ns) noexcept;
 
-/// While one lives the processors stay awake (/dev/cpu_dma_latency), and the process stays in memory.
+/// While an object exists, the processors do not enter sleep states (/dev/cpu_dma_latency) and the process is locked in
+/// memory.
 class AwakeHost {
 public:
     AwakeHost();
@@ -26,7 +27,7 @@ public:
     AwakeHost& operator=(const AwakeHost&) = delete;
     ~AwakeHost();
 
-    /// What could not be had and how to grant it, a sentence each; empty: nothing.
+    /// What the system refused and how to grant it, one clause each; empty: nothing.
     [[nodiscard]] const std::string& missing() const noexcept { return missing_; }
 
 private:
@@ -35,7 +36,7 @@ private:
     std::string missing_;
 };
 
-/// For the thread that calls it: priority and processor. Returns what could not be had, as above.
+/// Sets priority and processor of the calling thread. Returns what the system refused, as AwakeHost::missing().
 [[nodiscard]] std::string claim_real_time(const RealTimeSettings& settings);
 
 } // namespace splinefeed::hal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TimeHistogram: how long something took, or how late it was; written by one thread, read by any.
+// TimeHistogram: histogram of durations or delays. One thread writes, any thread reads.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace splinefeed::hal {
 
-/// Bin 0 counts what was below 1 us, and from there on each octave has four bins: bin i counts what was below
-/// edge_us(i) and not in a bin before it. Cost of add(): constant, no lock, no allocation.
+/// Bin 0 counts durations below 1 us. Each octave above has four bins: bin i counts durations from edge_us(i - 1) to
+/// below edge_us(i). add() takes constant time, without locks or allocation.
 class TimeHistogram {
 public:
-    static constexpr std::size_t octaves = 24; ///< octave i: below 2^i us; the last one: 4 s and longer
+    static constexpr std::size_t octaves = 24; ///< octave i ends at 2^i us; the last one holds 4 s and longer
     static constexpr std::size_t bins_an_octave = 4;
     static constexpr std::size_t bins = 1 + bins_an_octave * (octaves - 1);
 
@@ -24,13 +24,13 @@ public:
     }
     [[nodiscard]] std::uint64_t in_octave(std::size_t octave) const noexcept;
     [[nodiscard]] std::uint64_t total() const noexcept;
-    /// The longest of all. 0 where there is none.
+    /// The longest duration; 0 if there is none.
     [[nodiscard]] std::uint64_t most_ns() const noexcept { return most_ns_.load(std::memory_order_relaxed); }
-    /// What at least this share of all (0 to 1) stayed below, to a quarter of an octave, and never above the longest
-    /// of all. 0 where there is none.
+    /// A quantile: at least this share (0 to 1) of the durations is below the result, which is rounded up to a bin edge
+    /// and never exceeds the longest one. 0 if there is none.
     [[nodiscard]] double below_us(double share) const noexcept;
 
-    /// Where a bin ends.
+    /// Upper edge of a bin.
     [[nodiscard]] static double edge_us(std::size_t bin) noexcept;
 
 private:

@@ -13,7 +13,7 @@ const char* describe(LinkFault fault) noexcept {
     case LinkFault::timeout:
         return "no answer in time; is it powered, is the unit number right, are baud rate and parity those of the "
                "drive?";
-    case LinkFault::disconnected: return "the connection is gone; is the cable plugged in, is the port open?";
+    case LinkFault::disconnected: return "the connection is lost; check the cable, and whether the port is open";
     case LinkFault::corrupt: return "an answer with a wrong checksum; look for noise, termination and the baud rate";
     case LinkFault::wrong_unit: return "another unit answered; two drives may have the same number";
     case LinkFault::wrong_length: return "an answer that does not fit the request; another master may be on the line";

@@ -15,15 +15,15 @@ namespace splinefeed::hal::modbus {
 namespace {
 
 constexpr std::uint64_t us_per_s = 1'000'000;
-// What is still under way arrives before it is thrown away; asked again at once, a peer would be a reply behind for
-// ever.
+// Wait before discarding input, so that outstanding answers have arrived. Without it the answers would stay one request
+// behind for ever.
 constexpr std::uint64_t settle_us = 5000;
-// A receiver that has lost the beginning of a frame waits for silence: after so many failures it gets plenty.
+// A receiver that missed the beginning of a frame waits for silence: after so many failures it gets a long one.
 constexpr int lost_failures = 3;
 constexpr std::uint64_t lost_us = 300'000;
 constexpr std::size_t longest_frame = 256;
 
-// The IPv4 address of a name in numbers; empty where it has none.
+// Resolves a host name to a numeric IPv4 address; empty on failure.
 std::string resolved(const std::string& host) {
     addrinfo wanted{};
     wanted.ai_family = AF_INET;
@@ -60,14 +60,14 @@ struct ModbusLink::Context {
     LinkTiming timing;
     Clock* clock = nullptr;
     modbus_t* modbus = nullptr;
-    std::uint64_t quiet_from_us = 0; // the last byte on the line
+    std::uint64_t quiet_from_us = 0; // instant of the last byte on the line
     int error = 0;
-    bool no_host = false; // the name has no address
+    bool no_host = false; // the host name could not be resolved
     bool connected = false;
     int failures = 0;    // in a row
     int timeouts = 0;    // in a row
-    bool dirty = false;  // something may still come in
-    bool behind = false; // whole answers, one after the other
+    bool dirty = false;  // late input is possible
+    bool behind = false; // whole answers may be outstanding
 
     [[nodiscard]] bool lost() const noexcept { return address.wire == Wire::rtu && failures >= lost_failures; }
     [[nodiscard]] std::uint64_t next_us() const noexcept {
@@ -142,7 +142,7 @@ bool ModbusLink::connect() noexcept {
     }
     context.connected = true;
     context.timeouts = 0;
-    context.dirty = context.address.wire == Wire::rtu; // the other end of a new connection has nothing to say
+    context.dirty = context.address.wire == Wire::rtu; // a new tcp connection has no old input
     context.quiet_from_us = context.clock->now_us();
     return true;
 }
@@ -154,8 +154,8 @@ void ModbusLink::close() noexcept {
     }
 }
 
-// TCP sends what was lost again after ever longer pauses, of seconds, while a new connection is there at once. And what
-// it still holds must never come: an old target would send the drive back.
+// TCP repeats lost data after growing pauses of seconds; a new connection works at once. Data that is still buffered
+// must not arrive later: an old target would move the drive back. So the connection is reset.
 void ModbusLink::abandon() noexcept {
     if (context_->address.wire == Wire::tcp) {
         constexpr linger drop{.l_onoff = 1, .l_linger = 0};
@@ -173,7 +173,7 @@ LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expect
         answer.fault = LinkFault::disconnected;
         return answer;
     }
-    // Else libmodbus would send to whatever unit it had before.
+    // Otherwise libmodbus would use the previous unit.
     if (!is_unit(context.address.wire, unit) || modbus_set_slave(context.modbus, unit) != 0) {
         answer.fault = LinkFault::bad_unit;
         return answer;
@@ -188,7 +188,7 @@ LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expect
         modbus_flush(context.modbus);
         context.dirty = context.behind = false;
     }
-    // libmodbus counts from the moment at which the request is in the system's buffer.
+    // libmodbus counts the time-out from the moment when the request is in the system's buffer.
     const std::uint32_t most = context.timing.answer_us + frame_us(context.address, bytes.request + bytes.reply);
     modbus_set_response_timeout(context.modbus, most / us_per_s, most % us_per_s);
     errno = 0;
@@ -234,7 +234,7 @@ LinkAnswer ModbusLink::write(int unit, int address, std::span<const std::uint16_
                     [&](modbus_t* modbus) { return modbus_write_registers(modbus, address, count, values.data()); });
 }
 
-// Its frames are as long as those of a read of one register, and the answer is the request once more.
+// The request is as long as that of a read, and the answer repeats the request.
 LinkAnswer ModbusLink::write_one(int unit, int address, std::uint16_t value) noexcept {
     const std::size_t bytes = exchange_bytes(context_->address, 0, 1).request;
     return transact(unit, {bytes, bytes}, 1,

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// ModbusLink: one wire to one or several drives, on libmodbus. It keeps the silences of a serial line, which libmodbus
-// does not, and tells what went wrong by name.
+// ModbusLink: a Modbus line on libmodbus. In addition to libmodbus it keeps the silences of a serial line and
+// classifies faults.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/modbus_line.hpp"
 
 namespace splinefeed::hal::modbus {
 
-/// Not copied, not moved; used by one thread at a time. It allocates when it is made, and never again.
+/// For one thread at a time. Allocates in its constructor only.
 class ModbusLink final : public ModbusLine {
 public:
-    /// The clock must outlive it.
+    /// The clock must outlive the link.
     ModbusLink(const LinkAddress& address, const LinkTiming& timing, Clock& clock = system_clock());
     ModbusLink(const ModbusLink&) = delete;
     ModbusLink& operator=(const ModbusLink&) = delete;

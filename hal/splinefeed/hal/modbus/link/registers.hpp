@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers in Modbus registers: 16 bits each, the most significant first.
+// RegisterWriter, RegisterReader: numbers in 16-bit Modbus registers, most significant register first.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace splinefeed::hal::modbus {
 
-/// Writes and reads numbers of several registers, one after the other, as the map splinefeed-pvt has them.
-/// @pre there is room: callers size their blocks by the map
+/// Write and read consecutive numbers of one to three registers, as in the map splinefeed-pvt.
+/// @pre the span is large enough: callers size blocks by the map
 class RegisterWriter {
 public:
     explicit RegisterWriter(std::span<std::uint16_t> registers) noexcept : registers_(registers) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// WireGroups: which drives share a wire, and the timing that suits all of them.
+// WireGroups: groups drives by their wires and finds a timing that suits all drives of a wire.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_address.hpp"
@@ -9,18 +9,18 @@
 
 namespace splinefeed::hal::modbus {
 
-/// Where a drive hangs and what it asks of its wire; or a wire and what the slowest of its drives asks of it.
+/// Address and required timing of a drive; or a wire and the timing that its slowest drive requires.
 struct WireUse {
     LinkAddress link;
     LinkTiming timing;
 };
 
 struct WireGroups {
-    std::vector<WireUse> wires;        ///< each once, in the order of their first drives, with the address of that one
-    std::vector<std::size_t> of_drive; ///< which of the wires a drive hangs on
+    std::vector<WireUse> wires; ///< each wire once, in the order of their first drives, with the address of that drive
+    std::vector<std::size_t> of_drive; ///< index of each drive's wire
 };
 
-/// @param base  what suits the caller: no wire is faster
+/// @param base  lower bound of every wire's timing
 [[nodiscard]] WireGroups group_by_wire(const std::vector<WireUse>& drives, const LinkTiming& base);
 
 } // namespace splinefeed::hal::modbus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// DriveProfile: what a Modbus drive is like, as data: its link, its registers, how it is commanded and moved. Filled
-// once, before anything moves; docs/reference/profiles.md says what every member means in a profile file.
+// DriveProfile: description of a Modbus drive as data: link, registers, commands, motion. Filled once, before the
+// motion. docs/reference/profiles.md explains every member.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 
 namespace splinefeed::hal::modbus {
 
-/// How a drive is kept moving.
+/// How a drive receives its motion.
 enum class StreamWay : std::uint8_t {
-    pvt,    ///< it takes segments ahead and interpolates: docs/reference/pvt_map.md
-    cyclic, ///< a target position per period, at which it arrives a period later
+    pvt,    ///< it buffers segments and interpolates them: docs/reference/pvt_map.md
+    cyclic, ///< one target position per period, which it reaches a period later
     blocks, ///< positioning blocks that replace each other on the fly
 };
 
-/// What a field means to whoever drives: fields without a role are only written by groups, commands and the init list.
+/// Meaning of a field for the port. Only groups, commands and the init list write fields without a role.
 enum class FieldRole : std::uint8_t {
     none,
     control,
@@ -44,16 +44,16 @@ inline constexpr std::size_t field_roles = 16;
 
 enum class Significance : std::uint8_t { high_first, low_first };
 enum class FieldAccess : std::uint8_t { read_write, read, write };
-/// Of the physical value.
+/// Unit of a physical value.
 enum class PhysicalUnit : std::uint8_t { number, counts, counts_per_s, counts_per_s2, ms };
 
-/// A number in one to four registers. Raw is what the registers hold:
-/// raw = physical * scale_numerator / scale_denominator, or with `inverse` scale_numerator / (scale_denominator *
-/// physical), as ramps in ms per 1000 rpm have it.
+/// A number in one to four registers. The raw value in the registers is raw = physical * scale_numerator /
+/// scale_denominator, or with `inverse` scale_numerator / (scale_denominator * physical), for example for ramps in ms
+/// per 1000 rpm.
 struct RegisterField {
     std::string name;
     FieldRole role = FieldRole::none;
-    std::uint16_t address = 0;    ///< as in the frame: from 0
+    std::uint16_t address = 0;    ///< address in the frame, from 0
     std::uint8_t width_bits = 16; ///< 16, 32 or 64
     bool is_signed = false;
     Significance word_order = Significance::high_first;
@@ -65,8 +65,8 @@ struct RegisterField {
     std::int64_t lowest = 0; ///< raw
     std::int64_t highest = 0xFFFF;
     FieldAccess access = FieldAccess::read_write;
-    bool flash = false;     ///< every write wears it: never in a frame that is sent again and again
-    std::int64_t value = 0; ///< raw: what is written where nobody has another value
+    bool flash = false;     ///< every write wears the memory: never in a periodic frame
+    std::int64_t value = 0; ///< raw: default value to write
 
     [[nodiscard]] constexpr std::size_t registers() const noexcept { return width_bits / 16U; }
     [[nodiscard]] constexpr bool readable() const noexcept { return access != FieldAccess::write; }
@@ -78,11 +78,11 @@ using FieldIndex = std::size_t;
 inline constexpr FieldIndex no_field = std::numeric_limits<FieldIndex>::max();
 
 enum class GroupUse : std::uint8_t {
-    target, ///< written in one frame to move on
-    status, ///< read in one frame, again and again
+    target, ///< written in one frame for each setpoint
+    status, ///< read in one frame, periodically
 };
 
-/// Fields that follow each other without a gap and travel in one frame.
+/// Adjacent fields that are transferred in one frame.
 struct FieldGroup {
     GroupUse use = GroupUse::target;
     std::vector<FieldIndex> fields; ///< in order of their addresses
@@ -90,7 +90,7 @@ struct FieldGroup {
     std::size_t registers = 0;
 };
 
-/// What is true where (raw & mask) == value.
+/// A condition: (raw & mask) == value.
 struct FieldTest {
     FieldIndex field = no_field;
     std::uint32_t mask = 0;
@@ -98,7 +98,7 @@ struct FieldTest {
 };
 
 enum class DriveState : std::uint8_t {
-    unknown, ///< no test fits
+    unknown, ///< no test matches
     not_ready,
     disabled,
     enabled,
@@ -116,8 +116,8 @@ struct StateTest {
 };
 
 enum class StepKind : std::uint8_t {
-    level,  ///< the bits of the mask become the value, and stay
-    edge,   ///< the bits of the mask become 0, then the value, in two frames; and stay
+    level,  ///< the bits of the mask become the value and keep it
+    edge,   ///< the bits of the mask become 0, then the value, in two frames, and keep it
     pulse,  ///< the bits become the value, and 0 again after the duration
     toggle, ///< the bits of the mask are inverted
 };
@@ -127,7 +127,7 @@ struct CommandStep {
     std::uint32_t mask = 0xFFFFFFFF;
     std::uint32_t value = 0;
     StepKind kind = StepKind::level;
-    std::uint32_t duration_ms = 0; ///< a pulse: how long; else: wait so long before the next step
+    std::uint32_t duration_ms = 0; ///< pulse: its duration; else: wait before the next step
 };
 
 enum class DriveCommand : std::uint8_t {
@@ -148,21 +148,22 @@ struct LinkSettings {
     int unit = 1;
     int baud = 19200;
     char parity = 'E';
-    int stop_bits = 1;                   ///< at delivery
-    std::uint32_t silence_before_us = 0; ///< beyond the 3.5 characters of RTU
+    int stop_bits = 1;                   ///< factory setting
+    std::uint32_t silence_before_us = 0; ///< in addition to the 3.5 characters of RTU
     std::uint32_t silence_after_us = 0;
-    std::uint32_t turnaround_us = 0; ///< the drive takes this long before it answers
+    std::uint32_t turnaround_us = 0; ///< time from the request to the drive's answer
     std::uint32_t response_timeout_us = 100'000;
-    int retries = 2; ///< of an exchange that was not answered; after as many in a row a tcp connection is made anew
-    bool function_read = true;      ///< 03
+    int retries = 2;           ///< repetitions of an unanswered exchange; after 1 + retries consecutive time-outs a tcp
+                               ///< connection is replaced
+    bool function_read = true; ///< 03
     bool function_write_one = true; ///< 06
     bool function_write = true;     ///< 16
     bool function_exchange = false; ///< 23
     int most_read_registers = 125;
     int most_write_registers = 123;
-    int address_base = 0;                  ///< of the addresses in the file; those above are from 0 already
-    bool reads_zero_until_written = false; ///< nothing read is true before the first write of the target group
-    /// What an exchange takes as the maker or a measurement says it: baud rate and us.
+    int address_base = 0;                  ///< of the addresses in the file; addresses in this structure count from 0
+    bool reads_zero_until_written = false; ///< registers read as 0 before the first write of the target group
+    /// Duration of an exchange at a baud rate, by the maker or a measurement.
     struct Exchange {
         int baud = 0;
         std::uint32_t duration_us = 0;
@@ -175,44 +176,45 @@ enum class WatchdogReaction : std::uint8_t { none, stop, quick_stop, disable, fa
 struct DriveProfile {
     std::string name;
     std::string drive;                     ///< makes and models
-    std::vector<std::string> sources;      ///< where registers and values come from
-    std::vector<std::string> not_verified; ///< what nobody has tried on hardware
+    std::vector<std::string> sources;      ///< sources of registers and values
+    std::vector<std::string> not_verified; ///< what was not tested on hardware
     StreamWay stream = StreamWay::pvt;
-    int axes = 1; ///< most of them in one drive
+    int axes = 1; ///< largest number in one drive
 
     LinkSettings link;
     std::vector<RegisterField> fields;
     std::vector<FieldGroup> groups;
 
-    bool cia402 = false;           ///< states by the CiA 402 status word; else by `states`
-    std::vector<StateTest> states; ///< the first that fits
+    bool cia402 = false;           ///< states from the CiA 402 status word; else from `states`
+    std::vector<StateTest> states; ///< tested in this order
     std::array<std::vector<CommandStep>, drive_commands> commands;
 
-    std::optional<std::int64_t> stream_mode; ///< raw value of the mode field for the way it streams
+    std::optional<std::int64_t> stream_mode; ///< raw value of the mode field for streaming
     std::optional<std::int64_t> homing_mode;
-    bool change_on_the_fly = false; ///< a block replaces the one that is under way
-    std::uint32_t period_us = 0;    ///< of cyclic targets or blocks: the shortest that the drive takes; 0: the link's
-    std::optional<FieldTest> done;  ///< the last move has arrived
+    bool change_on_the_fly = false; ///< a new block replaces the active one
+    std::uint32_t period_us =
+        0; ///< shortest period of cyclic targets or blocks that the drive accepts; 0: limited by the link
+    std::optional<FieldTest> done; ///< the last move is complete
     std::optional<FieldTest> homed;
-    /// Written before the drive is enabled; without it the drive keeps its own. With pvt 0 switches it off.
+    /// Written before the drive is enabled; empty: the drive keeps its setting. With pvt 0 disables the check.
     std::optional<std::int64_t> following_error_window_counts;
 
-    std::uint32_t watchdog_timeout_ms = 0; ///< written to the watchdog field; 0: the drive keeps its own
+    std::uint32_t watchdog_timeout_ms = 0; ///< written to the watchdog field; 0: the drive keeps its setting
     WatchdogReaction watchdog_reaction = WatchdogReaction::none;
 
     struct InitialValue {
         FieldIndex field = no_field;
         std::int64_t value = 0; ///< raw
     };
-    std::vector<InitialValue> init; ///< once, in order; a flash field only where it holds something else
+    std::vector<InitialValue> init; ///< written once, in order; a flash field only if its value differs
 
     struct IdentityCheck {
         FieldTest test;
-        std::string sentence; ///< what to tell where it does not hold
+        std::string sentence; ///< message if the test fails
     };
     std::vector<IdentityCheck> identity;
 
-    /// The field of a role, or nothing. Cost: linear.
+    /// The field of a role, or nullptr. Cost: linear.
     [[nodiscard]] const RegisterField* field_of(FieldRole role) const noexcept {
         for (const RegisterField& field : fields) {
             if (role != FieldRole::none && field.role == role) {
@@ -242,7 +244,7 @@ struct DriveProfile {
     }
 };
 
-/// The state that a CiA 402 status word tells; `moving` needs the done test besides.
+/// State by a CiA 402 status word. `moving` also needs the test `done`.
 [[nodiscard]] constexpr DriveState cia402_state(std::uint32_t status_word) noexcept {
     constexpr std::uint32_t fault_mask = 0x4F;
     constexpr std::uint32_t operation_mask = 0x6F;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// drive_timing: what a drive's profile says of its line, as the line needs it.
+// drive_timing: the line timing that a drive's profile requires.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_address.hpp"
@@ -7,7 +7,7 @@
 
 namespace splinefeed::hal::modbus {
 
-/// What the drive asks of its wire.
+/// Timing that the drive requires of its wire.
 [[nodiscard]] constexpr LinkTiming timing_of(const LinkSettings& link) noexcept {
     return {link.response_timeout_us + link.turnaround_us, link.silence_before_us + link.silence_after_us,
             link.retries};

@@ -13,7 +13,8 @@ std::uint64_t magnitude(std::int64_t value) noexcept {
     return value < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
 }
 
-// -+(numerator / denominator) to the nearest, ties upwards, saturated. @pre denominator below 2^63 unless it divides
+// +-(numerator / denominator) rounded to nearest, ties upwards, saturated. @pre denominator below 2^63 unless it
+// divides
 std::int64_t nearest(Wide numerator, std::uint64_t denominator, bool negative) noexcept {
     constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
     constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max();
@@ -46,7 +47,7 @@ std::int64_t scaled(std::int64_t value, std::int64_t factor, std::int64_t diviso
     if (leading_zeros(Wide{0, denominator}) - 64 >= -shift) {
         return nearest(product, denominator << static_cast<unsigned>(-shift), negative);
     }
-    // The divisor has no room for the shift: the last bits of the product only break ties.
+    // The divisor has too few leading zeros for the shift: the last bits of the product only decide ties.
     const Wide high = shift_right(product, -shift);
     const bool odd = shift_left(high, -shift) != product;
     return nearest(add(shift_left(high, 1), Wide{0, odd ? 1U : 0U}), denominator << 1U, negative);
@@ -62,7 +63,8 @@ RawValue raw_of(const RegisterField& field, std::int64_t physical_q16) noexcept 
         raw = field.scale_numerator < 0 ? std::numeric_limits<std::int64_t>::min()
                                         : std::numeric_limits<std::int64_t>::max();
     } else {
-        // numerator 2^16 / (denominator physical): the divisor may have more than 64 bits, and the quotient is 0 then.
+        // numerator 2^16 / (denominator physical). The divisor may have more than 64 bits; the quotient is then 0 or
+        // +-1.
         const Wide divisor = multiply(magnitude(physical_q16), magnitude(field.scale_denominator));
         const bool negative = (physical_q16 < 0) != (field.scale_numerator < 0);
         const Wide dividend = shift_left(Wide{0, magnitude(field.scale_numerator)}, physical_bits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FieldCodec: physical values to and from the registers of a field, in integers.
+// FieldCodec: converts physical values to the registers of a field and back, in integers.
 #pragma once
 
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
@@ -9,16 +9,17 @@
 
 namespace splinefeed::hal::modbus {
 
-/// Physical values have 16 bits behind the point: 1/65536 count, count/s, ...
+/// Physical values are fixed-point numbers with 16 fraction bits: units of 1/65536 count, count/s, ...
 inline constexpr int physical_bits = 16;
 
 struct RawValue {
     std::int64_t raw = 0;
-    bool clamped = false; ///< the field could not hold it, or must not
+    bool clamped = false; ///< the value was outside [lowest, highest] of the field
 };
 
 /// raw = physical * numerator / denominator (or its inverse), rounded once to the nearest, ties upwards, within
-/// [lowest, highest]. An inverse of 0 is the field's largest value of that sign of the scale. Exact for every value.
+/// [lowest, highest]. With `inverse`, 0 becomes the field's extreme value with the sign of the scale. Exact for every
+/// value.
 [[nodiscard]] RawValue raw_of(const RegisterField& field, std::int64_t physical_q16) noexcept;
 
 /// The physical value of a raw one, rounded to the nearest; saturates at +-2^63. The inverse of 0 saturates, too.

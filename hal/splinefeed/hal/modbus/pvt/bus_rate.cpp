@@ -8,12 +8,12 @@ namespace splinefeed::hal::modbus {
 namespace {
 
 constexpr int reads = 20;
-constexpr double margin = 1.6; // for answers that have to be asked for again, and other work of the computer
+constexpr double margin = 1.6; // for repeated exchanges and other load of the host
 
-// What an exchange takes beyond its frames and silences.
+// Response time of a drive: an exchange minus its frames and silences.
 double work_us(PvtClient& drive, const LinkTiming& timing) noexcept {
     const LinkAddress& address = drive.link().address();
-    // The silence before a request is not in its round trip.
+    // The round trip does not include the silence before the request.
     const double line = exchange_us(address, 0, pvt::status_registers(drive.axes())) - silence_us(address);
     double round_trips = 0.0;
     int answered = 0;
@@ -28,7 +28,7 @@ double work_us(PvtClient& drive, const LinkTiming& timing) noexcept {
 } // namespace
 
 double least_segment_us(ModbusBus& bus, const LinkTiming& timing) noexcept {
-    double sum = 0.0; // of a segment on each drive
+    double sum = 0.0; // time for one segment on each drive
     for (const auto& drive : bus.drives()) {
         const double block =
             exchange_us(drive->link().address(), pvt::most_block_registers, pvt::status_registers(drive->axes()));

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// ClockDriftCompensation: durations in the ticks of a drive whose clock is not ours, so that it stays in step however
-// long it runs.
+// ClockDriftCompensation: corrects segment durations for the drift of a drive's clock, so that drives stay synchronous
+// in runs of any length.
 #pragma once
 
 #include <cstdint>
 
 namespace splinefeed::hal::modbus {
 
-/// A segment is to end when the drive's clock shows what ours would show then. Within `tolerated_us` nothing is done:
-/// an estimate that moves a little must not shake the motion, and a tick more or less changes the speed by one part in
-/// the duration's ticks (125 ppm at 1 ms; 12.5 mm/s^2 for one segment at 100 mm/s). Beyond, one part in 4000 at most is
-/// given or taken per segment until the drive is in step again.
+/// Each segment should end at its planned host time. Errors within `tolerated_us` are not corrected, because noise of
+/// the clock estimate must not disturb the motion: one tick changes the speed by one part in the duration's ticks (125
+/// ppm at 1 ms; 12.5 mm/s^2 for one segment at 100 mm/s). Larger errors are corrected by at most one part in 4000 per
+/// segment, until the drive is synchronous again.
 class ClockDriftCompensation {
 public:
     static constexpr double tolerated_us = 15.0;
 
-    /// Segments of so many of our ticks (1/8 us) are to end, the last one pushed so far, at `end_us` of our clock.
+    /// Sets the planned end of the last segment pushed so far, on the host clock. [us]
     void anchor(double end_us) noexcept {
         end_us_ = end_us;
         ahead_us_ = 0.0;
@@ -23,11 +23,11 @@ public:
         correcting_ = false;
     }
     [[nodiscard]] bool anchored() const noexcept { return anchored_; }
-    /// When the next segment is to end. [us of our clock]
+    /// Planned end of the next segment, whose duration is `ticks` (1/8 us). [us on the host clock]
     [[nodiscard]] double next_end_us(std::uint32_t ticks) const noexcept { return end_us_ + ticks / ticks_per_us; }
 
-    /// The duration to tell the drive.
-    /// @param gain_us  by how much the drive's clock gains on ours from the anchor to next_end_us(ticks)
+    /// Returns the corrected duration of the next segment, in ticks.
+    /// @param gain_us  gain of the drive's clock on the host clock from the anchor to next_end_us(ticks)
     [[nodiscard]] std::uint32_t trimmed(std::uint32_t ticks, double gain_us) noexcept {
         constexpr double share = 1.0 / 4000.0; // of a segment
         constexpr double settled_us = 3.0;
@@ -47,7 +47,7 @@ private:
     static constexpr double ticks_per_us = 8.0;
 
     double end_us_ = 0.0;
-    double ahead_us_ = 0.0; // that the durations told were longer than ours
+    double ahead_us_ = 0.0; // sum of the corrections so far
     bool anchored_ = false;
     bool correcting_ = false;
 };

@@ -13,9 +13,8 @@ constexpr double most_skew = 1e-3;                 // no crystal is worse
 
 } // namespace
 
-// Both bounds hold, so what is in both does: a line's answers come late by chance, now at one end, now at the other.
-// Where that leaves less than half of the tighter one, it is the clock's drift that they tell: then the tighter one
-// alone.
+// Both bounds hold, so their intersection does: random delays loosen one end or the other. If the intersection is less
+// than half as wide as the tighter bounds, the difference is clock drift: then only the tighter bounds are used.
 ClockEstimate::Sample ClockEstimate::common(const Sample& a, const Sample& b) noexcept {
     const Sample& tighter = b.width_us < a.width_us ? b : a;
     const auto half = [](const Sample& sample) {
@@ -30,13 +29,13 @@ ClockEstimate::Sample ClockEstimate::common(const Sample& a, const Sample& b) no
 }
 
 void ClockEstimate::sample(std::uint64_t earliest_us, std::uint64_t latest_us, std::uint32_t clock_us) noexcept {
-    // Its range is 71 minutes: how often it wrapped since the last sample is told by our clock.
+    // The drive's clock wraps every 71 minutes; the host clock gives the number of wraps since the last sample.
     const std::int64_t expected_us = count_ == 0 ? 0 : clock_us_ + static_cast<std::int64_t>(earliest_us - sampled_us_);
     clock_us_ = expected_us + static_cast<std::int32_t>(
                                   clock_us - static_cast<std::uint32_t>(static_cast<std::uint64_t>(expected_us)));
     sampled_us_ = earliest_us;
     if (latest_us < earliest_us) {
-        return; // quicker than the line: not an answer to this request
+        return; // faster than the line allows: not an answer to this request
     }
     const std::uint64_t width = latest_us - earliest_us;
     const std::uint64_t middle = earliest_us + width / 2;
@@ -56,7 +55,7 @@ void ClockEstimate::sample(std::uint64_t earliest_us, std::uint64_t latest_us, s
     ++count_;
 }
 
-// Least squares, each sample weighted by the inverse square of its width. Over a short time the level alone.
+// Least squares, each sample weighted by the inverse square of its width. Over a short span the slope is 0.
 ClockEstimate::Line ClockEstimate::line() const noexcept {
     Line line;
     line.origin_us = at(count_ - 1).host_us;

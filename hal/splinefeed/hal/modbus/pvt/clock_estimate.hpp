@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ClockEstimate: what a drive's clock shows at an instant of ours, from exchanges that carry its clock.
+// ClockEstimate: maps host time to a drive's clock, estimated from exchanges that carry the drive's clock.
 #pragma once
 
 #include <array>
@@ -8,24 +8,24 @@
 
 namespace splinefeed::hal::modbus {
 
-/// Each exchange bounds the instant at which the drive read its clock: after the request passed the line, before the
-/// answer began to. The tightest of every half second is kept, and a line is laid through the last sixteen. No
-/// allocation; cost of a sample: constant, of a question thirty products.
+/// Each exchange bounds the instant at which the drive read its clock: after the request was received and before the
+/// answer began. The estimate keeps the tightest bounds of every half second and fits a line through the last sixteen.
+/// Does not allocate. A sample takes constant time, a conversion about thirty multiplications.
 class ClockEstimate {
 public:
-    /// @param earliest_us, latest_us  monotonic clock, bounds of the instant at which the drive's clock was clock_us
+    /// @param earliest_us, latest_us  host clock: bounds of the instant at which the drive's clock was clock_us
     void sample(std::uint64_t earliest_us, std::uint64_t latest_us, std::uint32_t clock_us) noexcept;
-    /// Forgets everything: the drive was switched off.
+    /// Discards all samples, for example after a power cycle of the drive.
     void clear() noexcept { *this = ClockEstimate(); }
 
     [[nodiscard]] bool known() const noexcept { return count_ > 0; }
-    /// What the drive's clock shows then, modulo 2^32. @pre known()
+    /// The drive's clock at a host time, modulo 2^32. [us] @pre known()
     [[nodiscard]] std::uint32_t drive_clock(std::uint64_t host_us) const noexcept {
         return static_cast<std::uint32_t>(static_cast<std::uint64_t>(drive_us(host_us)));
     }
-    /// The same without the modulo, from some origin that stays. @pre known()
+    /// The same without the modulo, from a fixed arbitrary origin. [us] @pre known()
     [[nodiscard]] std::int64_t drive_us(std::uint64_t host_us) const noexcept;
-    /// How fast its clock is against ours, parts per million; 0 while there are less than three seconds of samples.
+    /// Frequency error of the drive's clock against the host's. [ppm] 0 until the samples span three seconds.
     [[nodiscard]] double skew_ppm() const noexcept;
     /// Half the width of the tightest bounds: the estimate is within this. [us] @pre known()
     [[nodiscard]] double uncertainty_us() const noexcept;
@@ -35,7 +35,7 @@ private:
 
     struct Sample {
         std::uint64_t host_us = 0;
-        std::int64_t offset_us = 0; // drive's clock less ours
+        std::int64_t offset_us = 0; // drive's clock minus host clock
         std::uint64_t width_us = 0;
     };
     struct Line {

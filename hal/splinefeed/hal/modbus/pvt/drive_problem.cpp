@@ -29,25 +29,27 @@ const char* describe(DriveProblem problem) noexcept {
     case DriveProblem::unreachable: return "there is no connection; check host or device, port and cable";
     case DriveProblem::silent: return "it does not answer; check power, unit number, baud rate and parity";
     case DriveProblem::damaged:
-        return "it answers, and the checksum of its status never holds; check the cable, and the drive's own checksum "
+        return "it answers, but the checksum of its status is always wrong; check the cable, and the drive's own "
+               "checksum "
                "(docs/reference/pvt_map.md)";
-    case DriveProblem::not_pvt: return "it has not the map splinefeed-pvt; give the profile that it has";
+    case DriveProblem::not_pvt: return "it does not have the map splinefeed-pvt; name its profile";
     case DriveProblem::words_swapped:
-        return "its 32-bit numbers have the low word first; splinefeed-pvt has the high word first: set the drive or "
-               "the gateway so";
-    case DriveProblem::version: return "its map is of another version than 1; bring the drive or splinefeed up to date";
+        return "its 32-bit numbers have the low word first; splinefeed-pvt has the high word first: change that "
+               "setting of the drive or the gateway";
+    case DriveProblem::version: return "its map does not have version 1; bring the drive or splinefeed up to date";
     case DriveProblem::axes:
-        return "it has fewer axes than the machine asks of it; name a drive or a machine file (-m) with as many";
-    case DriveProblem::ticks: return "it does not count in ticks of 1/8 us, as version 1 of the map does";
-    case DriveProblem::power_cycled: return "it was switched off and on; what it had not executed is lost";
+        return "it has fewer axes than the machine needs; name a drive with enough axes, or a machine file (-m) with "
+               "fewer";
+    case DriveProblem::ticks: return "its ticks are not 1/8 us, as version 1 of the map requires";
+    case DriveProblem::power_cycled: return "it was switched off and on; segments that it had not executed are lost";
     case DriveProblem::fault: return "it is in fault";
-    case DriveProblem::refused: return "it refuses what it is told, again and again";
+    case DriveProblem::refused: return "it refuses commands or segments repeatedly";
     case DriveProblem::out_of_step:
         return "it reports segments that were never sent; another master may be on the line";
     case DriveProblem::range:
-        return "the program goes beyond what its map carries: 2^31 counts of position, 2^23 counts a segment; lower "
+        return "the program exceeds the range of its map: 2^31 counts of position, 2^23 counts a segment; lower "
                "steps_per_mm, and the drive's counts with it";
-    case DriveProblem::not_homed: return "its homing did not come to its end; look at its switches and its settings";
+    case DriveProblem::not_homed: return "its homing was not completed; check its switches and its settings";
     }
     return "";
 }

@@ -5,7 +5,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t rest_us = 500; // where no drive needs anything
+constexpr std::uint64_t rest_us = 500; // when no drive is due
 
 } // namespace
 

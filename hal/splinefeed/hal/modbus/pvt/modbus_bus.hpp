@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// ModbusBus: one wire, the drives on it, and the one thread that speaks on it.
+// ModbusBus: one wire with its drives, and the thread that exchanges data with them.
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt/pvt_client.hpp"
 
 namespace splinefeed::hal::modbus {
 
-/// Each drive in turn gets one exchange, as often as it needs one. Between start() and stop() nobody else uses the
-/// link.
+/// The thread serves the drives in turn, one exchange each, if one is due. Between start() and stop() no other thread
+/// may use the link.
 class ModbusBus {
 public:
     explicit ModbusBus(std::unique_ptr<ModbusLine> link) : link_(std::move(link)) {}
@@ -15,14 +15,14 @@ public:
     ModbusBus& operator=(const ModbusBus&) = delete;
     ~ModbusBus() { stop(); }
 
-    /// Before start(). The reference stays valid.
+    /// Adds a drive. The reference stays valid. @pre not started
     PvtClient& add(int unit, bool both_in_one = true);
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
     [[nodiscard]] const std::vector<std::unique_ptr<PvtClient>>& drives() const noexcept { return drives_; }
 
     void start();
     void stop() noexcept;
-    /// Processor time that the thread used so far. [us]
+    /// Processor time that the thread has used. [us]
     [[nodiscard]] std::uint64_t busy_us() const noexcept { return busy_us_.load(std::memory_order_relaxed); }
 
 private:

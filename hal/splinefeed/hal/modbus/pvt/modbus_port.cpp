@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// All drives have the same segments by number, the same stop reserve and, as far as their clocks are known, one time of
-// start: so they are at the same place of the path at all times. Where one of them is about to run dry (its ring would
-// last for less than the reserve and a guard, as far as is known of it), all are told to treat the same segment as
-// their last: each slows down by the map's rule, and they stand together, on the path. What they were told beyond that
-// they drop; it is sent again.
+// All drives have the same numbered segments, the same stop reserve and, within the uncertainty of their clocks, the
+// same start time: so they are always at the same point of the path. If one of them is about to run dry (its ring lasts
+// for less than the reserve and a guard time), all drives get the same last segment: each slows down by the rule of the
+// map, and they stop together, on the path. They drop the segments beyond it, which are sent again.
 #include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
@@ -17,12 +16,12 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t lead_us = 60'000;   // from a command to the instant that it names
-constexpr std::uint64_t settle_us = 40'000; // until a drive's state tells of its start
-constexpr double guard_us = 60'000.0;       // to tell the others that one runs dry
-constexpr std::uint64_t look_every_us = 1000;
+constexpr std::uint64_t lead_us = 60'000;   // from sending a command to the instant that it names
+constexpr std::uint64_t settle_us = 40'000; // from a start until the drive's state reflects it
+constexpr double guard_us = 60'000.0;       // to send the last segment when one drive runs dry
+constexpr std::uint64_t poll_interval_us = 1000;
 constexpr double ticks_per_us = 8.0;
-constexpr std::uint64_t stop_exchanges = 8; // that may be lost in a row before a hold becomes a quick stop
+constexpr std::uint64_t stop_exchanges = 8; // lost in a row before a hold becomes a quick stop
 
 } // namespace
 
@@ -35,7 +34,7 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
     }
     const WireGroups groups = group_by_wire(uses, settings.timing);
     for (const WireUse& wire : groups.wires) {
-        settings_.timing = settings_.timing.slower(wire.timing); // for what is waited for on any wire
+        settings_.timing = settings_.timing.slower(wire.timing); // the slowest wire determines the waiting times
         buses_.push_back(std::make_unique<ModbusBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
     }
     for (const DriveWiring& drive : wiring) {
@@ -111,14 +110,14 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
     failure = failure ? failure : setup.command(PvtCommand::begin, settings_.first_sequence);
     if (!failure && settings_.home) {
         failure = setup.home(settings_.interrupted);
-        if (failure) { // what still looks for its reference moves
+        if (failure) { // drives that are still homing move
             quick_stop();
             await_stop();
         }
     }
-    failure = failure ? failure : setup.command(PvtCommand::place);
+    failure = failure ? failure : setup.command(PvtCommand::preset_position);
     if (!failure) {
-        look();
+        update_drives();
         executed_to_ = settings_.first_sequence;
         enter(ModbusPhase::filling);
     }
@@ -155,7 +154,7 @@ bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
         return false;
     }
     for (std::size_t i = 0; i < drives_.size(); ++i) {
-        if (!drives_[i].carries(segment)) { // nobody gets it
+        if (!drives_[i].carries(segment)) { // no drive gets it
             fail(i, DriveProblem::range);
             return false;
         }
@@ -168,10 +167,10 @@ bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
     return true;
 }
 
-void ModbusPort::look() noexcept {
+void ModbusPort::update_drives() noexcept {
     now_us_ = settings_.clock->now_us();
     for (PortDrive& drive : drives_) {
-        drive.look(now_us_, times_);
+        drive.update(now_us_, times_);
     }
 }
 
@@ -179,36 +178,36 @@ void ModbusPort::enter(ModbusPhase phase) noexcept {
     phase_ = phase;
     entered_us_ = now_us_;
     for (PortDrive& drive : drives_) {
-        drive.forget();
+        drive.clear_sent();
         drive.client().hold_back(phase == ModbusPhase::stopping || phase == ModbusPhase::halting ||
                                  phase == ModbusPhase::halted || phase == ModbusPhase::fault);
     }
 }
 
-// The others stop on the path; then it is in fault.
+// Stops the other drives on the path; the port is in fault when they stand.
 void ModbusPort::fail(std::size_t drive, DriveProblem problem) noexcept {
     failure_ = DriveFailure{drive, problem};
     begin_stop(StopRequest::hold);
 }
 
-// Whether every drive has what it is to start with, counted from the one that is furthest behind: it is by that one
-// that there is room, and a drive that stands ahead of it starts later and gets its own in between, or is at the end.
+// Whether every drive has enough segments to start, counted from the drive that is furthest behind, which determines
+// the room. A drive ahead of it starts later and gets its segments meanwhile, or is at the end.
 bool ModbusPort::filled() const noexcept {
     const std::uint32_t first = executed();
     return std::all_of(drives_.begin(), drives_.end(), [&](const PortDrive& drive) {
         const std::uint32_t has = drive.status().next - first;
         const bool all = complete_ && drive.has_all();
-        return has > 0 && (all || 8 * has >= 7 * buffer_segments_) && drive.seen().clock.known();
+        return has > 0 && (all || 8 * has >= 7 * buffer_segments_) && drive.last_report().clock.known();
     });
 }
 
-// So that a start that is lost is told again in time.
+// Includes time to repeat a lost start command.
 std::uint64_t ModbusPort::start_lead_us() const noexcept {
     constexpr std::uint64_t lost = 2;
     return lead_us + lost * settings_.timing.answer_us;
 }
 
-// At one instant of our clock; a drive that stands ahead of the others that much later.
+// Starts all drives at one instant; a drive that stands ahead of the others starts later by that much.
 void ModbusPort::start() noexcept {
     const std::uint32_t first = executed();
     for (PortDrive& drive : drives_) {
@@ -220,28 +219,28 @@ void ModbusPort::start() noexcept {
     enter(ModbusPhase::starting);
 }
 
-// Whether all drives run, and go on running for long enough to tell the others if one does not.
-void ModbusPort::watch() noexcept {
+// Checks whether all drives run and have segments for long enough to stop the others in time. If not, stops all.
+void ModbusPort::check_drives() noexcept {
     if (now_us_ < started_us_) {
         return;
     }
     bool all_done = complete_;
-    bool dry = false;
+    bool must_stop = false;
     for (const PortDrive& drive : drives_) {
         const bool has_all = complete_ && drive.has_all();
         const bool done = has_all && drive.executed_all();
-        all_done = all_done && done && drive.says_it_stands();
-        dry = dry || drive.seen().problem != DriveProblem::none || drive.status().state == PvtState::stopping ||
-              (!done && drive.lag_us() > PortDrive::lag_limit_us) ||
-              (!has_all && drive.left_us(times_) < times_.reserve_us + guard_us) ||
-              (has_all && drive.age_us() > settings_.away_us) || (drive.says_it_stands() && !done);
+        all_done = all_done && done && drive.at_standstill();
+        must_stop = must_stop || drive.last_report().problem != DriveProblem::none ||
+                    drive.status().state == PvtState::stopping || (!done && drive.lag_us() > PortDrive::lag_limit_us) ||
+                    (!has_all && drive.left_us(times_) < times_.reserve_us + guard_us) ||
+                    (has_all && drive.age_us() > settings_.away_us) || (drive.at_standstill() && !done);
     }
     if (all_done) {
         enter(ModbusPhase::done);
-    } else if (dry) {
+    } else if (must_stop) {
         std::optional<std::uint32_t> first;
         for (const PortDrive& drive : drives_) {
-            if (drive.seen().problem == DriveProblem::none) {
+            if (drive.last_report().problem == DriveProblem::none) {
                 first = pvt::earlier(first.value_or(drive.status().next), drive.status().next);
             }
         }
@@ -250,36 +249,37 @@ void ModbusPort::watch() noexcept {
     }
 }
 
-void ModbusPort::stop() noexcept {
+void ModbusPort::stop_together() noexcept {
     for (PortDrive& drive : drives_) {
-        if (drive.heard(times_) && !drive.says_it_stands() && drive.status().next != stop_at_) {
+        if (drive.online(times_) && !drive.at_standstill() && drive.status().next != stop_at_) {
             drive.end_at(stop_at_, now_us_, times_);
         }
     }
-    if (all_stand()) {
+    if (all_at_standstill()) {
         enter(ModbusPhase::waiting);
     }
 }
 
-bool ModbusPort::all_stand() const noexcept {
-    return std::all_of(drives_.begin(), drives_.end(), [&](const PortDrive& drive) { return drive.stands(times_); });
+bool ModbusPort::all_at_standstill() const noexcept {
+    return std::all_of(drives_.begin(), drives_.end(),
+                       [&](const PortDrive& drive) { return drive.presumed_at_standstill(times_); });
 }
 
-// For whoever is away; then all go on together.
-void ModbusPort::wait() noexcept {
+// Waits until every drive is online and ready, then starts or resumes all together.
+void ModbusPort::await_all() noexcept {
     bool ready = true;
     bool done = complete_;
     for (std::size_t i = 0; i < drives_.size(); ++i) {
         const PortDrive& drive = drives_[i];
-        const DriveProblem problem = drive.seen().problem != DriveProblem::none   ? drive.seen().problem
-                                     : drive.age_us() > settings_.away_us         ? DriveProblem::silent
-                                     : drive.status().state == PvtState::disabled ? DriveProblem::refused
-                                                                                  : DriveProblem::none;
+        const DriveProblem problem = drive.last_report().problem != DriveProblem::none ? drive.last_report().problem
+                                     : drive.age_us() > settings_.away_us              ? DriveProblem::silent
+                                     : drive.status().state == PvtState::disabled      ? DriveProblem::refused
+                                                                                       : DriveProblem::none;
         if (problem != DriveProblem::none) {
             fail(i, problem);
             return;
         }
-        ready = ready && drive.heard(times_) && drive.says_it_stands() && !drive.pending();
+        ready = ready && drive.online(times_) && drive.at_standstill() && !drive.pending();
         done = done && drive.executed_all();
     }
     if (ready && done) {
@@ -291,7 +291,7 @@ void ModbusPort::wait() noexcept {
 }
 
 void ModbusPort::begin_stop(StopRequest request) noexcept {
-    look();
+    update_drives();
     stop_.request(request, now_us_, now_us_ + lead_us, drives_);
     if (phase_ != ModbusPhase::halting) {
         enter(ModbusPhase::halting);
@@ -299,7 +299,7 @@ void ModbusPort::begin_stop(StopRequest request) noexcept {
 }
 
 void ModbusPort::follow_stop() noexcept {
-    stop_.follow(now_us_, drives_);
+    stop_.update(now_us_, drives_);
     if (phase_ == ModbusPhase::halting && stop_.sequence().settled()) {
         enter(failure_ ? ModbusPhase::fault : ModbusPhase::halted);
     }
@@ -307,8 +307,8 @@ void ModbusPort::follow_stop() noexcept {
 
 void ModbusPort::await_stop() noexcept {
     while (phase_ == ModbusPhase::halting) {
-        settings_.clock->sleep_us(look_every_us);
-        look();
+        settings_.clock->sleep_us(poll_interval_us);
+        update_drives();
         follow_stop();
     }
 }
@@ -318,10 +318,10 @@ std::uint64_t ModbusPort::longest_stop_us() const noexcept {
 }
 
 PortState ModbusPort::do_poll() noexcept {
-    look();
+    update_drives();
     switch (phase_) {
     case ModbusPhase::filling:
-    case ModbusPhase::waiting: wait(); break;
+    case ModbusPhase::waiting: await_all(); break;
     case ModbusPhase::starting:
         if (PvtSetup::carried_out(drives_)) {
             enter(ModbusPhase::running);
@@ -329,8 +329,8 @@ PortState ModbusPort::do_poll() noexcept {
             enter(ModbusPhase::stopping);
         }
         break;
-    case ModbusPhase::running: watch(); break;
-    case ModbusPhase::stopping: stop(); break;
+    case ModbusPhase::running: check_drives(); break;
+    case ModbusPhase::stopping: stop_together(); break;
     case ModbusPhase::halting:
     case ModbusPhase::halted:
     case ModbusPhase::fault: follow_stop(); break;
@@ -341,7 +341,7 @@ PortState ModbusPort::do_poll() noexcept {
                             : phase_ == ModbusPhase::halted ? PortPhase::halted
                                                             : PortPhase::running;
     const std::uint32_t now = executed();
-    executed_ += now - executed_to_; // numbers wrap
+    executed_ += now - executed_to_; // sequence numbers wrap
     executed_to_ = now;
     return {phase, executed_};
 }

@@ -9,7 +9,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr double on_its_way_us = 10'000.0; // a command
+constexpr double command_transit_us = 10'000.0; // time for a command to arrive
 
 } // namespace
 
@@ -50,35 +50,36 @@ void PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
     client_->push(last_);
 }
 
-// At a count of n executed segments the motion is within the next one: no further than its end. Each answer comes at
-// another place in its segment, so some say it closely.
-void PortDrive::look(std::uint64_t now_us, const PortTimes& times) noexcept {
-    seen_ = client_->report();
-    age_us_ = now_us > seen_.answered_us ? now_us - seen_.answered_us : 0;
-    const auto said_us = static_cast<double>(seen_.said_us);
-    if (starting_ && !seen_.command_pending) { // one that was told too late began then
+// After n executed segments the drive is within the next one, no further than its end. Answers come at different points
+// of a segment, so some of them bound the lag closely.
+void PortDrive::update(std::uint64_t now_us, const PortTimes& times) noexcept {
+    report_ = client_->report();
+    age_us_ = now_us > report_.answered_us ? now_us - report_.answered_us : 0;
+    const auto status_us = static_cast<double>(report_.status_us);
+    if (starting_ && !report_.command_pending) { // a start that arrived too late took place then
         starting_ = false;
-        lag_us_ = std::max(lag_us_, said_us - start_us_);
+        lag_us_ = std::max(lag_us_, status_us - start_us_);
     }
-    ran_ += status().executed - ran_to_; // numbers wrap
+    ran_ += status().executed - ran_to_; // sequence numbers wrap
     ran_to_ = status().executed;
-    if (trim_.anchored() && said_us > full_rate_us_ && !executed_all()) {
+    if (trim_.anchored() && status_us > full_rate_us_ && !executed_all()) {
         const double most_us = static_cast<double>(ran_ + 1) * times.segment_us;
-        lag_us_ = std::max(lag_us_, said_us - began_us_ - most_us - unsure_us_ - seen_.clock.uncertainty_us());
+        lag_us_ =
+            std::max(lag_us_, status_us - began_us_ - most_us - clock_uncertainty_us_ - report_.clock.uncertainty_us());
     }
 }
 
-bool PortDrive::says_it_stands() const noexcept {
+bool PortDrive::at_standstill() const noexcept {
     const PvtState state = status().state;
     return state == PvtState::held || state == PvtState::standing || state == PvtState::disabled ||
            state == PvtState::fault;
 }
 
-bool PortDrive::stands(const PortTimes& times) const noexcept {
-    const bool counts = seen_.problem == DriveProblem::none || seen_.problem == DriveProblem::fault ||
-                        seen_.problem == DriveProblem::power_cycled;
-    if (counts && heard(times)) {
-        return says_it_stands();
+bool PortDrive::presumed_at_standstill(const PortTimes& times) const noexcept {
+    const bool counts = report_.problem == DriveProblem::none || report_.problem == DriveProblem::fault ||
+                        report_.problem == DriveProblem::power_cycled;
+    if (counts && online(times)) {
+        return at_standstill();
     }
     const double whole_us = (status().next - status().executed) * times.segment_us;
     return static_cast<double>(age_us_) > whole_us + 2.0 * times.reserve_us + static_cast<double>(times.settling_us);
@@ -89,28 +90,28 @@ double PortDrive::left_us(const PortTimes& times) const noexcept {
            static_cast<double>(age_us_);
 }
 
-void PortDrive::tell(PvtCommand command, std::uint32_t argument) noexcept {
-    if (!told_ && !seen_.command_pending) {
+void PortDrive::send_once(PvtCommand command, std::uint32_t argument) noexcept {
+    if (!sent_ && !report_.command_pending) {
         client_->command(command, argument);
-        told_ = seen_.command_pending = true;
-        seen_.command_refused = false;
+        sent_ = report_.command_pending = true;
+        report_.command_refused = false;
     }
 }
 
 void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
     const bool held = status().state == PvtState::held;
-    forget();
-    tell(held ? PvtCommand::resume : PvtCommand::start, seen_.clock.drive_clock(at_us));
+    clear_sent();
+    send_once(held ? PvtCommand::resume : PvtCommand::start, report_.clock.drive_clock(at_us));
     starting_ = true;
     start_us_ = static_cast<double>(at_us);
     from_joint_ = client_->at_joint(status());
-    // A drive that speeds up from rest loses as much as its reserve.
+    // A drive that speeds up from rest loses one reserve of motion time.
     began_us_ = static_cast<double>(at_us) + (held ? times.reserve_us : 0.0);
     full_rate_us_ = began_us_ + (held ? times.reserve_us : 0.0);
     ran_ = 0;
     ran_to_ = status().executed;
-    unsure_us_ = seen_.clock.uncertainty_us();
-    most_unsure_us_ = std::max(most_unsure_us_, unsure_us_);
+    clock_uncertainty_us_ = report_.clock.uncertainty_us();
+    max_clock_uncertainty_us_ = std::max(max_clock_uncertainty_us_, clock_uncertainty_us_);
     lag_us_ = 0.0;
     const double queued_us = (client_->pushed() - status().executed) * times.segment_us;
     trim_.anchor(began_us_ + queued_us);
@@ -120,11 +121,11 @@ void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
 void PortDrive::end_at(std::uint32_t sequence, std::uint64_t now_us, const PortTimes& times) noexcept {
     const double left =
         static_cast<std::int32_t>(sequence - status().executed) * times.segment_us - static_cast<double>(age_us_);
-    const bool too_near = refused() || left < times.reserve_us + on_its_way_us;
+    const bool too_near = refused() || left < times.reserve_us + command_transit_us;
     if (refused()) {
-        forget();
+        clear_sent();
     }
-    tell(too_near ? PvtCommand::hold : PvtCommand::end, too_near ? seen_.clock.drive_clock(now_us) : sequence);
+    send_once(too_near ? PvtCommand::hold : PvtCommand::end, too_near ? report_.clock.drive_clock(now_us) : sequence);
 }
 
 } // namespace splinefeed::hal::modbus

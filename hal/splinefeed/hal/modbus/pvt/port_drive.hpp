@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PortDrive: one drive as the port sees it: which of the machine's axes it has, what it said last, and what it was
-// told.
+// PortDrive: one drive of a ModbusPort: its machine axes, its last report, and the commands sent to it.
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt/clock_drift_compensation.hpp"
@@ -11,67 +10,68 @@
 
 namespace splinefeed::hal::modbus {
 
-/// A drive and the machine's axes that it has.
+/// Address and configuration of a drive, and the machine axes that it moves.
 struct DriveWiring {
     LinkAddress link;
-    std::vector<PvtAxis> axes; ///< of the drive, in its order
+    std::vector<PvtAxis> axes; ///< machine axis of each drive axis
     LinkTiming timing{};
-    std::optional<std::uint16_t> watchdog_ms = 1000; ///< without it, and the window, the drive keeps its own
-    std::optional<std::uint32_t> following_window{}; ///< [counts]; 0: none
-    bool both_in_one = true;                         ///< it has function 23
+    std::optional<std::uint16_t> watchdog_ms = 1000; ///< empty: the drive keeps its setting
+    std::optional<std::uint32_t> following_window{}; ///< [counts]; 0: no check; empty: the drive keeps its setting
+    bool both_in_one = true;                         ///< it supports function 23
 };
 
 class PortDrive {
 public:
     PortDrive(DriveWiring wiring, PvtClient& client) : wiring_(std::move(wiring)), client_(&client) {}
 
-    /// Writes the configuration, and takes `first` for where the axes stand. Before the bus runs.
+    /// Writes the configuration and takes first.start as the present position of the axes. @pre the bus is not started
     [[nodiscard]] DriveProblem prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept;
-    /// Whether push() takes it.
+    /// Whether the segment fits the drive's registers.
     [[nodiscard]] bool carries(const FeedSegment& segment) const noexcept;
-    /// @param rests  the machine stands at the segment's end
+    /// @param rests  the whole machine is at rest at the end of the segment
     /// @pre carries(segment)
     void push(const FeedSegment& segment, bool rests) noexcept;
 
-    /// What it said last becomes seen().
-    void look(std::uint64_t now_us, const PortTimes& times) noexcept;
-    [[nodiscard]] const DriveReport& seen() const noexcept { return seen_; }
-    [[nodiscard]] const PvtStatus& status() const noexcept { return seen_.status; }
-    /// How old that is. [us]
+    /// Updates last_report() and the lag from it.
+    void update(std::uint64_t now_us, const PortTimes& times) noexcept;
+    [[nodiscard]] const DriveReport& last_report() const noexcept { return report_; }
+    [[nodiscard]] const PvtStatus& status() const noexcept { return report_.status; }
+    /// Age of the last report. [us]
     [[nodiscard]] std::uint64_t age_us() const noexcept { return age_us_; }
-    [[nodiscard]] bool heard(const PortTimes& times) const noexcept { return age_us_ < times.silent_us; }
-    /// It says that it stands.
-    [[nodiscard]] bool says_it_stands() const noexcept;
-    /// The same, or, where it says nothing that counts, by what it had when it was last heard.
-    [[nodiscard]] bool stands(const PortTimes& times) const noexcept;
-    /// Executed everything that was pushed.
+    [[nodiscard]] bool online(const PortTimes& times) const noexcept { return age_us_ < times.silent_us; }
+    /// Whether it reports standstill.
+    [[nodiscard]] bool at_standstill() const noexcept;
+    /// The same; for a drive that is offline or whose report is not valid, whether its segments and its stop must have
+    /// ended by now.
+    [[nodiscard]] bool presumed_at_standstill(const PortTimes& times) const noexcept;
+    /// Whether it has executed all pushed segments.
     [[nodiscard]] bool executed_all() const noexcept { return status().executed == client_->pushed(); }
     [[nodiscard]] bool has_all() const noexcept { return status().next == client_->pushed(); }
-    /// How long its ring lasts by now, as far as is known. [us]
+    /// Remaining motion in its ring, estimated from the last report. [us]
     [[nodiscard]] double left_us(const PortTimes& times) const noexcept;
 
-    /// It is behind the motion by at least so much: it slowed down, all by itself. [us] Of all that it said since
-    /// start().
+    /// Lower bound of its delay behind the motion since start(), for example because it slowed down by itself. [us]
     [[nodiscard]] double lag_us() const noexcept { return lag_us_; }
-    /// As far as is known it was started together with the others, from the same place.
+    /// Whether it started together with the others, from the same position, as far as is known.
     [[nodiscard]] bool in_step() const noexcept { return from_joint_ && !starting_ && lag_us_ <= lag_limit_us; }
-    static constexpr double lag_limit_us = 300.0; ///< a drive that is behind by more is out of step
+    static constexpr double lag_limit_us = 300.0; ///< a drive with a larger lag is not synchronous
 
-    /// Within what its clock was known when it was started, at the worst. [us]
-    [[nodiscard]] double clock_uncertainty_us() const noexcept { return most_unsure_us_; }
+    /// Largest uncertainty of its clock at any start. [us]
+    [[nodiscard]] double clock_uncertainty_us() const noexcept { return max_clock_uncertainty_us_; }
 
-    /// Gives a command, once until forget() and if none is pending.
-    void tell(PvtCommand command, std::uint32_t argument) noexcept;
-    /// The last of them is no longer of interest.
-    void forget() noexcept { told_ = false; }
-    /// `place` and what goes before it, on the way to the start.
+    /// Sends a command if none is pending and none was sent since clear_sent().
+    void send_once(PvtCommand command, std::uint32_t argument) noexcept;
+    /// Allows send_once() to send again; discards the last result.
+    void clear_sent() noexcept { sent_ = false; }
+    /// Sends a command of the set-up, for example `preset_position` with the position of prepare(). @pre none is
+    /// pending
     void command(PvtCommand command, std::uint32_t argument) noexcept { client_->command(command, argument, last_); }
-    [[nodiscard]] bool pending() const noexcept { return seen_.command_pending; }
-    /// What tell() told was refused.
-    [[nodiscard]] bool refused() const noexcept { return told_ && seen_.command_refused; }
-    /// It is to begin, or to go on, at that instant of our clock.
+    [[nodiscard]] bool pending() const noexcept { return report_.command_pending; }
+    /// Whether the command of send_once() was refused.
+    [[nodiscard]] bool refused() const noexcept { return sent_ && report_.command_refused; }
+    /// Starts or resumes it at an instant of the host clock. [us]
     void start(std::uint64_t at_us, const PortTimes& times) noexcept;
-    /// To the end of that segment; where that is too near by now, as soon as it can.
+    /// Makes it stop at the end of that segment; if that is too near, as soon as possible.
     void end_at(std::uint32_t sequence, std::uint64_t now_us, const PortTimes& times) noexcept;
 
     [[nodiscard]] const DriveWiring& wiring() const noexcept { return wiring_; }
@@ -85,19 +85,19 @@ private:
     PvtClient* client_;
     PvtSegment last_;
     ClockDriftCompensation trim_;
-    DriveReport seen_;
+    DriveReport report_;
     std::uint64_t age_us_ = 0;
-    double start_us_ = 0.0;       // of our clock: it was to begin then
-    double full_rate_us_ = 0.0;   // of our clock: it runs at full rate from then on,
-    double began_us_ = 0.0;       // as if it had started then
-    std::uint64_t ran_ = 0;       // segments that it executed since
-    std::uint32_t ran_to_ = 0;    // the number of the next one
-    double unsure_us_ = 0.0;      // of its clock, then
-    double most_unsure_us_ = 0.0; // of all its starts
+    double start_us_ = 0.0;                 // requested start, host clock
+    double full_rate_us_ = 0.0;             // runs at full rate from then on, host clock
+    double began_us_ = 0.0;                 // equivalent start at full rate, host clock
+    std::uint64_t ran_ = 0;                 // segments executed since the start
+    std::uint32_t ran_to_ = 0;              // sequence number of the next one
+    double clock_uncertainty_us_ = 0.0;     // at the last start
+    double max_clock_uncertainty_us_ = 0.0; // maximum over all starts
     double lag_us_ = 0.0;
-    double gained_us_ = 0.0; // its clock less ours, at the anchor
-    bool told_ = false;
-    bool starting_ = false;  // its start was not answered yet
+    double gained_us_ = 0.0; // its clock minus host clock, at the anchor
+    bool sent_ = false;
+    bool starting_ = false;  // its start is not confirmed yet
     bool from_joint_ = true; // it was started from a joint
 };
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// PortTimes: what the drives of a ModbusPort are judged by.
+// PortTimes: times by which ModbusPort supervises its drives.
 #pragma once
 
 #include <cstdint>
 
 namespace splinefeed::hal::modbus {
 
-/// Times that all drives of a port have in common. [us]
+/// Times common to all drives of a port. [us]
 struct PortTimes {
     double segment_us = 0.0;
-    double reserve_us = 0.0;       ///< motion over which a drive slows down to rest
-    std::uint64_t silent_us = 0;   ///< a drive that was not heard for this long is away
-    std::uint64_t settling_us = 0; ///< until what a drive says tells of what it was told
+    double reserve_us = 0.0;       ///< motion time over which a drive slows down to standstill
+    std::uint64_t silent_us = 0;   ///< a drive without an answer for this long is offline
+    std::uint64_t settling_us = 0; ///< from a command until a drive's status reflects it
 };
 
 } // namespace splinefeed::hal::modbus

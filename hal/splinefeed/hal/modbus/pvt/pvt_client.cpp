@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Nothing lost, nothing twice. What may be sent next is what the drive says it expects: `next` of its last status that
-// is known to be an answer to our last request (nonce), whole (checksum) and of the same life (boot number). Where no
-// answer came, the next block begins with the same segment: the drive skips what it took already. Segments stay in the
-// queue until they were executed, since `end` makes the drive drop what it had.
+// Every segment runs exactly once. The next block starts with the segment that the drive expects: `next` of the last
+// status that answers our last request (nonce), is complete (checksum) and is from the same power cycle (boot number).
+// Without an answer the next block begins with the same segment, and the drive skips segments that it has already.
+// Segments stay in the queue until they are executed, because `end` makes the drive drop segments.
 #include "splinefeed/hal/modbus/pvt/pvt_client.hpp"
 
 #include "splinefeed/base/assertion.hpp"
@@ -14,11 +14,11 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t listen_every_us = 4'000; // while it has motion
-constexpr std::uint64_t idle_every_us = 20'000;  // while it stands
+constexpr std::uint64_t listen_every_us = 4'000; // while the drive moves
+constexpr std::uint64_t idle_every_us = 20'000;  // while it is at standstill
 constexpr std::uint64_t connect_every_us = 20'000;
 constexpr int opening_attempts = 5;
-constexpr std::uint16_t most_refusals = 20; // of what no repetition makes better
+constexpr std::uint16_t most_refusals = 20; // of errors that a repetition does not cure
 constexpr std::uint8_t illegal_function = 1;
 
 } // namespace
@@ -26,9 +26,9 @@ constexpr std::uint8_t illegal_function = 1;
 PvtClient::PvtClient(ModbusLine& link, int unit, bool both_in_one)
     : link_(&link), unit_(unit), queue_(queue_capacity), both_in_one_(both_in_one) {}
 
-// A few times, with a new connection where the old one broke.
+// Tries several times; connects again after the connection was lost.
 template <class Attempt>
-bool PvtClient::persist(const Attempt& attempt) noexcept {
+bool PvtClient::retry(const Attempt& attempt) noexcept {
     for (int i = 0; i < opening_attempts; ++i) {
         if (!link_->connected() && !link_->connect()) {
             continue;
@@ -46,7 +46,7 @@ bool PvtClient::read_status() noexcept {
     std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
     const std::span<std::uint16_t> whole(raw.data(), pvt::status_registers(axes_));
     for (int i = 0; i < opening_attempts; ++i) {
-        if (persist([&] { return link_->read(unit_, pvt::status_address, whole); }) && status_holds(whole)) {
+        if (retry([&] { return link_->read(unit_, pvt::status_address, whole); }) && status_holds(whole)) {
             report_.status = decode_status(whole, axes_);
             return true;
         }
@@ -60,7 +60,7 @@ DriveProblem PvtClient::open(int least_axes) noexcept {
         return report_.problem = DriveProblem::unreachable;
     }
     std::array<std::uint16_t, pvt::identity_registers> raw{};
-    if (!persist([&] { return link_->read(unit_, pvt::identity_address, raw); })) {
+    if (!retry([&] { return link_->read(unit_, pvt::identity_address, raw); })) {
         const bool answers = report_.last_fault == LinkFault::exception;
         return report_.problem = answers ? DriveProblem::not_pvt : DriveProblem::silent;
     }
@@ -76,7 +76,7 @@ DriveProblem PvtClient::open(int least_axes) noexcept {
         return report_.problem = answers ? DriveProblem::damaged : DriveProblem::silent;
     }
     report_.answered_us = link_->clock().now_us();
-    // Another number than that of whoever was here before: its late blocks are refused.
+    // Differs from the previous client's session, so the drive refuses late blocks of that client.
     session_ = static_cast<std::uint16_t>(report_.answered_us ^ (report_.answered_us >> 16U));
     counter_ = report_.status.last_command;
     nonce_ = static_cast<std::uint16_t>(report_.status.nonce + 1U);
@@ -84,19 +84,19 @@ DriveProblem PvtClient::open(int least_axes) noexcept {
     return DriveProblem::none;
 }
 
-// Read, changed and written back: what nobody asked for stays.
+// Reads, changes and writes back: values that are not set stay.
 DriveProblem PvtClient::configure(const PvtSettings& wanted) noexcept {
     const std::lock_guard lock(mutex_);
-    report_.clock.clear(); // a run goes by exchanges with a nonce alone
+    report_.clock.clear(); // a run uses only exchanges with a nonce
     std::array<std::uint16_t, pvt::configuration_registers> registers{};
-    bool done = persist([&] { return link_->read(unit_, pvt::configuration_address, registers); });
+    bool done = retry([&] { return link_->read(unit_, pvt::configuration_address, registers); });
     if (done) {
         PvtConfiguration configuration = decode_configuration(registers);
         configuration.stop_reserve_ms = wanted.stop_reserve_ms.value_or(configuration.stop_reserve_ms);
         configuration.watchdog_ms = wanted.watchdog_ms.value_or(configuration.watchdog_ms);
         configuration.following_window = wanted.following_window.value_or(configuration.following_window);
         encode(configuration, registers);
-        done = persist([&] { return link_->write(unit_, pvt::configuration_address, registers); });
+        done = retry([&] { return link_->write(unit_, pvt::configuration_address, registers); });
     }
     return report_.problem = done                                         ? DriveProblem::none
                              : report_.last_fault == LinkFault::exception ? DriveProblem::refused
@@ -110,7 +110,7 @@ LinkAnswer PvtClient::probe() noexcept {
     }
     std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
     const std::span<std::uint16_t> whole(raw.data(), pvt::status_registers(axes_));
-    // Without a nonce a late answer to an earlier read cannot be told apart: its clock is of no use.
+    // Without a nonce a late answer to an earlier read is not recognised: its clock must not be used.
     const bool nothing_late = report_.last_fault == LinkFault::none;
     LinkAnswer answer = link_->read(unit_, pvt::status_address, whole);
     if (answer.ok() && !status_holds(whole)) {
@@ -120,20 +120,20 @@ LinkAnswer PvtClient::probe() noexcept {
     if (answer.ok()) {
         report_.status = decode_status(whole, axes_);
         if (nothing_late) {
-            see_clock(answer);
+            sample_clock(answer);
         }
     }
     return answer;
 }
 
-void PvtClient::see_clock(const LinkAnswer& answer) noexcept {
+void PvtClient::sample_clock(const LinkAnswer& answer) noexcept {
     report_.clock.sample(answer.arrived_us, answer.replied_us, report_.status.clock_us);
     report_.answered_us = answer.answered_us;
-    report_.said_us = answer.arrived_us;
+    report_.status_us = answer.arrived_us;
 }
 
 bool PvtClient::at_joint(const PvtStatus& status) const noexcept {
-    constexpr std::int64_t near_counts = 2; // a shaft that stands there
+    constexpr std::int64_t near_counts = 2; // tolerance of a shaft at standstill
     if (status.executed == 0) {
         return status.state == PvtState::standing;
     }
@@ -157,16 +157,16 @@ void PvtClient::push(const PvtSegment& segment) noexcept {
     tail_.store(tail + 1, std::memory_order_release);
 }
 
-void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSegment& place) noexcept {
+void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSegment& preset) noexcept {
     const std::lock_guard lock(mutex_);
-    SPLINEFEED_ASSERT(order_.command == PvtCommand::none);
+    SPLINEFEED_ASSERT(pending_.command == PvtCommand::none);
     if (command == PvtCommand::begin) {
         head_.store(argument);
         tail_.store(argument);
         sent_ = argument;
         executed_ = 0;
     }
-    order_ = {command, argument, place};
+    pending_ = {command, argument, preset};
     report_.command_pending = true;
     report_.command_refused = false;
     ++counter_;
@@ -174,7 +174,7 @@ void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSeg
 
 void PvtClient::interrupt(PvtCommand command, std::uint32_t argument) noexcept {
     const std::lock_guard lock(mutex_);
-    order_ = {command, argument, {}};
+    pending_ = {command, argument, {}};
     report_.command_pending = true;
     report_.command_refused = false;
     ++counter_;
@@ -190,12 +190,12 @@ DriveReport PvtClient::report() const noexcept {
     return report_;
 }
 
-// Whether the drive is to be asked now; `waiting` segments are ready that it does not have.
+// Whether an exchange is due; `waiting`: number of segments that the drive does not have yet.
 bool PvtClient::due(std::uint64_t now_us, std::uint32_t waiting) const noexcept {
-    if (order_.command != PvtCommand::none) {
+    if (pending_.command != PvtCommand::none) {
         return true;
     }
-    // Whole blocks, as long as the drive has plenty.
+    // Send full blocks only, as long as the drive's ring is well filled.
     const std::uint32_t fits = waiting < report_.status.free ? waiting : report_.status.free;
     if (fits >= pvt::most_segments(axes_) || (fits > 0 && 2U * report_.status.free > report_.identity.ring)) {
         return true;
@@ -208,13 +208,13 @@ void PvtClient::fill(PvtBlock& block, std::uint32_t waiting) noexcept {
     block.nonce = ++nonce_;
     block.session = session_;
     block.first = report_.status.next;
-    if (order_.command != PvtCommand::none) {
-        block.command = order_.command;
+    if (pending_.command != PvtCommand::none) {
+        block.command = pending_.command;
         block.command_counter = counter_;
-        block.argument = order_.argument;
-        if (order_.command == PvtCommand::place) {
+        block.argument = pending_.argument;
+        if (pending_.command == PvtCommand::preset_position) {
             block.count = 1;
-            batch_[0] = order_.place;
+            batch_[0] = pending_.preset;
         }
         return;
     }
@@ -275,7 +275,7 @@ bool PvtClient::step() noexcept {
     const LinkAnswer answer = exchange(std::span(block_).first(size), status);
     last_exchange_us_ = answer.answered_us;
     const std::lock_guard lock(mutex_);
-    take(answer, block, status);
+    handle_answer(answer, block, status);
     return true;
 }
 
@@ -285,7 +285,8 @@ void PvtClient::count(const LinkAnswer& answer) noexcept {
     report_.counts.count(answer.fault);
 }
 
-void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<const std::uint16_t> raw) noexcept {
+void PvtClient::handle_answer(const LinkAnswer& answer, const PvtBlock& block,
+                              std::span<const std::uint16_t> raw) noexcept {
     count(answer);
     if (!answer.ok()) {
         return;
@@ -302,20 +303,20 @@ void PvtClient::take(const LinkAnswer& answer, const PvtBlock& block, std::span<
         link_->resynchronise();
         return;
     }
-    if (const DriveProblem problem = judge(status); problem != DriveProblem::none) {
+    if (const DriveProblem problem = check_status(status); problem != DriveProblem::none) {
         report_.problem = problem;
         report_.status = status;
         report_.answered_us = answer.answered_us;
-        report_.said_us = answer.arrived_us;
-        answer_order(status, block); // it can still be stopped
+        report_.status_us = answer.arrived_us;
+        resolve_command(status, block); // the drive can still be stopped
         return;
     }
-    keep(status, block);
-    see_clock(answer);
+    publish_report(status, block);
+    sample_clock(answer);
 }
 
-// Whether what the drive says can be.
-DriveProblem PvtClient::judge(const PvtStatus& status) const noexcept {
+// Checks whether the status is plausible.
+DriveProblem PvtClient::check_status(const PvtStatus& status) const noexcept {
     if (status.boot != report_.identity.boot) {
         return status.boot == swapped_words(report_.identity.boot) ? DriveProblem::words_swapped
                                                                    : DriveProblem::power_cycled;
@@ -326,54 +327,56 @@ DriveProblem PvtClient::judge(const PvtStatus& status) const noexcept {
     return began_ && (executed < 0 || next < executed || next > sent) ? DriveProblem::out_of_step : DriveProblem::none;
 }
 
-void PvtClient::end_order() noexcept {
-    order_.command = PvtCommand::none;
+void PvtClient::clear_command() noexcept {
+    pending_.command = PvtCommand::none;
     report_.command_pending = false;
 }
 
-// What became of the order in the block.
-void PvtClient::answer_order(const PvtStatus& status, const PvtBlock& block) noexcept {
-    if (order_.command == PvtCommand::none || block.command != order_.command || block.command_counter != counter_) {
+// Handles the drive's answer to the command in the block.
+void PvtClient::resolve_command(const PvtStatus& status, const PvtBlock& block) noexcept {
+    if (pending_.command == PvtCommand::none || block.command != pending_.command ||
+        block.command_counter != counter_) {
         return;
     }
     if (status.refused == PvtRefusal::none) {
         if (status.last_command == counter_) {
-            const bool loses_ring = order_.command == PvtCommand::quick_stop || order_.command == PvtCommand::disable;
-            began_ = (began_ || order_.command == PvtCommand::begin) && !loses_ring;
-            end_order();
+            const bool loses_ring =
+                pending_.command == PvtCommand::quick_stop || pending_.command == PvtCommand::disable;
+            began_ = (began_ || pending_.command == PvtCommand::begin) && !loses_ring;
+            clear_command();
         }
     } else if (status.refused != PvtRefusal::checksum && status.refused != PvtRefusal::no_room &&
                status.refused != PvtRefusal::gap) {
-        report_.command_refused = true; // its state changed on the way: whoever gave the order looks at it again
-        end_order();
+        report_.command_refused = true; // its state changed meanwhile: the caller decides again
+        clear_command();
     }
 }
 
-void PvtClient::keep(const PvtStatus& status, const PvtBlock& block) noexcept {
+void PvtClient::publish_report(const PvtStatus& status, const PvtBlock& block) noexcept {
     LinkCounts& counts = report_.counts;
     if (status.refused == PvtRefusal::none) {
         refusals_in_row_ = 0;
     } else if (status.refused == PvtRefusal::checksum) {
         ++counts.corrupt;
     } else if (status.refused != PvtRefusal::no_room && status.refused != PvtRefusal::gap) {
-        // Without a session every block is refused that only asks how the drive is.
+        // Without a session the drive refuses every block that only requests the status.
         const bool counts_as_one = began_ || block.command != PvtCommand::none;
         refusals_in_row_ = static_cast<std::uint16_t>(refusals_in_row_ + (counts_as_one ? 1 : 0));
         if (refusals_in_row_ >= most_refusals) {
             report_.problem = DriveProblem::refused;
         }
     }
-    answer_order(status, block);
+    resolve_command(status, block);
     report_.status = status;
     if (began_) {
-        executed_ += status.executed - head_.load(std::memory_order_relaxed); // numbers wrap
+        executed_ += status.executed - head_.load(std::memory_order_relaxed); // sequence numbers wrap
         counts.segments = executed_ + (status.next - status.executed);
         head_.store(status.executed, std::memory_order_release);
     }
     if (status.state == PvtState::fault) {
         report_.problem = DriveProblem::fault;
     } else if (report_.problem == DriveProblem::fault) {
-        report_.problem = DriveProblem::none; // it was reset
+        report_.problem = DriveProblem::none; // the fault was reset
     }
 }
 

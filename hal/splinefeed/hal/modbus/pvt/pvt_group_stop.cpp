@@ -14,10 +14,10 @@ void PvtGroupStop::request(StopRequest request, std::uint64_t now_us, std::uint6
     sequence_.request(request, now_us);
 }
 
-// Whether all drives stand at one place of the path: all slowed down from one instant on, or none moved and all are at
-// one joint; at the end of the motion it does not matter how.
+// Whether all drives stand at one point of the path: all slowed down from one instant on, or none moved and all are at
+// the same joint, or all are at the end of the motion.
 bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
-    const std::uint32_t first = drives.front().status().executed; // numbers wrap
+    const std::uint32_t first = drives.front().status().executed; // sequence numbers wrap
     std::int32_t least = 0;
     std::int32_t most = 0;
     bool stands = true;
@@ -32,14 +32,14 @@ bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
         in_time = in_time && stops_[i].hold() == PvtStop::Hold::in_time;
         at_rest =
             at_rest && stops_[i].hold() == PvtStop::Hold::at_rest && drives[i].client().at_joint(drives[i].status());
-        stands = stands && drives[i].seen().problem == DriveProblem::none && drives[i].says_it_stands();
+        stands = stands && drives[i].last_report().problem == DriveProblem::none && drives[i].at_standstill();
     }
     return stands && (at_end || (at_rest && most == least) || (in_time && in_step_ && most - least <= 1));
 }
 
-void PvtGroupStop::follow(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept {
+void PvtGroupStop::update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept {
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        stops_[i].see(drives[i].seen(), times_);
+        stops_[i].update(drives[i].last_report(), times_);
         facts_[i] = stops_[i].facts();
     }
     const bool together = on_path(drives);
@@ -49,7 +49,7 @@ void PvtGroupStop::follow(std::uint64_t now_us, std::span<const PortDrive> drive
     sequence_.update(now_us, facts_);
     for (std::size_t i = 0; i < drives.size(); ++i) {
         if (const StopRequest request = sequence_.to_send(i); request != StopRequest::none) {
-            stops_[i].tell(request, hold_at_us_);
+            stops_[i].send_once(request, hold_at_us_);
         }
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PvtGroupStop: the stop of all drives of a ModbusPort, by the law of StopSequence.
+// PvtGroupStop: stops all drives of a ModbusPort by a StopSequence.
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt/port_drive.hpp"
@@ -7,22 +7,22 @@
 
 namespace splinefeed::hal::modbus {
 
-/// It allocates when it is made, and never again.
+/// Allocates in its constructor only.
 class PvtGroupStop {
 public:
     explicit PvtGroupStop(std::size_t drives) : facts_(drives), sequence_(drives, {}) { stops_.reserve(drives); }
 
-    /// Each of its drives, once, in order.
+    /// Adds the drives, each once, in order.
     void add(PvtClient& client) { stops_.emplace_back(client); }
     void set_times(const StopTimes& times, const PortTimes& port) noexcept {
         sequence_.set_times(times);
         times_ = port;
     }
-    /// @param hold_at_us  when a hold begins for all; counts with the first request
+    /// @param hold_at_us  when a hold begins for all drives; used with the first request [us]
     void request(StopRequest request, std::uint64_t now_us, std::uint64_t hold_at_us,
                  std::span<const PortDrive> drives) noexcept;
-    /// Takes what the drives said last, and tells them what is to be told.
-    void follow(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
+    /// Evaluates the drives' last reports and sends the required commands. Call periodically.
+    void update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
     [[nodiscard]] const StopSequence& sequence() const noexcept { return sequence_; }
 
 private:
@@ -33,7 +33,7 @@ private:
     StopSequence sequence_;
     PortTimes times_;
     std::uint64_t hold_at_us_ = 0;
-    bool in_step_ = false; // all drives were, when the stop was asked for
+    bool in_step_ = false; // all drives were synchronous at the first request
 };
 
 } // namespace splinefeed::hal::modbus

@@ -25,7 +25,7 @@ std::uint32_t checksum(std::span<const std::uint16_t> block) noexcept {
 
 constexpr std::int64_t largest_48 = (std::int64_t{1} << 47U) - 1;
 
-// Nearest, ties upwards; nothing where it does not fit 48 bits, of either sign.
+// Quotient rounded to nearest, ties upwards; empty if it does not fit a signed 48-bit number.
 std::optional<std::int64_t> divided(std::int64_t value, std::int64_t divisor) noexcept {
     if (value > largest_48 * divisor || value < -largest_48 * divisor) {
         return std::nullopt;
@@ -40,7 +40,7 @@ std::optional<std::int64_t> divided(std::int64_t value, std::int64_t divisor) no
 const char* fault_name(std::uint16_t fault) noexcept {
     constexpr std::array<const char*, 7> names{"no fault",
                                                "its segments ran out while it moved",
-                                               "its watchdog: it heard nothing for too long",
+                                               "its watchdog expired: it received nothing for too long",
                                                "a limit of velocity, acceleration or travel",
                                                "the following error left its window",
                                                "emergency stop",

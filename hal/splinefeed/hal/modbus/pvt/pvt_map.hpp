@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PvtMap: the register map splinefeed-pvt as numbers, and its blocks to and from registers. The map itself, and what a
-// drive does with it: docs/reference/pvt_map.md.
+// PvtMap: addresses, constants and codecs of the register map splinefeed-pvt. docs/reference/pvt_map.md defines the map
+// and the behaviour of drives.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/registers.hpp"
@@ -26,11 +26,11 @@ inline constexpr int block_address = 0x0100;
 inline constexpr std::size_t identity_registers = 11;
 inline constexpr std::size_t configuration_registers = 4;
 inline constexpr std::size_t block_head_registers = 11;
-inline constexpr std::size_t most_block_registers = 121; ///< that function 23 may write
+inline constexpr std::size_t most_block_registers = 121; ///< limit of function 23
 inline constexpr std::uint32_t shortest_ticks = 800;
 inline constexpr std::uint32_t longest_ticks = 80'000'000;
 inline constexpr std::uint32_t ticks_per_s = 8'000'000;
-inline constexpr std::uint32_t rest_mark = 0x8000'0000; ///< in the duration of a segment
+inline constexpr std::uint32_t rest_mark = 0x8000'0000; ///< bit in the duration of a segment: PvtSegment::rest
 
 [[nodiscard]] constexpr std::size_t status_registers(int axes) noexcept {
     return 18 + 4 * static_cast<std::size_t>(axes);
@@ -38,12 +38,12 @@ inline constexpr std::uint32_t rest_mark = 0x8000'0000; ///< in the duration of 
 [[nodiscard]] constexpr std::size_t segment_registers(int axes) noexcept {
     return 2 + 6 * static_cast<std::size_t>(axes);
 }
-/// Segments that fit in one exchange.
+/// Largest number of segments in one exchange.
 [[nodiscard]] constexpr std::size_t most_segments(int axes) noexcept {
     return (most_block_registers - block_head_registers) / segment_registers(axes);
 }
 
-/// Of two sequence numbers, which wrap: less than 2^31 apart.
+/// The earlier of two sequence numbers, which wrap. @pre they are less than 2^31 apart
 [[nodiscard]] constexpr std::uint32_t earlier(std::uint32_t a, std::uint32_t b) noexcept {
     return static_cast<std::int32_t>(b - a) < 0 ? b : a;
 }
@@ -65,7 +65,7 @@ enum class PvtCommand : std::uint16_t {
     end,
     fault_reset,
     home,
-    place
+    preset_position
 };
 
 struct PvtIdentity {
@@ -85,39 +85,39 @@ struct PvtConfiguration {
     std::uint32_t following_window = 0; ///< [counts]
 };
 
-/// A sentence for PvtStatus::fault, by the map; of the maker's faults the number alone.
+/// Text of PvtStatus::fault by the map; all faults of makers have one text.
 [[nodiscard]] const char* fault_name(std::uint16_t fault) noexcept;
 
-/// One segment as the drive gets it: ends alone, since it starts where the one before ended.
+/// A segment in the drive's units. It starts at the end of the previous one.
 struct PvtSegment {
     static constexpr int position_bits = 16; ///< positions in 1/2^16 count
     static constexpr int velocity_bits = 24; ///< velocities in 1/2^24 count per duration
 
     std::uint32_t duration_ticks = 0;
-    bool rest = false; ///< the whole machine stands at its end, other drives' axes too
+    bool rest = false; ///< the whole machine is at rest at its end, including axes of other drives
     PerAxis<std::int64_t> end{};
     PerAxis<std::int64_t> end_velocity{};
 };
 
-/// An axis of a drive: which of the machine's it moves; -1: none.
+/// Assigns a drive's axis to a machine axis; -1: none.
 struct PvtAxis {
     PvtAxis(int axis = -1, bool turned = false) noexcept // NOLINT(google-explicit-constructor): a number is an axis
         : machine_axis(axis), inverted(turned) {}
 
     int machine_axis;
-    bool inverted; ///< it counts down where the machine's axis goes up
+    bool inverted; ///< it counts in the opposite direction of the machine's axis
 
     friend bool operator==(const PvtAxis&, const PvtAxis&) = default;
 };
 
-/// What a segment can carry: positions below 2^31 counts, velocities below 2^23 counts per segment.
+/// Range of a segment: positions below 2^31 counts, velocities below 2^23 counts per segment.
 inline constexpr double pvt_velocity_range = 8388608.0;
 
-/// What of a feed segment goes to the axes of a drive; those without one of the machine's stay where they are in `out`.
-/// Rounded to the nearest; both neighbours of a joint round it alike. False: a position, a velocity or the duration
-/// does not fit its registers, and `out` is as it was.
+/// Converts a feed segment for the axes of a drive; axes without a machine axis keep their positions in `out`. Rounds
+/// to nearest, so both neighbours of a joint round it alike. Returns false, without changing `out`, if a position, a
+/// velocity or the duration does not fit the registers.
 [[nodiscard]] bool to_pvt(const FeedSegment& segment, std::span<const PvtAxis> axes, PvtSegment& out) noexcept;
-/// A position of a feed segment in 1/2^16 count, if it fits.
+/// Converts a position of a feed segment to 1/2^16 count; empty: out of range.
 [[nodiscard]] std::optional<std::int64_t> pvt_position(std::int64_t units) noexcept;
 
 struct PvtStatus {
@@ -130,14 +130,14 @@ struct PvtStatus {
     std::uint16_t free = 0;
     PvtRefusal refused = PvtRefusal::none;
     std::uint16_t refusals = 0;
-    std::uint16_t last_command = 0; ///< its counter
+    std::uint16_t last_command = 0; ///< counter of the last command
     std::uint32_t clock_us = 0;
     std::uint32_t boot = 0;
     PerAxis<std::int32_t> position{};        ///< [counts]
     PerAxis<std::int32_t> following_error{}; ///< [1/65536 count]
 };
 
-/// The exchange block but for its segments.
+/// Head of the exchange block.
 struct PvtBlock {
     std::uint16_t nonce = 0;
     std::uint16_t session = 0;
@@ -151,11 +151,11 @@ struct PvtBlock {
 using PvtBlockRegisters = std::array<std::uint16_t, pvt::most_block_registers>;
 using PvtSegments = std::array<PvtSegment, pvt::most_segments(1)>;
 
-/// The whole block with its checksum; returns how many registers it has.
+/// Encodes a whole block with its checksum. Returns its number of registers.
 /// @pre block.count <= pvt::most_segments(axes) and segments.size() >= block.count
 std::size_t encode(const PvtBlock& block, std::span<const PvtSegment> segments, int axes,
                    PvtBlockRegisters& out) noexcept;
-/// Nothing where the length does not fit the count, or the count no block. The checksum is told apart: checksum_holds.
+/// Decodes a block; empty if its length and count are inconsistent. Does not check the checksum: checksum_holds().
 [[nodiscard]] std::optional<PvtBlock> decode_block(std::span<const std::uint16_t> registers, int axes,
                                                    PvtSegments& segments) noexcept;
 [[nodiscard]] bool checksum_holds(std::span<const std::uint16_t> block) noexcept;
@@ -165,13 +165,14 @@ void encode(const PvtIdentity& identity, std::span<std::uint16_t, pvt::identity_
 void encode(const PvtConfiguration& configuration, std::span<std::uint16_t, pvt::configuration_registers> out) noexcept;
 [[nodiscard]] PvtConfiguration
 decode_configuration(std::span<const std::uint16_t, pvt::configuration_registers> in) noexcept;
-/// @pre room for pvt::status_registers(axes)
+/// @pre out.size() >= pvt::status_registers(axes)
 void encode(const PvtStatus& status, int axes, std::span<std::uint16_t> out) noexcept;
 [[nodiscard]] PvtStatus decode_status(std::span<const std::uint16_t> in, int axes) noexcept;
-/// @pre the whole status
+/// Checks the checksum of a status. @pre status is complete
 [[nodiscard]] bool status_holds(std::span<const std::uint16_t> status) noexcept;
 
-/// CRC-32 (reflected 0x04C11DB7) of registers as bytes, the high one of each first. Continue with an earlier result.
+/// CRC-32 (reflected 0x04C11DB7) of registers as bytes, high byte first. Pass an earlier result in `before` to
+/// continue.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::uint16_t> registers, std::uint32_t before = 0) noexcept;
 
 } // namespace splinefeed::hal::modbus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PvtSetup: what the drives of a ModbusPort do before the motion: each step by all of them, awaited.
+// PvtSetup: prepares the drives of a ModbusPort for the motion. Each step waits for all drives.
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt/drive_problem.hpp"
@@ -11,28 +11,29 @@
 
 namespace splinefeed::hal::modbus {
 
-/// Blocks in each step, until all drives did it or one did not: that one is what it returns, at the latest when the
-/// step's time is over. The drives and the clock must outlive it; the drives' buses run.
+/// Each step blocks until all drives have completed it, one has failed or the time is over, and returns the failure.
+/// Drives and clock must outlive the object. @pre the buses of the drives run
 class PvtSetup {
 public:
-    static constexpr std::uint64_t command_us = 3'000'000; ///< for a command to be carried out
+    static constexpr std::uint64_t command_us = 3'000'000; ///< time limit of a command
 
     PvtSetup(std::vector<PortDrive>& drives, const PortTimes& times, Clock& clock) noexcept
         : drives_(drives), times_(times), clock_(clock) {}
 
-    /// Out of whatever state somebody left them in: what still moves comes to rest by itself, faults are reset.
-    /// @param within_us  all of it
+    /// Enables the drives from any state: waits for moving drives to stop, resets faults.
+    /// @param within_us  time limit of all drives together [us]
     [[nodiscard]] std::optional<DriveFailure> enable(std::uint64_t within_us);
     [[nodiscard]] std::optional<DriveFailure> command(PvtCommand command, std::uint32_t argument = 0);
-    /// All at once, each as it is set up; until the last one stands. After a failure the others may still move.
-    /// @param interrupted  asked meanwhile, may be null: a failure of a drive that is not there yet
+    /// Homes all drives at the same time, each by its own settings, and waits until the last one stands. After a
+    /// failure other drives may still move.
+    /// @param interrupted  polled meanwhile, may be null; true: a failure of a drive that is still homing
     [[nodiscard]] std::optional<DriveFailure> home(bool (*interrupted)());
 
-    /// Whether no drive has a command that it was told and has not confirmed.
+    /// Whether no drive has an unconfirmed command.
     [[nodiscard]] static bool carried_out(const std::vector<PortDrive>& drives) noexcept;
 
 private:
-    void wait() noexcept;
+    void poll() noexcept;
 
     std::vector<PortDrive>& drives_;
     const PortTimes& times_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A drive in state `standing` may have a start whose time has not come: `hold` does not fit there, and a quick stop
-// that is late would take it off the path. `begin` with the segment that comes next calls the start off and is refused
-// once the drive runs: then it is held like the others.
+// A drive in state `standing` may have a pending start: `hold` is not allowed there, and a late quick stop would take
+// the drive off the path. `begin` with the next segment cancels the start, and the drive refuses it if it runs already:
+// then it gets a hold like the others.
 #include "splinefeed/hal/modbus/pvt/pvt_stop.hpp"
 
 #include <algorithm>
@@ -11,21 +11,21 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t still_us = 15'000; // of what has no power, by its position
+constexpr std::uint64_t still_us = 15'000; // standstill of an unpowered drive, by its position
 
 } // namespace
 
 bool PvtStop::powerless() const noexcept {
-    return seen_.status.state == PvtState::fault || seen_.status.state == PvtState::disabled;
+    return report_.status.state == PvtState::fault || report_.status.state == PvtState::disabled;
 }
 
 bool PvtStop::still() const noexcept {
-    return std::all_of(shaft_.begin(), shaft_.begin() + client_->axes(),
-                       [](const Standstill& shaft) { return shaft.still_us() >= still_us; });
+    return std::all_of(standstill_.begin(), standstill_.begin() + client_->axes(),
+                       [](const Standstill& axis) { return axis.still_us() >= still_us; });
 }
 
-// Up to the instant of the hold it gets nothing more: a ring that is shorter than the reserve by then slows it down
-// before, unless a place to stand is in it.
+// The drive gets no more segments before the hold. If its ring is shorter than the reserve by then, it slows down
+// earlier, unless a segment in it ends at rest.
 PvtStop::Hold PvtStop::hold_by(const DriveReport& answer, const PortTimes& times) const noexcept {
     const PvtStatus& status = answer.status;
     const bool held_then = state_then_ == PvtState::held && status.state == PvtState::held;
@@ -33,33 +33,34 @@ PvtStop::Hold PvtStop::hold_by(const DriveReport& answer, const PortTimes& times
         return Hold::at_rest;
     }
     bool full_rate = static_cast<double>(status.next - status.executed) * times.segment_us >=
-                     times.reserve_us + static_cast<double>(hold_at_us_) - static_cast<double>(answer.said_us);
+                     times.reserve_us + static_cast<double>(hold_at_us_) - static_cast<double>(answer.status_us);
     for (std::uint32_t i = status.executed; i != status.next && !full_rate; ++i) {
         full_rate = client_->segment(i).rest;
     }
-    return full_rate && answer.said_us <= hold_at_us_ ? Hold::in_time : Hold::apart;
+    return full_rate && answer.status_us <= hold_at_us_ ? Hold::in_time : Hold::apart;
 }
 
-void PvtStop::see(const DriveReport& report, const PortTimes& times) noexcept {
-    const bool news = report.said_us != seen_.said_us;
-    seen_ = report;
-    for (std::size_t k = 0; news && k < static_cast<std::size_t>(client_->axes()); ++k) {
-        shaft_[k].see(seen_.said_us, seen_.status.position[k]);
+void PvtStop::update(const DriveReport& report, const PortTimes& times) noexcept {
+    const bool is_new = report.status_us != report_.status_us;
+    report_ = report;
+    for (std::size_t k = 0; is_new && k < static_cast<std::size_t>(client_->axes()); ++k) {
+        standstill_[k].update(report_.status_us, report_.status.position[k]);
     }
-    if (told_ == StopRequest::none || seen_.command_pending) {
+    if (pending_ == StopRequest::none || report_.command_pending) {
         return;
     }
-    if (!seen_.command_refused) {
-        hold_ = told_ == StopRequest::hold ? hold_by(seen_, times) : hold_;
-        const bool quick = command_ == PvtCommand::quick_stop; // in place of a power off that does not fit yet
-        executed_ = std::max(executed_, quick ? std::min(told_, StopRequest::quick_stop) : told_);
-        executed_us_ = seen_.said_us;
+    if (!report_.command_refused) {
+        hold_ = pending_ == StopRequest::hold ? hold_by(report_, times) : hold_;
+        const bool quick =
+            command_ == PvtCommand::quick_stop; // instead of a power off, which its state does not allow yet
+        executed_ = std::max(executed_, quick ? std::min(pending_, StopRequest::quick_stop) : pending_);
+        executed_us_ = report_.status_us;
     }
-    told_ = StopRequest::none;
+    pending_ = StopRequest::none;
 }
 
 PvtCommand PvtStop::command_for(StopRequest request) const noexcept {
-    const PvtState state = seen_.status.state;
+    const PvtState state = report_.status.state;
     if (request == StopRequest::hold) {
         return state == PvtState::standing ? PvtCommand::begin
                : state == PvtState::homing ? PvtCommand::quick_stop
@@ -69,29 +70,29 @@ PvtCommand PvtStop::command_for(StopRequest request) const noexcept {
     return request == StopRequest::disable && can_disable ? PvtCommand::disable : PvtCommand::quick_stop;
 }
 
-void PvtStop::tell(StopRequest request, std::uint64_t hold_at_us) noexcept {
-    if (request <= told_) {
-        return; // it is on its way
+void PvtStop::send_once(StopRequest request, std::uint64_t hold_at_us) noexcept {
+    if (request <= pending_) {
+        return; // the command is on its way
     }
-    told_ = request;
+    pending_ = request;
     command_ = command_for(request);
-    state_then_ = seen_.status.state;
+    state_then_ = report_.status.state;
     hold_at_us_ = hold_at_us;
-    const std::uint32_t hold_at =
-        seen_.clock.known() ? seen_.clock.drive_clock(hold_at_us) : seen_.status.clock_us; // in the past: at once
-    client_->interrupt(command_, command_ == PvtCommand::begin ? seen_.status.executed : hold_at);
+    const std::uint32_t hold_at = report_.clock.known() ? report_.clock.drive_clock(hold_at_us)
+                                                        : report_.status.clock_us; // in the past, so it acts at once
+    client_->interrupt(command_, command_ == PvtCommand::begin ? report_.status.executed : hold_at);
 }
 
-// What has no power, or stops in a fault, needs not be told, and would refuse; but it must not be told to enable.
+// A drive without power or in fault needs no command and would refuse one. But a pending command may be `enable`.
 StopFacts PvtStop::facts() const noexcept {
-    const PvtState state = seen_.status.state;
-    StopFacts facts{.said_us = seen_.said_us,
+    const PvtState state = report_.status.state;
+    StopFacts facts{.status_us = report_.status_us,
                     .standstill = state == PvtState::standing || state == PvtState::held || (powerless() && still()),
                     .executed = executed_,
                     .executed_us = executed_us_};
-    if (powerless() && !seen_.command_pending) {
+    if (powerless() && !report_.command_pending) {
         facts.executed = StopRequest::disable;
-        facts.executed_us = seen_.said_us;
+        facts.executed_us = report_.status_us;
     }
     return facts;
 }

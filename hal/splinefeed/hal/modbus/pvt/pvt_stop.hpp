@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PvtStop: how a drive with the map splinefeed-pvt is stopped: which command in which state, and what is known of it.
+// PvtStop: stops one drive with the map splinefeed-pvt: chooses the command for its state and reports the facts for
+// StopSequence.
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt/port_times.hpp"
@@ -11,21 +12,21 @@ namespace splinefeed::hal::modbus {
 
 class PvtStop {
 public:
-    /// How a feed hold took place.
+    /// How a feed hold was executed.
     enum class Hold : std::uint8_t {
-        none,    ///< it did not
-        at_rest, ///< it stood, and its start was called off
-        in_time, ///< it slowed down at full rate, from the instant that all were told
-        apart,   ///< it slowed down, perhaps later than the others, or earlier, since its ring ended
+        none,    ///< not executed
+        at_rest, ///< the drive stood; a pending start was cancelled
+        in_time, ///< it slowed down from full rate, at the common instant
+        apart,   ///< it slowed down, perhaps later than the others, or earlier because its ring ended
     };
 
     explicit PvtStop(PvtClient& client) noexcept : client_(&client) {}
 
-    /// What the drive said last. @pre not older than what was seen before
-    void see(const DriveReport& report, const PortTimes& times) noexcept;
-    /// Tells the drive, once, in place of whatever it is to be told; again where it refused.
-    /// @param hold_at_us  when all drives begin to slow down, of our clock
-    void tell(StopRequest request, std::uint64_t hold_at_us) noexcept;
+    /// Takes the drive's last report. @pre not older than the previous one
+    void update(const DriveReport& report, const PortTimes& times) noexcept;
+    /// Sends a request once, in place of a pending command; sends it again after a refusal.
+    /// @param hold_at_us  when all drives begin to slow down, host clock [us]
+    void send_once(StopRequest request, std::uint64_t hold_at_us) noexcept;
     [[nodiscard]] StopFacts facts() const noexcept;
     [[nodiscard]] Hold hold() const noexcept { return hold_; }
 
@@ -36,9 +37,9 @@ private:
     [[nodiscard]] bool still() const noexcept;
 
     PvtClient* client_;
-    DriveReport seen_;
-    PerAxis<Standstill> shaft_{};
-    StopRequest told_ = StopRequest::none; // and not answered yet
+    DriveReport report_;
+    PerAxis<Standstill> standstill_{};
+    StopRequest pending_ = StopRequest::none; // sent and not answered yet
     PvtCommand command_ = PvtCommand::none;
     PvtState state_then_ = PvtState::disabled;
     std::uint64_t hold_at_us_ = 0;

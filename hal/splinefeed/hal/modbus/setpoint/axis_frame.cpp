@@ -14,7 +14,7 @@ constexpr bool within(std::int64_t units) noexcept {
     return units >= -most && units <= most;
 }
 
-// Of two that are within: the halves tell whether the sum is.
+// Sum of two numbers within the range, empty if out of range. Halves avoid overflow.
 std::optional<std::int64_t> sum(std::int64_t a, std::int64_t b) noexcept {
     const std::int64_t half = a / 2 + b / 2;
     return half > most / 2 || half < -most / 2 ? std::nullopt : std::optional(a + b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// AxisFrame: positions of a machine's axis as its drive counts them: from where the drive stands, either way round.
+// AxisFrame: converts positions of a machine axis to positions of its drive, by an offset and a direction.
 #pragma once
 
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
@@ -9,34 +9,35 @@
 
 namespace splinefeed::hal::modbus {
 
-/// In units of a feed segment. Nothing overflows: what 2^31 counts, or the register of the drive's target position, do
-/// not hold is told.
+/// Positions are in units of a feed segment. Nothing overflows: positions beyond 2^31 counts, or beyond the register of
+/// the drive's target position, are reported as out of range.
 class AxisFrame {
 public:
-    /// What to tell of it.
+    /// Message for a position out of range.
     static constexpr const char* out_of_range =
-        "the program goes beyond what the register of its target position holds, or beyond 2147483647 counts; find its "
-        "reference nearer to the program, lower steps_per_mm, or look at width and clamp in its profile";
+        "the program exceeds the range of its target position register, or 2147483647 counts; move its reference "
+        "nearer to the program, lower steps_per_mm, or check width and clamp in its profile";
 
-    /// @param inverted  the drive counts down where the axis goes up
-    /// @param target  register of the drive's target position, which must outlive it; nullptr: any position
+    /// @param inverted  the drive counts in the opposite direction
+    /// @param target  register of the drive's target position, must outlive the frame; nullptr: no limit by a register
     explicit AxisFrame(bool inverted = false, const RegisterField* target = nullptr) noexcept
         : inverted_(inverted), target_(target) {}
 
-    /// The drive stands there [1/65536 count] where the axis is at `start`. False: out of range, and it is as before.
+    /// Defines that the drive's position `stands_q16` [1/65536 count] is `start` of the axis. Returns false, without a
+    /// change, if out of range.
     [[nodiscard]] bool align(std::int64_t stands_q16, std::int64_t start) noexcept;
-    /// A position of the axis as the drive's; nothing: out of range.
+    /// Converts a position of the axis to the drive's; empty: out of range.
     [[nodiscard]] std::optional<std::int64_t> position(std::int64_t of_axis) const noexcept;
     [[nodiscard]] std::int64_t velocity(std::int64_t of_axis) const noexcept { return inverted_ ? -of_axis : of_axis; }
-    /// That axis of a segment as the drive's. False: out of range, and nothing was changed.
+    /// Converts one axis of a segment to the drive's positions. Returns false, without a change, if out of range.
     [[nodiscard]] bool apply(FeedSegment& segment, std::size_t axis) const noexcept;
-    /// Of the axis, where the drive is. [counts]
+    /// Converts a position of the drive to the axis's. [counts]
     [[nodiscard]] double axis_counts(std::int64_t drive_q16) const noexcept;
 
 private:
     bool inverted_;
     const RegisterField* target_;
-    std::int64_t offset_ = 0; // the drive's position less the axis's, as the drive counts
+    std::int64_t offset_ = 0; // drive's position minus the axis's, in the drive's direction
 };
 
 } // namespace splinefeed::hal::modbus

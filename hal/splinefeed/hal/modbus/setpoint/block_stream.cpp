@@ -5,9 +5,9 @@
 //
 //     x + w T - c |c| / (2 A).
 //
-// For this to be where the path is then, D away, with E = D - v T: |c| T - c^2 / (2 A) = |E|, c with the sign of E, so
+// The path is then at distance D. With E = D - v T this requires |c| T - c^2 / (2 A) = |E|, c with the sign of E, so
 //
-//     |c| = A (T - sqrt(T^2 - 2 |E| / A)); where that does not exist the drive catches up in later periods.
+//     |c| = A (T - sqrt(T^2 - 2 |E| / A)); if that does not exist, the drive catches up in later periods.
 //
 // An error e of v becomes -e r / (1 - r) with the share r = |c| / (A T) of the ramp in a period: a third at r = 1/4.
 #include "splinefeed/hal/modbus/setpoint/block_stream.hpp"
@@ -20,7 +20,7 @@ namespace splinefeed::hal::modbus {
 namespace {
 
 constexpr double us_per_s = 1e6;
-constexpr double one = 65536.0;        // of a physical value
+constexpr double one = 65536.0;        // fixed-point one of a physical value
 constexpr double catching_up = 1.1;    // of the largest speed
 constexpr double share_of_path = 0.25; // of the ramp, in the path's acceleration (BlockSettings::acceleration)
 
@@ -44,40 +44,41 @@ BlockStream::BlockStream(const DriveProfile& profile, const BlockSettings& setti
 }
 
 void BlockStream::begin(double position_counts) noexcept {
-    move_ = {position_counts, 0.0, position_counts, 0.0};
-    here_ = move_;
+    committed_ = {position_counts, 0.0, position_counts, 0.0};
+    model_ = committed_;
     target_ = position_counts;
     speed_ = 0.0;
-    begun_us_ = 0;
-    told_us_ = 0;
-    told_end_ = false;
+    previous_arrival_us_ = 0;
+    arrival_us_ = 0;
+    end_sent_ = false;
 }
 
 std::span<const RegisterWrite> BlockStream::prime() noexcept {
-    tell(here_.position, slowest_);
+    set_move(model_.position, slowest_);
     return frames_.build();
 }
 
-void BlockStream::arrived(std::uint64_t arrival_us) noexcept {
+void BlockStream::on_arrival(std::uint64_t arrival_us) noexcept {
     if (arrival_us == UINT64_MAX) {
-        target_ = move_.target;
-        speed_ = move_.speed;
-        told_end_ = false;
+        target_ = committed_.target;
+        speed_ = committed_.speed;
+        end_sent_ = false;
     } else {
-        told_us_ = std::max(arrival_us, begun_us_);
+        arrival_us_ = std::max(arrival_us, previous_arrival_us_);
     }
 }
 
-// The last block has arrived: from then on it counts.
+// The last block has arrived: the model follows it from then on.
 void BlockStream::commit() noexcept {
-    move_.pass(static_cast<double>(told_us_ - begun_us_) / us_per_s, ramp_);
-    begun_us_ = told_us_;
-    move_.target = target_;
-    move_.speed = speed_;
+    committed_.pass(static_cast<double>(arrival_us_ - previous_arrival_us_) / us_per_s, ramp_);
+    previous_arrival_us_ = arrival_us_;
+    committed_.target = target_;
+    committed_.speed = speed_;
 }
 
-// A ramp to its speed, which it keeps until it must brake for its target. Where it moves away from that, or is too fast
-// to stop on it, it comes to rest first and then turns round: so it is where a block comes late while an axis turns.
+// The drive ramps to its speed and keeps it until it must brake for its target. If it moves away from the target, or is
+// too fast to stop there, it first comes to rest and then reverses; that happens if a block is late while an axis
+// reverses.
 BlockStream::Move::Phase BlockStream::Move::phase(double ramp) const noexcept {
     constexpr double nothing_counts = 1e-9;
     const double ahead = target - position;
@@ -101,7 +102,7 @@ BlockStream::Move::Phase BlockStream::Move::phase(double ramp) const noexcept {
 }
 
 void BlockStream::Move::pass(double duration_s, double ramp) noexcept {
-    constexpr int most_phases = 8; // to rest, back, to its speed, at it, to rest: what is left then is rounding
+    constexpr int most_phases = 8; // to rest, back, to its speed, at its speed, to rest: the remainder is rounding
     for (int i = 0; i < most_phases && duration_s > 0.0 && (velocity != 0.0 || position != target); ++i) {
         const Phase now = phase(ramp);
         const double step_s = std::min(now.duration_s, duration_s);
@@ -115,18 +116,18 @@ void BlockStream::Move::pass(double duration_s, double ramp) noexcept {
     }
 }
 
-// The speed with which the drive is at `there` a period later, with its sign; nothing: it cannot be there by then.
+// Velocity with which the drive reaches `there` a period later; empty: not reachable.
 std::optional<double> BlockStream::velocity_to(double there, double period_s) const noexcept {
-    const double missing = there - here_.position - here_.velocity * period_s;
+    const double missing = there - model_.position - model_.velocity * period_s;
     const double square = period_s * period_s - 2.0 * std::fabs(missing) / ramp_;
     if (square < 0.0) {
         return std::nullopt;
     }
-    return here_.velocity + std::copysign(ramp_ * (period_s - std::sqrt(square)), missing);
+    return model_.velocity + std::copysign(ramp_ * (period_s - std::sqrt(square)), missing);
 }
 
-// How far beyond a place a drive that passes it with a speed is sent: it keeps that until the next block, which may be
-// late, and can come to rest.
+// Distance of the target beyond a point that the drive passes at `speed`: enough to keep the speed until the next
+// block, which may be late, and then to brake.
 double BlockStream::beyond(double speed) const noexcept {
     return speed * settings_.reserve_us / us_per_s + speed * speed / (2.0 * ramp_);
 }
@@ -134,44 +135,45 @@ double BlockStream::beyond(double speed) const noexcept {
 std::span<const RegisterWrite> BlockStream::block(const TrajectoryBuffer& track,
                                                   const MotionInstant& instant) noexcept {
     commit();
-    told_us_ = std::max(instant.arrival_us, begun_us_);
-    here_ = move_;
-    here_.pass(static_cast<double>(told_us_ - begun_us_) / us_per_s, ramp_);
+    arrival_us_ = std::max(instant.arrival_us, previous_arrival_us_);
+    model_ = committed_;
+    model_.pass(static_cast<double>(arrival_us_ - previous_arrival_us_) / us_per_s, ramp_);
     const double period_s = settings_.period_us / us_per_s;
     const double here = static_cast<double>(track.at(settings_.axis, instant.motion_us).position_q16) / one;
     const double there = static_cast<double>(track.at(settings_.axis, instant.next_us).position_q16) / one;
     const bool ends = instant.next_us >= track.end_us();
-    if (ends && told_end_) {
+    if (ends && end_sent_) {
         return {};
     }
-    told_end_ = ends;
+    end_sent_ = ends;
     const double path_speed = std::fabs(there - here) / period_s;
-    // What catches up comes nearer as fast as it could still come to rest on the path with half of its ramp.
+    // A drive that catches up is limited to the speed from which half of its ramp can still stop it on the path.
     const double most =
         settings_.fastest > 0.0 ? catching_up * std::max(settings_.fastest, path_speed) : path_speed + ramp_ * period_s;
-    const double catch_up = std::min(most, path_speed + std::sqrt(ramp_ * std::fabs(here - here_.position)));
+    const double catch_up = std::min(most, path_speed + std::sqrt(ramp_ * std::fabs(here - model_.position)));
     std::optional<double> wish = velocity_to(there, period_s);
     if (wish && std::fabs(*wish) > most) {
         wish.reset();
     }
     const double speed_there = wish ? std::fabs(*wish) : catch_up;
-    if (ends || here == there) { // the drive's own braking finds the place
-        // Not so slowly that it would not come to an end, though it were a count further away than is known.
-        const double left = std::max(std::fabs(there - here_.position), 1.0);
-        tell(there, std::max({speed_there, std::min(2.0 * left / period_s, most), slowest_}));
-    } else if (!wish) { // nor does it go beyond the path by more than one that is on it
-        tell(there + std::copysign(beyond(path_speed), there - here), catch_up);
+    if (ends || here == there) { // the drive's own braking reaches the target
+        // Fast enough to arrive even if the drive is a count further away than the model.
+        const double left = std::max(std::fabs(there - model_.position), 1.0);
+        set_move(there, std::max({speed_there, std::min(2.0 * left / period_s, most), slowest_}));
+    } else if (!wish) { // it passes the path by no more than a drive that is on it
+        set_move(there + std::copysign(beyond(path_speed), there - here), catch_up);
     } else {
         const double speed = frames_.rounded(FieldRole::profile_velocity, std::fabs(*wish));
         const double carried = std::min(speed, path_speed + share_of_path * ramp_ * period_s);
-        // Where it turns round it must first come to rest: that is ahead of it, too.
-        const double turning = here_.velocity * *wish < 0.0 ? here_.velocity * here_.velocity / (2.0 * ramp_) : 0.0;
-        tell(here_.position + std::copysign(speed * period_s + beyond(carried) + turning, *wish), std::fabs(*wish));
+        // A drive that reverses must first come to rest: add that distance.
+        const double turning = model_.velocity * *wish < 0.0 ? model_.velocity * model_.velocity / (2.0 * ramp_) : 0.0;
+        set_move(model_.position + std::copysign(speed * period_s + beyond(carried) + turning, *wish),
+                 std::fabs(*wish));
     }
     return frames_.build();
 }
 
-void BlockStream::tell(double target, double speed) noexcept {
+void BlockStream::set_move(double target, double speed) noexcept {
     clamped_ = frames_.set(FieldRole::profile_velocity, q16(speed)).clamped || clamped_;
     clamped_ = frames_.set(FieldRole::target_position, q16(target)).clamped || clamped_;
     speed_ = frames_.rounded(FieldRole::profile_velocity, speed);

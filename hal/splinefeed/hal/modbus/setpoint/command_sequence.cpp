@@ -30,11 +30,11 @@ void CommandSequence::prepare() noexcept {
     write_ = frames_.single(step.field, raw);
 }
 
-void CommandSequence::told(std::uint64_t now_us) noexcept {
+void CommandSequence::on_sent(std::uint64_t now_us) noexcept {
     constexpr std::uint64_t us_per_ms = 1000;
     const CommandStep& step = (*steps_)[step_];
     const bool first_of_two = two_frames() && !second_;
-    // A pulse lasts between its frames, everything else is waited for behind its last.
+    // The duration of a pulse is between its frames; other durations follow the last frame.
     const bool waits = step.kind == StepKind::pulse ? first_of_two : !first_of_two;
     due_us_ = now_us + (waits ? us_per_ms * step.duration_ms : 0);
     second_ = first_of_two;

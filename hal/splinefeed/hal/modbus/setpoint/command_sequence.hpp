@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CommandSequence: a command of a drive profile as frames and pauses, one after the other.
+// CommandSequence: converts a command of a drive profile to a sequence of frames and pauses.
 #pragma once
 
 #include "splinefeed/hal/modbus/setpoint/setpoint_frames.hpp"
@@ -8,26 +8,25 @@
 
 namespace splinefeed::hal::modbus {
 
-/// Use: begin(command); until finished(): if (due() <= now) { write next(); told(now); }
-/// The frames of the steps: a level is one, an edge, a pulse and a toggle as docs/reference/profiles.md has them. A
-/// field of the target group goes out with the whole group. A write that was not answered is simply written again:
-/// next() stays the same until told(). But a toggle: whoever does not know whether it arrived must look. It does not
-/// allocate.
+/// Use: begin(command); until finished(): if (due_us() <= now) { write next(); on_sent(now); }.
+/// docs/reference/profiles.md describes the frames of each kind of step. A field of the target group is sent with the
+/// whole group. If a write is not answered, write it again: next() stays the same until on_sent(). Exception: if a
+/// toggle may have arrived, read the drive's state first. Does not allocate.
 class CommandSequence {
 public:
-    /// Both must outlive it; the frames hold what each field was told last.
+    /// Both must outlive the sequence. `frames` holds the last value of each field.
     CommandSequence(const DriveProfile& profile, SetpointFrames& frames) noexcept
         : profile_(profile), frames_(frames) {}
 
-    /// From its first step, whatever was under way: a quick stop goes ahead of everything. False: the profile has no
-    /// such command.
+    /// Begins a command at its first step and abandons a command in progress, so a quick stop takes precedence. Returns
+    /// false if the profile has no such command.
     bool begin(DriveCommand command) noexcept;
     [[nodiscard]] bool finished() const noexcept { return steps_ == nullptr; }
-    /// The frame to be written, and not before this instant. @pre not finished
+    /// The next frame, and the earliest instant to write it. [us] @pre not finished
     [[nodiscard]] const RegisterWrite& next() const noexcept { return write_; }
     [[nodiscard]] std::uint64_t due_us() const noexcept { return due_us_; }
-    /// next() has arrived, at this instant.
-    void told(std::uint64_t now_us) noexcept;
+    /// Reports that next() has arrived at this instant. [us]
+    void on_sent(std::uint64_t now_us) noexcept;
 
 private:
     void prepare() noexcept;

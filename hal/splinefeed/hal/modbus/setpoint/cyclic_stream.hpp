@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CyclicStream: one axis of a motion as cyclic target positions.
+// CyclicStream: converts one axis of a motion to cyclic target positions.
 #pragma once
 
 #include "splinefeed/hal/modbus/setpoint/setpoint_frames.hpp"
@@ -8,54 +8,54 @@
 namespace splinefeed::hal::modbus {
 
 struct CyclicSettings {
-    int axis = 0;                   ///< of the feed segments
-    std::uint32_t period_us = 2000; ///< that the drive takes to get to a target
+    int axis = 0;                   ///< index in the feed segments
+    std::uint32_t period_us = 2000; ///< in which the drive moves to a target
     std::uint32_t interval_us = 0;  ///< between two frames, at most the period; 0: the period
-    double acceleration = 1e6;      ///< with which it comes back to the path [counts/s^2]
+    double acceleration = 1e6;      ///< for the return to the path after a time-out [counts/s^2]
 };
 
-/// A drive that gets a target at t is there at t + period P. It is told to go as it must to be where the path is when
-/// the next frame comes, an interval I later, and on for the rest of the period: p(t) + (p(t + I) - p(t)) P / I. The
-/// instant at which its own frame arrives counts, so all axes of a line speak of the same path, though they are told
-/// one after the other; what it is off dies out by 1 - I / P from frame to frame.
+/// A drive that gets a target at t reaches it at t + P, the drive's period. The target extrapolates the path over an
+/// interval I, when the next frame comes, to the whole period: p(t) + (p(t + I) - p(t)) P / I. It uses the instant at
+/// which the drive's own frame arrives, so all axes of a line follow the same path although their frames come one after
+/// the other. An error is multiplied by 1 - I / P with each frame.
 ///
-/// How near it stays to the path where frames come once an interval: between two it goes straight,
-/// line_deviation_counts of the interval; plus half a unit of its register, P / I of it where frames overlap. A frame
-/// that is late by no more than P - I finds it still moving; beyond it stands.
+/// Deviation from the path with one frame per interval: line_deviation_counts of the interval, since the drive moves
+/// straight between frames, plus half a unit of its register, times P / I if frames overlap. If a frame is late by more
+/// than P - I, the drive stops and waits for it.
 class CyclicStream {
 public:
-    /// The profile must outlive it. @pre it streams cyclic
+    /// The profile must outlive the stream. @pre the profile streams cyclic
     CyclicStream(const DriveProfile& profile, const CyclicSettings& settings);
 
-    /// The frame that arrives at this instant. @pre the track is not empty
+    /// Returns the frame that arrives at this instant. @pre the track is not empty
     [[nodiscard]] std::span<const RegisterWrite> frame(const TrajectoryBuffer& track,
                                                        const MotionInstant& instant) noexcept;
-    /// The same while the motion runs at its full rate.
+    /// The same for a motion at full rate.
     [[nodiscard]] std::span<const RegisterWrite> frame(const TrajectoryBuffer& track,
                                                        std::uint64_t arrival_us) noexcept {
         return frame(track, {arrival_us, arrival_us, arrival_us + settings_.interval_us});
     }
-    /// Its frames were lost for longer than the period: it stands where it was told to be last. From the next frame on
-    /// it comes back to the path, smoothly.
-    void stood(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
-    /// A register could not hold a target: it was clamped.
+    /// Call when frames were missing for longer than the period: the drive stands at its last target. From the next
+    /// frame on it returns to the path smoothly.
+    void on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
+    /// Whether a target exceeded the range of its register and was clamped.
     [[nodiscard]] bool clamped() const noexcept { return clamped_; }
-    /// At that time of the motion the drive has been told where it ends.
-    [[nodiscard]] bool told_end(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
+    /// Whether the drive has got the end of the motion as its target at that motion time.
+    [[nodiscard]] bool end_sent(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
         return fading_us_ == 0.0 && motion_us + settings_.interval_us >= track.end_us() &&
                (settings_.interval_us == settings_.period_us || motion_us >= track.end_us());
     }
     [[nodiscard]] SetpointFrames& frames() noexcept { return frames_; }
 
 private:
-    [[nodiscard]] double off_q16(double elapsed_us) const noexcept;
+    [[nodiscard]] double offset_q16(double elapsed_us) const noexcept;
 
     CyclicSettings settings_;
     SetpointFrames frames_;
-    std::int64_t target_q16_ = 0; // the last one
-    double off_q16_ = 0.0;        // from the path, when it came back
-    double fading_us_ = 0.0;      // for how long it fades
-    double elapsed_us_ = 0.0;     // of it
+    std::int64_t target_q16_ = 0; // the last target
+    double offset_q16_ = 0.0;     // distance from the path at the beginning of the return
+    double fading_us_ = 0.0;      // duration of the return; 0: none
+    double elapsed_us_ = 0.0;     // of the return
     bool clamped_ = false;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SetpointBus: one wire with drives that get targets, and the thread that tells each of them where to be, period by
-// period.
+// SetpointBus: one wire with drives that get targets, and the thread that sends each drive a target in every period.
 #pragma once
 
 #include "splinefeed/hal/modbus/setpoint/setpoint_drive.hpp"
@@ -14,47 +13,48 @@
 
 namespace splinefeed::hal::modbus {
 
-/// What the buses of a port share. Locked for as long as a frame is computed.
+/// State that the buses of a port share. Its mutex is held while a frame is computed.
 struct SetpointMotion {
     SetpointMotion(std::size_t segments, std::uint32_t reserve_us)
-        : track(segments), clock(reserve_us), reserve(reserve_us) {}
+        : trajectory(segments), clock(reserve_us), reserve(reserve_us) {}
 
-    /// The motion's time at that instant. Where the track is about to end before the motion does, it begins to stop.
+    /// Motion time at that instant. [us] If the trajectory is about to run out before the end of the motion, the clock
+    /// begins to stop.
     [[nodiscard]] std::uint64_t time_us(std::uint64_t now_us) noexcept;
 
     std::mutex mutex;
-    TrajectoryBuffer track;
+    TrajectoryBuffer trajectory;
     MotionClock clock;
-    std::uint64_t reserve;      ///< motion on which it comes to a stop [us]
-    std::uint64_t ahead_us = 0; ///< how far ahead of its time targets are
-    std::uint64_t told_us = 0;  ///< when the last target arrived at any drive
-    bool complete = false;      ///< the track has the end of the motion
-    bool stops = false;         ///< a stop was asked for: who stands is not to move any more
+    std::uint64_t reserve;              ///< motion time of the clock's slow-down [us]
+    std::uint64_t ahead_us = 0;         ///< how far targets are ahead of motion time [us]
+    std::uint64_t last_setpoint_us = 0; ///< arrival of the last target at any drive [us]
+    bool complete = false;              ///< the trajectory contains the end of the motion
+    bool stop_requested = false;        ///< a stop was requested: drives that stand must not move any more
 };
 
-/// How a drive of a bus does.
+/// State of a drive of a bus. Instants are of the line's clock.
 struct SetpointReport {
     DriveReading reading;
-    std::uint64_t heard_us = 0;
-    std::uint64_t said_us = 0;  ///< when it said the reading, at the earliest; 0: it has not yet, while it runs
-    std::uint64_t still_us = 0; ///< for how long its position has not changed by then
-    std::uint64_t told_us = 0;  ///< when the last target arrived; 0: none did
-    StopRequest executed = StopRequest::none; ///< of what stop() asked for
+    std::uint64_t answered_us = 0;
+    std::uint64_t status_us = 0;              ///< earliest instant of `reading`; 0: none since start()
+    std::uint64_t still_us = 0;               ///< for how long the position had not changed by then
+    std::uint64_t setpoint_us = 0;            ///< arrival of the last target; 0: none
+    StopRequest executed = StopRequest::none; ///< strongest executed request of stop_drive()
     std::uint64_t executed_us = 0;
     LinkCounts counts;
-    std::uint64_t late_us = 0;         ///< most that a target came later than a period after the one before
+    std::uint64_t late_us = 0;         ///< largest lateness of a target, beyond a period after the previous one
     LinkFault fault = LinkFault::none; ///< of the last exchange
     bool clamped = false;
-    bool told_end = false;
-    bool at_target = true; ///< it is where it was told to be, or is told that each period
+    bool end_sent = false;
+    bool at_target = true; ///< it stands at its target; always true for cyclic drives
 };
 
-/// A position that has not changed for this long stands. [us]
-inline constexpr std::uint64_t stand_still_us = 40'000;
+/// A drive stands when its position has not changed for this long. [us]
+inline constexpr std::uint64_t standstill_us = 40'000;
 
 class SetpointBus {
 public:
-    /// A target that comes later than this, beyond a period, has all stop. [us]
+    /// A target that is later than this, beyond a period, stops all drives. [us]
     static constexpr std::uint32_t allowed_late_us = 20'000;
 
     explicit SetpointBus(std::unique_ptr<ModbusLine> link) : link_(std::move(link)) {}
@@ -62,57 +62,57 @@ public:
     SetpointBus& operator=(const SetpointBus&) = delete;
     ~SetpointBus() { stop(); }
 
-    /// Before start(). References stay valid.
+    /// Adds a drive. References stay valid. @pre not started
     SetpointDrive& add(const DriveProfile& profile, int unit);
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
     [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
     [[nodiscard]] SetpointDrive& drive(std::size_t i) noexcept { return drives_[i].drive; }
 
-    /// The shortest period in which every drive gets its target and one its status read: by the line's rate, or
-    /// measured on a tcp link. [us] The drives are open.
+    /// Shortest period in which the bus can send every drive a target and read the status of one: by the line's rate,
+    /// or measured on a tcp link. [us] @pre the drives are open
     [[nodiscard]] std::uint32_t shortest_period_us();
-    /// Tells every drive where to be, each period, from now on; the motion must outlive it. Where that comes too late
-    /// it has the motion stop.
+    /// Starts the thread, which sends every drive a target in each period. If targets are too late, it stops the
+    /// motion's clock. `motion` must outlive the bus.
     void start(SetpointMotion& motion, std::uint32_t period_us);
     void stop() noexcept;
     [[nodiscard]] SetpointReport report(std::size_t drive) const noexcept;
-    /// Processor time of the thread. [us]
+    /// Processor time that the thread has used. [us]
     [[nodiscard]] std::uint64_t busy_us() const noexcept { return busy_us_.load(std::memory_order_relaxed); }
-    /// Has a drive stop, ahead of everything, again and again until it has answered; from then on it gets no targets.
-    /// @pre a quick stop or more
+    /// Stops a drive: sends the request with precedence, repeatedly, until the drive has answered. The drive gets no
+    /// more targets. @pre request >= StopRequest::quick_stop
     void stop_drive(std::size_t drive, StopRequest request) noexcept {
-        drives_[drive].wanted.store(request, std::memory_order_relaxed);
+        drives_[drive].stop_request.store(request, std::memory_order_relaxed);
     }
 
 private:
-    struct Place {
-        Place(const DriveProfile& profile, ModbusLine& link, int unit) : drive(profile, link, unit) {}
+    struct Slot {
+        Slot(const DriveProfile& profile, ModbusLine& link, int unit) : drive(profile, link, unit) {}
 
         SetpointDrive drive;
         SetpointReport report;
-        Standstill shaft{2 << physical_bits};
-        std::atomic<StopRequest> wanted{StopRequest::none};
-        std::uint64_t told_us = 0;  // when the last target arrived; 0: none did
-        std::uint64_t ended_us = 0; // when it was told the end; 0: not yet
-        std::uint64_t rests_us = 0; // the path stands since then, and so should the drive; 0: it does not
+        Standstill standstill{2 << physical_bits};
+        std::atomic<StopRequest> stop_request{StopRequest::none};
+        std::uint64_t setpoint_us = 0;  // arrival of the last target; 0: none
+        std::uint64_t end_sent_us = 0;  // when the end was sent; 0: not yet
+        std::uint64_t path_rest_us = 0; // path and model of the drive stand since then; 0: they move
     };
 
     void run(SetpointMotion& motion, std::uint32_t period_us) noexcept;
-    void tell(Place& place, SetpointMotion& motion, std::uint32_t period_us) noexcept;
-    static void watch(const Place& place, SetpointMotion& motion, std::uint64_t now_us,
-                      std::uint32_t period_us) noexcept;
-    void told(Place& place, SetpointMotion& motion, bool sent, std::uint32_t period_us) noexcept;
-    void keep(Place& place) noexcept;
-    void carry_out(Place& place, StopRequest request) noexcept;
+    void send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_t period_us) noexcept;
+    static void check_lateness(const Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
+                               std::uint32_t period_us) noexcept;
+    void on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint32_t period_us) noexcept;
+    void publish_report(Slot& slot) noexcept;
+    void carry_out(Slot& slot, StopRequest request) noexcept;
     void read_statuses() noexcept;
-    void turn(SetpointMotion& motion, std::uint32_t period_us) noexcept;
+    void run_period(SetpointMotion& motion, std::uint32_t period_us) noexcept;
 
     std::unique_ptr<ModbusLine> link_;
-    std::deque<Place> drives_;
-    mutable std::mutex mutex_; // of the reports
+    std::deque<Slot> drives_;
+    mutable std::mutex mutex_; // guards the reports
     std::unique_ptr<ClockThread> thread_;
     std::atomic<bool> stopping_{false};
-    std::size_t asked_ = 0; // of the statuses
+    std::size_t next_read_ = 0; // drive whose status is read next
     std::atomic<std::uint64_t> busy_us_{0};
 };
 

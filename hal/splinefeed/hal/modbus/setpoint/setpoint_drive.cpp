@@ -8,7 +8,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr int looks = 5; // until a drive says that it is enabled
+constexpr int enable_polls = 5; // polls until a drive reports that it is enabled
 constexpr std::uint64_t settle_us = 20'000;
 constexpr std::uint64_t homing_begins_us = 200'000;
 constexpr std::uint64_t homing_us = 300'000'000;
@@ -29,27 +29,27 @@ std::string SetpointDrive::trouble(const char* what) const {
     return text;
 }
 
-bool SetpointDrive::note(const LinkAnswer& answer) noexcept {
+bool SetpointDrive::record(const LinkAnswer& answer) noexcept {
     answer_ = answer;
     counts_.count(answer.fault);
     if (answer.ok()) {
-        heard_us_ = answer.answered_us;
+        answered_us_ = answer.answered_us;
     }
     return answer.ok();
 }
 
 bool SetpointDrive::write(const RegisterWrite& write) noexcept {
-    return note(profile_->link.function_write ? link_->write(unit_, write.address, write.registers())
-                                              : link_->write_one(unit_, write.address, write.values[0]));
+    return record(profile_->link.function_write ? link_->write(unit_, write.address, write.registers())
+                                                : link_->write_one(unit_, write.address, write.values[0]));
 }
 
 bool SetpointDrive::read(std::uint16_t address, std::span<std::uint16_t> out) noexcept {
-    return note(link_->read(unit_, address, out));
+    return record(link_->read(unit_, address, out));
 }
 
-// A connection that broke is made anew, whatever `retries` says.
+// Repeats a failed exchange; connects again after the connection was lost.
 template <class Try>
-bool SetpointDrive::persist(const Try& attempt) {
+bool SetpointDrive::retry(const Try& attempt) {
     for (int i = 0; i <= profile_->link.retries; ++i) {
         if (attempt()) {
             return true;
@@ -62,24 +62,24 @@ bool SetpointDrive::persist(const Try& attempt) {
 }
 
 bool SetpointDrive::set_field(FieldIndex field, std::int64_t raw) {
-    return persist([&] { return write(frames().single(field, raw)); });
+    return retry([&] { return write(frames().single(field, raw)); });
 }
 
-// True as well where the drive has no such register.
+// Returns true also if the drive has no such register.
 bool SetpointDrive::set_role(FieldRole role, std::int64_t physical_q16) {
     const RegisterField* const field = profile_->field_of(role);
     return field == nullptr || !field->writable() ||
            set_field(static_cast<FieldIndex>(field - profile_->fields.data()), raw_of(*field, physical_q16).raw);
 }
 
-// A register that wears with every write only where it holds something else.
+// Writes the init list; a flash register only if its value differs.
 bool SetpointDrive::initialise() {
     return std::all_of(profile_->init.begin(), profile_->init.end(), [&](const DriveProfile::InitialValue& value) {
         const RegisterField& field = profile_->fields[value.field];
         std::array<std::uint16_t, 4> registers{};
         const std::span<std::uint16_t> in = std::span(registers).first(field.registers());
         if (field.flash && field.readable()) {
-            if (!persist([&] { return read(field.address, in); })) {
+            if (!retry([&] { return read(field.address, in); })) {
                 return false;
             }
             if (take_raw(field, in) == value.value) {
@@ -91,7 +91,7 @@ bool SetpointDrive::initialise() {
 }
 
 bool SetpointDrive::read_next() noexcept {
-    const std::size_t i = asked_++ % status_.reads().size();
+    const std::size_t i = next_read_++ % status_.reads().size();
     const RegisterRead& frame = status_.reads()[i];
     std::array<std::uint16_t, RegisterWrite::most> registers{};
     const std::span<std::uint16_t> in = std::span(registers).first(frame.count);
@@ -99,13 +99,13 @@ bool SetpointDrive::read_next() noexcept {
         return false;
     }
     status_.take(i, in);
-    said_us_[i] = answer_.arrived_us;
+    status_us_[i] = answer_.arrived_us;
     reading_ = status_.reading();
     return true;
 }
 
 bool SetpointDrive::read_status() noexcept {
-    asked_ = 0;
+    next_read_ = 0;
     for (std::size_t i = 0; i < status_.reads().size(); ++i) {
         if (!read_next()) {
             return false;
@@ -119,7 +119,7 @@ std::string SetpointDrive::check_identity() {
         const RegisterField& field = profile_->fields[check.test.field];
         std::array<std::uint16_t, 4> registers{};
         const std::span<std::uint16_t> in = std::span(registers).first(field.registers());
-        if (!persist([&] { return read(field.address, in); })) {
+        if (!retry([&] { return read(field.address, in); })) {
             return trouble("its identity cannot be read");
         }
         if (!holds(check.test, take_raw(field, in))) {
@@ -134,21 +134,21 @@ std::string SetpointDrive::open() {
         return std::string("there is no connection (") + link_->error() + "); check address, port and cable";
     }
     if (profile_->link.reads_zero_until_written) {
-        SetpointFrames neutral(*profile_); // all as the profile has it: nothing starts
+        SetpointFrames neutral(*profile_); // all fields at their defaults: nothing starts
         const RegisterField* const control = profile_->field_of(FieldRole::control);
         const auto index = static_cast<FieldIndex>(control - profile_->fields.data());
-        if (control != nullptr && !persist([&] { return write(neutral.single(index, control->value)); })) {
+        if (control != nullptr && !retry([&] { return write(neutral.single(index, control->value)); })) {
             return trouble("it cannot be written to");
         }
     }
     if (std::string what = check_identity(); !what.empty()) {
         return what;
     }
-    return persist([&] { return read_status(); }) ? std::string() : trouble("its status cannot be read");
+    return retry([&] { return read_status(); }) ? std::string() : trouble("its status cannot be read");
 }
 
-std::uint64_t SetpointDrive::said_us() const noexcept {
-    return *std::min_element(said_us_.begin(), said_us_.begin() + static_cast<int>(status_.reads().size()));
+std::uint64_t SetpointDrive::status_us() const noexcept {
+    return *std::min_element(status_us_.begin(), status_us_.begin() + static_cast<int>(status_.reads().size()));
 }
 
 bool SetpointDrive::stop(StopRequest request) noexcept {
@@ -161,7 +161,7 @@ bool SetpointDrive::stop(StopRequest request) noexcept {
     return false;
 }
 
-// False: something is wrong with another drive.
+// Returns false if another drive has failed.
 bool SetpointDrive::wait_until(std::uint64_t instant_us) noexcept {
     Clock& clock = link_->clock();
     while (meanwhile_ && trouble_elsewhere_.empty() && clock.now_us() < instant_us) {
@@ -187,7 +187,7 @@ bool SetpointDrive::command(DriveCommand command, int failures) noexcept {
             return false;
         }
         if (write(sequence.next())) {
-            sequence.told(link_->clock().now_us());
+            sequence.on_sent(link_->clock().now_us());
         } else if (++failed > failures) {
             return false;
         }
@@ -196,7 +196,7 @@ bool SetpointDrive::command(DriveCommand command, int failures) noexcept {
 }
 
 template <class Work>
-std::string SetpointDrive::attended(const SetpointSettings& settings, const Work& work) {
+std::string SetpointDrive::run_with_meanwhile(const SetpointSettings& settings, const Work& work) {
     meanwhile_ = settings.meanwhile;
     trouble_elsewhere_.clear();
     std::string what = work();
@@ -205,7 +205,7 @@ std::string SetpointDrive::attended(const SetpointSettings& settings, const Work
 }
 
 std::string SetpointDrive::enable(const SetpointSettings& settings) {
-    return attended(settings, [&] { return switch_on(settings); });
+    return run_with_meanwhile(settings, [&] { return switch_on(settings); });
 }
 
 std::string SetpointDrive::switch_on(const SetpointSettings& settings) {
@@ -230,7 +230,7 @@ std::string SetpointDrive::switch_on(const SetpointSettings& settings) {
     }
     if (profile_->following_error_window_counts &&
         !set_role(FieldRole::following_error_window, *profile_->following_error_window_counts * one)) {
-        return trouble("its window for following errors cannot be set");
+        return trouble("its following-error window cannot be set");
     }
     if (reading_.state == DriveState::fault && !command(DriveCommand::fault_reset)) {
         return trouble("its fault cannot be reset");
@@ -238,7 +238,7 @@ std::string SetpointDrive::switch_on(const SetpointSettings& settings) {
     if (!command(DriveCommand::enable)) {
         return trouble("it cannot be enabled");
     }
-    for (int i = 0; i < looks; ++i) {
+    for (int i = 0; i < enable_polls; ++i) {
         if (!wait_until(link_->clock().now_us() + settle_us)) {
             return trouble("");
         }
@@ -250,34 +250,34 @@ std::string SetpointDrive::switch_on(const SetpointSettings& settings) {
 }
 
 std::string SetpointDrive::begin(const SetpointSettings& settings) {
-    return attended(settings, [&] {
+    return run_with_meanwhile(settings, [&] {
         std::string what = settings.home ? home(settings) : std::string();
         if (!what.empty()) {
             return what;
         }
-        return persist([&] { return read_status(); }) ? follow() : trouble("its status cannot be read");
+        return retry([&] { return read_status(); }) ? prime_blocks() : trouble("its status cannot be read");
     });
 }
 
 std::string SetpointDrive::not_enabled() const {
     return reading_.state == DriveState::fault ? "it is in fault, code " + std::to_string(reading_.fault_code)
-                                               : "it does not say that it is enabled";
+                                               : "it does not report that it is enabled";
 }
 
-// From where it stands.
-std::string SetpointDrive::follow() {
+// Sends the present position as the first target.
+std::string SetpointDrive::prime_blocks() {
     if (!block_) {
         return {};
     }
     block_->begin(static_cast<double>(reading_.position_q16) / (1 << physical_bits));
-    aimed_ = block_->prime();
-    return persist([&] { return send(); }) ? std::string() : trouble("it cannot be told where to be");
+    prepared_ = block_->prime();
+    return retry([&] { return send(); }) ? std::string() : trouble("its setpoint cannot be written");
 }
 
 std::string SetpointDrive::home(const SetpointSettings& settings) {
     const std::int64_t one = std::int64_t{1} << physical_bits;
     if (profile_->steps_of(DriveCommand::home).empty()) {
-        return "its profile has no command to home it; leave --home out, or home it by its own means";
+        return "its profile has no home command; omit --home, or home it by its own means";
     }
     if ((profile_->homing_mode && !set_role(FieldRole::mode, *profile_->homing_mode * one)) ||
         !command(DriveCommand::home)) {
@@ -286,20 +286,20 @@ std::string SetpointDrive::home(const SetpointSettings& settings) {
     const std::uint64_t begun = link_->clock().now_us();
     for (;;) {
         if (!wait_until(link_->clock().now_us() + settle_us)) {
-            meanwhile_ = nullptr; // the others have been told
+            meanwhile_ = nullptr; // the other drive's failure is known
             static_cast<void>(command(DriveCommand::quick_stop));
             return trouble("");
         }
         if (settings.interrupted != nullptr && settings.interrupted()) {
             static_cast<void>(command(DriveCommand::quick_stop));
-            return "interrupted while it was homed; it was stopped";
+            return "interrupted during homing; it was stopped";
         }
-        if (!persist([&] { return read_status(); })) {
-            return trouble("it does not answer while it is homed");
+        if (!retry([&] { return read_status(); })) {
+            return trouble("it does not answer during homing");
         }
         const bool stands = reading_.state == DriveState::enabled && (profile_->homed ? reading_.homed : reading_.done);
         const std::uint64_t now = link_->clock().now_us();
-        if (stands && now > begun + homing_begins_us) { // what it says may be of the time before
+        if (stands && now > begun + homing_begins_us) { // an earlier status may be from before the start of homing
             break;
         }
         if (reading_.state == DriveState::fault || reading_.state == DriveState::disabled) {
@@ -307,7 +307,7 @@ std::string SetpointDrive::home(const SetpointSettings& settings) {
         }
         if (now > begun + homing_us) {
             static_cast<void>(command(DriveCommand::quick_stop));
-            return "its homing did not come to its end; look at its switches and its settings";
+            return "its homing was not completed; check its switches and its settings";
         }
     }
     return profile_->stream_mode && !set_role(FieldRole::mode, *profile_->stream_mode * one)
@@ -315,14 +315,14 @@ std::string SetpointDrive::home(const SetpointSettings& settings) {
                : std::string();
 }
 
-void SetpointDrive::aim(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
-    aimed_ = block_ ? block_->block(track, instant) : cyclic_->frame(track, instant);
+void SetpointDrive::prepare_frames(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
+    prepared_ = block_ ? block_->block(track, instant) : cyclic_->frame(track, instant);
 }
 
-// Again where it was lost: what did not change is not told again.
+// Retries lost frames: values that do not change are not sent with the next target.
 bool SetpointDrive::send() noexcept {
-    counts_.segments += aimed_.empty() ? 0U : 1U;
-    const auto told = [this](const RegisterWrite& frame) {
+    counts_.segments += prepared_.empty() ? 0U : 1U;
+    const auto write_retried = [this](const RegisterWrite& frame) {
         for (int i = 0; i <= profile_->link.retries; ++i) {
             if (write(frame)) {
                 return true;
@@ -330,43 +330,43 @@ bool SetpointDrive::send() noexcept {
         }
         return false;
     };
-    bool sent = std::all_of(aimed_.begin(), aimed_.end(), told);
-    if (sent && unsure_ && block_ && !aimed_.empty()) {
-        aimed_ = block_->again();
-        sent = std::all_of(aimed_.begin(), aimed_.end(), told);
+    bool sent = std::all_of(prepared_.begin(), prepared_.end(), write_retried);
+    if (sent && delivery_unknown_ && block_ && !prepared_.empty()) {
+        prepared_ = block_->repeat();
+        sent = std::all_of(prepared_.begin(), prepared_.end(), write_retried);
     }
-    unsure_ = aimed_.empty() ? unsure_ : !sent;
+    delivery_unknown_ = prepared_.empty() ? delivery_unknown_ : !sent;
     return sent;
 }
 
 bool SetpointDrive::at_target() const noexcept {
-    constexpr double window_counts = 64.0; // drives call less `in position`
-    const double says_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
-    return !block_ || std::fabs(says_counts - block_->target_counts()) <= window_counts;
+    constexpr double window_counts = 64.0; // wider than the window in which drives report `in position`
+    const double reported_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
+    return !block_ || std::fabs(reported_counts - block_->target_counts()) <= window_counts;
 }
 
-void SetpointDrive::stood(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
+void SetpointDrive::on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
     if (cyclic_) {
-        cyclic_->stood(track, instant);
+        cyclic_->on_setpoint_timeout(track, instant);
     }
 }
 
-void SetpointDrive::correct() noexcept {
-    constexpr double rounding_counts = 1.5; // of what it says, and of the model
-    const double says_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
-    if (block_ && std::fabs(says_counts - block_->position_counts()) > rounding_counts) {
-        block_->begin(says_counts);
+void SetpointDrive::resync_position() noexcept {
+    constexpr double rounding_counts = 1.5; // rounding of the report and of the model
+    const double reported_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
+    if (block_ && std::fabs(reported_counts - block_->position_counts()) > rounding_counts) {
+        block_->begin(reported_counts);
     }
 }
 
-void SetpointDrive::arrived(std::uint64_t arrival_us) noexcept {
-    if (block_ && !aimed_.empty()) {
-        block_->arrived(arrival_us);
+void SetpointDrive::on_arrival(std::uint64_t arrival_us) noexcept {
+    if (block_ && !prepared_.empty()) {
+        block_->on_arrival(arrival_us);
     }
 }
 
-bool SetpointDrive::told_end(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
-    return block_ ? block_->told_end() : cyclic_->told_end(track, motion_us);
+bool SetpointDrive::end_sent(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
+    return block_ ? block_->end_sent() : cyclic_->end_sent(track, motion_us);
 }
 
 bool SetpointDrive::clamped() const noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SetpointDrive: a drive that gets target positions or blocks by its profile, one axis: enabling, targets, status.
+// SetpointDrive: one drive of one axis that gets cyclic targets or blocks by its profile: enabling, targets, status,
+// stops.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_counts.hpp"
@@ -15,69 +16,72 @@
 
 namespace splinefeed::hal::modbus {
 
-/// How targets are to be sent.
+/// Settings of a drive for a run.
 struct SetpointSettings {
-    int axis = 0;                        ///< of the feed segments
+    int axis = 0;                        ///< index in the feed segments
     std::uint32_t period_us = 10'000;    ///< between two targets
-    double acceleration_counts_s2 = 1e6; ///< of the axis, as planned
-    bool home = false;                   ///< it finds its reference first
-    bool (*interrupted)() = nullptr;     ///< asked meanwhile: a quick stop
+    double acceleration_counts_s2 = 1e6; ///< planned acceleration of the axis
+    bool home = false;                   ///< home the drive first
+    bool (*interrupted)() = nullptr;     ///< polled during homing; true: quick stop
     double ramp_counts_s2 = 4e6;         ///< BlockSettings::acceleration
     double fastest_counts_s = 0.0;       ///< BlockSettings::fastest
-    /// Asked again and again while this drive is waited for: other drives are heard meanwhile, so that their watchdogs
-    /// do not run out. What it returns, if not empty, ends the wait.
+    /// Called repeatedly while waiting for this drive, to poll other drives and feed their watchdogs. A result that is
+    /// not empty is a failure and ends the wait.
     std::function<std::string()> meanwhile{};
 };
 
-/// Used by one thread at a time. It allocates when it is made and in open(), and never again.
+/// For one thread at a time. Constructor, open(), enable() and begin() allocate; the other functions do not.
 class SetpointDrive {
 public:
-    /// All must outlive it.
+    /// Profile and link must outlive the drive.
     SetpointDrive(const DriveProfile& profile, ModbusLine& link, int unit);
 
-    /// Connects, checks the identity, writes the init list, reads the status. Empty, or what is wrong.
+    /// Connects, checks the identity and reads the status. Returns what is wrong; empty: nothing.
     [[nodiscard]] std::string open();
-    /// Mode, windows, fault reset, enable: blocks for some seconds. Empty, or what is wrong.
+    /// Writes the init list, mode, watchdog and window, resets a fault and enables the drive. Blocks for some seconds.
+    /// Returns what is wrong; empty: nothing.
     [[nodiscard]] std::string enable(const SetpointSettings& settings);
-    /// Then: it finds its reference, if so set, and is told to stand where it is. Blocks until it does.
+    /// After enable(): homes the drive, if set, and sends its present position as the first target. Blocks until done.
+    /// Returns what is wrong; empty: nothing.
     [[nodiscard]] std::string begin(const SetpointSettings& settings);
 
-    /// Computes the frames that arrive at that instant.
-    void aim(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
-    /// Writes them. False: they were not answered, or refused. Then the next ones are written twice: where a toggle
-    /// starts a block, nobody knows how the drive saw it last.
+    /// Computes the frames of the target for that instant.
+    void prepare_frames(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
+    /// Writes the frames. Returns false if they were not answered or were refused. The next frames are then written
+    /// twice, because the last state of a toggle is unknown.
     bool send() noexcept;
-    /// It was not told anything for longer than it goes on by itself: it stands.
-    void stood(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
-    /// A drive that is told blocks stands, as far as they tell.
+    /// Call when no target was sent for so long that the drive stands.
+    void on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
+    /// Whether a drive with blocks stands, by the model of its blocks; false for cyclic drives.
     [[nodiscard]] bool at_rest() const noexcept { return block_ && block_->at_rest(); }
-    /// It has stood for some time, as far as its blocks tell. Where it says that it is elsewhere, since it is not known
-    /// which of them it got, the next one goes on from there.
-    void correct() noexcept;
-    /// When the last block arrived; UINT64_MAX: it did not.
-    void arrived(std::uint64_t arrival_us) noexcept;
-    /// Reads what reading() tells: all frames of it, or the next one in turn.
+    /// Call when the drive has stood for some time by the model of its blocks. If it reports another position, because
+    /// a block was lost, the next block starts from the reported one.
+    void resync_position() noexcept;
+    /// Reports when the last block arrived; UINT64_MAX: it did not.
+    void on_arrival(std::uint64_t arrival_us) noexcept;
+    /// Reads the status for reading(): all its frames, or the next one in turn. Return false on failure.
     bool read_status() noexcept;
     bool read_next() noexcept;
-    /// Sends a command from its first to its last frame, ahead of everything.
+    /// Sends all frames of a command. Blocks. Returns false on failure, or if the profile has no such command.
     bool command(DriveCommand command) noexcept;
-    /// Stops it by what its profile has, the first of: for a quick stop quick_stop, halt, disable; to switch it off
-    /// disable. Does not try again, so that other drives of the wire need not wait. False: it was not answered, or the
-    /// profile has no such command.
+    /// Stops the drive by the first command that its profile has: for a quick stop quick_stop, halt or disable; to
+    /// switch it off disable. Does not retry, so that other drives on the wire need not wait. Returns false if there
+    /// was no answer or the profile has no such command.
     bool stop(StopRequest request) noexcept;
 
     [[nodiscard]] const DriveReading& reading() const noexcept { return reading_; }
-    [[nodiscard]] bool told_end(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept;
-    /// It stands within what a loop in position may be off where the last block sent it; a cyclic drive: true.
+    [[nodiscard]] bool end_sent(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept;
+    /// Whether the reported position is at the target of the last block, within the tolerance of a position loop; true
+    /// for cyclic drives.
     [[nodiscard]] bool at_target() const noexcept;
-    /// A register could not hold what it was to be told.
+    /// Whether a value exceeded the range of its register.
     [[nodiscard]] bool clamped() const noexcept;
-    /// Its segments are the targets.
+    /// `segments` counts the targets.
     [[nodiscard]] const LinkCounts& counts() const noexcept { return counts_; }
     [[nodiscard]] const LinkAnswer& last_answer() const noexcept { return answer_; }
-    [[nodiscard]] std::uint64_t heard_us() const noexcept { return heard_us_; }
-    /// When reading() was said, the oldest part of it; 0: not all of it was read yet.
-    [[nodiscard]] std::uint64_t said_us() const noexcept;
+    [[nodiscard]] std::uint64_t answered_us() const noexcept { return answered_us_; }
+    /// Earliest instant of the oldest part of reading(); 0: not all parts were read yet.
+    [[nodiscard]] std::uint64_t status_us() const noexcept;
     [[nodiscard]] const DriveProfile& profile() const noexcept { return *profile_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
@@ -86,19 +90,19 @@ private:
     [[nodiscard]] SetpointFrames& frames() noexcept { return block_ ? block_->frames() : cyclic_->frames(); }
     bool command(DriveCommand command, int failures) noexcept;
     template <class Work>
-    [[nodiscard]] std::string attended(const SetpointSettings& settings, const Work& work);
+    [[nodiscard]] std::string run_with_meanwhile(const SetpointSettings& settings, const Work& work);
     [[nodiscard]] std::string switch_on(const SetpointSettings& settings);
     [[nodiscard]] bool wait_until(std::uint64_t instant_us) noexcept;
     bool write(const RegisterWrite& write) noexcept;
     bool read(std::uint16_t address, std::span<std::uint16_t> out) noexcept;
-    bool note(const LinkAnswer& answer) noexcept;
+    bool record(const LinkAnswer& answer) noexcept;
     template <class Try>
-    [[nodiscard]] bool persist(const Try& attempt);
+    [[nodiscard]] bool retry(const Try& attempt);
     [[nodiscard]] bool set_field(FieldIndex field, std::int64_t raw);
     [[nodiscard]] bool set_role(FieldRole role, std::int64_t physical_q16);
     [[nodiscard]] bool initialise();
     [[nodiscard]] std::string home(const SetpointSettings& settings);
-    [[nodiscard]] std::string follow();
+    [[nodiscard]] std::string prime_blocks();
     [[nodiscard]] std::string not_enabled() const;
     [[nodiscard]] std::string check_identity();
     [[nodiscard]] std::string trouble(const char* what) const;
@@ -109,16 +113,16 @@ private:
     StatusFrames status_;
     std::optional<BlockStream> block_;
     std::optional<CyclicStream> cyclic_;
-    std::span<const RegisterWrite> aimed_;
-    bool unsure_ = false; // whether it got the last ones
+    std::span<const RegisterWrite> prepared_;
+    bool delivery_unknown_ = false; // the last frames may be lost
     DriveReading reading_;
     LinkAnswer answer_;
     LinkCounts counts_;
     std::function<std::string()> meanwhile_; // SetpointSettings
-    std::string trouble_elsewhere_;          // that it told
-    std::uint64_t heard_us_ = 0;
-    std::size_t asked_ = 0;                                         // frames of the status so far
-    std::array<std::uint64_t, StatusFrames::most_reads> said_us_{}; // each of them
+    std::string trouble_elsewhere_;          // result of meanwhile_
+    std::uint64_t answered_us_ = 0;
+    std::size_t next_read_ = 0;                                       // counter of status frames
+    std::array<std::uint64_t, StatusFrames::most_reads> status_us_{}; // of each status frame
 };
 
 } // namespace splinefeed::hal::modbus

@@ -87,7 +87,7 @@ RegisterWrite SetpointFrames::single(FieldIndex field, std::int64_t raw) noexcep
     return writes_[0];
 }
 
-// What start_move sets, and it alone, stands already: such a drive follows each new target by itself.
+// Whether the bits of start_move are set already: such a drive follows each new target without another start.
 bool SetpointFrames::started() const noexcept {
     const std::vector<CommandStep>& steps = profile_.steps_of(DriveCommand::start_move);
     if (steps.empty() || in_group(steps.back().field)) {

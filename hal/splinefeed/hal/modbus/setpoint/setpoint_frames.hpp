@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SetpointFrames: the frames that set a drive going, as its profile has them: one group with its trigger, or field by
-// field.
+// SetpointFrames: builds the frames of a move by the drive's profile: one group with its trigger, or single fields.
 #pragma once
 
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
@@ -22,26 +21,27 @@ struct RegisterWrite {
     [[nodiscard]] std::span<const std::uint16_t> registers() const noexcept { return std::span(values).first(count); }
 };
 
-/// Remembers what every field was told last. It allocates when it is made, and never again.
+/// Stores the last value of every field. Allocates in its constructor only.
 class SetpointFrames {
 public:
-    /// The profile must outlive it.
+    /// The profile must outlive the frames.
     explicit SetpointFrames(const DriveProfile& profile);
 
-    /// What the field of the role will be told; nothing where the profile has no such field.
+    /// Sets the value of a role's field for the next build(). Returns the raw value; 0 if the profile has no such
+    /// field.
     RawValue set(FieldRole role, std::int64_t physical_q16) noexcept;
-    /// What a physical value of that role becomes on its way through the register; the value itself without a field.
+    /// A physical value rounded as in the register of that role; unchanged if the profile has no such field.
     [[nodiscard]] double rounded(FieldRole role, double physical) const noexcept;
-    /// Whoever writes a field by other ways (enable, mode) says so: bits of commands are laid over it.
-    void told(FieldIndex field, std::int64_t raw) noexcept { last_[field] = raw; }
+    /// Records a value that was written by other means (enable, mode), because commands change single bits of it.
+    void set_last(FieldIndex field, std::int64_t raw) noexcept { last_[field] = raw; }
     [[nodiscard]] std::int64_t last(FieldIndex field) const noexcept { return last_[field]; }
-    /// The frame that writes one field; of the target group, with all of it and without a start. It counts as told.
+    /// Returns the frame that writes one field. For a field of the target group it writes the whole group, without a
+    /// start. The value counts as sent.
     [[nodiscard]] RegisterWrite single(FieldIndex field, std::int64_t raw) noexcept;
 
-    /// The frames of the move that was set, in the order in which they must go out. With a target group it is one, with
-    /// the steps of start_move in it. Without: speeds and ramps where they changed, the target position behind them,
-    /// and start_move last unless what it sets stands already. A pulse is two frames, without its duration. Valid until
-    /// the next call.
+    /// Returns the frames of the move, in the order of sending; valid until the next call. With a target group this is
+    /// one frame, which includes the steps of start_move. Otherwise: changed speeds and ramps, the target position, and
+    /// start_move unless its bits are set already. A pulse is two frames, without its duration.
     [[nodiscard]] std::span<const RegisterWrite> build() noexcept;
 
 private:
@@ -57,8 +57,8 @@ private:
     const DriveProfile& profile_;
     const FieldGroup* group_;
     std::vector<std::int64_t> last_; // raw, by field
-    std::vector<std::int64_t> sent_; // what the drive has
-    std::vector<bool> known_;        // whether it has anything from us
+    std::vector<std::int64_t> sent_; // last value sent to the drive
+    std::vector<bool> known_;        // whether a value was sent
     std::array<FieldIndex, field_roles> by_role_{};
     std::array<RegisterWrite, most_writes> writes_{};
     std::size_t count_ = 0;

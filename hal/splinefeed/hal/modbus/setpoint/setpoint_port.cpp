@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// The positions of a drive are its own: what it has where the machine's motion begins is taken off for good, so that
-// nothing jumps. Where a drive is in fault or away, the motion's clock slows down for all the others: they stay on the
-// path. The one that is away stops by itself, off it.
+// A drive counts its own positions: its position at the start of the motion becomes a constant offset, so that nothing
+// jumps. If a drive is in fault or offline, the motion's clock slows down for all others, which stay on the path. The
+// offline drive stops by itself and leaves the path.
 #include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
-#include "splinefeed/hal/modbus/setpoint/setpoint_company.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_standby.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,22 +16,22 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::size_t track_segments = 4096;
+constexpr std::size_t buffer_segments = 4096;
 constexpr double ticks_per_us = 8.0;
 constexpr std::uint64_t lead_us = 50'000;
-constexpr std::uint64_t recent_us = 50'000;
-constexpr std::uint64_t keep_us = 100'000;     // of the track: threads look at it a little later
-constexpr std::uint64_t arrive_us = 5'000'000; // for the drives to say that they have arrived
-constexpr std::uint64_t settle_us = 50'000;    // of their shafts
+constexpr std::uint64_t online_us = 50'000;
+constexpr std::uint64_t retain_us = 100'000;   // of past segments: bus threads may still read them
+constexpr std::uint64_t arrive_us = 5'000'000; // time limit for the drives to report arrival
+constexpr std::uint64_t settle_us = 50'000;    // settling time of the shafts
 constexpr double us_per_s = 1e6;
-constexpr std::uint64_t look_every_us = 1000;
-constexpr double stand_counts = 2.0; // from where it was told to stand, when it does
-constexpr unsigned stop_turns = 10;  // of the buses, until what a drive was told and says is known
+constexpr std::uint64_t poll_interval_us = 1000;
+constexpr double standstill_counts = 2.0; // distance from the target that still counts as standing there
+constexpr unsigned stop_turns = 10;       // periods of a bus until a command and its status have passed
 
 } // namespace
 
 SetpointPort::SetpointPort(const std::vector<SetpointWiring>& wiring, const SetpointPortSettings& settings)
-    : settings_(settings), motion_(track_segments, settings.reserve_us), facts_(wiring.size()),
+    : settings_(settings), motion_(buffer_segments, settings.reserve_us), facts_(wiring.size()),
       stop_(wiring.size(), {}) {
     std::vector<WireUse> uses;
     uses.reserve(wiring.size());
@@ -43,20 +43,20 @@ SetpointPort::SetpointPort(const std::vector<SetpointWiring>& wiring, const Setp
         buses_.push_back(std::make_unique<SetpointBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
     }
     for (const SetpointWiring& drive : wiring) {
-        Place place;
-        place.wiring = drive;
-        place.bus = buses_[groups.of_drive[places_.size()]].get();
-        place.index = place.bus->drives();
-        static_cast<void>(place.bus->add(*drive.profile, drive.link.unit));
-        place.frame = AxisFrame(drive.inverted, drive.profile->field_of(FieldRole::target_position));
-        places_.push_back(std::move(place));
+        Slot slot;
+        slot.wiring = drive;
+        slot.bus = buses_[groups.of_drive[slots_.size()]].get();
+        slot.index = slot.bus->drives();
+        static_cast<void>(slot.bus->add(*drive.profile, drive.link.unit));
+        slot.frame = AxisFrame(drive.inverted, drive.profile->field_of(FieldRole::target_position));
+        slots_.push_back(std::move(slot));
     }
 }
 
 std::string SetpointPort::open() {
-    for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
-        const Place& place = places_[trouble_with_];
-        if (std::string what = place.bus->drive(place.index).open(); !what.empty()) {
+    for (trouble_with_ = 0; trouble_with_ < slots_.size(); ++trouble_with_) {
+        const Slot& slot = slots_[trouble_with_];
+        if (std::string what = slot.bus->drive(slot.index).open(); !what.empty()) {
             return what;
         }
     }
@@ -68,48 +68,48 @@ std::string SetpointPort::open() {
 }
 
 LinkAnswer SetpointPort::probe(std::size_t drive) noexcept {
-    SetpointDrive& asked = places_[drive].bus->drive(places_[drive].index);
+    SetpointDrive& asked = slots_[drive].bus->drive(slots_[drive].index);
     static_cast<void>(asked.read_next());
     return asked.last_answer();
 }
 
 std::string SetpointPort::prepare(const FeedSegment& first) {
     segment_us_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(first.duration_ticks / ticks_per_us));
-    SetpointCompany company(settings_.away_us);
-    for (const bool enabled : {false, true}) { // all are enabled before the first one is homed
-        for (trouble_with_ = 0; trouble_with_ < places_.size(); ++trouble_with_) {
-            Place& place = places_[trouble_with_];
-            SetpointDrive& drive = place.bus->drive(place.index);
+    SetpointStandby standby(settings_.away_us);
+    for (const bool enabled : {false, true}) { // enable all drives before the first one is homed
+        for (trouble_with_ = 0; trouble_with_ < slots_.size(); ++trouble_with_) {
+            Slot& slot = slots_[trouble_with_];
+            SetpointDrive& drive = slot.bus->drive(slot.index);
             bool elsewhere = false;
-            const auto attend = [&] {
-                std::string what = company.attend(drive);
+            const auto poll_others = [&] {
+                std::string what = standby.poll_others(drive);
                 elsewhere = elsewhere || !what.empty();
                 return what;
             };
-            const SetpointSettings settings{.axis = place.wiring.axis,
+            const SetpointSettings settings{.axis = slot.wiring.axis,
                                             .period_us = period_us_,
-                                            .acceleration_counts_s2 = place.wiring.acceleration_counts_s2,
+                                            .acceleration_counts_s2 = slot.wiring.acceleration_counts_s2,
                                             .home = settings_.home,
                                             .interrupted = settings_.interrupted,
-                                            .ramp_counts_s2 = place.wiring.ramp_counts_s2,
-                                            .fastest_counts_s = place.wiring.fastest_counts_s,
-                                            .meanwhile = attend};
+                                            .ramp_counts_s2 = slot.wiring.ramp_counts_s2,
+                                            .fastest_counts_s = slot.wiring.fastest_counts_s,
+                                            .meanwhile = poll_others};
             if (std::string what = enabled ? drive.begin(settings) : drive.enable(settings); !what.empty()) {
-                trouble_with_ = elsewhere ? company.troubled() : trouble_with_;
+                trouble_with_ = elsewhere ? standby.troubled() : trouble_with_;
                 return what;
             }
-            const std::int64_t start = first.start[static_cast<std::size_t>(place.wiring.axis)];
+            const std::int64_t start = first.start[static_cast<std::size_t>(slot.wiring.axis)];
             if (!enabled) {
-                company.add(drive);
-            } else if (!place.frame.align(drive.reading().position_q16, start)) {
+                standby.add(drive);
+            } else if (!slot.frame.align(drive.reading().position_q16, start)) {
                 return AxisFrame::out_of_range;
             }
         }
     }
-    for (const Place& place : places_) {
-        motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(place.wiring, period_us_));
+    for (const Slot& slot : slots_) {
+        motion_.ahead_us = std::max(motion_.ahead_us, std::uint64_t{2} * horizon_us(slot.wiring, period_us_));
     }
-    const std::uint64_t turns_us = stop_turns * std::uint64_t{period_us_} * places_.size() + stand_still_us;
+    const std::uint64_t turns_us = stop_turns * std::uint64_t{period_us_} * slots_.size() + standstill_us;
     stop_times_.hold_us = lead_us + std::uint64_t{2} * settings_.reserve_us + turns_us + answers_us();
     stop_times_.quick_stop_us += turns_us;
     stop_times_.disable_us += turns_us;
@@ -123,12 +123,12 @@ std::string SetpointPort::prepare(const FeedSegment& first) {
     return {};
 }
 
-// A few exchanges in a row that fail, on the slowest wire.
+// Duration of a few consecutive failed exchanges on the slowest wire.
 std::uint64_t SetpointPort::answers_us() const noexcept {
     constexpr std::uint64_t lost = 4;
     std::uint64_t longest_us = settings_.timing.answer_us;
-    for (const Place& place : places_) {
-        const LinkSettings& link = place.wiring.profile->link;
+    for (const Slot& slot : slots_) {
+        const LinkSettings& link = slot.wiring.profile->link;
         longest_us = std::max<std::uint64_t>(longest_us, link.response_timeout_us + link.turnaround_us);
     }
     return lost * longest_us;
@@ -139,22 +139,22 @@ void SetpointPort::complete() noexcept {
     motion_.complete = true;
 }
 
-bool SetpointPort::heard(std::size_t drive) const noexcept {
+bool SetpointPort::online(std::size_t drive) const noexcept {
     const std::uint64_t now = settings_.clock->now_us();
-    return now < report(drive).heard_us + recent_us + std::uint64_t{drives()} * period_us_;
+    return now < report(drive).answered_us + online_us + std::uint64_t{drives()} * period_us_;
 }
 
 double SetpointPort::deviation_counts(std::size_t drive) const noexcept {
-    const Place& place = places_[drive];
-    return place.deviation_counts + rounding_counts(place.wiring, period_us_) +
-           late_counts(place.wiring, period_us_, report(drive).late_us, place.speed_counts_s,
+    const Slot& slot = slots_[drive];
+    return slot.deviation_counts + rounding_counts(slot.wiring, period_us_) +
+           late_counts(slot.wiring, period_us_, report(drive).late_us, slot.speed_counts_s,
                        SetpointBus::allowed_late_us + settings_.reserve_us);
 }
 
 double SetpointPort::deviation_bound_counts(std::size_t drive) const noexcept {
-    const Place& place = places_[drive];
+    const Slot& slot = slots_[drive];
     const double period_s = period_us_ / us_per_s;
-    return place.wiring.acceleration_counts_s2 * period_s * period_s / 8.0 + rounding_counts(place.wiring, period_us_);
+    return slot.wiring.acceleration_counts_s2 * period_s * period_s / 8.0 + rounding_counts(slot.wiring, period_us_);
 }
 
 std::uint64_t SetpointPort::busy_us() const noexcept {
@@ -179,46 +179,46 @@ void SetpointPort::close() noexcept {
 }
 
 int SetpointPort::do_room() const noexcept {
-    if (!takes()) {
+    if (!accepts_segments()) {
         return 0;
     }
     const std::lock_guard lock(motion_.mutex);
     const std::uint64_t now = motion_.clock.time(settings_.clock->now_us());
-    const std::uint64_t held = motion_.track.end_us() - std::min(now, motion_.track.end_us());
+    const std::uint64_t held = motion_.trajectory.end_us() - std::min(now, motion_.trajectory.end_us());
     const std::uint64_t most = settings_.buffer_us + period_us_;
     const std::uint64_t room = held < most ? (most - held) / segment_us_ + 1 : 0;
-    return static_cast<int>(std::min<std::uint64_t>(room, motion_.track.room()));
+    return static_cast<int>(std::min<std::uint64_t>(room, motion_.trajectory.room()));
 }
 
 bool SetpointPort::do_submit(const FeedSegment& segment) noexcept {
-    if (!takes()) {
+    if (!accepts_segments()) {
         return false;
     }
     FeedSegment moved = segment;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (!places_[i].frame.apply(moved,
-                                    static_cast<std::size_t>(places_[i].wiring.axis))) { // nobody is told any of it
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        if (!slots_[i].frame.apply(moved,
+                                   static_cast<std::size_t>(slots_[i].wiring.axis))) { // no drive gets any of it
             trouble_ = AxisFrame::out_of_range;
             trouble_with_ = i;
             begin_stop(StopRequest::hold); // on the path
             return false;
         }
     }
-    for (Place& place : places_) {
-        const auto axis = static_cast<std::size_t>(place.wiring.axis);
+    for (Slot& slot : slots_) {
+        const auto axis = static_cast<std::size_t>(slot.wiring.axis);
         const auto way =
             static_cast<double>(std::max(std::abs(segment.start_velocity[axis]), std::abs(segment.end_velocity[axis])));
-        place.speed_counts_s = std::max(place.speed_counts_s, way / static_cast<double>(units_per_count) *
-                                                                  ticks_per_us * us_per_s / segment.duration_ticks);
-        place.deviation_counts =
-            std::max(place.deviation_counts, line_deviation_counts(segment, place.wiring.axis, period_us_));
+        slot.speed_counts_s = std::max(slot.speed_counts_s, way / static_cast<double>(units_per_count) * ticks_per_us *
+                                                                us_per_s / segment.duration_ticks);
+        slot.deviation_counts =
+            std::max(slot.deviation_counts, line_deviation_counts(segment, slot.wiring.axis, period_us_));
     }
     const std::lock_guard lock(motion_.mutex);
     ++submitted_;
-    return motion_.track.push(moved);
+    return motion_.trajectory.push(moved);
 }
 
-// All of them slow down, on the path; what is not on it stops for itself.
+// All drives slow down on the path; a drive that is not on the path stops by itself.
 void SetpointPort::begin_stop(StopRequest request) noexcept {
     const std::uint64_t now = settings_.clock->now_us();
     if (!stop_.requested()) {
@@ -226,18 +226,18 @@ void SetpointPort::begin_stop(StopRequest request) noexcept {
     }
     stop_.request(request, now);
     const std::lock_guard lock(motion_.mutex);
-    motion_.stops = true;
-    if (phase_ != Phase::filling && !motion_.clock.stopping()) { // else it was never started, and never will be
+    motion_.stop_requested = true;
+    if (phase_ != Phase::filling && !motion_.clock.stopping()) { // otherwise the clock was never started
         motion_.clock.stop(now);
     }
     phase_ = Phase::ending;
 }
 
-// False: a drive is in trouble.
-bool SetpointPort::watch() noexcept {
+// Returns false if a drive has failed.
+bool SetpointPort::check_drives() noexcept {
     const std::uint64_t now = settings_.clock->now_us();
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        trouble_ = places_[i].watch.trouble(report(i), now, settings_.away_us, began_us_);
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        trouble_ = slots_[i].watch.trouble(report(i), now, settings_.away_us, began_us_);
         if (!trouble_.empty()) {
             trouble_with_ = i;
             return false;
@@ -248,19 +248,19 @@ bool SetpointPort::watch() noexcept {
 
 void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
     bool together = true;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        const SetpointReport seen = report(i);
-        const double tolerance = stand_counts + rounding_counts(places_[i].wiring, period_us_);
-        facts_[i] = stop_facts(seen, motion_, stop_began_us_);
-        together = together && stands_on_path(seen, motion_, places_[i].wiring.axis, tolerance);
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        const SetpointReport last = report(i);
+        const double tolerance = standstill_counts + rounding_counts(slots_[i].wiring, period_us_);
+        facts_[i] = stop_facts(last, motion_, stop_began_us_);
+        together = together && stands_on_path(last, motion_, slots_[i].wiring.axis, tolerance);
     }
     for (StopFacts& facts : facts_) {
         facts.on_path = together;
     }
     stop_.update(now_us, facts_);
-    for (std::size_t i = 0; i < places_.size(); ++i) {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
         if (const StopRequest request = stop_.to_send(i); request > StopRequest::hold) {
-            places_[i].bus->stop_drive(places_[i].index, request);
+            slots_[i].bus->stop_drive(slots_[i].index, request);
         }
     }
     if (phase_ == Phase::ending && stop_.settled()) {
@@ -268,17 +268,17 @@ void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
     }
 }
 
-// A cyclic drive has no move that could be done: it counts where it stands.
+// A cyclic drive has no move to complete: its position decides.
 bool SetpointPort::arrived() noexcept {
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        const SetpointReport seen = report(i);
-        bool there = seen.reading.done && seen.at_target;
-        if (places_[i].wiring.profile->stream == StreamWay::cyclic) {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        const SetpointReport last = report(i);
+        bool there = last.reading.done && last.at_target;
+        if (slots_[i].wiring.profile->stream == StreamWay::cyclic) {
             const std::lock_guard lock(motion_.mutex);
-            const TrajectoryPoint end = motion_.track.at(places_[i].wiring.axis, motion_.track.end_us());
-            there = std::abs(seen.reading.position_q16 - end.position_q16) <= (1 << physical_bits);
+            const TrajectoryPoint end = motion_.trajectory.at(slots_[i].wiring.axis, motion_.trajectory.end_us());
+            there = std::abs(last.reading.position_q16 - end.position_q16) <= (1 << physical_bits);
         }
-        if (!seen.told_end || !there) {
+        if (!last.end_sent || !there) {
             trouble_with_ = i;
             return false;
         }
@@ -286,34 +286,34 @@ bool SetpointPort::arrived() noexcept {
     return true;
 }
 
-// As far as the clock tells.
+// Estimated by the clock.
 std::uint64_t SetpointPort::executed() const noexcept {
     const std::lock_guard lock(motion_.mutex);
     return std::min(motion_.clock.time(settings_.clock->now_us()) / segment_us_, submitted_);
 }
 
-// Any bus may have stopped the clock, for all.
+// Updates the phase: any bus may have stopped the clock for all drives.
 void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
-    bool all_heard = true;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        // A drive that is told blocks may not have got some of them: then it is to get to the path first.
-        const bool returns = phase_ == Phase::waiting && places_[i].wiring.profile->stream == StreamWay::blocks &&
-                             report(i).still_us < stand_still_us;
-        all_heard = all_heard && heard(i) && !returns;
+    bool all_online = true;
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        // A drive that lost blocks must first reach the path.
+        const bool returns = phase_ == Phase::waiting && slots_[i].wiring.profile->stream == StreamWay::blocks &&
+                             report(i).still_us < standstill_us;
+        all_online = all_online && online(i) && !returns;
     }
     const std::lock_guard lock(motion_.mutex);
     const std::uint64_t time_us = motion_.time_us(now_us);
-    const std::uint64_t end_us = motion_.track.end_us();
+    const std::uint64_t end_us = motion_.trajectory.end_us();
     const bool filled = motion_.complete || end_us >= time_us + settings_.buffer_us;
     switch (phase_) {
     case Phase::filling:
-        if (filled && !motion_.track.empty()) {
+        if (filled && !motion_.trajectory.empty()) {
             motion_.clock.start(now_us + lead_us);
             phase_ = Phase::running;
         }
         break;
     case Phase::running:
-        motion_.track.release(time_us > keep_us ? time_us - keep_us : 0);
+        motion_.trajectory.release(time_us > retain_us ? time_us - retain_us : 0);
         if (motion_.clock.stopping()) {
             phase_ = Phase::stopping;
         } else if (motion_.complete && time_us >= end_us) {
@@ -321,15 +321,15 @@ void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
             arriving_us_ = now_us;
         }
         break;
-    case Phase::stopping: phase_ = motion_.clock.stands(now_us) ? Phase::waiting : phase_; break;
+    case Phase::stopping: phase_ = motion_.clock.at_standstill(now_us) ? Phase::waiting : phase_; break;
     case Phase::waiting:
-        if (filled && all_heard && now_us > stood_us_ + settle_us) {
+        if (filled && all_online && now_us > waiting_since_us_ + settle_us) {
             motion_.clock.resume(now_us + lead_us);
             ++resumes_;
             phase_ = Phase::running;
         }
         break;
-    case Phase::arriving: // a bus may have stopped the clock since then, from an instant before the end on
+    case Phase::arriving: // a bus may have stopped the clock meanwhile, at an instant before the end
         phase_ = motion_.clock.stopping() ? Phase::stopping : phase_;
         break;
     case Phase::ending:
@@ -337,20 +337,20 @@ void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
     case Phase::done:
     case Phase::fault: break;
     }
-    stood_us_ = phase_ == Phase::waiting ? stood_us_ : now_us;
+    waiting_since_us_ = phase_ == Phase::waiting ? waiting_since_us_ : now_us;
 }
 
 PortState SetpointPort::do_poll() noexcept {
     const std::uint64_t now = settings_.clock->now_us();
-    if (!stop_.requested() && phase_ != Phase::done && !watch()) {
+    if (!stop_.requested() && phase_ != Phase::done && !check_drives()) {
         begin_stop(StopRequest::hold);
     }
     follow_clock(now);
-    there_us_ = phase_ != Phase::arriving || !arrived() ? 0 : there_us_ == 0 ? now : there_us_;
-    if (there_us_ != 0 && now > there_us_ + settle_us) {
+    arrived_since_us_ = phase_ != Phase::arriving || !arrived() ? 0 : arrived_since_us_ == 0 ? now : arrived_since_us_;
+    if (arrived_since_us_ != 0 && now > arrived_since_us_ + settle_us) {
         phase_ = Phase::done;
     } else if (phase_ == Phase::arriving && now > arriving_us_ + arrive_us) {
-        trouble_ = "it does not say that it has arrived";
+        trouble_ = "it does not report that it has arrived";
         begin_stop(StopRequest::hold);
     }
     if (stop_.requested()) {
@@ -364,7 +364,7 @@ PortState SetpointPort::do_poll() noexcept {
 }
 
 void SetpointPort::do_halt() noexcept {
-    if (takes() || phase_ == Phase::arriving) {
+    if (accepts_segments() || phase_ == Phase::arriving) {
         begin_stop(StopRequest::hold);
     }
 }
@@ -380,7 +380,7 @@ void SetpointPort::power_off() noexcept {
 
 void SetpointPort::await_stop() noexcept {
     while (phase_ == Phase::ending) {
-        settings_.clock->sleep_us(look_every_us);
+        settings_.clock->sleep_us(poll_interval_us);
         follow_stop(settings_.clock->now_us());
     }
 }

@@ -7,7 +7,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-// What a drive that has stopped for itself did; none: it follows, as far as is known.
+// The stop that a drive made by itself, by its state; none: it follows its targets.
 StopRequest stopped_itself(DriveState state) noexcept {
     switch (state) {
     case DriveState::fault:
@@ -25,14 +25,14 @@ StopRequest stopped_itself(DriveState state) noexcept {
 
 } // namespace
 
-// A hold is executed when a target arrived behind the instant at which the motion stands, or if it never began.
-StopFacts stop_facts(const SetpointReport& seen, SetpointMotion& motion, std::uint64_t began_us) noexcept {
-    StopFacts facts{.said_us = seen.said_us,
-                    .standstill = seen.still_us >= stand_still_us,
-                    .executed = seen.executed,
-                    .executed_us = seen.executed_us};
-    const StopRequest itself = stopped_itself(seen.reading.state);
-    if (itself > facts.executed && seen.said_us > began_us) {
+// A hold is executed when a target has arrived after the clock's standstill, or if the motion never began.
+StopFacts stop_facts(const SetpointReport& report, SetpointMotion& motion, std::uint64_t began_us) noexcept {
+    StopFacts facts{.status_us = report.status_us,
+                    .standstill = report.still_us >= standstill_us,
+                    .executed = report.executed,
+                    .executed_us = report.executed_us};
+    const StopRequest itself = stopped_itself(report.reading.state);
+    if (itself > facts.executed && report.status_us > began_us) {
         facts.executed = itself;
         facts.executed_us = began_us;
     }
@@ -41,24 +41,24 @@ StopFacts stop_facts(const SetpointReport& seen, SetpointMotion& motion, std::ui
     }
     const std::lock_guard lock(motion.mutex);
     const bool began = motion.clock.stopping();
-    const std::uint64_t stands_us = began ? motion.clock.standing_from() : began_us;
-    if (!began || seen.told_us >= stands_us) {
+    const std::uint64_t stands_us = began ? motion.clock.standstill_from() : began_us;
+    if (!began || report.setpoint_us >= stands_us) {
         facts.executed = StopRequest::hold;
         facts.executed_us = stands_us;
     }
     return facts;
 }
 
-bool stands_on_path(const SetpointReport& seen, SetpointMotion& motion, int axis, double tolerance_counts) noexcept {
-    if (seen.reading.state != DriveState::enabled && seen.reading.state != DriveState::moving) {
+bool stands_on_path(const SetpointReport& report, SetpointMotion& motion, int axis, double tolerance_counts) noexcept {
+    if (report.reading.state != DriveState::enabled && report.reading.state != DriveState::moving) {
         return false;
     }
     const std::lock_guard lock(motion.mutex);
-    if (motion.track.empty() || !motion.clock.stopping()) {
+    if (motion.trajectory.empty() || !motion.clock.stopping()) {
         return true; // it never began to move
     }
-    const std::uint64_t stands_us = motion.clock.time(motion.clock.standing_from());
-    const std::int64_t off_q16 = seen.reading.position_q16 - motion.track.at(axis, stands_us).position_q16;
+    const std::uint64_t stands_us = motion.clock.time(motion.clock.standstill_from());
+    const std::int64_t off_q16 = report.reading.position_q16 - motion.trajectory.at(axis, stands_us).position_q16;
     return std::fabs(static_cast<double>(off_q16)) / (1 << physical_bits) <= tolerance_counts;
 }
 

@@ -7,33 +7,33 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t unknown_us = 200'000; // a state that no test of the profile fits, on its way to another one
+constexpr std::uint64_t unknown_us =
+    200'000; // allowed duration of a transition state that matches no test of the profile
 
 } // namespace
 
-// A drive that stops for itself, or lost its power, is none that follows.
-std::string SetpointWatch::trouble(const SetpointReport& seen, std::uint64_t now_us, std::uint64_t away_us,
+// A drive that has stopped by itself or lost its power does not follow.
+std::string SetpointWatch::trouble(const SetpointReport& report, std::uint64_t now_us, std::uint64_t away_us,
                                    std::uint64_t began_us) {
-    const bool unknown = seen.said_us != 0 && seen.reading.state == DriveState::unknown;
-    lost_us_ = !unknown ? 0 : lost_us_ == 0 ? now_us : lost_us_;
-    if (now_us > std::max(seen.heard_us, began_us) + away_us) {
-        return std::string("it does not answer any more: ") + describe(seen.fault);
+    const bool unknown = report.status_us != 0 && report.reading.state == DriveState::unknown;
+    unknown_since_us_ = !unknown ? 0 : unknown_since_us_ == 0 ? now_us : unknown_since_us_;
+    if (now_us > std::max(report.answered_us, began_us) + away_us) {
+        return std::string("it does not answer any more: ") + describe(report.fault);
     }
-    if (seen.clamped) {
-        return "a register cannot hold the position or speed that it was to be told; check scale and clamp in its "
-               "profile";
+    if (report.clamped) {
+        return "a position or speed exceeds the range of its register; check scale and clamp in its profile";
     }
-    switch (seen.reading.state) {
+    switch (report.reading.state) {
     case DriveState::fault:
-        return "it is in fault, code " + std::to_string(seen.reading.fault_code) + "; see its manual";
+        return "it is in fault, code " + std::to_string(report.reading.fault_code) + "; see its manual";
     case DriveState::disabled:
     case DriveState::not_ready: return "it was disabled while it moved";
-    case DriveState::quick_stop: return "it made a quick stop of its own; look at its inputs and its watchdog";
-    case DriveState::halted: return "it was halted by somebody else; look at its inputs";
-    case DriveState::homing: return "it began to home while it moved; look at its inputs";
+    case DriveState::quick_stop: return "it made a quick stop by itself; check its inputs and its watchdog";
+    case DriveState::halted: return "it was halted from outside; check its inputs";
+    case DriveState::homing: return "it began to home while it moved; check its inputs";
     case DriveState::unknown:
-        return unknown && now_us > lost_us_ + unknown_us
-                   ? "its status is none that its profile knows; check the profile's states"
+        return unknown && now_us > unknown_since_us_ + unknown_us
+                   ? "its status matches no state of its profile; check the profile's states"
                    : "";
     case DriveState::enabled:
     case DriveState::moving: break;

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// SetpointWatch: whether a drive that is told where to be still follows, by what it says.
+// SetpointWatch: checks by its reports whether a drive still follows its targets.
 #pragma once
 
 #include "splinefeed/hal/modbus/setpoint/setpoint_bus.hpp"
 
 namespace splinefeed::hal::modbus {
 
-/// One for each drive, while it is to follow.
+/// Use one for each drive during a motion.
 class SetpointWatch {
 public:
-    /// What is wrong with it; empty: nothing.
-    /// @param away_us   not having answered for this long is trouble
-    /// @param began_us  since when it is to follow
-    [[nodiscard]] std::string trouble(const SetpointReport& seen, std::uint64_t now_us, std::uint64_t away_us,
+    /// Returns what is wrong with the drive; empty: nothing.
+    /// @param away_us   a drive without an answer for this long has failed
+    /// @param began_us  start of the motion [us]
+    [[nodiscard]] std::string trouble(const SetpointReport& report, std::uint64_t now_us, std::uint64_t away_us,
                                       std::uint64_t began_us);
 
 private:
-    std::uint64_t lost_us_ = 0; // its state is unknown since then; 0: it is not
+    std::uint64_t unknown_since_us_ = 0; // its state is unknown since then; 0: it is known
 };
 
 } // namespace splinefeed::hal::modbus

@@ -34,12 +34,12 @@ double late_counts(const SetpointWiring& wiring, std::uint32_t period_us, std::u
                    std::uint32_t stop_us) noexcept {
     const double late_s = static_cast<double>(late_us) / us_per_s;
     const double period_s = period_us / us_per_s;
-    // Speed and ramp stay as they were for as long.
+    // The drive keeps its speed and ramp meanwhile.
     double late = wiring.acceleration_counts_s2 * late_s * (period_s + late_s);
-    if (wiring.profile->stream == StreamWay::cyclic) { // and beyond its own period it stands
+    if (wiring.profile->stream == StreamWay::cyclic) { // beyond its own period the drive stands
         late += speed_counts_s * std::max(0.0, late_s - (horizon_us(wiring, period_us) / us_per_s - period_s));
     }
-    // Then all stop: what the path goes on meanwhile.
+    // All drives then stop: the path advances by this much at most.
     return std::min(late, speed_counts_s * (2.0 * period_s + stop_us / us_per_s));
 }
 

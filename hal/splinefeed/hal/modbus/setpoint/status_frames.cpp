@@ -43,11 +43,11 @@ bool StatusFrames::holds_now(const std::optional<FieldTest>& test, bool otherwis
 DriveState StatusFrames::state() const noexcept {
     if (profile_.cia402) {
         const RegisterField* const status = profile_.field_of(FieldRole::status);
-        const DriveState told = status == nullptr
-                                    ? DriveState::unknown
-                                    : cia402_state(static_cast<std::uint32_t>(
-                                          raw_[static_cast<std::size_t>(status - profile_.fields.data())]));
-        return told == DriveState::enabled && !holds_now(profile_.done, true) ? DriveState::moving : told;
+        const DriveState reported = status == nullptr
+                                        ? DriveState::unknown
+                                        : cia402_state(static_cast<std::uint32_t>(
+                                              raw_[static_cast<std::size_t>(status - profile_.fields.data())]));
+        return reported == DriveState::enabled && !holds_now(profile_.done, true) ? DriveState::moving : reported;
     }
     for (const StateTest& test : profile_.states) {
         if (holds(test.test, raw_[test.test.field])) {

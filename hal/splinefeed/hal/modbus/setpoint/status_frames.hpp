@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// StatusFrames: what must be read of a drive again and again, as its profile has it, and what it says.
+// StatusFrames: the periodic status reads of a drive by its profile, and the decoded status.
 #pragma once
 
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
@@ -19,24 +19,22 @@ struct RegisterRead {
 
 struct DriveReading {
     DriveState state = DriveState::unknown;
-    bool done =
-        false; ///< the last move has arrived; true where the profile has no test for it and the drive is enabled
-    bool homed = false;                              ///< false where the profile has no test for it
-    std::int64_t position_q16 = 0;                   ///< [1/65536 count]
-    std::optional<std::int64_t> following_error_q16; ///< where the drive tells it
-    std::int64_t fault_code = 0;                     ///< the maker's; 0 where the drive tells none
+    bool done = false;             ///< the last move is complete; without a test in the profile: the drive is enabled
+    bool homed = false;            ///< false without a test in the profile
+    std::int64_t position_q16 = 0; ///< [1/65536 count]
+    std::optional<std::int64_t> following_error_q16; ///< empty: the drive does not report it
+    std::int64_t fault_code = 0;                     ///< code of the maker; 0 if the drive reports none
 };
 
-/// Use: for each of reads(): read it, take(i, registers); then reading(). It allocates when it is made, and never
-/// again.
+/// Use: read each frame of reads() and pass it to take(); then call reading(). Allocates in its constructor only.
 class StatusFrames {
 public:
     static constexpr std::size_t most_reads = 5;
 
-    /// The profile must outlive it.
+    /// The profile must outlive the frames.
     explicit StatusFrames(const DriveProfile& profile);
 
-    /// The status group in one frame, and a frame for each field with a role that is not in it: status, actual
+    /// The frames to read: the status group, and one frame for each of these fields outside of it: status, actual
     /// position, following error, fault code.
     [[nodiscard]] std::span<const RegisterRead> reads() const noexcept { return std::span(reads_).first(count_); }
     /// @pre i < reads().size(), registers.size() == reads()[i].count

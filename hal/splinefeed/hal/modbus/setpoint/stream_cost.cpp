@@ -61,18 +61,18 @@ StreamCost stream_cost(const DriveProfile& profile, const LinkAddress& address) 
             append(field->registers());
         }
     }
-    const auto look = [&](std::size_t registers) {
+    const auto add_read = [&](std::size_t registers) {
         cost.status_us += line.read(registers);
         cost.read_us = std::max(cost.read_us, line.read(registers));
     };
     const FieldGroup* const status = profile.group_for(GroupUse::status);
     if (status != nullptr) {
-        look(status->registers);
+        add_read(status->registers);
     }
     for (const FieldRole role : {FieldRole::status, FieldRole::actual_position}) {
         const RegisterField* const field = profile.field_of(role);
         if (field != nullptr && !within(status, *field)) {
-            look(field->registers());
+            add_read(field->registers());
         }
     }
     return cost;

@@ -13,7 +13,7 @@ constexpr double ticks_per_s = 8e6;
 constexpr std::int64_t units_per_q16 = units_per_count >> physical_bits;
 static_assert(units_per_q16 << physical_bits == units_per_count);
 
-std::int64_t q16_of(std::int64_t units) noexcept { // to the nearest, ties upwards
+std::int64_t q16_of(std::int64_t units) noexcept { // rounds to nearest, ties upwards
     const std::int64_t shifted = units + units_per_q16 / 2;
     return shifted / units_per_q16 - (shifted % units_per_q16 < 0 ? 1 : 0);
 }
@@ -50,7 +50,7 @@ bool TrajectoryBuffer::push(const FeedSegment& segment) noexcept {
     return true;
 }
 
-// The last one stays: it is where the axes stand behind it.
+// Keeps the last segment: the axes stand at its end.
 void TrajectoryBuffer::release(std::uint64_t before_us) noexcept {
     while (count_ > 1 && placed(1).begin_ticks <= before_us * ticks_per_us) {
         first_ = (first_ + 1) % ring_.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TrajectoryBuffer: feed segments on the time axis of a motion: where each axis is at an instant.
+// TrajectoryBuffer: feed segments of a motion on its time axis; gives the position of each axis at any time.
 #pragma once
 
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
@@ -14,35 +14,34 @@ struct TrajectoryPoint {
     double velocity = 0.0;         ///< [counts/s]
 };
 
-/// When a frame arrives, of our clock, and where the motion is then and when the next one arrives, by its own time
-/// [us].
+/// Arrival of a frame on the host clock, and the motion times at its arrival and at that of the next frame. [us]
 struct MotionInstant {
     std::uint64_t arrival_us = 0;
     std::uint64_t motion_us = 0;
     std::uint64_t next_us = 0;
 };
 
-/// Times are microseconds since the motion began. Not for several threads at once.
+/// Times are microseconds since the start of the motion. Not thread-safe.
 class TrajectoryBuffer {
 public:
-    /// Room for so many segments, allocated here and never again.
+    /// Allocates room for `capacity` segments; never allocates again.
     explicit TrajectoryBuffer(std::size_t capacity) : ring_(capacity) {}
 
-    /// A motion begins anew, at 0.
+    /// Removes all segments; the next motion starts at time 0.
     void clear() noexcept;
-    /// False where it is full, and nothing was taken. @pre it starts where the one before ended
+    /// Appends a segment. Returns false if the buffer is full. @pre the segment starts at the end of the previous one
     bool push(const FeedSegment& segment) noexcept;
-    /// Forgets segments that end before this time.
+    /// Removes segments that end before this time, but never the last one.
     void release(std::uint64_t before_us) noexcept;
     [[nodiscard]] std::size_t room() const noexcept { return ring_.size() - count_; }
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-    /// The end of the last segment [us], rounded up.
+    /// End of the last segment, rounded up. [us]
     [[nodiscard]] std::uint64_t end_us() const noexcept;
-    /// The last segment ends with velocity 0 in every axis: a complete motion.
+    /// Whether the last segment ends with velocity 0 in every axis.
     [[nodiscard]] bool ends_at_rest(int axes) const noexcept;
 
-    /// Before the first segment where that starts, and behind the last where that ends, at rest. @pre not empty
-    /// Cost: linear in the segments held between.
+    /// State of an axis at a time. Before the first segment: its start, at rest; after the last one: its end, at rest.
+    /// Cost: linear in the segments before that time. @pre not empty
     [[nodiscard]] TrajectoryPoint at(int axis, std::uint64_t time_us) const noexcept;
 
 private:
@@ -58,8 +57,8 @@ private:
     std::uint64_t end_ticks_ = 0;
 };
 
-/// How far the path may be from the straight line between two of its points that are `period_us` apart, at most, where
-/// both lie near this segment: period^2 |acceleration| / 8. [counts]
+/// Largest distance of the path from the straight line between two of its points that are `period_us` apart, near this
+/// segment: period^2 |acceleration| / 8. [counts]
 [[nodiscard]] double line_deviation_counts(const FeedSegment& segment, int axis, std::uint32_t period_us) noexcept;
 
 } // namespace splinefeed::hal::modbus

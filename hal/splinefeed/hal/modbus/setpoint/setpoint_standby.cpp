@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/hal/modbus/setpoint/setpoint_company.hpp"
+#include "splinefeed/hal/modbus/setpoint/setpoint_standby.hpp"
 
 namespace splinefeed::hal::modbus {
 
-std::string SetpointCompany::attend(const SetpointDrive& but) {
+std::string SetpointStandby::poll_others(const SetpointDrive& but) {
     for (troubled_ = 0; troubled_ < drives_.size(); ++troubled_) {
         SetpointDrive& drive = *drives_[troubled_];
         if (&drive == &but) {
@@ -15,9 +15,9 @@ std::string SetpointCompany::attend(const SetpointDrive& but) {
             return "it is in fault, code " + std::to_string(reading.fault_code) + "; see its manual";
         }
         if (reading.state == DriveState::disabled) {
-            return "it was disabled while another drive was made ready";
+            return "it was disabled while another drive was prepared";
         }
-        if (drive.link().clock().now_us() > drive.heard_us() + away_us_) {
+        if (drive.link().clock().now_us() > drive.answered_us() + away_us_) {
             return std::string("it does not answer any more: ") + describe(drive.last_answer().fault);
         }
     }
