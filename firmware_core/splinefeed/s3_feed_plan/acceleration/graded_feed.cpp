@@ -2,7 +2,7 @@
 //
 // A jerk-limited plan has one pseudo-jerk u for each cell, with |u| <= 2 J / sqrt(b) for the largest b in the cell. So
 // in a cell of length L beside a bend the speed v can change much only where L is not longer than the way in which a
-// jerk J changes v by itself, sqrt(v^3 / J). docs/explanation/feed.md shows what the constant below does. A motion from
+// jerk J changes v by itself, sqrt(v^3 / J). A motion from
 // rest needs no such parts: ArcLength grades the cells near a stop.
 #include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
 
@@ -12,7 +12,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double graded_part = 0.3;    // length of a part, in sqrt(v^3 / J)
 constexpr double shortest_mm = 4e-6;   // a shorter part is not cut: Fixed has no digits for its halves
 constexpr double least_share = 0x1p-8; // of the cell: a smaller part is not cut
 
@@ -50,7 +49,7 @@ bool GradedFeed<S>::too_long(const Cell<S>& cell, const CellInterval<S>& part) c
     }
     for (const S end : {part.from, part.to}) {
         const S speed = square_root(speed_sq_at(end));
-        if (speed > S{} && length > literal<S>(graded_part) * speed * square_root(speed / jerk)) {
+        if (speed > S{} && length > longest_ * speed * square_root(speed / jerk)) {
             return true;
         }
     }

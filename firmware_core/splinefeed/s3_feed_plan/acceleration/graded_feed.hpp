@@ -14,8 +14,9 @@ namespace splinefeed {
 template <Scalar S>
 class GradedFeed {
 public:
-    /// `source` and `limits` must outlive it.
-    GradedFeed(FeedPlan<S>& source, const MotionLimits<S>& limits) noexcept : source_(&source), limits_(&limits) {
+    /// `source` and `limits` must outlive it. @param longest  length of a part at most, in sqrt(v^3 / J)
+    GradedFeed(FeedPlan<S>& source, const MotionLimits<S>& limits, S longest) noexcept
+        : source_(&source), limits_(&limits), longest_(longest) {
         source.lead();
     }
 
@@ -54,6 +55,7 @@ private:
 
     FeedPlan<S>* source_;
     const MotionLimits<S>* limits_;
+    S longest_;
     S from_{}; // where the next part of the front cell begins
 };
 

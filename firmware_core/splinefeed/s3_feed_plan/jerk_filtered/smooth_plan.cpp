@@ -26,6 +26,8 @@ namespace splinefeed {
 
 namespace {
 
+constexpr double longest_part =
+    0.3; // of a cell at low speed (GradedFeed): a window of shorter ones sees less of the path
 constexpr double negligible_part = 1.0 / 1024.0; // of a cell: the profile segment before it includes a part this short
 constexpr double gain = 1.0 / 2048.0;            // of v^2: a smaller gain is not worth a profile segment
 constexpr int bisections = 12;
@@ -48,7 +50,7 @@ constexpr double least_part = std::same_as<S, float>    ? 0x1p-22
 
 template <Scalar S>
 SmoothPlan<S>::SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept
-    : source_(source, limits), limits_(&limits), window_(limits, cells) {}
+    : source_(source, limits, literal<S>(longest_part)), limits_(&limits), window_(limits, cells) {}
 
 template <Scalar S>
 Pull SmoothPlan<S>::take(UnderrunPolicy underrun) noexcept {

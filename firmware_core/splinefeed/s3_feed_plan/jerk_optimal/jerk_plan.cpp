@@ -16,7 +16,8 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double least_part = 0.01; // of a cell: in the last part a change of the steering waits for the next one
+constexpr double longest_part = 0.15; // of a cell at low speed (GradedFeed); a shorter one costs time and gains nothing
+constexpr double least_part = 0.01;   // of a cell: in the last part a change of the steering waits for the next one
 template <Scalar S>
 constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fractions of a cell
 
@@ -24,7 +25,7 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 
 template <Scalar S>
 JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
-    : source_(source, limits), limits_(&limits), window_(limits, storage) {}
+    : source_(source, limits, literal<S>(longest_part)), limits_(&limits), window_(limits, storage) {}
 
 template <Scalar S>
 double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {

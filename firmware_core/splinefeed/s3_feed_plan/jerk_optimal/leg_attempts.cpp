@@ -46,8 +46,8 @@ bool plan_leg(std::span<JerkNode> nodes, std::size_t known) noexcept {
     nodes.back().at_most_sq = nodes.back().expected_sq = 0.0;
     if (!moves) {
         expect_rest(nodes, false);
-        expect_rest(nodes, true);
     }
+    expect_rest(nodes, true);
     bool done = false;
     for (int attempt = 0; attempt < attempts && !done; ++attempt) {
         done = JerkLeg(nodes, moves ? &start : nullptr, known).plan();
