@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Drives that are told where to be find their references one after the other, and the others are heard meanwhile.
 #include "ports/setpoint_plant.hpp"
+#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::hal;
@@ -35,5 +36,25 @@ TEST_CASE("Set-point port, virtual: no watchdog runs out while other drives are 
     CHECK(plant.clock.now_us() - begun_us > 3 * 200'000U); // each took longer than the watchdog's time
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(plant.port->report(i).reading.state != DriveState::fault);
+    }
+}
+
+TEST_CASE("Set-point port, virtual: drives that were homed are in the mode again in which they are streamed to",
+          "[ports]") {
+    SetpointPlant plant({});
+    REQUIRE(plant.profile.stream_mode.has_value());
+    REQUIRE(plant.profile.homing_mode.has_value());
+    REQUIRE(*plant.profile.stream_mode != *plant.profile.homing_mode);
+    const RegisterField* const mode = plant.profile.field_of(FieldRole::mode);
+    REQUIRE(mode != nullptr);
+    plant.make({.home = true});
+    plant.look();
+    REQUIRE(plant.port->open() == "");
+    REQUIRE(plant.port->prepare(motion.segments.front()) == "");
+    for (splinefeed::host::ProfileDrive* const drive : plant.drives) {
+        std::array<std::uint16_t, 4> registers{};
+        const std::span<std::uint16_t> words = std::span(registers).first(mode->registers());
+        REQUIRE(drive->read(mode->address, words) == splinefeed::host::ModbusException::none);
+        CHECK(take_raw(*mode, words) == *plant.profile.stream_mode);
     }
 }

@@ -208,15 +208,18 @@ TEMPLATE_TEST_CASE("a pause by an override of 0 with limited jerk is no slower a
 
 TEMPLATE_TEST_CASE("overrides that follow each other next to a corner leave it a stop", "[stream][jerk][steering]",
                    double, Fixed) {
-    const MachineSettings machine = jerk_machine(JerkTier::optimal);
-    const BezierPath path{line_shape(2, 3, {0.5, 0.0}), line_shape(2, 3, {0.0, 0.5})};
+    MachineSettings machine = machine_of(2, 100.0, 20.0, 100.0); // some segments in the last cell, in two phases
+    machine.jerk_tier = JerkTier::optimal;
+    machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 1e6;
+    const BezierPath path{line_shape(2, 3, {0.3, 0.0}), line_shape(2, 3, {0.0, 0.3})};
     const SteeredRun plain = run_steered<TestType>(path, machine, 32, {});
-    for (std::size_t at = 1; at < plain.segments.size(); at += 2) {
+    const std::size_t corner = rest_after(plain, 1);
+    for (std::size_t at = corner - 30; at < corner; ++at) {
         const SteeredRun run = run_steered<TestType>(path, machine, 32,
                                                      {{at, Order::override_feed, 0.9},
                                                       {at + 1, Order::override_feed, 0.8},
                                                       {at + 2, Order::override_feed, 0.7}});
-        CAPTURE(at);
+        CAPTURE(at, corner);
         require_limits(run, machine);
         REQUIRE(run.finished);
         REQUIRE(run.segments.back().end == plain.segments.back().end);

@@ -288,7 +288,8 @@ TEST_CASE("a motion of which the input comes in time rests for no end of it that
         CHECK(any.slow_legs() < rests);
         CHECK((any.slow_legs() > 0) == (rests > 1)); // as those of the optimal plan may be
         if (tier == JerkTier::bounded) {
-            CHECK(run.segments.size() <= run_steered<double>(path, machine, 256, {}).segments.size() + 1);
+            const std::size_t at_once = run_steered<double>(path, machine, 256, {}).segments.size();
+            CHECK(run.segments.size() <= at_once + at_once / 20);
         }
     }
 }
