@@ -121,7 +121,7 @@ std::string pvt_report(const DriveTable& table, const MachineDescription& machin
     return text + "what that means:\n" + advice(port, drives, port.least_segment_us(), machine);
 }
 
-/// Of drives that are told where to be.
+/// Of drives that follow target positions.
 std::string target_report(const DriveTable& table, const MachineDescription& machine, double seconds) {
     SetpointPort port(target_wiring(table, machine), {});
     if (const std::string what = port.open(); !what.empty()) {

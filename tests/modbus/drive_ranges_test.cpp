@@ -54,7 +54,7 @@ TEST_CASE("Ranges: velocities that a segment of splinefeed-pvt cannot carry are 
     CHECK(refusal([] { check_pvt_range(machine(100.0, 320.0), 100'000.0); }) == "it was taken");
 }
 
-TEST_CASE("Ranges: registers of drives that are told where to be are compared with the machine's limits") {
+TEST_CASE("Ranges: registers of drives that follow target positions are compared with the machine's limits") {
     MachineDescription fast = machine(500.0, 10'000.0); // 5e6 counts/s; the register of oriental-az ends at 4e6
     const DriveTable oriental = blocks(fast, "oriental-az");
     const std::string told = refusal([&] { check_register_ranges(oriental, fast, 10'000); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random runs of drives that are told where to be, with everything that goes wrong, on a virtual clock. Every run is
+// Random runs of drives that follow target positions, with everything that goes wrong, on a virtual clock. Every run is
 // one of its seed alone.
 #include "ports/run_plant.hpp"
 #include "ports/setpoint_plant.hpp"

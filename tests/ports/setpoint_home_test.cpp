@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives that are told where to be find their references one after the other, and the others are heard meanwhile.
+// Drives that follow target positions find their references one after the other, and the others are heard meanwhile.
 #include "ports/setpoint_plant.hpp"
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 #include "support/catch.hpp"

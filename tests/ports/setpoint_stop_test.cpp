@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stops of drives that are told where to be, on a virtual clock.
+// Stops of drives that follow target positions, on a virtual clock.
 #include "ports/run_plant.hpp"
 #include "ports/setpoint_plant.hpp"
 #include "support/catch.hpp"

@@ -149,7 +149,7 @@ std::string SetpointTarget::note() const {
         const double most = port_.deviation_bound_counts(i) / axis.steps_per_mm;
         sum_sq += most * most;
     }
-    return fmt::format("the drives are told where to be every {:.2f} ms; between two targets the machine may be up to "
+    return fmt::format("the drives get a target position every {:.2f} ms; between two targets the machine may be up to "
                        "{:.1f} um off the path",
                        port_.period_us() * um_per_mm / us_per_s, um_per_mm * std::sqrt(sum_sq));
 }
