@@ -11,7 +11,7 @@ TEST_CASE("Setpoint watch: a state that the profile does not know is trouble whe
     SetpointReport seen;
     const auto trouble_at = [&](std::uint64_t us, DriveState state) {
         seen.reading.state = state;
-        seen.heard_us = seen.said_us = start_us + us;
+        seen.answered_us = seen.status_us = start_us + us;
         return !watch.trouble(seen, start_us + us, away_us, start_us).empty();
     };
     CHECK_FALSE(trouble_at(0, DriveState::moving));
@@ -29,13 +29,13 @@ TEST_CASE("Setpoint watch: states in which a drive does not follow, and one that
         SetpointWatch watch;
         SetpointReport seen;
         seen.reading.state = state;
-        seen.heard_us = seen.said_us = 1'000;
+        seen.answered_us = seen.status_us = 1'000;
         CHECK_FALSE(watch.trouble(seen, 1'000, 500, 0).empty());
     }
     SetpointWatch watch;
     SetpointReport seen;
     seen.reading.state = DriveState::moving;
-    seen.heard_us = seen.said_us = 1'000;
+    seen.answered_us = seen.status_us = 1'000;
     CHECK(watch.trouble(seen, 1'500, 500, 0).empty());
     CHECK_FALSE(watch.trouble(seen, 1'501, 500, 0).empty());
     CHECK(watch.trouble(seen, 2'000, 500, 1'600).empty()); // it is to follow since then
