@@ -48,7 +48,7 @@ TEST_CASE("Set-point port, virtual: drives that were homed are in the mode again
     const RegisterField* const mode = plant.profile.field_of(FieldRole::mode);
     REQUIRE(mode != nullptr);
     plant.make({.home = true});
-    plant.look();
+    plant.sample_positions();
     REQUIRE(plant.port->open() == "");
     REQUIRE(plant.port->prepare(motion.segments.front()) == "");
     for (splinefeed::host::ProfileDrive* const drive : plant.drives) {
