@@ -229,7 +229,7 @@ TEST_CASE("float is nearly as fast as double where a soft axis moves along a lon
     const TemporaryFolder folder;
     RunArguments arguments;
     arguments.path.curve.method = "g2";
-    arguments.motion.window_cells = 16;
+    arguments.motion.window_cells = 64;
     const std::string machine = R"(
 sample_period_us = 1000
 [path]
@@ -248,7 +248,7 @@ max_velocity_mm_s = 25
 max_acceleration_mm_s2 = 47
 )";
     const RunArguments written =
-        write_texts(arguments, machine, "0,0,0\n-12,21,3\n9,44,-4\n20,80,9\n14,130,2\n", "", folder.file(""));
+        write_texts(arguments, machine, "0,0,0\n-4,7,1\n3,15,-1.3\n7,27,3\n5,43,0.7\n", "", folder.file(""));
     const WildRun wanted = checked<double>(written);
     REQUIRE(wanted.ended);
     CHECK(ratio<float>(written, wanted) < 1.05);
