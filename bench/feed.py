@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Cycle times with limited jerk, as the tables of docs/explanation/feed.md: of a curve, or of random splines, against the least time
+"""Cycle times with limited jerk, as the tables of docs/explanation/feed.md: of a curve, of random splines, or of splines through unevenly
+spaced points, against the least time
 that tests/judge finds for the same curve and limits (needs python3-numpy, python3-scipy)."""
 import argparse
 import json
@@ -14,6 +15,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests" / "judge"))
 
 from judge import judged_files  # noqa: E402
+from uneven_path import write_uneven_path  # noqa: E402
 
 CASES = [(40, 500, 20000), (50, 1000, 50000), (100, 3000, 60000), (200, 3000, 60000), (250, 2000, 20000), (300, 2500, 50000)]
 TIERS = ("optimal", "bounded")
@@ -92,6 +94,25 @@ def random_table(tool, count, folder):
             ratios[tier].append(time / least)
         print("| {} | {:.4f} s | {:.4f} | {:.4f} | {:.0f} ms | {:.4f} |".format(
             seed, least, *(ratios[tier][-1] for tier in TIERS), 1e3 * limits[0][1] / limits[0][2], use), flush=True)
+    print_ratios(ratios, count)
+
+
+def uneven_table(tool, count, folder):
+    """Points 0.02 to 20 mm apart on a smooth curve, on three axes of 100 mm/s, 1000 mm/s^2, 30000 mm/s^3."""
+    ratios = {tier: [] for tier in TIERS}
+    print("| path | least | optimal | bounded |\n|---|---|---|---|")
+    for seed in range(1, count + 1):
+        program = folder / "points.csv"
+        write_uneven_path(program, seed)
+        times = [seconds(tool, program, machine("xyz", 100, [(100, 1000, 30000)] * 3, tier), folder, *files(folder)) for tier in TIERS]
+        least, _ = least_time(folder)
+        for tier, time in zip(TIERS, times):
+            ratios[tier].append(time / least)
+        print("| {} | {:.4f} s | {:.4f} | {:.4f} |".format(seed, least, *(ratios[tier][-1] for tier in TIERS)), flush=True)
+    print_ratios(ratios, count)
+
+
+def print_ratios(ratios, count):
     for tier in TIERS:
         ordered = sorted(ratios[tier])
         print(f"{tier}: median {ordered[count // 2]:.4f}, largest {ordered[-1]:.4f}, "
@@ -103,15 +124,18 @@ def main():
     parser.add_argument("--tool", default="build/release/bin/splinefeed")
     parser.add_argument("--curve", help="a curve .json in two dimensions")
     parser.add_argument("--random", type=int, default=0, metavar="COUNT", help="so many random splines")
+    parser.add_argument("--uneven", type=int, default=0, metavar="COUNT", help="so many splines through points 0.02 to 20 mm apart")
     arguments = parser.parse_args()
-    if not arguments.curve and arguments.random <= 0:
-        parser.error("what is to be run? --curve FILE or --random COUNT")
+    if not arguments.curve and arguments.random <= 0 and arguments.uneven <= 0:
+        parser.error("what is to be run? --curve FILE, --random COUNT or --uneven COUNT")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         if arguments.curve:
             curve_table(arguments.tool, arguments.curve, folder)
         if arguments.random:
             random_table(arguments.tool, arguments.random, folder)
+        if arguments.uneven:
+            uneven_table(arguments.tool, arguments.uneven, folder)
 
 
 if __name__ == "__main__":
