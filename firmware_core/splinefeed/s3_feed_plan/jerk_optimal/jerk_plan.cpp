@@ -16,8 +16,13 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double longest_part = 0.15; // of a cell at low speed (GradedFeed); a shorter one costs time and gains nothing
-constexpr double least_part = 0.01;   // of a cell: in the last part a change of the steering waits for the next one
+constexpr double least_part = 0.01; // of a cell: in the last part a change of the steering waits for the next one
+// Longest part of a cell at low speed (GradedFeed). Shorter parts than 0.15 cost time and gain nothing. In a short
+// window parts of 0.15 would leave less of the path in view, most of all near stops, where 0.3 cuts nothing.
+template <Scalar S>
+constexpr S longest_part(std::size_t window) noexcept {
+    return window < 256 ? literal<S>(0.3) : literal<S>(0.15);
+}
 template <Scalar S>
 constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fractions of a cell
 
@@ -25,7 +30,7 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 
 template <Scalar S>
 JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
-    : source_(source, limits, literal<S>(longest_part)), limits_(&limits), window_(limits, storage) {}
+    : source_(source, limits, longest_part<S>(storage.cells.size())), limits_(&limits), window_(limits, storage) {}
 
 template <Scalar S>
 double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {
