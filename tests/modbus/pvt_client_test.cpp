@@ -84,3 +84,88 @@ TEST_CASE("Client: what nobody asked for stays in the drive as it was") {
     CHECK(now().watchdog_ms == 1000);
     CHECK(now().following_window == 0);
 }
+
+TEST_CASE("Client: no bit that a frame on TCP changes on its way opens a session or reaches the configuration") {
+    PvtDrive drive(PvtDriveParameters{});
+    int address = 0;          // of the table
+    unsigned spoiled_bit = 0; // of the first reading of it, or of the first writing
+    bool spoils_write = false;
+    bool spoils = false;
+    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+        constexpr std::size_t first_written = 13;
+        constexpr std::size_t first_read = 9;
+        const bool hit =
+            spoils && static_cast<int>(big_endian(request, 8)) == address && spoils_write == (request[7] == 16);
+        const auto flip = [&](Bytes& bytes, std::size_t first) {
+            std::uint8_t& byte = bytes[first + spoiled_bit / 8];
+            byte = static_cast<std::uint8_t>(byte ^ 1U << spoiled_bit % 8);
+            spoils = false;
+        };
+        Bytes arrived = request;
+        if (hit && spoils_write) {
+            flip(arrived, first_written);
+        }
+        ScriptedPeer::Reply reply = answer_of(drive, arrived);
+        if (hit && !spoils_write) {
+            flip(reply.bytes, first_read);
+        }
+        return reply;
+    });
+    ModbusLink link(peer.address(), {.answer_us = 300'000});
+    const PvtSettings wanted{.stop_reserve_ms = 150, .watchdog_ms = 1000, .following_window = 500};
+    const auto opens = [&] {
+        PvtClient client(link, 1);
+        REQUIRE(client.open(1) == DriveProblem::none);
+        REQUIRE(client.configure(wanted) == DriveProblem::none);
+        std::array<std::uint16_t, pvt::configuration_registers> registers{};
+        REQUIRE(drive.read(pvt::configuration_address, registers) == ModbusException::none);
+        const PvtConfiguration kept = decode_configuration(registers);
+        CHECK(kept.stop_reserve_ms == wanted.stop_reserve_ms);
+        CHECK(kept.watchdog_ms == wanted.watchdog_ms);
+        CHECK(kept.following_window == wanted.following_window);
+        CHECK_FALSE(spoils);
+        CHECK(client.report().identity.boot == client.report().status.boot);
+    };
+    struct Table {
+        int address;
+        std::size_t registers;
+        bool write;
+    };
+    for (const Table& table : {Table{pvt::identity_address, pvt::identity_registers, false},
+                               Table{pvt::configuration_address, pvt::configuration_registers, false},
+                               Table{pvt::configuration_address, pvt::configuration_registers, true}}) {
+        address = table.address;
+        spoils_write = table.write;
+        for (spoiled_bit = 0; spoiled_bit < 16 * table.registers; ++spoiled_bit) {
+            INFO("table " << address << (table.write ? " written" : " read") << ", bit " << spoiled_bit);
+            spoils = true;
+            opens();
+        }
+    }
+}
+
+TEST_CASE("Client: registers that are never twice the same, and a configuration that is not kept, are named") {
+    PvtDrive drive(PvtDriveParameters{});
+    bool changes = false;
+    bool forgets = false;
+    std::uint8_t count = 0;
+    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+        Bytes arrived = request;
+        if (forgets && request[7] == 16) {
+            arrived[14] ^= 1U;
+        }
+        ScriptedPeer::Reply reply = answer_of(drive, arrived);
+        if (changes) {
+            reply.bytes.back() = ++count;
+        }
+        return reply;
+    });
+    ModbusLink link(peer.address(), {.answer_us = 300'000});
+    PvtClient client(link, 1);
+    REQUIRE(client.open(1) == DriveProblem::none);
+    forgets = true;
+    CHECK(client.configure({.watchdog_ms = 1000}) == DriveProblem::not_kept);
+    changes = true;
+    CHECK(client.open(1) == DriveProblem::damaged);
+    CHECK(client.configure({.watchdog_ms = 1000}) == DriveProblem::damaged);
+}

@@ -29,9 +29,11 @@ const char* describe(DriveProblem problem) noexcept {
     case DriveProblem::unreachable: return "there is no connection; check host or device, port and cable";
     case DriveProblem::silent: return "it does not answer; check power, unit number, baud rate and parity";
     case DriveProblem::damaged:
-        return "it answers, but the checksum of its status is always wrong; check the cable, and the drive's own "
-               "checksum "
-               "(docs/reference/pvt_map.md)";
+        return "it answers, but the checksum of its status is always wrong, or its registers change from one reading "
+               "to the next; check the cable, and the drive's own checksum (docs/reference/pvt_map.md)";
+    case DriveProblem::not_kept:
+        return "it does not keep its configuration as written (docs/reference/pvt_map.md: stop reserve, watchdog, "
+               "following error window)";
     case DriveProblem::not_pvt: return "it does not have the map splinefeed-pvt; name its profile";
     case DriveProblem::words_swapped:
         return "its 32-bit numbers have the low word first; splinefeed-pvt has the high word first: change that "

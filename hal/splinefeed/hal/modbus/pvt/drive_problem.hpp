@@ -11,7 +11,8 @@ enum class DriveProblem : std::uint8_t {
     none,
     unreachable,   ///< no connection
     silent,        ///< connected, but no answer
-    damaged,       ///< it answers, but the checksum of its status is always wrong
+    damaged,       ///< it answers, but with wrong checksums, or differently each time
+    not_kept,      ///< it does not keep the configuration that was written
     not_pvt,       ///< no magic number: the drive has another map
     words_swapped, ///< the drive or a gateway uses the other word order
     version,       ///< unknown version of the map

@@ -7,6 +7,7 @@
 #include "splinefeed/hal/modbus/pvt/pvt_client.hpp"
 
 #include "splinefeed/base/assertion.hpp"
+#include "splinefeed/hal/modbus/pvt/pvt_tables.hpp"
 
 #include <cstdlib>
 
@@ -17,7 +18,6 @@ namespace {
 constexpr std::uint64_t listen_every_us = 4'000; // while the drive moves
 constexpr std::uint64_t idle_every_us = 20'000;  // while it is at standstill
 constexpr std::uint64_t connect_every_us = 20'000;
-constexpr int opening_attempts = 5;
 constexpr std::uint16_t most_refusals = 20; // of errors that a repetition does not cure
 constexpr std::uint8_t illegal_function = 1;
 
@@ -26,54 +26,31 @@ constexpr std::uint8_t illegal_function = 1;
 PvtClient::PvtClient(ModbusLine& link, int unit, bool both_in_one)
     : link_(&link), unit_(unit), queue_(queue_capacity), both_in_one_(both_in_one) {}
 
-// Tries several times; connects again after the connection was lost.
-template <class Attempt>
-bool PvtClient::retry(const Attempt& attempt) noexcept {
-    for (int i = 0; i < opening_attempts; ++i) {
-        if (!link_->connected() && !link_->connect()) {
-            continue;
-        }
-        const LinkAnswer answer = attempt();
-        count(answer);
-        if (answer.ok()) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool PvtClient::read_status() noexcept {
-    std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
-    const std::span<std::uint16_t> whole(raw.data(), pvt::status_registers(axes_));
-    for (int i = 0; i < opening_attempts; ++i) {
-        if (retry([&] { return link_->read(unit_, pvt::status_address, whole); }) && status_holds(whole)) {
-            report_.status = decode_status(whole, axes_);
-            return true;
-        }
-    }
-    return false;
-}
-
 DriveProblem PvtClient::open(int least_axes) noexcept {
     const std::lock_guard lock(mutex_);
+    return report_.problem = start_session(least_axes);
+}
+
+DriveProblem PvtClient::start_session(int least_axes) noexcept {
     if (!link_->connected() && !link_->connect()) {
-        return report_.problem = DriveProblem::unreachable;
+        return DriveProblem::unreachable;
     }
+    PvtTables tables(*link_, unit_, report_);
     std::array<std::uint16_t, pvt::identity_registers> raw{};
-    if (!retry([&] { return link_->read(unit_, pvt::identity_address, raw); })) {
-        const bool answers = report_.last_fault == LinkFault::exception;
-        return report_.problem = answers ? DriveProblem::not_pvt : DriveProblem::silent;
+    DriveProblem problem = tables.read(pvt::identity_address, raw, DriveProblem::not_pvt);
+    if (problem != DriveProblem::none) {
+        return problem;
     }
     const PvtIdentity identity = decode_identity(raw);
     report_.identity = identity;
-    report_.problem = identity_problem(identity, least_axes);
-    if (report_.problem != DriveProblem::none) {
-        return report_.problem;
+    problem = identity_problem(identity, least_axes);
+    if (problem != DriveProblem::none) {
+        return problem;
     }
     axes_ = identity.axes;
-    if (!read_status()) {
-        const bool answers = report_.last_fault == LinkFault::none;
-        return report_.problem = answers ? DriveProblem::damaged : DriveProblem::silent;
+    problem = tables.read_status(axes_, report_.status);
+    if (problem != DriveProblem::none) {
+        return problem;
     }
     report_.answered_us = link_->clock().now_us();
     // Differs from the previous client's session, so the drive refuses late blocks of that client.
@@ -88,19 +65,22 @@ DriveProblem PvtClient::open(int least_axes) noexcept {
 DriveProblem PvtClient::configure(const PvtSettings& wanted) noexcept {
     const std::lock_guard lock(mutex_);
     report_.clock.clear(); // a run uses only exchanges with a nonce
+    return report_.problem = change_configuration(wanted);
+}
+
+DriveProblem PvtClient::change_configuration(const PvtSettings& wanted) noexcept {
+    PvtTables tables(*link_, unit_, report_);
     std::array<std::uint16_t, pvt::configuration_registers> registers{};
-    bool done = retry([&] { return link_->read(unit_, pvt::configuration_address, registers); });
-    if (done) {
-        PvtConfiguration configuration = decode_configuration(registers);
-        configuration.stop_reserve_ms = wanted.stop_reserve_ms.value_or(configuration.stop_reserve_ms);
-        configuration.watchdog_ms = wanted.watchdog_ms.value_or(configuration.watchdog_ms);
-        configuration.following_window = wanted.following_window.value_or(configuration.following_window);
-        encode(configuration, registers);
-        done = retry([&] { return link_->write(unit_, pvt::configuration_address, registers); });
+    const DriveProblem problem = tables.read(pvt::configuration_address, registers, DriveProblem::refused);
+    if (problem != DriveProblem::none) {
+        return problem;
     }
-    return report_.problem = done                                         ? DriveProblem::none
-                             : report_.last_fault == LinkFault::exception ? DriveProblem::refused
-                                                                          : DriveProblem::silent;
+    PvtConfiguration configuration = decode_configuration(registers);
+    configuration.stop_reserve_ms = wanted.stop_reserve_ms.value_or(configuration.stop_reserve_ms);
+    configuration.watchdog_ms = wanted.watchdog_ms.value_or(configuration.watchdog_ms);
+    configuration.following_window = wanted.following_window.value_or(configuration.following_window);
+    encode(configuration, registers);
+    return tables.write(pvt::configuration_address, registers);
 }
 
 LinkAnswer PvtClient::probe() noexcept {
@@ -116,7 +96,7 @@ LinkAnswer PvtClient::probe() noexcept {
     if (answer.ok() && !status_holds(whole)) {
         answer.fault = LinkFault::corrupt;
     }
-    count(answer);
+    report_.count(answer);
     if (answer.ok()) {
         report_.status = decode_status(whole, axes_);
         if (nothing_late) {
@@ -279,15 +259,9 @@ bool PvtClient::step() noexcept {
     return true;
 }
 
-void PvtClient::count(const LinkAnswer& answer) noexcept {
-    report_.last_fault = answer.fault;
-    report_.exception = answer.exception;
-    report_.counts.count(answer.fault);
-}
-
 void PvtClient::handle_answer(const LinkAnswer& answer, const PvtBlock& block,
                               std::span<const std::uint16_t> raw) noexcept {
-    count(answer);
+    report_.count(answer);
     if (!answer.ok()) {
         return;
     }

@@ -3,11 +3,8 @@
 // once.
 #pragma once
 
-#include "splinefeed/hal/modbus/link/link_counts.hpp"
 #include "splinefeed/hal/modbus/link/modbus_line.hpp"
-#include "splinefeed/hal/modbus/pvt/clock_estimate.hpp"
-#include "splinefeed/hal/modbus/pvt/drive_problem.hpp"
-#include "splinefeed/hal/modbus/pvt/pvt_map.hpp"
+#include "splinefeed/hal/modbus/pvt/drive_report.hpp"
 
 #include <atomic>
 #include <mutex>
@@ -20,21 +17,6 @@ struct PvtSettings {
     std::optional<std::uint16_t> stop_reserve_ms{};
     std::optional<std::uint16_t> watchdog_ms{};
     std::optional<std::uint32_t> following_window{}; ///< [counts]; 0: no check
-};
-
-/// State of a drive at its last valid answer.
-struct DriveReport {
-    PvtIdentity identity;
-    PvtStatus status;
-    ClockEstimate clock;
-    LinkCounts counts;
-    DriveProblem problem = DriveProblem::none;
-    LinkFault last_fault = LinkFault::none;
-    std::uint8_t exception = 0;    ///< with LinkFault::exception
-    bool command_pending = false;  ///< the last command is not answered yet
-    bool command_refused = false;  ///< the drive refused it in its present state
-    std::uint64_t answered_us = 0; ///< when the last valid answer was complete, line's clock
-    std::uint64_t status_us = 0;   ///< earliest instant at which the drive had this status
 };
 
 /// For two threads: the port's (push, command, report) and the bus's (step). Allocates in its constructor only.
@@ -90,9 +72,8 @@ private:
         PvtSegment preset;
     };
 
-    template <class Attempt>
-    [[nodiscard]] bool retry(const Attempt& attempt) noexcept;
-    [[nodiscard]] bool read_status() noexcept;
+    [[nodiscard]] DriveProblem start_session(int least_axes) noexcept;
+    [[nodiscard]] DriveProblem change_configuration(const PvtSettings& wanted) noexcept;
     [[nodiscard]] bool due(std::uint64_t now_us, std::uint32_t waiting) const noexcept;
     void fill(PvtBlock& block, std::uint32_t waiting) noexcept;
     void handle_answer(const LinkAnswer& answer, const PvtBlock& block, std::span<const std::uint16_t> raw) noexcept;
@@ -101,7 +82,6 @@ private:
     void sample_clock(const LinkAnswer& answer) noexcept;
     void resolve_command(const PvtStatus& status, const PvtBlock& block) noexcept;
     void clear_command() noexcept;
-    void count(const LinkAnswer& answer) noexcept;
     bool reconnect(std::uint64_t now_us) noexcept;
     LinkAnswer exchange(std::span<const std::uint16_t> block, std::span<std::uint16_t> status) noexcept;
 
