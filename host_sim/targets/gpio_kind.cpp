@@ -2,6 +2,7 @@
 #include "host_sim/config/gpio_address.hpp"
 #include "host_sim/diagnose/gpio_link.hpp"
 #include "host_sim/target/gpio/gpio_target.hpp"
+#include "host_sim/targets/gpio_words.hpp"
 #include "host_sim/targets/target_table.hpp"
 
 namespace splinefeed::host {
@@ -24,8 +25,8 @@ std::string report(const std::string& target, const MachineDescription& machine,
 } // namespace
 
 extern const TargetKind gpio_kind{
-    .names = "gpio:// (docs/reference/gpio.md)",
-    .help = "gpio:///dev/gpiochip0?map=FILE.toml: step lines",
+    .names = gpio_names,
+    .help = gpio_help,
     .is = is_gpio_address,
     .check = check_gpio,
     .make = make,

@@ -2,6 +2,7 @@
 // In place of gpio_kind.cpp where libgpiod is not installed.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/gpio_address.hpp"
+#include "host_sim/targets/gpio_words.hpp"
 #include "host_sim/targets/target_table.hpp"
 
 namespace splinefeed::host {
@@ -30,8 +31,8 @@ std::string report(const std::string& /*target*/, const MachineDescription& /*ma
 } // namespace
 
 extern const TargetKind gpio_kind{
-    .names = "gpio:// (docs/reference/gpio.md)",
-    .help = "gpio:///dev/gpiochip0?map=FILE.toml: step lines",
+    .names = gpio_names,
+    .help = gpio_help,
     .is = is_gpio_address,
     .check = check,
     .make = make,

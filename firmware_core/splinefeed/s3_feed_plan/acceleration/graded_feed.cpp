@@ -2,8 +2,8 @@
 //
 // A jerk-limited plan has one pseudo-jerk u for each cell, with |u| <= 2 J / sqrt(b) for the largest b in the cell. So
 // in a cell of length L beside a bend the speed v can change much only where L is not longer than the way in which a
-// jerk J changes v by itself, sqrt(v^3 / J). A motion from
-// rest needs no such parts: ArcLength grades the cells near a stop.
+// jerk J changes v by itself, sqrt(v^3 / J). A motion from rest needs no such parts: ArcLength grades the cells near a
+// stop.
 #include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
 
 #include "splinefeed/base/assertion.hpp"
@@ -37,32 +37,31 @@ S GradedFeed<S>::speed_sq_at(S fraction) const noexcept {
                                           : segment.entry_sq + (segment.exit_sq - segment.entry_sq) * fraction;
 }
 
+// The longest part that begins or ends at `fraction` of the cell; the largest number at rest.
 template <Scalar S>
-bool GradedFeed<S>::too_long(const Cell<S>& cell, const CellInterval<S>& part) const noexcept {
-    const S length = cell.length_mm * part.length();
-    if (!(length > literal<S>(shortest_mm)) || !(part.length() > literal<S>(least_share))) {
-        return false;
-    }
-    S jerk = largest<S>();
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
-        jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], cell.tangent_max[k]));
-    }
-    for (const S end : {part.from, part.to}) {
-        const S speed = square_root(speed_sq_at(end));
-        if (speed > S{} && length > longest_ * speed * square_root(speed / jerk)) {
-            return true;
-        }
-    }
-    return false;
+S GradedFeed<S>::longest_at(S fraction, S jerk) const noexcept {
+    const S speed = square_root(speed_sq_at(fraction));
+    return speed > S{} ? longest_ * speed * square_root(speed / jerk) : largest<S>();
 }
 
 template <Scalar S>
 CellInterval<S> GradedFeed<S>::next_part(const Cell<S>& cell) const noexcept {
     CellInterval<S> part{from_, from_integer<S>(1)};
-    if (source_->profile_segment().stretch.whole()) {
-        while (too_long(cell, part)) {
-            part.to = part.from + scale2(part.length(), -1);
-        }
+    if (!source_->profile_segment().stretch.whole()) {
+        return part;
+    }
+    S jerk = largest<S>();
+    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], cell.tangent_max[k]));
+    }
+    const S longest_behind = longest_at(part.from, jerk);
+    const auto too_long = [&] {
+        const S length = cell.length_mm * part.length();
+        return length > literal<S>(shortest_mm) && part.length() > literal<S>(least_share) &&
+               (length > longest_behind || length > longest_at(part.to, jerk));
+    };
+    while (too_long()) {
+        part.to = part.from + scale2(part.length(), -1);
     }
     return part;
 }

@@ -10,7 +10,7 @@ namespace splinefeed {
 
 /// Delivers the cells of a FeedPlan to a plan that limits the jerk, in parts that are short where the speed is low.
 /// Without that the cells beside a short bend would keep the low speed of the bend. Memory: a few words. Cost per part:
-/// two roots, a few divisions, and cutting the part if it is not a whole cell.
+/// three roots, a division for each axis, two roots for each halving, and cutting the part if it is not a whole cell.
 template <Scalar S>
 class GradedFeed {
 public:
@@ -38,7 +38,7 @@ public:
         leave(part);
         return Pull::item;
     }
-    /// Largest v^2 that is wanted in a cell, see FeedPlan.
+    /// The plan that the cells come from.
     [[nodiscard]] const FeedPlan<S>& plan() const noexcept { return *source_; }
     /// Forgets every cell.
     void forget() noexcept {
@@ -49,7 +49,7 @@ public:
 private:
     Pull prepare(UnderrunPolicy underrun) noexcept;
     [[nodiscard]] CellInterval<S> next_part(const Cell<S>& cell) const noexcept;
-    [[nodiscard]] bool too_long(const Cell<S>& cell, const CellInterval<S>& part) const noexcept;
+    [[nodiscard]] S longest_at(S fraction, S jerk) const noexcept;
     [[nodiscard]] S speed_sq_at(S fraction) const noexcept;
     void leave(const CellInterval<S>& part) noexcept;
 
