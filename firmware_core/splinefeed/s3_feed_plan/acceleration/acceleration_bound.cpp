@@ -49,54 +49,58 @@ constexpr int least_step_log2 = std::same_as<S, double>  ? -50
 
 } // namespace
 
+// The eight half-planes of an axis: for each of the four points one against accelerations > 0 and one against those <
+// 0.
 template <Scalar S>
-AccelerationBound<S>::AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits,
-                                        const CellInterval<S>& stretch) noexcept
-    : cell_(&cell), stretch_(stretch) {
-    const S length = stretch.whole() ? cell.length_mm : cell.length_mm * stretch.length();
-    const S twice = length + length;
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
-        const auto scaled = [&](S acceleration) {
-            return smaller(scale2(twice * acceleration, limits.refinement.shape_log2),
-                           from_integer<S>(1 << 30)); // never reached
-        };
-        const S speeding = scaled(limits.acceleration_mm_s2[k]);
-        const S braking = scaled(limits.braking_mm_s2[k]);
-        const int way = speeding == braking ? 1 : cell.heading[k];
-        upwards_[k] = way == 1 ? speeding : way == -1 ? braking : smaller(speeding, braking);
-        downwards_[k] = way == 1 ? braking : way == -1 ? speeding : upwards_[k];
-    }
-}
-
-template <Scalar S>
-template <class Visit>
-void AccelerationBound<S>::each_row(Visit&& visit) const noexcept {
+auto AccelerationBound<S>::rows_of(unsigned k) const noexcept -> AxisRows {
+    const AxisShape<S>& shape = cell_.shape[k];
     const S third = literal<S>(1.0 / 3.0);
-    for (unsigned k = 0; k < static_cast<unsigned>(cell_->axes); ++k) {
-        const AxisShape<S>& shape = cell_->shape[k];
-        const S error_bound = stretch_.whole() ? shape.error_bound : shape.error_bound * stretch_.length();
-        const auto both = [&](S entry, S exit) {
-            visit(Row{error_bound + entry, error_bound + exit, upwards_[k]}, error_bound);
-            visit(Row{error_bound - entry, error_bound - exit, downwards_[k]}, error_bound);
-        };
-        std::array<S, 3> bend = shape.bend;
-        std::array<S, 4> t{shape.tangent[0], shape.tangent[0] + scale2(third * bend[0], -1),
-                           shape.tangent[1] - scale2(third * bend[2], -1), shape.tangent[1]};
-        if (!stretch_.whole()) {
-            t = points_on(stretch_, t);
-            bend = points_on(stretch_, bend);
-            for (S& b : bend) {
-                b = b * stretch_.length(); // 2 L q'' of the shorter length
-            }
+    AxisRows out;
+    S length = cell_.length_mm;
+    S e = shape.error_bound;
+    std::array<S, 3> bend = shape.bend;
+    S c0 = third * bend[0];
+    S c2 = third * bend[2];
+    std::array<S, 4> t{shape.tangent[0], shape.tangent[0] + scale2(c0, -1), shape.tangent[1] - scale2(c2, -1),
+                       shape.tangent[1]};
+    if (!stretch_.whole()) {
+        const S share = stretch_.length();
+        length = length * share;
+        e = e * share;
+        t = points_on(stretch_, t);
+        bend = points_on(stretch_, bend);
+        for (S& b : bend) {
+            b = b * share; // 2 L q'' of the shorter length
         }
-        const S c0 = third * bend[0];
-        const S c1 = third * (bend[1] + bend[1]);
-        const S c2 = third * bend[2];
-        both(bend[0] - t[0], t[0]);
-        both(c1 - t[1], t[1] + c0);
-        both(c2 - t[2], t[2] + c1);
-        both(-t[3], t[3] + bend[2]);
+        c0 = third * bend[0];
+        c2 = third * bend[2];
     }
+    const auto both = [&out, e](unsigned j, S entry, S exit) {
+        out.entry[2 * j] = e + entry;
+        out.exit[2 * j] = e + exit;
+        out.entry[2 * j + 1] = e - entry;
+        out.exit[2 * j + 1] = e - exit;
+    };
+    const S c1 = third * (bend[1] + bend[1]);
+    both(0, bend[0] - t[0], t[0]);
+    both(1, c1 - t[1], t[1] + c0);
+    both(2, c2 - t[2], t[2] + c1);
+    both(3, -t[3], t[3] + bend[2]);
+    out.error_bound = e;
+    const S twice = length + length;
+    const auto scaled = [&](S acceleration) {
+        return smaller(scale2(twice * acceleration, limits_.refinement.shape_log2),
+                       from_integer<S>(1 << 30)); // never reached
+    };
+    const S speeding = scaled(limits_.acceleration_mm_s2[k]);
+    out.limit = {speeding, speeding};
+    if (!(limits_.braking_mm_s2[k] == limits_.acceleration_mm_s2[k])) {
+        const S braking = scaled(limits_.braking_mm_s2[k]);
+        const int way = speeding == braking ? 1 : cell_.heading[k];
+        out.limit[0] = way == 1 ? speeding : way == -1 ? braking : smaller(speeding, braking);
+        out.limit[1] = way == 1 ? braking : way == -1 ? speeding : out.limit[0];
+    }
+    return out;
 }
 
 // A violated half-plane reduces the end that is wanted: the quotient stays below it, whatever the divisor.
@@ -104,12 +108,20 @@ template <Scalar S>
 template <auto Given, auto Asked>
 S AccelerationBound<S>::lowered(S given_sq, S at_most) const noexcept {
     S best = at_most;
-    each_row([&](const Row& row, S) {
-        const S excess = row.*Given * given_sq + row.*Asked * best - row.limit;
-        if (excess > S{} && row.*Asked > S{}) {
-            best = excess < row.*Asked * best ? best - excess / row.*Asked : S{};
+    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+        const AxisRows axis = rows_of(k);
+        for (unsigned i = 0; i < 8; ++i) {
+            const Row row = axis[i];
+            if (!(row.*Asked > S{})) {
+                continue;
+            }
+            const S asked = row.*Asked * best;
+            const S excess = row.*Given * given_sq + asked - row.limit;
+            if (excess > S{}) {
+                best = excess < asked ? best - excess / row.*Asked : S{};
+            }
         }
-    });
+    }
     return best;
 }
 
@@ -129,13 +141,20 @@ template <Scalar S>
 S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept {
     const bool below_zero = exit_sq < S{};
     S best = exit_sq;
-    each_row([&](const Row& row, S error_bound) {
-        const S exit = below_zero ? row.exit - (error_bound + error_bound) : row.exit;
-        const S excess = row.entry * entry_sq + exit * best - row.limit;
-        if (excess > S{} && exit < S{}) {
-            best = best + smaller(quotient_or_max(excess, -exit), at_most - best);
+    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+        const AxisRows axis = rows_of(k);
+        for (unsigned i = 0; i < 8; ++i) {
+            const Row row = axis[i];
+            const S exit = below_zero ? row.exit - (axis.error_bound + axis.error_bound) : row.exit;
+            if (!(exit < S{})) {
+                continue;
+            }
+            const S excess = row.entry * entry_sq + exit * best - row.limit;
+            if (excess > S{}) {
+                best = best + smaller(quotient_or_max(excess, -exit), at_most - best);
+            }
         }
-    });
+    }
     return best;
 }
 
@@ -163,21 +182,25 @@ EndSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
         Row below{S{}, -one, S{}};   // exit >= 0
         S high = cap_sq;
         S low{};
-        each_row([&](const Row& row, S) {
-            if (row.exit > S{} && high > -cap_sq) {
-                const S excess = row.entry * entry + row.exit * high - row.limit;
-                if (excess > S{}) {
-                    high = high - smaller(quotient_or_max(excess, row.exit), high + cap_sq);
-                    above = row;
-                }
-            } else if (row.exit <= S{} && low < beyond) {
-                const S excess = row.entry * entry + row.exit * low - row.limit;
-                if (excess > S{}) {
-                    low = smaller(low + smaller(quotient_or_max(excess, -row.exit), beyond), beyond);
-                    below = row;
+        for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+            const AxisRows axis = rows_of(k);
+            for (unsigned i = 0; i < 8; ++i) {
+                const Row row = axis[i];
+                if (row.exit > S{}) {
+                    const S excess = row.entry * entry + row.exit * high - row.limit;
+                    if (excess > S{} && high > -cap_sq) {
+                        high = high - smaller(quotient_or_max(excess, row.exit), high + cap_sq);
+                        above = row;
+                    }
+                } else {
+                    const S excess = row.entry * entry + row.exit * low - row.limit;
+                    if (excess > S{} && low < beyond) {
+                        low = smaller(low + smaller(quotient_or_max(excess, -row.exit), beyond), beyond);
+                        below = row;
+                    }
                 }
             }
-        });
+        }
         if (low <= high) {
             return {entry, low};
         }

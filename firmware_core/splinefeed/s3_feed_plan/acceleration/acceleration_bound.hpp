@@ -23,7 +23,9 @@ struct EndSpeeds {
 template <Scalar S>
 class AccelerationBound {
 public:
-    AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits, const CellInterval<S>& stretch = {}) noexcept;
+    /// `cell` and `limits` must outlive it.
+    AccelerationBound(const Cell<S>& cell, const MotionLimits<S>& limits, const CellInterval<S>& stretch = {}) noexcept
+        : cell_(cell), limits_(limits), stretch_(stretch) {}
 
     /// Largest exit_sq up to at_most. @pre an exit_sq up to at_most is allowed together with entry_sq
     [[nodiscard]] S largest_exit(S entry_sq, S at_most) const noexcept;
@@ -42,17 +44,24 @@ private:
         S limit{};
     };
 
+    struct AxisRows {
+        std::array<S, 8> entry;
+        std::array<S, 8> exit;
+        std::array<S, 2> limit; // of accelerations > 0 and < 0, in turn
+        S error_bound;
+
+        [[nodiscard]] Row operator[](unsigned i) const noexcept { return {entry[i], exit[i], limit[i % 2]}; }
+    };
+
     [[nodiscard]] static S crossing_of(const Row& first, const Row& second, S weight) noexcept;
-    template <class Visit>
-    void each_row(Visit&& visit) const noexcept; // visit(row, error_bound)
-    template <auto Given, auto Asked>            // members of Row
+    [[nodiscard]] AxisRows rows_of(unsigned k) const noexcept;
+    template <auto Given, auto Asked> // members of Row
     [[nodiscard]] S lowered(S given_sq, S at_most) const noexcept;
     [[nodiscard]] S lifted(S entry_sq, S exit_sq, S at_most) const noexcept;
 
-    const Cell<S>* cell_;
+    const Cell<S>& cell_;
+    const MotionLimits<S>& limits_;
     CellInterval<S> stretch_;
-    PerAxis<S> upwards_{};   // 2 L A of accelerations > 0
-    PerAxis<S> downwards_{}; // 2 L A of accelerations < 0
 };
 
 } // namespace splinefeed
