@@ -128,9 +128,10 @@ std::size_t FeedPlan<S>::backward_pass(bool open_end) noexcept {
             machine_cap = stop ? S{} : smaller(machine_cap, before.cap_sq);
             override_cap = stop ? S{} : smaller(override_cap, wanted_before);
         }
-        const AccelerationBound<S> bound(here.cell, limits_);
         const auto reached_from = [&](S beyond, S at_most) {
-            return beyond >= here.peak.exit_sq ? at_most : bound.largest_entry(beyond, at_most);
+            return beyond >= here.peak.exit_sq
+                       ? at_most
+                       : AccelerationBound<S>(here.cell, limits_).largest_entry(beyond, at_most);
         };
         const S machine_reach = reached_from(machine_sq, here.peak.entry_sq);
         const bool alike = override_sq == machine_sq && wanted == here.cap_sq;
@@ -195,8 +196,11 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
     } else if (steered_ || at_ > S{}) {
         choose_steered(known_sq);
     } else {
-        const S exit = AccelerationBound<S>(here.cell, limits_).largest_exit(speed_sq_, wanted_exit_);
-        profile_segment_ = {{}, speed_sq_, larger(exit, smaller(known_sq, wanted_exit_)), false};
+        const S exit =
+            known_sq < wanted_exit_
+                ? larger(AccelerationBound<S>(here.cell, limits_).largest_exit(speed_sq_, wanted_exit_), known_sq)
+                : wanted_exit_;
+        profile_segment_ = {{}, speed_sq_, exit, false};
     }
     CellInterval<S>& stretch = profile_segment_.stretch;
     const bool to_end = stretch.to == one;
