@@ -56,15 +56,12 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     }
     speed = smaller(speed, cell.steady_mm_s);
     S cap = speed * speed;
-    S reach = cap;
     const S twice = cell.length_mm + cell.length_mm;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
-        const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
-        const S turn = twice * cell.curvature_max[k];
-        if (turn > literal<S>(Cell<S>::sharp_turn)) {
+        if (twice * cell.curvature_max[k] > literal<S>(Cell<S>::sharp_turn)) {
+            const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
             cap = smaller(cap, scale2(limit, -1) / cell.curvature_max[k]);
         }
-        reach = smaller(reach, quotient_or_max(twice * limit, cell.tangent_max[k] + turn));
     }
     if (limits_.centripetal_mm_s2 > S{} || limits_.chord_mm_s2 > S{}) {
         const S curvature = norm(cell.curvature_max.data(), limits_.axes);
@@ -76,7 +73,18 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
         }
     }
     planned.cap_sq = larger(cap, literal<S>(slowest_sq));
-    planned.reach_from_rest = smaller(reach, planned.cap_sq);
+}
+
+template <Scalar S>
+S FeedPlan<S>::reach_from_rest(const PlannedCell<S>& planned) const noexcept {
+    const Cell<S>& cell = planned.cell;
+    S reach = planned.cap_sq;
+    const S twice = cell.length_mm + cell.length_mm;
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
+        const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
+        reach = smaller(reach, quotient_or_max(twice * limit, cell.tangent_max[k] + twice * cell.curvature_max[k]));
+    }
+    return reach;
 }
 
 // The feed counts the linear axes; the others follow as fast as their own limits allow.
@@ -209,6 +217,7 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
         // From standstill to standstill (usually a degenerate cell between cusps): it accelerates over half of the
         // length and brakes over the other half. From standstill the whole length would reach v^2 = reach, half of it
         // reach / 2. Half of that is used, because the length of a degenerate cell has few digits in Fixed.
+        here.reach_from_rest = reach_from_rest(here);
         const S reach = smaller(here.reach_from_rest, wanted_sq(here));
         profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
