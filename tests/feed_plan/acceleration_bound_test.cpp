@@ -95,22 +95,30 @@ TEMPLATE_TEST_CASE("the polygon of a cell: its peak, its largest exits and entri
         const Cell<S> cell = random_cell(random, limits);
         const AccelerationBound<S> bound(cell, limits);
         const S cap = limits.feed_mm_s * limits.feed_mm_s * from_double<S>(random.decades(1e-3, 1.0));
-        const EndSpeeds<S> peak = bound.peak(cap);
+        const PeakSpeeds<S> peak = bound.peak(cap);
         const Real entry = exact(peak.entry_sq);
         const Real scale = exact(cap);
         CAPTURE(round, axes, static_cast<double>(scale), static_cast<double>(entry));
         // The peak is reached, and nothing beyond it is.
         const auto planes = half_planes_of(cell, limits);
         const Real best = largest_entry(planes, scale, scale);
-        CAPTURE(static_cast<double>(best), to_double(peak.exit_sq));
+        CAPTURE(static_cast<double>(best), to_double(peak.smallest_exit_sq));
         REQUIRE(std::fabs(entry - best) <= close * scale);
+        bool more = peak.largest_exit_sq < cap; // a larger exit is allowed
         for (const HalfPlane& plane : planes) {
-            const Real excess = plane.entry * entry + plane.exit * exact(peak.exit_sq) - plane.limit;
-            REQUIRE(excess <= close * scale * (std::fabs(plane.entry) + std::fabs(plane.exit)));
+            const Real rounding = close * scale * (std::fabs(plane.entry) + std::fabs(plane.exit));
+            const auto excess = [&](S exit) {
+                return plane.entry * entry + plane.exit * exact(exit) - plane.limit;
+            };
+            REQUIRE(excess(peak.smallest_exit_sq) <= rounding);
+            REQUIRE(excess(peak.largest_exit_sq) <= rounding);
+            more = more && !(plane.exit > 0.0L && excess(peak.largest_exit_sq) >= -rounding);
         }
-        REQUIRE((peak.exit_sq >= S{} && peak.exit_sq <= cap));
+        REQUIRE(!more);
+        REQUIRE((peak.smallest_exit_sq >= S{} && peak.smallest_exit_sq <= peak.largest_exit_sq));
+        REQUIRE(peak.largest_exit_sq <= cap);
         // Below it, what can be reached and from where.
-        const S exit = peak.exit_sq * from_double<S>(random.between(0.0, 0.99));
+        const S exit = peak.smallest_exit_sq * from_double<S>(random.between(0.0, 0.99));
         const Real from = exact(bound.largest_entry(exit, peak.entry_sq));
         REQUIRE(std::fabs(from - std::min(entry, largest_entry(planes, exact(exit), scale))) <= close * scale);
         const S start = peak.entry_sq * from_double<S>(random.between(0.0, 1.0));

@@ -212,7 +212,7 @@ TEMPLATE_TEST_CASE("what a profile_segment asks of the axes its cell allows, and
         const auto peak = AccelerationBound<S>(cell, limits).peak(cap);
         // A part of the peak is allowed, as (0, 0) is; then every larger exit will do for most_sq
         const S share = from_double<S>(random.between(0.01, 0.98));
-        const S least = share * peak.exit_sq;
+        const S least = share * peak.smallest_exit_sq;
         const S most = least + (cap - least) * from_double<S>(random.decades(1e-4, 1.0));
         CAPTURE(seed, run, scalar_name<S>());
         profile_segments +=

@@ -13,13 +13,13 @@ namespace {
 template <class S>
 class Clock {
 public:
-    Clock(const std::vector<PlannedCell<S>>& cells, Real segment_s) : cells_(&cells), segment_s_(segment_s) {
+    Clock(const Planned<S>& planned, Real segment_s)
+        : cells_(&planned.cells), segment_s_(segment_s), seconds_(planned.cell_seconds) {
         Real now = 0.0L;
-        for (const PlannedCell<S>& c : cells) {
+        for (std::size_t i = 0; i < seconds_.size(); ++i) {
             start_.push_back(now);
-            seconds_.push_back(seconds_in(c));
-            now += seconds_.back();
-            if (c.cell.stop_at_end) {
+            now += seconds_[i];
+            if (planned.cells[i].cell.stop_at_end) {
                 // The rest of the segment and two more: the control point repeats
                 now = (std::ceil(now / segment_s - 1.0L / 1024.0L) + 2.0L) * segment_s;
             }
@@ -67,7 +67,7 @@ TEMPLATE_TEST_CASE("the emitted joints follow the planned motion", "[stream][tra
         const auto planned = plan_of<TestType>(path, machine, 1024);
         const Stream stream = stream_of<TestType>(path, machine, 1024);
         const Real segment_s = static_cast<Real>(stream.segments[0].duration_ticks) / 8e6L;
-        Clock<TestType> clock(planned.cells, segment_s);
+        Clock<TestType> clock(planned, segment_s);
         std::size_t compared = 0;
         for (std::size_t i = 0; i < stream.segments.size(); ++i) {
             PerAxis<Real> position{};
@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE("the emitted speed is the planned speed", "[stream][trajector
     const auto planned = plan_of<TestType>(path, machine, 4096);
     const Stream stream = stream_of<TestType>(path, machine, 4096);
     const Real segment_s = static_cast<Real>(stream.segments[0].duration_ticks) / 8e6L;
-    Clock<TestType> clock(planned.cells, segment_s);
+    Clock<TestType> clock(planned, segment_s);
     std::vector<Real> planned_speed(stream.segments.size() + 1, 0.0L); // at the sample that segment i starts from
     for (std::size_t i = 2; i < planned_speed.size(); ++i) {
         PerAxis<Real> position{};

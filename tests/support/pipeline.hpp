@@ -31,24 +31,27 @@ inline MachineSettings machine_of(int axes, double velocity, double acceleration
     return machine;
 }
 
-/// Time for a planned cell. One between two stops is accelerated over half of its length and braked over the other.
+/// Time for the front cell. One between two stops is accelerated over half of its length and braked over the other.
 template <Scalar S>
-Real seconds_in(const PlannedCell<S>& c) {
+Real seconds_in_front(const FeedPlan<S>& plan) {
+    const PlannedCell<S>& c = plan.front();
     const Real sum = std::sqrt(exact(c.entry_sq)) + std::sqrt(exact(c.exit_sq));
-    return 2.0L * exact(c.cell.length_mm) / (sum > 0.0L ? sum : std::sqrt(exact(c.reach_from_rest)) / 2.0L);
+    const Real length = 2.0L * exact(c.cell.length_mm);
+    return length / (sum > 0.0L ? sum : std::sqrt(exact(plan.profile_segment().exit_sq)));
 }
 
 /// What the plan of a whole path was, and how it came about.
 template <Scalar S>
 struct Planned {
     std::vector<PlannedCell<S>> cells;
+    std::vector<Real> cell_seconds;
     std::uint64_t limited = 0; ///< FeedPlan::window_limited
     std::size_t passes = 0;    ///< calls that took cells in, each followed by one pass over the window
     std::size_t starvations = 0;
     [[nodiscard]] double seconds() const {
         double sum = 0.0;
-        for (const PlannedCell<S>& c : cells) {
-            sum += static_cast<double>(seconds_in(c));
+        for (const Real cell_s : cell_seconds) {
+            sum += static_cast<double>(cell_s);
         }
         return sum;
     }
@@ -73,6 +76,7 @@ Planned<S> plan_of(CurveSource<S>& source, const MotionLimits<S>& limits, std::s
             continue;
         }
         planned.cells.push_back(plan.front());
+        planned.cell_seconds.push_back(seconds_in_front(plan));
         plan.pop();
     }
     planned.limited = plan.window_limited();

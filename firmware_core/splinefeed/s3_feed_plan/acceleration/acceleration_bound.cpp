@@ -172,7 +172,7 @@ S AccelerationBound<S>::crossing_of(const Row& first, const Row& second, S weigh
 }
 
 template <Scalar S>
-EndSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
+PeakSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
     const S one = from_integer<S>(1);
     const S beyond = cap_sq + cap_sq; // larger than every exit
     S entry = cap_sq;
@@ -202,7 +202,7 @@ EndSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
             }
         }
         if (low <= high) {
-            return {entry, low};
+            return {entry, low, high};
         }
         const S crossing = -below.exit < above.exit ? crossing_of(below, above, -below.exit / above.exit)
                                                     : crossing_of(above, below, above.exit / -below.exit);

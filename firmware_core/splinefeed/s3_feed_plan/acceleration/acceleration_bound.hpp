@@ -9,11 +9,12 @@
 
 namespace splinefeed {
 
-/// v^2 at both ends of a cell.
+/// The fastest entry that a cell allows, as v^2, with the exits that are possible from it.
 template <Scalar S>
-struct EndSpeeds {
+struct PeakSpeeds {
     S entry_sq{};
-    S exit_sq{};
+    S smallest_exit_sq{};
+    S largest_exit_sq{};
 };
 
 /// The convex polygon of the pairs (entry_sq, exit_sq) that a cell, or a part of it, allows: eight half-planes per
@@ -32,10 +33,10 @@ public:
     /// Smallest exit_sq from at_least to at_most; at_most if none is allowed below it. A negative result is the slope
     /// of a line of v^2 that reaches zero before the end of the cell. @pre at_least <= at_most, at_least >= -entry_sq
     [[nodiscard]] S smallest_exit(S entry_sq, S at_least, S at_most) const noexcept;
-    /// Largest entry_sq up to at_most. @pre exit_sq < peak().exit_sq
+    /// Largest entry_sq up to at_most. @pre exit_sq < peak().smallest_exit_sq
     [[nodiscard]] S largest_entry(S exit_sq, S at_most) const noexcept;
-    /// The largest possible entry_sq if neither end is faster than cap_sq, with the smallest exit_sq that it needs.
-    [[nodiscard]] EndSpeeds<S> peak(S cap_sq) const noexcept;
+    /// The largest possible entry_sq if neither end is faster than cap_sq, with its exits.
+    [[nodiscard]] PeakSpeeds<S> peak(S cap_sq) const noexcept;
 
 private:
     struct Row { // entry * entry_sq + exit * exit_sq <= limit

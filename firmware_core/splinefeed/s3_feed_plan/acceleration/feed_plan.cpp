@@ -75,8 +75,9 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     planned.cap_sq = larger(cap, literal<S>(slowest_sq));
 }
 
+// Every v^2 up to this value at the end of a cell can be reached from standstill.
 template <Scalar S>
-S FeedPlan<S>::reach_from_rest(const PlannedCell<S>& planned) const noexcept {
+S FeedPlan<S>::reach_from_standstill(const PlannedCell<S>& planned) const noexcept {
     const Cell<S>& cell = planned.cell;
     S reach = planned.cap_sq;
     const S twice = cell.length_mm + cell.length_mm;
@@ -137,14 +138,14 @@ std::size_t FeedPlan<S>::backward_pass(bool open_end) noexcept {
             override_cap = stop ? S{} : smaller(override_cap, wanted_before);
         }
         const auto reached_from = [&](S beyond, S at_most) {
-            return beyond >= here.peak.exit_sq
+            return beyond >= here.peak.smallest_exit_sq
                        ? at_most
                        : AccelerationBound<S>(here.cell, limits_).largest_entry(beyond, at_most);
         };
         const S machine_reach = reached_from(machine_sq, here.peak.entry_sq);
         const bool alike = override_sq == machine_sq && wanted == here.cap_sq;
         const S override_reach = alike ? machine_reach : reached_from(override_sq, smaller(wanted, here.peak.entry_sq));
-        if ((override_sq >= here.peak.exit_sq || override_reach >= override_cap) && last_final == 0) {
+        if ((override_sq >= here.peak.smallest_exit_sq || override_reach >= override_cap) && last_final == 0) {
             last_final = i;
         }
         here.entry_sq = machine_reach;
@@ -217,8 +218,7 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
         // From standstill to standstill (usually a degenerate cell between cusps): it accelerates over half of the
         // length and brakes over the other half. From standstill the whole length would reach v^2 = reach, half of it
         // reach / 2. Half of that is used, because the length of a degenerate cell has few digits in Fixed.
-        here.reach_from_rest = reach_from_rest(here);
-        const S reach = smaller(here.reach_from_rest, wanted_sq(here));
+        const S reach = smaller(reach_from_standstill(here), wanted_sq(here));
         profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
         rest_to_rest_ = stretch.to < one; // a length of one last digit cannot be halved
@@ -250,7 +250,8 @@ template <Scalar S>
 S FeedPlan<S>::known_exit() const noexcept {
     const PlannedCell<S>& here = at(0);
     const S share = speed_sq_ < here.entry_sq ? speed_sq_ / here.entry_sq : from_integer<S>(1);
-    return share * smaller(here.peak.exit_sq, reachable_exit());
+    const S exit = here.entry_sq < here.peak.entry_sq ? here.peak.smallest_exit_sq : here.peak.largest_exit_sq;
+    return share * smaller(exit, reachable_exit());
 }
 
 template <Scalar S>

@@ -28,10 +28,8 @@ struct PlannedCell {
     Cell<S> cell{};
     S entry_sq{};
     S exit_sq{};
-    S cap_sq{};          ///< largest v^2 anywhere in the cell that the machine allows, whatever the programmed feed
-    EndSpeeds<S> peak{}; ///< the fastest entry, whatever comes after the cell, and the exit that it needs
-    S reach_from_rest{}; ///< every exit_sq up to this value can be reached from standstill; valid at the front of the
-                         ///< plan if both ends are at standstill
+    S cap_sq{};           ///< largest v^2 anywhere in the cell that the machine allows, whatever the programmed feed
+    PeakSpeeds<S> peak{}; ///< the fastest entry, whatever comes after the cell
 };
 
 /// Stage 3. The window is the caller's storage. The plan in the window always ends at standstill, so the machine can
@@ -83,7 +81,7 @@ private:
     }
 
     void bound(PlannedCell<S>& planned) const noexcept;
-    [[nodiscard]] S reach_from_rest(const PlannedCell<S>& planned) const noexcept;
+    [[nodiscard]] S reach_from_standstill(const PlannedCell<S>& planned) const noexcept;
     [[nodiscard]] S path_speed(const Cell<S>& cell, S feed) const noexcept;
     [[nodiscard]] S wanted_sq(const PlannedCell<S>& planned) const noexcept {
         return wanted_sq(planned.cell, planned.cap_sq, steering_.ratio());
