@@ -175,15 +175,19 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const S error = m_.shape_error + scale2(absolute(m_.length - m_.low_order_length), 12) / m_.length;
     const S ripple = per_mm(from_integer<S>(40) * error, -12);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        PerDegree<S> difference = piece.control[k];
-        S binomial = from_integer<S>(1);
-        for (unsigned i = 1; i <= n; ++i) {
+        PerDegree<S>& power = out.power[k]; // the differences of the control points, without power[0]
+        for (unsigned j = n; j >= 1; --j) {
+            power[j] = piece.control[k][j] - piece.control[k][j - 1];
+        }
+        for (unsigned i = 2; i <= n; ++i) {
             for (unsigned j = n; j >= i; --j) {
-                difference[j] = difference[j] - difference[j - 1];
+                power[j] = power[j] - power[j - 1];
             }
-            binomial = binomial * from_integer<S>(static_cast<std::int32_t>(n - i + 1)) /
-                       from_integer<S>(static_cast<std::int32_t>(i));
-            out.power[k][i] = binomial * difference[i];
+        }
+        unsigned binomial = 1;
+        for (unsigned i = 1; i <= n; ++i) {
+            binomial = binomial * (n - i + 1) / i;
+            power[i] = from_integer<S>(static_cast<std::int32_t>(binomial)) * power[i];
         }
         out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<S>(1));
     }

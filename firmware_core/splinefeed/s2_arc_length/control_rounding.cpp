@@ -51,8 +51,13 @@ ControlRounding<S> ControlRounding<S>::of(const CurveSegment<S>& segment, int le
             two = from_integer<S>(level + 1) * rounding;
             bend = from_integer<S>(2 * 24) * rounding;
         }
-        out.jump[k] = from_integer<S>(segment.degree) * two / slowest;
-        out.bend[k] = bend / slowest;
+        if (k == 0 || std::same_as<S, float>) {
+            out.jump[k] = from_integer<S>(segment.degree) * two / slowest;
+            out.bend[k] = bend / slowest;
+        } else { // the same for all axes
+            out.jump[k] = out.jump[0];
+            out.bend[k] = out.bend[0];
+        }
         jump_along += tangent_max[k] * out.jump[k];
         bend_along += tangent_max[k] * out.bend[k];
     }
