@@ -22,7 +22,8 @@ Wide wide_of(Uint128 value) {
 }
 
 void check_multiply(std::uint64_t a, std::uint64_t b) {
-    if (value_of(multiply(a, b)) != static_cast<Uint128>(a) * b) {
+    const Uint128 product = static_cast<Uint128>(a) * b;
+    if (value_of(multiply(a, b)) != product || value_of(detail::multiply_digits(a, b)) != product) {
         FAIL_SAMPLE(a, b);
     }
 }
@@ -35,9 +36,15 @@ void check_sums(Wide a, Wide b) {
 }
 
 void check_divide(Wide numerator, std::uint64_t denominator) {
-    const WideQuotient result = divide(numerator, denominator);
-    if (result.quotient != value_of(numerator) / denominator || result.remainder != value_of(numerator) % denominator) {
-        FAIL_SAMPLE(numerator.high, numerator.low, denominator, result.quotient, result.remainder);
+    const auto check = [&](const WideQuotient& result) {
+        if (result.quotient != value_of(numerator) / denominator ||
+            result.remainder != value_of(numerator) % denominator) {
+            FAIL_SAMPLE(numerator.high, numerator.low, denominator, result.quotient, result.remainder);
+        }
+    };
+    check(divide(numerator, denominator));
+    if (numerator.high != 0) {
+        check(detail::divide_digits(numerator, denominator));
     }
 }
 
@@ -82,6 +89,7 @@ TEST_CASE("a product has all 128 bits", "[number][wide]") {
         check_multiply(random.unsigned64(), random.unsigned64());
     }
     static_assert(multiply(~0ULL, ~0ULL) == Wide{~0ULL - 1U, 1U});
+    static_assert(detail::multiply_digits(~0ULL, ~0ULL) == Wide{~0ULL - 1U, 1U});
 }
 
 TEST_CASE("sums, differences and comparisons carry between the halves", "[number][wide]") {

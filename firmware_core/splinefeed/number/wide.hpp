@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Unsigned 128-bit integers for the products and quotients of 64-bit numbers. They need only 32x32->64 multiplies and
-// 64/64 divides, because 32-bit targets have neither __int128 nor a 64x64->128 multiply.
+// Unsigned 128-bit integers for the products and quotients of 64-bit numbers. 64-bit targets have instructions for
+// them, which compilers reach by __int128. 32-bit targets have neither: there they need only 32x32->64 multiplies and
+// 64/64 divides. Both ways are exact, so they give the same bits.
 #pragma once
 
 #include "splinefeed/base/assertion.hpp"
@@ -31,19 +32,33 @@ namespace detail {
 
 inline constexpr std::uint64_t low_half = 0xffffffffU;
 
-} // namespace detail
+#ifdef __SIZEOF_INT128__
+__extension__ using Native = unsigned __int128;
+#endif
 
-/// a * b, exact. Cost: four 32x32->64 multiplies.
-[[nodiscard]] constexpr Wide multiply(std::uint64_t a, std::uint64_t b) noexcept {
-    const std::uint64_t a0 = a & detail::low_half;
+/// a * b, by digits of 32 bits.
+[[nodiscard]] constexpr Wide multiply_digits(std::uint64_t a, std::uint64_t b) noexcept {
+    const std::uint64_t a0 = a & low_half;
     const std::uint64_t a1 = a >> 32;
-    const std::uint64_t b0 = b & detail::low_half;
+    const std::uint64_t b0 = b & low_half;
     const std::uint64_t b1 = b >> 32;
     // The product of two digits is at most (2^32-1)^2 = 2^64 - 2^33 + 1: two more digits can be added without a carry.
     const std::uint64_t bottom = a0 * b0;
     const std::uint64_t middle = a1 * b0 + (bottom >> 32);
-    const std::uint64_t cross = a0 * b1 + (middle & detail::low_half);
-    return {a1 * b1 + (middle >> 32) + (cross >> 32), (cross << 32) | (bottom & detail::low_half)};
+    const std::uint64_t cross = a0 * b1 + (middle & low_half);
+    return {a1 * b1 + (middle >> 32) + (cross >> 32), (cross << 32) | (bottom & low_half)};
+}
+
+} // namespace detail
+
+/// a * b, exact. Cost: one multiply, or four 32x32->64 multiplies on a 32-bit target.
+[[nodiscard]] constexpr Wide multiply(std::uint64_t a, std::uint64_t b) noexcept {
+#ifdef __SIZEOF_INT128__
+    const auto product = static_cast<detail::Native>(a) * b;
+    return {static_cast<std::uint64_t>(product >> 64), static_cast<std::uint64_t>(product)};
+#else
+    return detail::multiply_digits(a, b);
+#endif
 }
 
 /// a + b modulo 2^128.
@@ -111,11 +126,22 @@ constexpr std::uint64_t divide_digit(std::uint64_t& remainder, std::uint64_t dig
     return quotient;
 }
 
+/// numerator / denominator, by digits of 32 bits. @pre 0 < numerator.high < denominator
+[[nodiscard]] constexpr WideQuotient divide_digits(Wide numerator, std::uint64_t denominator) noexcept {
+    const int shift = std::countl_zero(denominator);
+    const std::uint64_t normalised = denominator << shift;
+    const Wide shifted = shift_left(numerator, shift);
+    std::uint64_t remainder = shifted.high;
+    const std::uint64_t upper = divide_digit(remainder, shifted.low >> 32, normalised);
+    const std::uint64_t lower = divide_digit(remainder, shifted.low & low_half, normalised);
+    return {(upper << 32) | lower, remainder >> shift};
+}
+
 } // namespace detail
 
 /// numerator / denominator with remainder. Precondition: numerator.high < denominator, so that the quotient fits in 64
-/// bits; otherwise all bits of the quotient are set and the remainder is zero. Cost: one 64-bit divide if the numerator
-/// has 64 bits, otherwise two 64/32 divides and four multiplies.
+/// bits; otherwise all bits of the quotient are set and the remainder is zero. Cost: one divide; on a 32-bit target one
+/// 64-bit divide if the numerator has 64 bits, otherwise two 64/32 divides and four multiplies.
 [[nodiscard]] constexpr WideQuotient divide(Wide numerator, std::uint64_t denominator) noexcept {
     SPLINEFEED_ASSERT(numerator.high < denominator);
     if (numerator.high >= denominator) {
@@ -125,13 +151,13 @@ constexpr std::uint64_t divide_digit(std::uint64_t& remainder, std::uint64_t dig
         const std::uint64_t quotient = numerator.low / denominator;
         return {quotient, numerator.low - quotient * denominator};
     }
-    const int shift = std::countl_zero(denominator);
-    const std::uint64_t normalised = denominator << shift;
-    const Wide shifted = shift_left(numerator, shift);
-    std::uint64_t remainder = shifted.high;
-    const std::uint64_t upper = detail::divide_digit(remainder, shifted.low >> 32, normalised);
-    const std::uint64_t lower = detail::divide_digit(remainder, shifted.low & detail::low_half, normalised);
-    return {(upper << 32) | lower, remainder >> shift};
+#ifdef __SIZEOF_INT128__
+    const auto whole = (static_cast<detail::Native>(numerator.high) << 64) | numerator.low;
+    const auto quotient = static_cast<std::uint64_t>(whole / denominator);
+    return {quotient, numerator.low - quotient * denominator};
+#else
+    return detail::divide_digits(numerator, denominator);
+#endif
 }
 
 } // namespace splinefeed
