@@ -37,10 +37,13 @@ S GradedFeed<S>::speed_sq_at(S fraction) const noexcept {
                                           : segment.entry_sq + (segment.exit_sq - segment.entry_sq) * fraction;
 }
 
-// The longest part that begins or ends at `fraction` of the cell; the largest number at rest.
+// How long a part may be: the slower of its ends decides, of those in motion; between stops, the largest number.
 template <Scalar S>
-S GradedFeed<S>::longest_at(S fraction, S jerk) const noexcept {
-    const S speed = square_root(speed_sq_at(fraction));
+S GradedFeed<S>::longest_of(const CellInterval<S>& part, S jerk) const noexcept {
+    const S from_sq = speed_sq_at(part.from);
+    const S to_sq = speed_sq_at(part.to);
+    const S slower_sq = smaller(from_sq, to_sq);
+    const S speed = square_root(slower_sq > S{} ? slower_sq : larger(from_sq, to_sq));
     return speed > S{} ? longest_ * speed * square_root(speed / jerk) : largest<S>();
 }
 
@@ -54,11 +57,10 @@ CellInterval<S> GradedFeed<S>::next_part(const Cell<S>& cell) const noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
         jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], cell.tangent_max[k]));
     }
-    const S longest_behind = longest_at(part.from, jerk);
     const auto too_long = [&] {
         const S length = cell.length_mm * part.length();
         return length > literal<S>(shortest_mm) && part.length() > literal<S>(least_share) &&
-               (length > longest_behind || length > longest_at(part.to, jerk));
+               length > longest_of(part, jerk);
     };
     while (too_long()) {
         part.to = part.from + scale2(part.length(), -1);

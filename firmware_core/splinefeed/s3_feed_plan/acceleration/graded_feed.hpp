@@ -10,7 +10,7 @@ namespace splinefeed {
 
 /// Delivers the cells of a FeedPlan to a plan that limits the jerk, in parts that are short where the speed is low.
 /// Without that the cells beside a short bend would keep the low speed of the bend. Memory: a few words. Cost per part:
-/// three roots, a division for each axis, two roots for each halving, and cutting the part if it is not a whole cell.
+/// two roots, a division for each axis, two roots for each halving, and cutting the part if it is not a whole cell.
 template <Scalar S>
 class GradedFeed {
 public:
@@ -49,7 +49,7 @@ public:
 private:
     Pull prepare(UnderrunPolicy underrun) noexcept;
     [[nodiscard]] CellInterval<S> next_part(const Cell<S>& cell) const noexcept;
-    [[nodiscard]] S longest_at(S fraction, S jerk) const noexcept;
+    [[nodiscard]] S longest_of(const CellInterval<S>& part, S jerk) const noexcept;
     [[nodiscard]] S speed_sq_at(S fraction) const noexcept;
     void leave(const CellInterval<S>& part) noexcept;
 
