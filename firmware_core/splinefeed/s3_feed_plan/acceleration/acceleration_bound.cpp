@@ -86,7 +86,6 @@ auto AccelerationBound<S>::rows_of(unsigned k) const noexcept -> AxisRows {
     both(1, c1 - t[1], t[1] + c0);
     both(2, c2 - t[2], t[2] + c1);
     both(3, -t[3], t[3] + bend[2]);
-    out.error_bound = e;
     const S twice = length + length;
     const auto scaled = [&](S acceleration) {
         return smaller(scale2(twice * acceleration, limits_.refinement.shape_log2),
@@ -136,7 +135,7 @@ S AccelerationBound<S>::largest_entry(S exit_sq, S at_most) const noexcept {
 }
 
 // A violated half-plane increases the exit. The error bound is proportional to |v^2|: below zero it acts on the other
-// side.
+// side, as in the half-plane against the opposite acceleration.
 template <Scalar S>
 S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept {
     const bool below_zero = exit_sq < S{};
@@ -145,7 +144,7 @@ S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept 
         const AxisRows axis = rows_of(k);
         for (unsigned i = 0; i < 8; ++i) {
             const Row row = axis[i];
-            const S exit = below_zero ? row.exit - (axis.error_bound + axis.error_bound) : row.exit;
+            const S exit = below_zero ? -axis.exit[i ^ 1U] : row.exit;
             if (!(exit < S{})) {
                 continue;
             }
@@ -175,6 +174,11 @@ template <Scalar S>
 PeakSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
     const S one = from_integer<S>(1);
     const S beyond = cap_sq + cap_sq; // larger than every exit
+    const auto axes = static_cast<unsigned>(cell_.axes);
+    PerAxis<AxisRows> rows;
+    for (unsigned k = 0; k < axes; ++k) {
+        rows[k] = rows_of(k);
+    }
     S entry = cap_sq;
     S back = larger(scale2(cap_sq, least_step_log2<S>), literal<S>(0x1p-32));
     for (int step = 0; step < most_steps; ++step) {
@@ -182,10 +186,9 @@ PeakSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
         Row below{S{}, -one, S{}};   // exit >= 0
         S high = cap_sq;
         S low{};
-        for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
-            const AxisRows axis = rows_of(k);
+        for (unsigned k = 0; k < axes; ++k) {
             for (unsigned i = 0; i < 8; ++i) {
-                const Row row = axis[i];
+                const Row row = rows[k][i];
                 if (row.exit > S{}) {
                     const S excess = row.entry * entry + row.exit * high - row.limit;
                     if (excess > S{} && high > -cap_sq) {

@@ -49,7 +49,6 @@ private:
         std::array<S, 8> entry;
         std::array<S, 8> exit;
         std::array<S, 2> limit; // of accelerations > 0 and < 0, in turn
-        S error_bound;
 
         [[nodiscard]] Row operator[](unsigned i) const noexcept { return {entry[i], exit[i], limit[i % 2]}; }
     };
