@@ -184,8 +184,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
                 power[j] = power[j] - power[j - 1];
             }
         }
-        unsigned binomial = 1;
-        for (unsigned i = 1; i <= n; ++i) {
+        for (unsigned i = 1, binomial = 1; i <= n; ++i) {
             binomial = binomial * (n - i + 1) / i;
             power[i] = from_integer<S>(static_cast<std::int32_t>(binomial)) * power[i];
         }

@@ -163,6 +163,17 @@ S AccelerationBound<S>::smallest_exit(S entry_sq, S at_least, S at_most) const n
     return at_least < S{} && best > S{} ? lifted(entry_sq, S{}, larger(at_most, S{})) : best;
 }
 
+template <Scalar S>
+S AccelerationBound<S>::reach_from_standstill(S at_most) const noexcept {
+    S reach = at_most;
+    const S twice = cell_.length_mm + cell_.length_mm;
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
+        const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
+        reach = smaller(reach, quotient_or_max(twice * limit, cell_.tangent_max[k] + twice * cell_.curvature_max[k]));
+    }
+    return reach;
+}
+
 // The entry where two half-planes meet; their exits cancel with the weight 0 ... 1 of the second.
 template <Scalar S>
 S AccelerationBound<S>::crossing_of(const Row& first, const Row& second, S weight) noexcept {

@@ -75,19 +75,6 @@ void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
     planned.cap_sq = larger(cap, literal<S>(slowest_sq));
 }
 
-// Every v^2 up to this value at the end of a cell can be reached from standstill.
-template <Scalar S>
-S FeedPlan<S>::reach_from_standstill(const PlannedCell<S>& planned) const noexcept {
-    const Cell<S>& cell = planned.cell;
-    S reach = planned.cap_sq;
-    const S twice = cell.length_mm + cell.length_mm;
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
-        const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
-        reach = smaller(reach, quotient_or_max(twice * limit, cell.tangent_max[k] + twice * cell.curvature_max[k]));
-    }
-    return reach;
-}
-
 // The feed counts the linear axes; the others follow as fast as their own limits allow.
 template <Scalar S>
 S FeedPlan<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
@@ -218,7 +205,7 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
         // From standstill to standstill (usually a degenerate cell between cusps): it accelerates over half of the
         // length and brakes over the other half. From standstill the whole length would reach v^2 = reach, half of it
         // reach / 2. Half of that is used, because the length of a degenerate cell has few digits in Fixed.
-        const S reach = smaller(reach_from_standstill(here), wanted_sq(here));
+        const S reach = AccelerationBound<S>(here.cell, limits_).reach_from_standstill(wanted_sq(here));
         profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
         rest_to_rest_ = stretch.to < one; // a length of one last digit cannot be halved

@@ -81,7 +81,6 @@ private:
     }
 
     void bound(PlannedCell<S>& planned) const noexcept;
-    [[nodiscard]] S reach_from_standstill(const PlannedCell<S>& planned) const noexcept;
     [[nodiscard]] S path_speed(const Cell<S>& cell, S feed) const noexcept;
     [[nodiscard]] S wanted_sq(const PlannedCell<S>& planned) const noexcept {
         return wanted_sq(planned.cell, planned.cap_sq, steering_.ratio());
