@@ -37,16 +37,6 @@ constexpr double within = 1.0 - 0x1p-14; // of the distance to the point where a
                                          // does not exceed it
 constexpr int most_shrinks = 14;         // by 8, if far too large: v down to 1e-6 of a first guess
 
-// a b for a, b >= 0, in Fixed at most 2^29: sums of three such products fit.
-template <Scalar S>
-S bounded_product(S a, S b) noexcept {
-    if constexpr (std::same_as<S, Fixed>) {
-        return smaller(Fixed::from_raw(detail::checked_product(a.raw(), b.raw()).raw), Fixed(1 << 29));
-    } else {
-        return a * b;
-    }
-}
-
 // The largest x from low to high with excess(x) <= 0, up to the tolerance of the steps. @pre excess(low) <= 0
 template <Scalar S, class Excess>
 S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexcept {
@@ -86,11 +76,12 @@ S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexce
 
 } // namespace
 
-// If |q'''| is above the range of the scalar, its value is not known. There the speed is the crawling speed, at which
-// q''' needs less than half of the jerk (detail::sharpest_curvature): the other half is left for the known part.
+// The largest change of an axis's acceleration within T. If |q'''| is above the range of the scalar, its value is not
+// known. There the speed is the crawling speed, at which q''' needs less than half of the jerk
+// (detail::sharpest_curvature): the other half is left for the known part.
 template <Scalar S>
-S FilteredLimits<S>::jerk(unsigned axis) const noexcept {
-    return demand_->beyond ? scale2(limits_->jerk_mm_s3[axis], -1) : limits_->jerk_mm_s3[axis];
+S FilteredLimits<S>::change(unsigned axis) const noexcept {
+    return demand_->beyond ? scale2(smoothing_->change_mm_s2[axis], -1) : smoothing_->change_mm_s2[axis];
 }
 
 // How far the worst axis exceeds its acceleration, or T times its jerk.
@@ -100,20 +91,32 @@ S FilteredLimits<S>::excess(S speed_sq, S acceleration) const noexcept {
     const S t = smoothing_->seconds;
     const S w = square_root(speed_sq) + acceleration * smoothing_->half_s;
     const S w_t = w * t;
+    if (!(w < from_integer<S>(1 << 15))) { // no path is that fast, and in Fixed its square does not fit
+        return from_integer<S>(1 << 29);
+    }
+    const S w_sq = w * w;
     const S thrice = from_integer<S>(3) * acceleration * t;
+    const bool steady = acceleration == S{};
     S most = -largest<S>();
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         const AxisDemand<S>& at = demand_->axis[k];
         const auto cubed = [&](S third) {
-            return bounded_product(bounded_product(bounded_product(third, w), w_t), w);
+            return bounded_product(bounded_product(third, w_t), w_sq);
         };
-        const S along = at.first * acceleration;
         const S limit = smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]);
-        const S bend =
-            bounded_product(bounded_product(at.second, w), thrice) + cubed(Braking ? at.third_against : at.third_with);
-        const S alone = cubed(larger(at.third_with, at.third_against));
-        most = larger(most, along + bounded_product(at.second, speed_sq) - limit);
-        most = larger(most, along + larger(bend, alone) - bounded_product(jerk(k), t));
+        const S across = bounded_product(at.second, speed_sq) - limit;
+        const S steepest = larger(at.third_with, at.third_against);
+        if (steady) {
+            most = larger(most, larger(across, cubed(steepest) - change(k)));
+            continue;
+        }
+        const S along = at.first * acceleration;
+        const S third = Braking ? at.third_against : at.third_with;
+        S bend = bounded_product(bounded_product(at.second, w), thrice) + cubed(third);
+        if (third < steepest) {
+            bend = larger(bend, cubed(steepest));
+        }
+        most = larger(most, along + larger(across, bend - change(k)));
     }
     return most;
 }
@@ -128,8 +131,7 @@ template <Scalar S>
 S FilteredLimits<S>::max_path_acceleration() const noexcept {
     S most = scale2(from_integer<S>(1), 22); // more than the limits of six axes together
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
-        const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]),
-                                bounded_product(jerk(k), smoothing_->seconds));
+        const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]), change(k));
         most = smaller(most, quotient_or_max(limit, demand_->axis[k].first));
     }
     return most;

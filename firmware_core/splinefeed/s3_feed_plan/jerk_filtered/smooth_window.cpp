@@ -358,7 +358,7 @@ void SmoothWindow<S>::prepare(bool force) noexcept {
         SmoothCell<S>& here = at(i);
         if (starts_leg(i)) {
             bool in_view = false;
-            smoothing_ = Smoothing<S>(smoothing_of_leg(i, in_view), limits_->segments_per_s);
+            smoothing_ = Smoothing<S>(smoothing_of_leg(i, in_view), *limits_);
             // T is constant for the whole leg. The motion stands before it; by then more of the leg is known.
             if (!in_view && !(force && i == front_)) {
                 break;
