@@ -27,6 +27,8 @@
 // T: it is then an acceleration like (1).
 #include "splinefeed/s3_feed_plan/jerk_filtered/filtered_limits.hpp"
 
+#include <bit>
+
 namespace splinefeed {
 
 namespace {
@@ -39,7 +41,7 @@ constexpr int most_shrinks = 14;         // by 8, if far too large: v down to 1e
 
 // The largest x from low to high with excess(x) <= 0, up to the tolerance of the steps. @pre excess(low) <= 0
 template <Scalar S, class Excess>
-S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexcept {
+S largest_allowed(S low, S high, S close, Excess&& excess, int most_steps = steps) noexcept {
     S above = excess(high);
     if (!(above > S{})) {
         return high;
@@ -57,7 +59,7 @@ S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexce
         above = e;
     }
     bool rose = false;
-    for (int i = 0; i < most_steps && below < S{}; ++i) {
+    for (int i = 0; i < most_steps && below < -close; ++i) {
         const S x = low + (high - low) * (-below / (above - below) * literal<S>(within));
         const S e = excess(x);
         if (e > S{}) {
@@ -72,6 +74,22 @@ S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexce
         }
     }
     return low;
+}
+
+// The first twelve digits of x >= 0. So cells with almost the same limits get the same speed. A motion that brakes by a
+// ten-thousandth may not accelerate again for as long as the average lasts.
+template <Scalar S>
+S truncated(S x) noexcept {
+    constexpr int digits = 12;
+    if constexpr (std::same_as<S, Fixed>) {
+        const auto raw = static_cast<std::uint64_t>(x.raw());
+        const int excess = 64 - std::countl_zero(raw) - digits;
+        return excess > 0 ? Fixed::from_raw(static_cast<std::int64_t>(raw >> excess << excess)) : x;
+    } else if constexpr (std::same_as<S, float>) {
+        return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & (~std::uint32_t{} << (24 - digits)));
+    } else {
+        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & (~std::uint64_t{} << (53 - digits)));
+    }
 }
 
 } // namespace
@@ -123,8 +141,9 @@ S FilteredLimits<S>::excess(S speed_sq, S acceleration) const noexcept {
 
 template <Scalar S>
 S FilteredLimits<S>::max_steady(S at_most) const noexcept {
-    return largest_allowed(
-        S{}, at_most, [&](S speed_sq) { return excess<false>(speed_sq, S{}); }, level_steps);
+    const S level = largest_allowed(
+        S{}, at_most, smoothing_->close_mm_s2, [&](S speed_sq) { return excess<false>(speed_sq, S{}); }, level_steps);
+    return level < at_most ? truncated(level) : level;
 }
 
 template <Scalar S>
@@ -148,7 +167,7 @@ S FilteredLimits<S>::faster_end(S slower_sq, S at_most, S length_mm, S max_path_
     const S change = at_most - slower_sq;
     const S high =
         quotient_or_max(change, twice) > max_path_acceleration ? slower_sq + twice * max_path_acceleration : at_most;
-    return largest_allowed(slower_sq, high, [&](S speed_sq) {
+    return largest_allowed(slower_sq, high, smoothing_->close_mm_s2, [&](S speed_sq) {
         return excess<Braking>(speed_sq, smaller(quotient_or_max(speed_sq - slower_sq, twice), max_path_acceleration));
     });
 }
@@ -165,12 +184,14 @@ S FilteredLimits<S>::largest_entry(S exit_sq, S at_most, S length_mm, S max_path
 
 template <Scalar S>
 S FilteredLimits<S>::acceleration(S speed_sq, S max_path_acceleration) const noexcept {
-    return largest_allowed(S{}, max_path_acceleration, [&](S a) { return excess<false>(speed_sq, a); });
+    return largest_allowed(S{}, max_path_acceleration, smoothing_->close_mm_s2,
+                           [&](S a) { return excess<false>(speed_sq, a); });
 }
 
 template <Scalar S>
 S FilteredLimits<S>::braking(S speed_sq, S max_path_acceleration) const noexcept {
-    return largest_allowed(S{}, max_path_acceleration, [&](S a) { return excess<true>(speed_sq, a); });
+    return largest_allowed(S{}, max_path_acceleration, smoothing_->close_mm_s2,
+                           [&](S a) { return excess<true>(speed_sq, a); });
 }
 
 template class FilteredLimits<double>;

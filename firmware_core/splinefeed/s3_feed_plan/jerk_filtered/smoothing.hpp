@@ -23,12 +23,14 @@ template <Scalar S>
 template <Scalar S>
 struct Smoothing {
     static constexpr int fraction_bits = 8;
+    static constexpr int close_log2 = 12;
 
     std::uint32_t duration_q8 = 0; ///< in 1/256 of a tick
     S seconds{};
     S half_s{}; ///< largest difference between the averaged speed and the speed at an instant in the average, per
                 ///< acceleration
     PerAxis<S> change_mm_s2{}; ///< J T: largest change of an axis's acceleration within the time; in Fixed at most 2^29
+    S close_mm_s2{};           ///< an acceleration so near to its limit, or J T, counts as equal to it
 
     Smoothing() noexcept = default;
     Smoothing(std::uint32_t q8, const MotionLimits<S>& limits) noexcept : duration_q8(q8) {
@@ -39,8 +41,11 @@ struct Smoothing {
         // An average over N + f ticks reaches over n = N or N + 1 ticks: n^2 / (2 (N + f))
         const S reach = from_integer<S>(ticks());
         half_s = scale2(reach * (scale2(reach, fraction_bits) / duration) / segments_per_s, -1);
+        close_mm_s2 = largest<S>();
         for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
             change_mm_s2[k] = bounded_product(limits.jerk_mm_s3[k], seconds);
+            const S least = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
+            close_mm_s2 = smaller(close_mm_s2, scale2(smaller(change_mm_s2[k], least), -close_log2));
         }
     }
 
