@@ -81,7 +81,7 @@ TEMPLATE_TEST_CASE("what a bound allows keeps both inequalities, and uses them",
         const auto limits = MotionLimits<S>::make(c.machine);
         REQUIRE(limits.has_value());
         const PathDerivativeBounds<S> demand = in<S>(c.demand);
-        const Smoothing<S> smoothing(c.smoothing_q8, limits->segments_per_s);
+        const Smoothing<S> smoothing(c.smoothing_q8, *limits);
         const FilteredLimits<S> bound(demand, *limits, smoothing);
         const S most = from_integer<S>(40000);
         const S level = bound.max_steady(most);

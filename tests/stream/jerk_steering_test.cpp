@@ -121,7 +121,7 @@ TEMPLATE_TEST_CASE("a hold on a curve takes little more than braking with as muc
             CAPTURE(at, std::sqrt(static_cast<double>(speed_sq)), took, braking);
             // And it takes A / J to take it back, to brake as hard, and to end that. Averaged over T, the path is
             // braked with J T at most, T after the end of acceleration.
-            const double averaged_s = to_double(Smoothing<S>(limits.smoothing_q8, limits.segments_per_s).seconds);
+            const double averaged_s = to_double(Smoothing<S>(limits.smoothing_q8, limits).seconds);
             CHECK(took <= (tier == JerkTier::optimal ? 1.1 * braking + 2.0 * 1000.0 / 2e4
                                                      : 1.1 * braking * 1000.0 / (2e4 * averaged_s) + 3.0 * averaged_s));
             REQUIRE(run.finished);

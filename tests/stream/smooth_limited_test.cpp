@@ -143,6 +143,25 @@ TEMPLATE_TEST_CASE("an averaged straight move takes the time of the S-curve", "[
     }
 }
 
+TEMPLATE_TEST_CASE("averaged motions along mild bends keep every limit", "[stream][jerk][smooth]", double, Fixed) {
+    // They are averaged over the time of a straight line
+    Real most = 0.0L;
+    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(40)); ++round) {
+        Random random(seed + 4000000 + round);
+        MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+        machine.jerk_tier = JerkTier::bounded;
+        machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = random.decades(1e4, 1e5);
+        const double length = random.decades(10.0, 200.0);
+        const double side = length * random.decades(1e-4, 0.3);
+        const BezierPath path{cubic_shape(length / 3.0, 0.0, 2.0 * length / 3.0, side, length, side),
+                              cubic_shape(length / 3.0, 0.0, 2.0 * length / 3.0, -side, length, -side)};
+        CAPTURE(seed, round, length, side, machine.axis[0].max_jerk_mm_s3);
+        const Stream stream = stream_of<TestType>(path, machine, 512);
+        most = std::max(most, require_limits(stream, machine).jerk);
+    }
+    CHECK(most > 0.95L);
+}
+
 TEMPLATE_TEST_CASE("an override of a long straight line is followed by an averaged motion at once",
                    "[stream][jerk][smooth][steering]", double, Fixed) {
     MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);

@@ -27,6 +27,8 @@
 // T: it is then an acceleration like (1).
 #include "splinefeed/s3_feed_plan/jerk_filtered/filtered_limits.hpp"
 
+#include <bit>
+
 namespace splinefeed {
 
 namespace {
@@ -37,19 +39,9 @@ constexpr double within = 1.0 - 0x1p-14; // of the distance to the point where a
                                          // does not exceed it
 constexpr int most_shrinks = 14;         // by 8, if far too large: v down to 1e-6 of a first guess
 
-// a b for a, b >= 0, in Fixed at most 2^29: sums of three such products fit.
-template <Scalar S>
-S bounded_product(S a, S b) noexcept {
-    if constexpr (std::same_as<S, Fixed>) {
-        return smaller(Fixed::from_raw(detail::checked_product(a.raw(), b.raw()).raw), Fixed(1 << 29));
-    } else {
-        return a * b;
-    }
-}
-
 // The largest x from low to high with excess(x) <= 0, up to the tolerance of the steps. @pre excess(low) <= 0
 template <Scalar S, class Excess>
-S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexcept {
+S largest_allowed(S low, S high, S close, Excess&& excess, int most_steps = steps) noexcept {
     S above = excess(high);
     if (!(above > S{})) {
         return high;
@@ -67,7 +59,7 @@ S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexce
         above = e;
     }
     bool rose = false;
-    for (int i = 0; i < most_steps && below < S{}; ++i) {
+    for (int i = 0; i < most_steps && below < -close; ++i) {
         const S x = low + (high - low) * (-below / (above - below) * literal<S>(within));
         const S e = excess(x);
         if (e > S{}) {
@@ -84,13 +76,30 @@ S largest_allowed(S low, S high, Excess&& excess, int most_steps = steps) noexce
     return low;
 }
 
+// The first twelve digits of x >= 0. So cells with almost the same limits get the same speed. A motion that brakes by a
+// ten-thousandth may not accelerate again for as long as the average lasts.
+template <Scalar S>
+S truncated(S x) noexcept {
+    constexpr int digits = 12;
+    if constexpr (std::same_as<S, Fixed>) {
+        const auto raw = static_cast<std::uint64_t>(x.raw());
+        const int excess = 64 - std::countl_zero(raw) - digits;
+        return excess > 0 ? Fixed::from_raw(static_cast<std::int64_t>(raw >> excess << excess)) : x;
+    } else if constexpr (std::same_as<S, float>) {
+        return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & (~std::uint32_t{} << (24 - digits)));
+    } else {
+        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & (~std::uint64_t{} << (53 - digits)));
+    }
+}
+
 } // namespace
 
-// If |q'''| is above the range of the scalar, its value is not known. There the speed is the crawling speed, at which
-// q''' needs less than half of the jerk (detail::sharpest_curvature): the other half is left for the known part.
+// The largest change of an axis's acceleration within T. If |q'''| is above the range of the scalar, its value is not
+// known. There the speed is the crawling speed, at which q''' needs less than half of the jerk
+// (detail::sharpest_curvature): the other half is left for the known part.
 template <Scalar S>
-S FilteredLimits<S>::jerk(unsigned axis) const noexcept {
-    return demand_->beyond ? scale2(limits_->jerk_mm_s3[axis], -1) : limits_->jerk_mm_s3[axis];
+S FilteredLimits<S>::change(unsigned axis) const noexcept {
+    return demand_->beyond ? scale2(smoothing_->change_mm_s2[axis], -1) : smoothing_->change_mm_s2[axis];
 }
 
 // How far the worst axis exceeds its acceleration, or T times its jerk.
@@ -100,36 +109,48 @@ S FilteredLimits<S>::excess(S speed_sq, S acceleration) const noexcept {
     const S t = smoothing_->seconds;
     const S w = square_root(speed_sq) + acceleration * smoothing_->half_s;
     const S w_t = w * t;
+    if (!(w < from_integer<S>(1 << 15))) { // no path is that fast, and in Fixed its square does not fit
+        return from_integer<S>(1 << 29);
+    }
+    const S w_sq = w * w;
     const S thrice = from_integer<S>(3) * acceleration * t;
+    const bool steady = acceleration == S{};
     S most = -largest<S>();
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         const AxisDemand<S>& at = demand_->axis[k];
         const auto cubed = [&](S third) {
-            return bounded_product(bounded_product(bounded_product(third, w), w_t), w);
+            return bounded_product(bounded_product(third, w_t), w_sq);
         };
-        const S along = at.first * acceleration;
         const S limit = smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]);
-        const S bend =
-            bounded_product(bounded_product(at.second, w), thrice) + cubed(Braking ? at.third_against : at.third_with);
-        const S alone = cubed(larger(at.third_with, at.third_against));
-        most = larger(most, along + bounded_product(at.second, speed_sq) - limit);
-        most = larger(most, along + larger(bend, alone) - bounded_product(jerk(k), t));
+        const S across = bounded_product(at.second, speed_sq) - limit;
+        const S steepest = larger(at.third_with, at.third_against);
+        if (steady) {
+            most = larger(most, larger(across, cubed(steepest) - change(k)));
+            continue;
+        }
+        const S along = at.first * acceleration;
+        const S third = Braking ? at.third_against : at.third_with;
+        S bend = bounded_product(bounded_product(at.second, w), thrice) + cubed(third);
+        if (third < steepest) {
+            bend = larger(bend, cubed(steepest));
+        }
+        most = larger(most, along + larger(across, bend - change(k)));
     }
     return most;
 }
 
 template <Scalar S>
 S FilteredLimits<S>::max_steady(S at_most) const noexcept {
-    return largest_allowed(
-        S{}, at_most, [&](S speed_sq) { return excess<false>(speed_sq, S{}); }, level_steps);
+    const S level = largest_allowed(
+        S{}, at_most, smoothing_->close_mm_s2, [&](S speed_sq) { return excess<false>(speed_sq, S{}); }, level_steps);
+    return level < at_most ? truncated(level) : level;
 }
 
 template <Scalar S>
 S FilteredLimits<S>::max_path_acceleration() const noexcept {
     S most = scale2(from_integer<S>(1), 22); // more than the limits of six axes together
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
-        const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]),
-                                bounded_product(jerk(k), smoothing_->seconds));
+        const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]), change(k));
         most = smaller(most, quotient_or_max(limit, demand_->axis[k].first));
     }
     return most;
@@ -146,7 +167,7 @@ S FilteredLimits<S>::faster_end(S slower_sq, S at_most, S length_mm, S max_path_
     const S change = at_most - slower_sq;
     const S high =
         quotient_or_max(change, twice) > max_path_acceleration ? slower_sq + twice * max_path_acceleration : at_most;
-    return largest_allowed(slower_sq, high, [&](S speed_sq) {
+    return largest_allowed(slower_sq, high, smoothing_->close_mm_s2, [&](S speed_sq) {
         return excess<Braking>(speed_sq, smaller(quotient_or_max(speed_sq - slower_sq, twice), max_path_acceleration));
     });
 }
@@ -163,12 +184,14 @@ S FilteredLimits<S>::largest_entry(S exit_sq, S at_most, S length_mm, S max_path
 
 template <Scalar S>
 S FilteredLimits<S>::acceleration(S speed_sq, S max_path_acceleration) const noexcept {
-    return largest_allowed(S{}, max_path_acceleration, [&](S a) { return excess<false>(speed_sq, a); });
+    return largest_allowed(S{}, max_path_acceleration, smoothing_->close_mm_s2,
+                           [&](S a) { return excess<false>(speed_sq, a); });
 }
 
 template <Scalar S>
 S FilteredLimits<S>::braking(S speed_sq, S max_path_acceleration) const noexcept {
-    return largest_allowed(S{}, max_path_acceleration, [&](S a) { return excess<true>(speed_sq, a); });
+    return largest_allowed(S{}, max_path_acceleration, smoothing_->close_mm_s2,
+                           [&](S a) { return excess<true>(speed_sq, a); });
 }
 
 template class FilteredLimits<double>;

@@ -9,8 +9,8 @@
 namespace splinefeed {
 
 /// What a part of the path allows. The limits are monotone: if a speed and an acceleration are allowed, smaller ones
-/// are allowed too. Cost of a function: eleven products per axis if its first guess is allowed, at most eight times
-/// that.
+/// are allowed too. Cost of a function: six products per axis, or eight, if its first guess is allowed, and some eight
+/// times that otherwise.
 template <Scalar S>
 class FilteredLimits {
 public:
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] S braking(S speed_sq, S max_path_acceleration) const noexcept;
 
 private:
-    [[nodiscard]] S jerk(unsigned axis) const noexcept;
+    [[nodiscard]] S change(unsigned axis) const noexcept;
     template <bool Braking>
     [[nodiscard]] S excess(S speed_sq, S acceleration) const noexcept;
     template <bool Braking>

@@ -96,7 +96,7 @@ private:
     [[nodiscard]] S length() const noexcept { return ahead(0).cell.length_mm; }
     [[nodiscard]] FilteredLimits<S> bound_of(const SmoothCell<S>& cell) noexcept {
         if (cell.smoothing_q8 != smoothing_.duration_q8) {
-            smoothing_ = Smoothing<S>(cell.smoothing_q8, limits_->segments_per_s);
+            smoothing_ = Smoothing<S>(cell.smoothing_q8, *limits_);
         }
         return FilteredLimits<S>(cell.demand, *limits_, smoothing_);
     }

@@ -4,17 +4,11 @@
 // the time T after it, and the distance from its start at most the mean over the time before it. No motion goes farther
 // in these times than one that is as fast as `bound_sq` at the faster end of each cell: the acceleration-limited plan
 // with the largest override, or more.
-//
-// The smoothing of a leg is `MotionLimits::smoothing_q8`. If the whole leg is known, it is at most that of a straight
-// move, whose S-curve is itself such an average of a trapezoid of v with the acceleration J T,
-//
-//   T = min(A / J, (L / (2 J))^(1/3), (V / J)^(1/2)),
-//
-// and for a straight leg it is exactly that.
 #include "splinefeed/s3_feed_plan/jerk_filtered/smooth_window.hpp"
 
 #include "splinefeed/base/assertion.hpp"
 #include "splinefeed/s2_arc_length/cell_part.hpp"
+#include "splinefeed/s3_feed_plan/jerk_filtered/leg_smoothing.hpp"
 
 namespace splinefeed {
 
@@ -27,7 +21,6 @@ constexpr double bend_noise = std::same_as<S, double>  ? 0x1p-48
                                                        : 0x1p-30;
 
 constexpr double crawl_sq = 1e-6; // v^2 if a derivative is beyond the range of the scalar
-constexpr double straight = 1e-4; // largest bend of a straight leg, as a part of the acceleration
 constexpr double rounding = 1e-3; // part by which a reach is made longer
 
 } // namespace
@@ -140,60 +133,17 @@ void SmoothWindow<S>::clear() noexcept {
     joined_ = {};
 }
 
-// The largest T that a bisection finds, in 2^-8 ticks. A straight leg that is longer than the known path is taken for
-// as long as it is; and T is at most a third of the least time of the known cells, so that enough of the path is known.
-// @param in_view  whether T is nevertheless as long as the limits allow
 template <Scalar S>
 std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first, bool& in_view) const noexcept {
-    S length{};
-    S ticks{};
-    PathDerivativeBounds<S> all;
-    bool ends = false;
-    for (std::size_t i = first; i < size_ && !ends; ++i) {
-        const SmoothCell<S>& here = at(i);
-        length = smaller(length + here.cell.length_mm, literal<S>(1e6));
-        const S fastest = square_root(larger(here.bound_sq, bound_behind(i)));
-        ticks =
-            smaller(ticks + quotient_or_max(here.cell.length_mm * limits_->segments_per_s, fastest), literal<S>(1e6));
-        all.join(here.own, limits_->axes);
-        ends = ends_leg(i);
+    LegSmoothing<S> leg(*limits_);
+    for (std::size_t i = first; i < size_; ++i) {
+        leg.add(at(i).own, at(i).cell.length_mm, larger(at(i).bound_sq, bound_behind(i)));
+        if (ends_leg(i)) {
+            leg.end_here();
+            break;
+        }
     }
-    bool bends = all.beyond;
-    S jerk = literal<S>(1e9);
-    S acceleration = largest<S>();
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
-        const AxisDemand<S>& axis = all.axis[k];
-        const S limit = smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]);
-        jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], axis.first));
-        acceleration = smaller(acceleration, quotient_or_max(limit, axis.first));
-        bends = bends || quotient_or_max(limit * literal<S>(straight), axis.second) < all.cap_sq;
-    }
-    const S segment = from_integer<S>(1) / scale2(limits_->segments_per_s, Smoothing<S>::fraction_bits);
-    const auto seen = [&](std::uint32_t q8) {
-        const S duration = from_integer<S>(static_cast<std::int32_t>(q8));
-        return ends || literal<S>(3.0) * scale2(duration, -Smoothing<S>::fraction_bits) <= ticks;
-    };
-    const auto allowed = [&](std::uint32_t q8) {
-        const S duration = from_integer<S>(static_cast<std::int32_t>(q8));
-        const S t = segment * duration;
-        // No acceleration or speed of a path is above 1e7; T is up to 100 s.
-        const S a = smaller(jerk, quotient_or_max(literal<S>(1e7), t)) * t;
-        const S v = smaller(a * t, literal<S>(1e7));
-        return seen(q8) && (!ends || v * t <= scale2(length, -1)) && a <= acceleration &&
-               (bends || smaller(v, literal<S>(4e4)) * smaller(v, literal<S>(4e4)) <= all.cap_sq);
-    };
-    std::uint32_t low = 1U << Smoothing<S>::fraction_bits;
-    std::uint32_t high = bends ? limits_->smoothing_q8 : limits_->most_smoothing_q8;
-    if (allowed(high)) {
-        in_view = true;
-        return high;
-    }
-    while (low + 1 < high) {
-        const std::uint32_t middle = (low + high) / 2;
-        (allowed(middle) ? low : high) = middle;
-    }
-    in_view = seen(low + 1);
-    return low;
+    return leg.longest_q8(in_view);
 }
 
 // The farthest cell in which the average can be while the motion is in cell i; false: not yet known.
@@ -358,7 +308,7 @@ void SmoothWindow<S>::prepare(bool force) noexcept {
         SmoothCell<S>& here = at(i);
         if (starts_leg(i)) {
             bool in_view = false;
-            smoothing_ = Smoothing<S>(smoothing_of_leg(i, in_view), limits_->segments_per_s);
+            smoothing_ = Smoothing<S>(smoothing_of_leg(i, in_view), *limits_);
             // T is constant for the whole leg. The motion stands before it; by then more of the leg is known.
             if (!in_view && !(force && i == front_)) {
                 break;

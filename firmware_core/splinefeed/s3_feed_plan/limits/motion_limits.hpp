@@ -90,7 +90,7 @@ inline constexpr int most_smoothing = 1024;
 /// longer one smooths bends away (docs/explanation/feed.md).
 constexpr double smoothing_s(double rise_s) noexcept {
     const double most = 0.7 * rise_s < 0.0175 ? 0.7 * rise_s : 0.0175;
-    return most > 0.35 * rise_s ? most : 0.35 * rise_s;
+    return most > 0.25 * rise_s ? most : 0.25 * rise_s;
 }
 
 /// A time in 1/256 of a segment, limited to the range from one segment to most_smoothing.
