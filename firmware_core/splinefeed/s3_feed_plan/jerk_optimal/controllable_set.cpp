@@ -359,11 +359,19 @@ void cut_to_node(StatePolygon& states, const CellPassage& before, const CellPass
     const double after_cap = after.cell->cap_sq;
     const double per_before = 2.0 / before.cell->length_mm;
     const double per_after = 2.0 / after.cell->length_mm;
+    // Most bounds hold in the whole of a box around the states.
+    SpeedState least{largest<double>(), largest<double>()};
+    SpeedState most_state{-largest<double>(), -largest<double>()};
+    for (const SpeedState& corner : states.corners()) {
+        least = {smaller(least.b, corner.b), smaller(least.slope, corner.slope)};
+        most_state = {larger(most_state.b, corner.b), larger(most_state.slope, corner.slope)};
+    }
     const auto cut = [&](const StateBound& bound) {
-        if (states.full()) {
-            states.simplify();
+        const SpeedState farthest{bound.of_b > 0.0 ? most_state.b : least.b,
+                                  bound.of_slope > 0.0 ? most_state.slope : least.slope};
+        if (bound.excess(farthest) > 0.0) {
+            states.cut(bound);
         }
-        states.cut(bound);
     };
     cut({1.0, 0.0, smaller(at_most_sq, smaller(before_cap, after_cap))});
     cut({-1.0, 0.0, 0.0});
