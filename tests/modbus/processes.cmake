@@ -42,7 +42,7 @@ process_test(modbus_three_drives_rtu three_drives.py ${path61} --wire rtu --tole
 process_test(modbus_profile_away profile_run.py ${path61} lexium32m --tolerance-mm 12.4 ${slow} ${away})
 process_test(modbus_profile_leadshine_pr profile_run.py ${path61} leadshine-pr --wire rtu --tolerance-mm ${leadshine_mm} ${slow} ${ramp})
 if(SPLINEFEED_FUZZERS) # under sanitizers one of each kind
-    process_test(modbus_faulted_runs faulted_runs.py --runs 8 --long-runs 50)
+    process_test(modbus_faulted_runs faulted_runs.py --runs 8 --long-runs 20)
     return()
 endif()
 process_test(modbus_three_drives_tcp three_drives.py ${path61} --wire tcp --tolerance-mm 0.0004)
@@ -66,7 +66,7 @@ set_tests_properties(modbus_raster3d_tcp modbus_raster3d_rtu PROPERTIES RUN_SERI
 # rounding; three are off by what is not known of their clocks, as above.
 process_test(modbus_pymodbus_drive pymodbus_drives.py ${path61} --drives 1 --tolerance-mm 0.0005)
 process_test(modbus_pymodbus_three_drives pymodbus_drives.py ${path61} --drives 3 --tolerance-mm 0.003)
-process_test(modbus_faulted_runs faulted_runs.py --runs 30 --long-runs 500)
+process_test(modbus_faulted_runs faulted_runs.py --runs 30 --long-runs 200)
 process_test(modbus_paused_input paused_input.py)
 # Stops at random times, by signals, with inputs that stall, outputs that nobody reads and drives that are lost.
 process_test(modbus_stopped_runs stopped_runs.py --runs 30 --long-runs 300 --jobs 4)

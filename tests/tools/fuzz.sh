@@ -6,7 +6,7 @@ set -euo pipefail
 program=$1
 corpus=$2
 seconds=5
-if [[ ${SPLINEFEED_LONG:-0} == 1 ]]; then seconds=120; fi
+if [[ ${SPLINEFEED_LONG:-0} == 1 ]]; then seconds=60; fi
 
 found=$program.found
 mkdir -p "$found"
