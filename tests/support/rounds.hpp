@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How many random runs a test makes: a few, and a quarter of them under sanitizers, which take several times as long.
+// How many random runs a test makes: a few, and half of them under sanitizers, which take several times as long.
 // ./check --long runs twenty times as many, in the build by g++ with assertions (`gcc_tests`).
 #pragma once
 
@@ -22,7 +22,7 @@ inline constexpr bool sanitized = false;
 /// @param many  where SPLINEFEED_LONG is 1, without sanitizers
 inline int rounds(int few, int many) {
     if (sanitized) {
-        return (few + 3) / 4;
+        return (few + 1) / 2;
     }
     const char* const set = std::getenv("SPLINEFEED_LONG");
     return set != nullptr && std::string_view(set) == "1" ? many : few;
