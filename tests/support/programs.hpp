@@ -185,10 +185,10 @@ Stream stream_of(const Program& program, const MachineSettings& machine, std::si
 
 /// The feed segments of Bezier segments as they stand.
 template <Scalar S>
-Stream stream_of(const BezierPath& path, const MachineSettings& machine, std::size_t window_size = 1024,
-                 const PerAxis<double>& start = {}, std::uint64_t seed = 0, int patience = 0) {
+Stream stream_of(std::vector<CurveSegment<S>> segments, const MachineSettings& machine, std::size_t window_size = 1024,
+                 std::uint64_t seed = 0, int patience = 0) {
     const auto limits = MotionLimits<S>::make(machine).value();
-    ListSource<S> source(segments_of<S>(path, start), seed, patience);
+    ListSource<S> source(std::move(segments), seed, patience);
     AnyTrajectory<S> any(source, limits, window_size);
     Trajectory<S>& trajectory = any.trajectory();
     Stream stream;
@@ -202,6 +202,12 @@ Stream stream_of(const BezierPath& path, const MachineSettings& machine, std::si
     stream.limited = trajectory.feed_plan().window_limited();
     stream.slow_legs = any.slow_legs();
     return stream;
+}
+
+template <Scalar S>
+Stream stream_of(const BezierPath& path, const MachineSettings& machine, std::size_t window_size = 1024,
+                 const PerAxis<double>& start = {}, std::uint64_t seed = 0, int patience = 0) {
+    return stream_of<S>(segments_of<S>(path, start), machine, window_size, seed, patience);
 }
 
 } // namespace splinefeed_test

@@ -40,6 +40,11 @@ const char* describe(Error error) noexcept {
     case Error::too_few_waypoints: return "a path needs two different waypoints, a closed one three";
     case Error::degree_out_of_range: return "a Bezier segment has degree 1 to 9";
     case Error::gap_in_curve: return "each segment must start where the one before it ends";
+    case Error::arc_invalid:
+        return "an arc needs a radius above 0.1 um that is the same at both ends within 1/16, and at most 10000 turns";
+    case Error::curve_invalid:
+        return "a Bezier move has degree 1 to 5, is at most 65 m long, and has a direction at both ends";
+    case Error::tolerance_out_of_range: return "a tolerance is 0 to 100 mm";
     case Error::no_room: return "the curve is full of waypoints: make segments, and push the waypoint again";
     case Error::input_finished: return "a curve takes no waypoints after finish()";
     case Error::window_too_small:

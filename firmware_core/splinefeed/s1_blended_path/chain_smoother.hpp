@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// ChainSmoother: runs of short lines to few long quintics.
+#pragma once
+
+#include "splinefeed/base/status.hpp"
+#include "splinefeed/s1_blended_path/chain_points.hpp"
+#include "splinefeed/s1_blended_path/path_element.hpp"
+#include "splinefeed/s1_blended_path/path_state.hpp"
+
+namespace splinefeed {
+
+/// A move and the index of the programmed one at its end.
+template <Scalar S>
+struct IndexedMove {
+    PathElement<S> element{};
+    std::uint32_t index = 0;
+};
+
+/// Passes moves on, but for chains: lines in continuous mode that meet in small angles. A chain becomes quintics that
+/// join each other with direction and curvature (`joined`), each within the tolerance of the programmed lines, which is
+/// checked before it is passed on. What is left of the tolerance is that of the joints at the ends of the chain. Where
+/// not even one line becomes a quintic, it stays a line, and the chain ends there.
+///
+/// Class: G2 along a chain; no curvature at its ends. Look-ahead: 64 points; what is passed on does not depend on the
+/// times of the calls. Memory: a ring of 72 points. Cost per point: 13 steps of smoothing, and about 50 points of a
+/// quintic with their distances.
+template <Scalar S>
+class ChainSmoother {
+public:
+    explicit ChainSmoother(int axes) noexcept : points_(axes) {}
+
+    /// Where the first move begins. Call it once, before push().
+    void start(const PerAxis<Position>& position) noexcept { start_ = position; }
+    /// Whether push() may be called.
+    [[nodiscard]] bool has_room() const noexcept;
+    /// @pre has_room(), not finished; the element is valid
+    void push(const PathElement<S>& element, std::uint32_t index) noexcept;
+    void finish() noexcept { finished_ = true; }
+    /// The next move to pass on; starved: it needs more to decide.
+    Pull next(IndexedMove<S>& out) noexcept;
+
+    /// Runs of lines that became quintics.
+    [[nodiscard]] std::uint64_t chains() const noexcept { return chains_; }
+
+private:
+    enum class Kind : std::uint8_t { nothing, single, chain };
+
+    [[nodiscard]] bool goes_on(const PathElement<S>& element) const noexcept;
+    void begin(const PathElement<S>& element, std::uint32_t index, const PerAxis<Position>& from) noexcept;
+    void begin_pending(const PerAxis<Position>& from) noexcept;
+    void append(const PathElement<S>& element, std::uint32_t index) noexcept;
+    void add_point(const PerAxis<Position>& place, std::uint32_t index) noexcept;
+    void measure_end() noexcept;
+    void close() noexcept;
+    [[nodiscard]] S length_to(const PerAxis<Position>& place, PerAxis<S>& direction) const noexcept;
+    [[nodiscard]] std::uint64_t farthest() const noexcept;
+    [[nodiscard]] bool merged(std::uint64_t to) const noexcept;
+    [[nodiscard]] S limit_of(std::uint64_t to) const noexcept;
+    [[nodiscard]] std::uint64_t longest_piece(PathState<S>& end, BezierShape<S>& shape, S& limit) noexcept;
+    void pass_line(PathElement<S>& out) noexcept;
+    [[nodiscard]] bool pass_piece(PathElement<S>& out) noexcept;
+
+    ChainPoints<S> points_;
+    PerAxis<Position> start_{};
+    PerAxis<S> direction_{};   // of the last line of the chain
+    PathState<S> state_{};     // where the chain was passed on to
+    IndexedMove<S> held_{};    // a move that is no chain
+    IndexedMove<S> pending_{}; // the move behind the chain
+    PathElement<S> end_{};     // the last one of the chain
+    std::uint32_t end_index_ = 0;
+    bool left_out_ = false; // end_ is nearer to the last point than a quarter of the tolerance, and no point of its own
+    S tolerance_{};         // of the chain, in chord units
+    std::uint64_t front_ = 0; // the point that was passed on last
+    std::uint64_t span_ = 8;  // lines of the last quintic
+    std::uint64_t chains_ = 0;
+    Kind kind_ = Kind::nothing;
+    bool has_pending_ = false;
+    bool closed_ = false; // the chain has ended
+    bool finished_ = false;
+};
+
+} // namespace splinefeed

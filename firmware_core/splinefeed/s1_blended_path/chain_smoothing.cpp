@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+//
+// With D_j the third divided difference of the points j-3 to j over the chord length t, sum w_j D_j^2 is smallest in
+// x_i at x_i - (sum w_j c_ji D_j) / (sum w_j c_ji^2), c_ji the factor of x_i in D_j. Each D_j is kept in units of the
+// power of two above its longest chord: then its factors are between 1 and 2^13, whatever the lengths are.
+#include "splinefeed/s1_blended_path/chain_smoothing.hpp"
+
+#include "splinefeed/number/exponent.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double used = 0.9;            // of what is left of the tolerance beside the bow
+constexpr double shortest = 1.0 / 32.0; // chord, in the unit of a difference: with a shorter one it is not used
+
+// The third difference of the four points that end at `last`.
+template <Scalar S>
+void measure_difference(ChainPoints<S>& points, std::uint64_t last) noexcept {
+    ChainPoint<S>& end = points[last];
+    end.weight = S{};
+    S longest{};
+    for (std::uint64_t j = last - 2; j <= last; ++j) {
+        longest = larger(longest, points[j].chord);
+    }
+    end.exponent = exponent_of(longest) + 1;
+    std::array<S, 4> t{};
+    for (unsigned m = 1; m < 4; ++m) {
+        const S chord = scale2(points[last - 3 + m].chord, -end.exponent);
+        if (!(chord > literal<S>(shortest))) {
+            return;
+        }
+        t[m] = t[m - 1] + chord;
+    }
+    for (unsigned m = 0; m < 4; ++m) {
+        S product = from_integer<S>(1);
+        for (unsigned l = 0; l < 4; ++l) {
+            product = l == m ? product : product * (t[m] - t[l]);
+        }
+        end.difference[m] = from_integer<S>(1) / product;
+    }
+    end.weight = literal<S>(1.0 / 3.0) * t[3];
+}
+
+} // namespace
+
+template <Scalar S>
+void measure_last_point(ChainPoints<S>& points, S tolerance) noexcept {
+    const std::uint64_t last = points.last();
+    if (last >= 3) {
+        measure_difference(points, last);
+    }
+    if (last < 2) {
+        return;
+    }
+    // The bow of the longer line at the point before: |K| h^2 / 8, K the second divided difference.
+    ChainPoint<S>& here = points[last - 1];
+    const S behind = here.chord;
+    const S ahead = points[last].chord;
+    const S both = behind + ahead;
+    const S longer = larger(behind, ahead);
+    PerAxis<S> in{};
+    PerAxis<S> out{};
+    points.programmed(last - 2, last - 1, in);
+    points.programmed(last - 1, last, out);
+    for (unsigned k = 0; k < static_cast<unsigned>(points.axes()); ++k) {
+        in[k] = (out[k] / ahead - in[k] / behind) * (longer / both) * scale2(longer, -3); // half the bow
+    }
+    const S half_bow = norm(in.data(), points.axes());
+    here.centre = half_bow < tolerance ? in : PerAxis<S>{};
+    here.radius = literal<S>(used) * (half_bow < tolerance ? tolerance - half_bow : tolerance);
+}
+
+template <Scalar S>
+void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
+    const std::uint64_t first = i < points.oldest() + 3 ? points.oldest() + 3 : i;
+    const std::uint64_t end = smaller(i + 3, points.last());
+    int finest = 64; // the least exponent
+    for (std::uint64_t j = first; j <= end; ++j) {
+        finest = points[j].weight > S{} ? smaller(finest, points[j].exponent) : finest;
+    }
+    if (finest == 64) {
+        return;
+    }
+    const auto axes = static_cast<unsigned>(points.axes());
+    PerAxis<S> pull{};
+    S stiffness{};
+    for (std::uint64_t j = first; j <= end; ++j) {
+        const ChainPoint<S>& of = points[j];
+        const int coarser = of.exponent - finest;
+        if (!(of.weight > S{}) || coarser > 8) {
+            continue;
+        }
+        PerAxis<S> difference{};
+        for (unsigned m = 0; m < 4; ++m) {
+            PerAxis<S> at{};
+            points.programmed(i, j - 3 + m, at);
+            for (unsigned k = 0; k < axes; ++k) {
+                difference[k] += of.difference[m] * scale2(at[k] + points[j - 3 + m].moved[k], -of.exponent);
+            }
+        }
+        // In units of 2^finest a difference of third order, squared, over a length is as small as the fifth power.
+        const S factor = of.difference[static_cast<unsigned>(i - (j - 3))];
+        const S share = scale2(of.weight * factor, -5 * coarser);
+        stiffness += share * factor;
+        for (unsigned k = 0; k < axes; ++k) {
+            pull[k] += scale2(share * difference[k], coarser);
+        }
+    }
+    if (!(stiffness > S{})) {
+        return;
+    }
+    ChainPoint<S>& here = points[i];
+    for (unsigned k = 0; k < axes; ++k) {
+        here.moved[k] = here.moved[k] - scale2(pull[k] / stiffness, finest) - here.centre[k];
+    }
+    const S away = norm(here.moved.data(), points.axes());
+    for (unsigned k = 0; k < axes; ++k) {
+        here.moved[k] = here.centre[k] + (away > here.radius ? here.moved[k] * (here.radius / away) : here.moved[k]);
+    }
+}
+
+template void measure_last_point(ChainPoints<double>&, double) noexcept;
+template void measure_last_point(ChainPoints<float>&, float) noexcept;
+template void measure_last_point(ChainPoints<Fixed>&, Fixed) noexcept;
+template void smooth_point(ChainPoints<double>&, std::uint64_t) noexcept;
+template void smooth_point(ChainPoints<float>&, std::uint64_t) noexcept;
+template void smooth_point(ChainPoints<Fixed>&, std::uint64_t) noexcept;
+
+} // namespace splinefeed

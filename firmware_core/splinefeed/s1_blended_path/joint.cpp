@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+//
+// The family of blends between two moves that meet in a vertex, l the way on each of them, w from 0 to 1:
+//     C0, C0 + a T, C0 + b T + 5/4 a^2 K, and the same from the other end,  a = (0.6 - 0.2 w) l,  b = (0.9 - 0.1 w) l.
+// w = 0 between lines is the cubic C0, V, V, C3 with its degree raised. Its distance from the vertex is
+//     e = l sin(phi/2) (1/4 + w/8),
+// so a tolerance P allows l = 4 P / sin(phi/2), and on a shorter way w = 8 (P / (l sin(phi/2)) - 1/4), at most 1.
+// w = 1 in one direction is Hermite's quintic over the way 2 l. Between curvatures K0 and K1 its distance from the
+// moves is 0.0107 |K1 - K0| l^2.
+#include "splinefeed/s1_blended_path/joint.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr double reversal_half_cosine = 0.00436; // cos(179.5 degrees / 2)
+constexpr double corner_jump = 0.0175;           // of the direction: one degree. exact_path passes smaller ones
+constexpr double tangent_jump = 1e-4;            // a smaller one is no corner: the tolerance is that of tangents
+constexpr double least_way = 0.04;               // 1e-5 mm: a shorter blend is no faster than a stop
+constexpr double curvature_share = 0.011;
+constexpr double bent_share = 0.88; // of the way where a bent move may turn as the corner does
+constexpr int measured_places = 11;
+constexpr double measured_share = 0.97; // of the tolerance: between two places the distance may be a little larger
+constexpr int shortenings = 4;
+
+template <Scalar S>
+constexpr S no_jump = literal<S>(4e-7);
+template <>
+constexpr float no_jump<float> = 1e-6F;
+
+template <Scalar S>
+S distance_between(const PerAxis<S>& a, const PerAxis<S>& b, int axes) noexcept {
+    PerAxis<S> apart{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        apart[k] = a[k] - b[k];
+    }
+    return norm(apart.data(), axes);
+}
+
+template <Scalar S>
+PerAxis<S> point_at(const Blend<S>& blend, S u, int axes) noexcept {
+    PerAxis<S> point{};
+    const auto degree = static_cast<unsigned>(blend.degree);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        PerDegree<S> row = blend.points[k];
+        for (unsigned step = 1; step <= degree; ++step) {
+            for (unsigned i = 0; i + step <= degree; ++i) {
+                row[i] = row[i] + u * (row[i + 1] - row[i]);
+            }
+        }
+        point[k] = row[0];
+    }
+    return point;
+}
+
+// Largest distance between the blend and the moves, at some places, and of the vertex from the blend.
+template <Scalar S>
+S measured_deviation(const Blend<S>& blend, const PathMove<S>& before, const PathMove<S>& after, int axes) noexcept {
+    S largest_yet{};
+    S vertex = largest<S>();
+    for (int i = 1; i <= measured_places; ++i) {
+        const S u = from_integer<S>(i) / from_integer<S>(measured_places + 1);
+        const PerAxis<S> point = point_at(blend, u, axes);
+        largest_yet =
+            larger(largest_yet, smaller(before.distance_near(true, point), after.distance_near(false, point)));
+        vertex = smaller(vertex, norm(point.data(), axes));
+    }
+    return larger(largest_yet, vertex);
+}
+
+template <Scalar S>
+void draw(const PathMove<S>& before, const PathMove<S>& after, S way, S w, int axes, Blend<S>& out) noexcept {
+    PathState<S> from;
+    PathState<S> to;
+    before.before_end(way, from);
+    after.behind_start(way, to);
+    out.way = way;
+    out.degree = 3;
+    if (before.straight() && after.straight() && !(w > S{})) {
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            out.points[k][0] = from.offset[k];
+            out.points[k][1] = out.points[k][2] = S{};
+            out.points[k][3] = to.offset[k];
+        }
+        return;
+    }
+    out.degree = 5;
+    quintic_between(from, to, (literal<S>(0.6) - literal<S>(0.2) * w) * way,
+                    (literal<S>(0.9) - literal<S>(0.1) * w) * way, axes, out.points);
+}
+
+} // namespace
+
+template <Scalar S>
+Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathMode mode,
+                      const JointTolerances<S>& tolerances, int axes) noexcept {
+    PathState<S> in;
+    PathState<S> out;
+    before.before_end(S{}, in);
+    after.behind_start(S{}, out);
+    Joint<S> joint;
+    const S jump = distance_between(in.tangent, out.tangent, axes);
+    joint.half_sine = scale2(jump, -1);
+    PerAxis<S> sum{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        sum[k] = in.tangent[k] + out.tangent[k];
+    }
+    const bool reverses = scale2(norm(sum.data(), axes), -1) < literal<S>(reversal_half_cosine);
+    const bool exact = mode == PathMode::exact_path || !(tolerances.corner > S{});
+    if (mode == PathMode::exact_stop || reverses || (exact && jump > literal<S>(corner_jump))) {
+        return joint;
+    }
+    const bool lines = before.straight() && after.straight();
+    joint.tolerance = exact ? tolerances.tangent : tolerances.corner;
+    if (!lines && jump < literal<S>(tangent_jump)) {
+        joint.tolerance = smaller(joint.tolerance, literal<S>(0.01 * 4096.0));
+    }
+    const S bend = distance_between(in.bend, out.bend, axes);
+    if (!(joint.tolerance > S{}) || (jump < no_jump<S> && (lines || !(bend > S{})))) {
+        joint.kind = JointKind::through;
+        return joint;
+    }
+    joint.kind = JointKind::blend;
+    joint.way = quotient_or_max(scale2(joint.tolerance, 2), joint.half_sine);
+    if (!lines) {
+        // |K1 - K0| is in units of 2^-bend_log2.
+        const S curvature = literal<S>(curvature_share) * bend;
+        const S square = quotient_or_max(joint.tolerance, curvature);
+        joint.way = smaller(literal<S>(bent_share) * joint.way, scale2(square_root(square), bend_log2 / 2));
+    }
+    for (const PathState<S>* state : {&in, &out}) { // l |K| is at most 1/2
+        joint.way = smaller(joint.way, quotient_or_max(literal<S>(0x1p19), norm(state->bend.data(), axes)));
+    }
+    joint.way = smaller(joint.way, smaller(before.longest_way(), after.longest_way()));
+    return joint;
+}
+
+template <Scalar S>
+bool fit_blend(const Joint<S>& joint, const PathMove<S>& before, const PathMove<S>& after, S room, int axes,
+               Blend<S>& out) noexcept {
+    S way = smaller(joint.way, room);
+    const bool lines = before.straight() && after.straight();
+    const bool tangent = !lines && joint.half_sine < literal<S>(0.5 * corner_jump);
+    const S most = literal<S>(measured_share) * joint.tolerance;
+    S aim = lines ? joint.tolerance : most;
+    for (int attempt = 0; attempt <= shortenings && way > literal<S>(least_way); ++attempt) {
+        const S used = quotient_or_max(aim, way * joint.half_sine);
+        const S w =
+            tangent ? from_integer<S>(1) : larger(S{}, smaller(from_integer<S>(1), scale2(used - literal<S>(0.25), 3)));
+        draw(before, after, way, w, axes, out);
+        if (lines) {
+            return true;
+        }
+        const S deviation = measured_deviation(out, before, after, axes);
+        if (deviation <= most) {
+            return true;
+        }
+        const S less = literal<S>(0.95) * most / deviation;
+        way = way * less;
+        aim = aim * less;
+    }
+    return false;
+}
+
+template Joint<double> decide_joint(const PathMove<double>&, const PathMove<double>&, PathMode,
+                                    const JointTolerances<double>&, int) noexcept;
+template bool fit_blend(const Joint<double>&, const PathMove<double>&, const PathMove<double>&, double, int,
+                        Blend<double>&) noexcept;
+template Joint<float> decide_joint(const PathMove<float>&, const PathMove<float>&, PathMode,
+                                   const JointTolerances<float>&, int) noexcept;
+template bool fit_blend(const Joint<float>&, const PathMove<float>&, const PathMove<float>&, float, int,
+                        Blend<float>&) noexcept;
+template Joint<Fixed> decide_joint(const PathMove<Fixed>&, const PathMove<Fixed>&, PathMode,
+                                   const JointTolerances<Fixed>&, int) noexcept;
+template bool fit_blend(const Joint<Fixed>&, const PathMove<Fixed>&, const PathMove<Fixed>&, Fixed, int,
+                        Blend<Fixed>&) noexcept;
+
+} // namespace splinefeed

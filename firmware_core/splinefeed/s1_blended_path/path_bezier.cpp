@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s1_blended_path/path_bezier.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr int nearings = 3; // Newton's steps towards the nearest place
+
+// The points of degree `left` at u, in place: 0 leaves the point of the curve.
+template <Scalar S>
+void reduce(PerDegree<S>& row, int degree, int left, S u) noexcept {
+    for (int n = degree; n > left; --n) {
+        for (unsigned i = 0; i < static_cast<unsigned>(n); ++i) {
+            row[i] = row[i] + u * (row[i + 1] - row[i]);
+        }
+    }
+}
+
+} // namespace
+
+template <Scalar S>
+void PathBezier<S>::set(const BezierShape<S>& shape, const PerAxis<S>& to, int axes) noexcept {
+    axes_ = axes;
+    degree_ = shape.degree;
+    points_ = shape.points;
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        points_[k][0] = S{};
+        points_[k][static_cast<unsigned>(degree_)] = to[k];
+    }
+}
+
+template <Scalar S>
+S PathBezier<S>::polygon() const noexcept {
+    S length{};
+    for (unsigned i = 0; i < static_cast<unsigned>(degree_); ++i) {
+        PerAxis<S> side{};
+        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+            side[k] = points_[k][i + 1] - points_[k][i];
+        }
+        length += norm(side.data(), axes_);
+    }
+    return length;
+}
+
+template <Scalar S>
+bool PathBezier<S>::has_directions() const noexcept {
+    const S least = scale2(polygon(), -16);
+    const auto n = static_cast<unsigned>(degree_);
+    PerAxis<S> first{};
+    PerAxis<S> last{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        first[k] = points_[k][1] - points_[k][0];
+        last[k] = points_[k][n] - points_[k][n - 1];
+    }
+    return norm(first.data(), axes_) > least && norm(last.data(), axes_) > least;
+}
+
+// K = (C'' - (C'' T) T) / |C'|^2.
+template <Scalar S>
+void PathBezier<S>::state(S u, bool from_end, PathState<S>& out) const noexcept {
+    out = {};
+    PerAxis<S> first{};
+    PerAxis<S> second{};
+    const auto n = static_cast<unsigned>(degree_);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        PerDegree<S> row = points_[k];
+        if (from_end) {
+            for (unsigned i = 0; i <= n; ++i) {
+                row[i] = row[i] - points_[k][n];
+            }
+        }
+        if (degree_ > 1) {
+            reduce(row, degree_, 2, u);
+            second[k] = from_integer<S>(degree_ * (degree_ - 1)) * (row[2] - row[1] - (row[1] - row[0]));
+            reduce(row, 2, 1, u);
+        }
+        first[k] = from_integer<S>(degree_) * (row[1] - row[0]);
+        reduce(row, 1, 0, u);
+        out.offset[k] = row[0];
+    }
+    const S speed = norm(first.data(), axes_);
+    if (!(speed > S{})) {
+        return;
+    }
+    S along{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        out.tangent[k] = first[k] / speed;
+        second[k] = second[k] / speed;
+        along += second[k] * out.tangent[k];
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        out.bend[k] = scale2(second[k] - along * out.tangent[k], bend_log2) / speed;
+    }
+}
+
+template <Scalar S>
+void PathBezier<S>::part(S u0, S u1, PerAxis<PerDegree<S>>& out) const noexcept {
+    const S one = from_integer<S>(1);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        PerDegree<S> row = points_[k];
+        if (u1 < one) { // the part before u1: the first points of all degrees
+            PerDegree<S> rest = row;
+            for (int n = degree_; n > 0; --n) {
+                reduce(rest, n, n - 1, u1);
+                row[static_cast<unsigned>(degree_ - n + 1)] = rest[0];
+            }
+        }
+        if (u0 > S{}) { // of it the part behind u0 / u1: the last points
+            const S share = u0 / u1;
+            for (int n = degree_; n > 0; --n) {
+                reduce(row, n, n - 1, share);
+            }
+        }
+        out[k] = row;
+    }
+}
+
+template <Scalar S>
+S PathBezier<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexcept {
+    const S one = from_integer<S>(1);
+    const S half = scale2(one, -1);
+    S u = at_end ? one : S{};
+    S least = largest<S>();
+    for (int i = 0; i <= nearings; ++i) {
+        PerAxis<S> apart{};
+        PerAxis<S> first{};
+        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+            PerDegree<S> row = points_[k];
+            const S from = at_end ? row[static_cast<unsigned>(degree_)] : S{};
+            reduce(row, degree_, 1, u);
+            first[k] = from_integer<S>(degree_) * (row[1] - row[0]);
+            apart[k] = point[k] - (row[0] + u * (row[1] - row[0]) - from);
+        }
+        least = smaller(least, norm(apart.data(), axes_));
+        const S speed = norm(first.data(), axes_);
+        if (!(speed > S{})) {
+            break;
+        }
+        S ahead{};
+        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+            ahead += first[k] / speed * (apart[k] / speed);
+        }
+        u = at_end ? larger(half, smaller(one, u + ahead)) : larger(S{}, smaller(half, u + ahead));
+    }
+    return least;
+}
+
+#if SPLINEFEED_MAX_DEGREE >= 5
+template class PathBezier<double>;
+template class PathBezier<float>;
+template class PathBezier<Fixed>;
+#endif
+
+} // namespace splinefeed

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+//
+// An arc with the frames (x, y) at one of its ends - x from the axis to the path, y along the path - is at an angle d
+// from that end at r (x cos d + y sin d) from the axis. Near an end only the difference is computed,
+//     r (-x versine(d) + y sin(d)),
+// so its error is one of the way and not of the radius.
+#include "splinefeed/s1_blended_path/path_move.hpp"
+
+#include "splinefeed/number/angle.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+// 0.1 um in units of 2^-40 mm: a shorter move is dropped, as waypoints that coincide are.
+constexpr std::int64_t merge_raw = (std::int64_t{1} << Position::fraction_bits) / 10000;
+constexpr std::int64_t longest_raw = std::int64_t{65536} << Position::fraction_bits;
+constexpr double shortest = 4e-4;  // chord units, 0.1 um
+constexpr double longest = 0x1p28; // 65 m
+constexpr double two_pi = 6.28318530717958647692;
+constexpr double most_of_piece = 0.4; // [rad]
+constexpr std::int32_t most_turns = 10000;
+
+template <Scalar S>
+S dot(const std::array<S, 3>& a, const std::array<S, 3>& b) noexcept {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// floor(x) for 0 <= x < 2^20.
+template <Scalar S>
+int whole_part(S x) noexcept {
+    int whole = 0;
+    for (int bit = 1 << 19; bit > 0; bit >>= 1) {
+        whole += from_integer<S>(whole + bit) <= x ? bit : 0;
+    }
+    return whole;
+}
+
+} // namespace
+
+template <Scalar S>
+Status PathMove<S>::set(const PerAxis<Position>& from, const PathElement<S>& element, int axes) noexcept {
+    axes_ = axes;
+    from_ = from;
+    to_ = element.to;
+    shape_ = element.shape;
+    length_ = S{};
+    bool moves = false;
+    PerAxis<S> chord{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        const std::int64_t move = to_[k].raw - from[k].raw;
+        if (move > longest_raw || move < -longest_raw) {
+            return Error::move_too_long;
+        }
+        moves = moves || move >= merge_raw || move <= -merge_raw;
+        chord[k] = distance<S>(from[k], to_[k], chord_unit_log2);
+    }
+    if (shape_ == MoveShape::arc) {
+        return set_arc(element.arc);
+    }
+    if (shape_ == MoveShape::bezier) {
+        return set_bezier(element.bezier, chord);
+    }
+    if (!moves) {
+        return {};
+    }
+    length_ = longest_way_ = norm(chord.data(), axes);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        along_[k] = chord[k] / length_;
+    }
+    return {};
+}
+
+template <Scalar S>
+Status PathMove<S>::set_bezier(const BezierShape<S>& bezier, const PerAxis<S>& to) noexcept {
+    if (bezier.degree < 1 || bezier.degree > 5) {
+        return Error::curve_invalid;
+    }
+    bezier_.set(bezier, to, axes_);
+    const S length = bezier_.polygon();
+    if (!(length > literal<S>(shortest))) {
+        return {};
+    }
+    if (!(length < literal<S>(longest)) || !bezier_.has_directions()) {
+        return Error::curve_invalid;
+    }
+    length_ = length;
+    longest_way_ = scale2(length, -1);
+    return {};
+}
+
+// Fills a frame at `place` and returns the radius there; 0 where the place lies on the axis.
+template <Scalar S>
+S PathMove<S>::frame_at(const PerAxis<Position>& place, const ArcShape<S>& arc, Frame& out) const noexcept {
+    std::array<S, 3> arm{};
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        arm[k] = distance<S>(arc.centre[k], place[k], chord_unit_log2);
+    }
+    const S height = dot(arm, arc.normal);
+    for (unsigned k = 0; k < 3; ++k) {
+        arm[k] = arm[k] - height * arc.normal[k];
+    }
+    const S radius = norm(arm.data(), 3);
+    if (!(radius > S{})) {
+        return radius;
+    }
+    for (unsigned k = 0; k < 3; ++k) {
+        out.radial[k] = arm[k] / radius;
+    }
+    const std::array<S, 3>& n = arc.normal;
+    const std::array<S, 3>& x = out.radial;
+    const bool clockwise = arc.sweep_rad < S{};
+    for (unsigned k = 0; k < 3; ++k) {
+        const unsigned i = (k + 1) % 3;
+        const unsigned j = (k + 2) % 3;
+        const S across = n[i] * x[j] - n[j] * x[i];
+        out.along[k] = clockwise ? -across : across;
+    }
+    return radius;
+}
+
+template <Scalar S>
+Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
+    radius_start_ = frame_at(from_, arc, start_);
+    radius_end_ = frame_at(to_, arc, end_);
+    const S radius = scale2(radius_start_ + radius_end_, -1);
+    // 0.1 um at least, and ends on one circle within 1/16 of its radius.
+    if (!(radius > literal<S>(shortest)) || absolute(radius_start_ - radius_end_) > scale2(radius, -4)) {
+        return Error::arc_invalid;
+    }
+    // The ends say where the arc ends, the sweep how many turns it makes.
+    const S turn = literal<S>(two_pi);
+    const S seen = angle_of(dot(start_.radial, end_.radial), dot(start_.along, end_.radial));
+    const S asked = absolute(arc.sweep_rad);
+    const S turns = (asked - seen) / turn + literal<S>(0.5);
+    if (!(turns < from_integer<S>(most_turns))) {
+        return Error::arc_invalid;
+    }
+    sweep_ = seen + turn * from_integer<S>(whole_part(larger(turns, S{})));
+    if (!(sweep_ > S{})) {
+        return Error::arc_invalid;
+    }
+    PerAxis<S> rise{};
+    S height{};
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        height += distance<S>(from_[k], to_[k], chord_unit_log2) * arc.normal[k];
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        rise[k] = k < 3 ? height * arc.normal[k] : distance<S>(from_[k], to_[k], chord_unit_log2);
+    }
+    const std::array<S, 2> legs{radius * sweep_, norm(rise.data(), axes_)};
+    length_ = norm(legs.data(), 2);
+    in_plane_ = legs[0] / length_;
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        along_[k] = rise[k] / length_;
+    }
+    longest_way_ = smaller(length_, scale2(smaller(radius_start_, radius_end_), -1));
+    return {};
+}
+
+// The state on a circle where (cosine, sine) is the direction from its axis in a frame; the offset is from the axis.
+template <Scalar S>
+void PathMove<S>::turned(const Frame& frame, S cosine, S sine, S radius, PathState<S>& out) const noexcept {
+    // K = cos^2(pitch) / r, in units of 2^-bend_log2.
+    const S bend = quotient_or_max(literal<S>(0x1p20) * in_plane_ * in_plane_, radius);
+    out = {};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        out.tangent[k] = along_[k];
+    }
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        const S radial = cosine * frame.radial[k] + sine * frame.along[k];
+        out.offset[k] = radius * radial;
+        out.tangent[k] += in_plane_ * (cosine * frame.along[k] - sine * frame.radial[k]);
+        out.bend[k] = -(bend * radial);
+    }
+}
+
+// The state at a way from an end of an arc, negative: before it; the offset is from that end.
+template <Scalar S>
+void PathMove<S>::near(const Frame& frame, S radius, S way, PathState<S>& out) const noexcept {
+    const S angle = way * in_plane_ / radius;
+    const S sine = small_sine(angle);
+    const S versine = small_versine(angle);
+    turned(frame, from_integer<S>(1) - versine, sine, radius, out);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        out.offset[k] = way * along_[k];
+    }
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        out.offset[k] += radius * (sine * frame.along[k] - versine * frame.radial[k]);
+    }
+}
+
+template <Scalar S>
+void PathMove<S>::behind_start(S way, PathState<S>& out) const noexcept {
+    if (shape_ == MoveShape::arc) {
+        near(start_, radius_start_, way, out);
+        return;
+    }
+    if (shape_ == MoveShape::bezier) {
+        bezier_.state(way / length_, false, out);
+        return;
+    }
+    out = {};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        out.tangent[k] = along_[k];
+        out.offset[k] = way * along_[k];
+    }
+}
+
+template <Scalar S>
+void PathMove<S>::before_end(S way, PathState<S>& out) const noexcept {
+    if (shape_ == MoveShape::line) {
+        behind_start(-way, out);
+    } else if (shape_ == MoveShape::arc) {
+        near(end_, radius_end_, -way, out);
+    } else {
+        bezier_.state(from_integer<S>(1) - way / length_, true, out);
+    }
+}
+
+template <Scalar S>
+S PathMove<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexcept {
+    if (shape_ == MoveShape::bezier) {
+        return bezier_.distance_near(at_end, point);
+    }
+    S way{};
+    if (shape_ == MoveShape::line) {
+        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+            way += point[k] * along_[k];
+        }
+    } else {
+        const Frame& frame = at_end ? end_ : start_;
+        const S radius = at_end ? radius_end_ : radius_start_;
+        S across = radius;
+        S along{};
+        for (unsigned k = 0; k < in_plane(); ++k) {
+            across += point[k] * frame.radial[k];
+            along += point[k] * frame.along[k];
+        }
+        way = angle_of(across, along) * radius * in_plane_; // and how far it has risen
+        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+            way += point[k] * along_[k];
+        }
+    }
+    way = at_end ? smaller(way, S{}) : larger(way, S{});
+    way = at_end ? larger(way, -longest_way_) : smaller(way, longest_way_);
+    PathState<S> nearest;
+    if (at_end) {
+        before_end(-way, nearest);
+    } else {
+        behind_start(way, nearest);
+    }
+    PerAxis<S> apart{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        apart[k] = point[k] - nearest.offset[k];
+    }
+    return norm(apart.data(), axes_);
+}
+
+template <Scalar S>
+int PathMove<S>::pieces(S trim_start, S trim_end) const noexcept {
+    if (shape_ != MoveShape::arc) {
+        return 1;
+    }
+    const S angle = sweep_ * ((length_ - trim_start - trim_end) / length_);
+    return 1 + whole_part(larger(angle / literal<S>(most_of_piece), S{}));
+}
+
+template <Scalar S>
+S PathMove<S>::piece_length(S trim_start, S trim_end, int count) const noexcept {
+    return (length_ - trim_start - trim_end) / from_integer<S>(count);
+}
+
+template <Scalar S>
+int PathMove<S>::bezier_part(S trim_start, S trim_end, PerAxis<PerDegree<S>>& out) const noexcept {
+    const S one = from_integer<S>(1);
+    bezier_.part(trim_start > S{} ? trim_start / length_ : S{}, trim_end > S{} ? one - trim_end / length_ : one, out);
+    return bezier_.degree();
+}
+
+// The angle from the start is found anew for each piece: nothing accumulates along many turns.
+template <Scalar S>
+void PathMove<S>::piece_end(S trim_start, S trim_end, int index, int count, PathState<S>& out) const noexcept {
+    const S way = trim_start + piece_length(trim_start, trim_end, count) * from_integer<S>(index + 1);
+    const S share = way / length_;
+    const S angle = sweep_ * share;
+    const S turn = literal<S>(two_pi);
+    const S within = angle - turn * from_integer<S>(whole_part(angle / turn));
+    const S part = scale2(within, -4); // below 0.4
+    S cosine = from_integer<S>(1) - small_versine(part);
+    S sine = small_sine(part);
+    for (int doubling = 0; doubling < 4; ++doubling) {
+        const S twice = scale2(sine * cosine, 1);
+        cosine = cosine * cosine - sine * sine;
+        sine = twice;
+    }
+    const S radius = radius_start_ + (radius_end_ - radius_start_) * share;
+    turned(start_, cosine, sine, radius, out);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        out.offset[k] += way * along_[k];
+    }
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        out.offset[k] -= radius_start_ * start_.radial[k];
+    }
+}
+
+template class PathMove<double>;
+template class PathMove<float>;
+template class PathMove<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s1_blended_path/path_state.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+void quintic_between(const PathState<S>& from, const PathState<S>& to, S first, S second, int axes,
+                     PerAxis<PerDegree<S>>& points) noexcept {
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        PerDegree<S>& b = points[k];
+        // first^2 K in two steps: first |K| is at most 1, so neither product leaves the range of Fixed.
+        const S turn_from = scale2(first * from.bend[k], -bend_log2);
+        const S turn_to = scale2(first * to.bend[k], -bend_log2);
+        b[0] = from.offset[k];
+        b[1] = from.offset[k] + first * from.tangent[k];
+        b[2] = from.offset[k] + second * from.tangent[k] + literal<S>(1.25) * (first * turn_from);
+        b[3] = to.offset[k] - second * to.tangent[k] + literal<S>(1.25) * (first * turn_to);
+        b[4] = to.offset[k] - first * to.tangent[k];
+        b[5] = to.offset[k];
+    }
+}
+
+template void quintic_between(const PathState<double>&, const PathState<double>&, double, double, int,
+                              PerAxis<PerDegree<double>>&) noexcept;
+template void quintic_between(const PathState<float>&, const PathState<float>&, float, float, int,
+                              PerAxis<PerDegree<float>>&) noexcept;
+template void quintic_between(const PathState<Fixed>&, const PathState<Fixed>&, Fixed, Fixed, int,
+                              PerAxis<PerDegree<Fixed>>&) noexcept;
+
+} // namespace splinefeed

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s1_blended_path/tolerance_path.hpp"
+
+namespace splinefeed {
+
+template <Scalar S>
+Status TolerancePath<S>::start(const PerAxis<Position>& position) noexcept {
+    const Status status = blended_.start(position);
+    if (status.ok()) {
+        last_ = position;
+        chains_.start(position);
+    }
+    return status;
+}
+
+template <Scalar S>
+Status TolerancePath<S>::push(const PathElement<S>& element) noexcept {
+    if (finished_) {
+        return Error::input_finished;
+    }
+    if (!has_room()) {
+        return Error::no_room;
+    }
+    const Result<S> length = BlendedPath<S>::length_of(last_, element, axes_);
+    if (!length.has_value()) {
+        return length.error();
+    }
+    moves_ = moves_ || length.value() > S{};
+    last_ = element.to;
+    chains_.push(element, static_cast<std::uint32_t>(counts_.moves++));
+    while (pass_on()) {
+    }
+    return {};
+}
+
+template <Scalar S>
+Status TolerancePath<S>::finish() noexcept {
+    finished_ = true;
+    chains_.finish();
+    while (pass_on()) {
+    }
+    return moves_ ? Status{} : Error::too_few_waypoints;
+}
+
+// One move from the chains to the blends.
+template <Scalar S>
+bool TolerancePath<S>::pass_on() noexcept {
+    if (!blended_.has_room()) {
+        return false;
+    }
+    IndexedMove<S> move;
+    switch (chains_.next(move)) {
+    case Pull::item: break;
+    case Pull::finished: static_cast<void>(blended_.finish()); return false;
+    default: return false;
+    }
+    static_cast<void>(blended_.push(move.element, move.index)); // it was checked
+    return true;
+}
+
+template <Scalar S>
+Pull TolerancePath<S>::next(CurveSegment<S>& out) noexcept {
+    Pull pull = blended_.next(out);
+    while (pull != Pull::item && pass_on()) {
+        pull = blended_.next(out);
+    }
+    if (pull == Pull::starved && finished_) { // the last move was passed on
+        static_cast<void>(pass_on());
+        pull = blended_.next(out);
+    }
+    counts_.segments += pull == Pull::item ? 1U : 0U;
+    return pull;
+}
+
+#if SPLINEFEED_MAX_DEGREE >= 5
+template class TolerancePath<double>;
+template class TolerancePath<float>;
+template class TolerancePath<Fixed>;
+#endif
+
+} // namespace splinefeed

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s1_blended_path/joint.hpp"
+
+#include "support/programmed_moves.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr Real degree = std::numbers::pi_v<Real> / 180.0L;
+
+/// Two lines that meet in the origin.
+MoveProgram corner(Real degrees, Real before_mm, Real behind_mm, double tolerance_mm) {
+    MoveProgram program;
+    program.axes = 2;
+    program.start = {-before_mm, 0.0L};
+    program.line({});
+    program.line({behind_mm * std::cos(degrees * degree), behind_mm * std::sin(degrees * degree)});
+    for (ProgrammedMove& move : program.moves) {
+        move.tolerance_mm = tolerance_mm;
+    }
+    return program;
+}
+
+template <Scalar S>
+std::array<PathMove<S>, 2> moves_of(const MoveProgram& program) {
+    std::array<PathMove<S>, 2> out;
+    for (unsigned i = 0; i < 2; ++i) {
+        const ProgrammedMove& move = program.moves[i];
+        REQUIRE(out[i].set(position_of<S>(move.from), element_of<S>(move, program.axes), program.axes).ok());
+    }
+    return out;
+}
+
+template <Scalar S>
+Joint<S> joint_of(const MoveProgram& program, PathMode mode = PathMode::continuous) {
+    const auto moves = moves_of<S>(program);
+    const S tolerance = from_double<S>(program.moves[0].tolerance_mm * 4096.0);
+    return decide_joint<S>(moves[0], moves[1], mode, {tolerance, from_double<S>(4.096)}, program.axes);
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("a corner between long lines is the cubic of its tolerance", "[blended_path]", double, float,
+                   Fixed) {
+    using S = TestType;
+    for (const Real degrees : {1.0L, 10.0L, 45.0L, 90.0L, 135.0L, 170.0L, 179.0L}) {
+        const MoveProgram program = corner(degrees, 1000.0L, 1000.0L, 0.05);
+        const auto moves = moves_of<S>(program);
+        const Joint<S> joint = joint_of<S>(program);
+        Blend<S> blend;
+        CAPTURE(static_cast<double>(degrees));
+        REQUIRE(joint.kind == JointKind::blend);
+        REQUIRE(fit_blend(joint, moves[0], moves[1], from_integer<S>(1 << 22), 2, blend));
+        CHECK(blend.degree == 3);
+        // l = 4 P / sin(phi/2); the middle is l sin(phi/2) / 4 from the corner
+        const Real way = 4.0L * 0.05L * 4096.0L / std::sin(degrees * degree / 2.0L);
+        CHECK(std::fabs(exact(blend.way) / way - 1.0L) < 4e-5L * (std::same_as<S, float> ? 1.0L : 1e-3L));
+        const Real x = (exact(blend.points[0][0]) + exact(blend.points[0][3])) / 8.0L;
+        const Real y = (exact(blend.points[1][0]) + exact(blend.points[1][3])) / 8.0L;
+        CHECK(std::fabs(std::hypot(x, y) / (0.05L * 4096.0L) - 1.0L) < 1e-4L);
+    }
+}
+
+TEMPLATE_TEST_CASE("a corner between short lines uses its tolerance on less way", "[blended_path]", double, float,
+                   Fixed) {
+    using S = TestType;
+    const MoveProgram program = corner(90.0L, 10.0L, 10.0L, 0.1);
+    const auto moves = moves_of<S>(program);
+    const Joint<S> joint = joint_of<S>(program);
+    const Real wished = exact(joint.way);
+    for (const Real share : {0.95L, 0.8L, 0.7L, 0.5L, 0.1L}) {
+        Blend<S> blend;
+        REQUIRE(fit_blend(joint, moves[0], moves[1], from_double<S>(static_cast<double>(share * wished)), 2, blend));
+        CHECK(blend.degree == 5);
+        // e = l sin(phi/2) (1/4 + w/8), w at most 1
+        const Real most = share * wished * std::sin(45.0L * degree) * 0.375L / 4096.0L;
+        CurveSegment<S> segment;
+        segment.axes = 2;
+        segment.degree = 5;
+        segment.assign(blend.points);
+        const PlaceMm middle = place_of(segment, 0.5L);
+        const Real deviation_mm = std::hypot(middle[0], middle[1]);
+        CAPTURE(static_cast<double>(share), static_cast<double>(deviation_mm));
+        CHECK(deviation_mm < std::min(0.1L, most) * 1.001L);
+        CHECK(deviation_mm > std::min(0.1L, most) * 0.999L);
+    }
+}
+
+TEMPLATE_TEST_CASE("what becomes of a joint depends on geometry and mode", "[blended_path]", double, float, Fixed) {
+    using S = TestType;
+    CHECK(joint_of<S>(corner(0.0L, 1.0L, 1.0L, 0.01)).kind == JointKind::through);
+    CHECK(joint_of<S>(corner(30.0L, 1.0L, 1.0L, 0.01)).kind == JointKind::blend);
+    CHECK(joint_of<S>(corner(179.8L, 1.0L, 1.0L, 0.01)).kind == JointKind::stop);
+    CHECK(joint_of<S>(corner(180.0L, 1.0L, 1.0L, 0.01)).kind == JointKind::stop);
+    CHECK(joint_of<S>(corner(30.0L, 1.0L, 1.0L, 0.0)).kind == JointKind::stop);
+    CHECK(joint_of<S>(corner(30.0L, 1.0L, 1.0L, 0.01), PathMode::exact_path).kind == JointKind::stop);
+    CHECK(joint_of<S>(corner(30.0L, 1.0L, 1.0L, 0.01), PathMode::exact_stop).kind == JointKind::stop);
+    CHECK(joint_of<S>(corner(0.0L, 1.0L, 1.0L, 0.01), PathMode::exact_path).kind == JointKind::through);
+    CHECK(joint_of<S>(corner(0.0L, 1.0L, 1.0L, 0.01), PathMode::exact_stop).kind == JointKind::stop);
+    // The curvature jumps: a blend within the tolerance of tangents, also in exact_path mode
+    MoveProgram program;
+    program.start = {-20.0L, 0.0L, 0.0L};
+    program.line({});
+    program.arc(0.0L, 10.0L, 1.5L);
+    for (const PathMode mode : {PathMode::continuous, PathMode::exact_path}) {
+        const Joint<S> joint = joint_of<S>(program, mode);
+        CHECK(joint.kind == JointKind::blend);
+        const Real tolerance = mode == PathMode::exact_path ? 0.001L : 0.01L;
+        CHECK(std::fabs(exact(joint.tolerance) / 4096.0L - tolerance) < 1e-6L);
+        // a = sqrt(e / (0.011 |K1 - K0|))
+        CHECK(std::fabs(exact(joint.way) / 4096.0L / std::sqrt(tolerance / (0.011L * 0.1L)) - 1.0L) < 1e-4L);
+    }
+}
