@@ -43,7 +43,8 @@ std::string joined(std::initializer_list<std::string_view> names) {
 }
 
 void add_input(CLI::App& app, Job& job, Typed& typed) {
-    app.add_option("FILE", job.run.path.input, "waypoints (.csv) or a curve (.json); - reads standard input")
+    app.add_option("FILE", job.run.path.input,
+                   "waypoints (.csv), or a curve or elements (.json); - reads standard input")
         ->required();
     app.add_option("--format", typed.format,
                    input_formats(" or ") + ": format of the input (default: by its name; of standard input csv)");
@@ -86,6 +87,9 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
     option("--corner-angle", curve.corner_angle,
            "a turn sharper than this, in degrees, is a corner: the machine stops there (default 60; bspline 180, "
            "no corners)");
+    option("--tolerance", curve.tolerance,
+           "MM: of polyline, how far the path may be from the lines, 0 to 100 (default 0: exact, with a stop at each "
+           "corner); of elements that state none (default: the machine file's)");
     option("--start-tangent", curve.start_tangent,
            "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
            "derivative)");

@@ -2,6 +2,8 @@
 // MachineDescription: a machine file in memory.
 #pragma once
 
+#include "host_sim/config/path_tolerances.hpp"
+
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s5_pulse_train/step_timing.hpp"
 
@@ -28,6 +30,7 @@ struct MachineDescription {
     std::string file; ///< path of the file, for messages; empty: the built-in default machine
     std::string name = "default machine";
     MachineSettings settings{}; ///< the numbers, in the form of the core
+    PathTolerances tolerances{};
     /// Whether the drives stay enabled after a run, at standstill; nothing: drives on Modbus stay enabled, drives on
     /// GPIO lines do not.
     std::optional<bool> drives_on_at_end{};

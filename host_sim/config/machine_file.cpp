@@ -47,7 +47,7 @@ public:
             }
             machine.drives_on_at_end = end == "on";
         }
-        path(root, machine.settings);
+        path(root, machine.settings, machine.tolerances);
         step(root, machine.step);
         axes(root, machine);
         return machine;
@@ -73,7 +73,7 @@ private:
         return number(*node, key, range);
     }
 
-    void path(const toml::table& root, MachineSettings& settings) const {
+    void path(const toml::table& root, MachineSettings& settings, PathTolerances& tolerances) const {
         const toml::node* node = root.get("path");
         if (node == nullptr) {
             check_.fail_file("there is no [path]; write [path] and below it max_feed_mm_s = 100");
@@ -83,11 +83,19 @@ private:
         for (const SpeedLimit& limit : speed_limits) {
             known.insert(known.end() - 1, limit.key);
         }
+        for (const PathToleranceKey& tolerance : path_tolerance_keys) {
+            known.push_back(tolerance.key);
+        }
         check_.require_known(table, known, "[path]");
         settings.max_feed_mm_s = required(table, "max_feed_mm_s", velocity_range, "[path]");
         for (const SpeedLimit& limit : speed_limits) {
             if (const toml::node* given = table.get(limit.key)) {
                 settings.*limit.value = number(*given, limit.key, {limit.low, limit.high, limit.unit});
+            }
+        }
+        for (const PathToleranceKey& tolerance : path_tolerance_keys) {
+            if (const toml::node* given = table.get(tolerance.key)) {
+                tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, "mm"});
             }
         }
         if (const toml::node* tier = table.get("jerk_plan")) {

@@ -4,6 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/option_number.hpp"
+#include "host_sim/config/path_tolerances.hpp"
 #include "host_sim/curve/methods/method_table.hpp"
 #include "host_sim/curve/streamed_curve.hpp"
 
@@ -106,6 +107,18 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
             throw UsageError(fmt::format("--curve {} has no option {}; leave it out", row.name, option));
         }
     };
+    if (arguments.tolerance) {
+        if ((row.takes & takes_tolerance) == 0) {
+            throw UsageError(fmt::format("--curve {} has no option --tolerance; it goes with --curve polyline, or with "
+                                         "a file of elements (.json)",
+                                         row.name));
+        }
+        choice.tolerance_mm = read_tolerance(*arguments.tolerance);
+        if (choice.closed && choice.tolerance_mm > 0.0) {
+            throw UsageError(
+                "--tolerance and --closed exclude each other; repeat the first waypoint at the end instead");
+        }
+    }
     // Reads an option that was given.
     const auto take = [&require](const std::optional<std::string>& text, unsigned what, std::string_view option,
                                  double low, double high, std::string_view name, auto& out) {
@@ -174,6 +187,10 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
         *tangent = read_tangent(option, **text, points_method(choice.method) != nullptr);
     }
     return choice;
+}
+
+double read_tolerance(const std::string& text) {
+    return read_option_number("--tolerance", text, 0.0, largest_tolerance_mm, "the tolerance in mm");
 }
 
 std::string_view first_option(const CurveArguments& arguments) noexcept {

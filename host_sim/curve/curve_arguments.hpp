@@ -25,6 +25,7 @@ struct CurveArguments {
     std::optional<std::string> mu;
     std::optional<std::string> curvature_sign;
     std::optional<std::string> corner_angle;
+    std::optional<std::string> tolerance;
     std::optional<std::string> start_tangent;
     std::optional<std::string> end_tangent;
     bool closed = false;
@@ -40,8 +41,12 @@ struct CurveArguments {
 /// from 60 degrees (bspline: none). Throws UsageError where a value is wrong or the method has no such option.
 [[nodiscard]] CurveChoice choose_curve(const CurveArguments& arguments);
 
+/// The tolerance of --tolerance in mm. Throws UsageError.
+[[nodiscard]] double read_tolerance(const std::string& text);
+
 /// The option that was given first, without its value; empty: none was. For inputs that bring their own curve;
-/// --smooth goes with these, too, and is not counted.
+/// --smooth and
+/// --tolerance go with these, too, and are not counted.
 [[nodiscard]] std::string_view first_option(const CurveArguments& arguments) noexcept;
 
 } // namespace splinefeed::host

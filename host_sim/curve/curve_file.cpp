@@ -3,7 +3,6 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/json_text.hpp"
-#include "host_sim/base/text_file.hpp"
 
 #include "host_sim/curve/methods/method_table.hpp"
 
@@ -37,7 +36,9 @@ public:
         } else if (root_.contains("segments")) {
             segments(root_);
         } else {
-            fail("there is neither \"segments\" (a curve) nor \"method\" with \"input\" (a description of one)");
+            fail(
+                "there is neither \"elements\" (a program) nor \"segments\" (a curve) nor \"method\" with \"input\" (a "
+                "description of one)");
         }
         return std::move(curve_);
     }
@@ -237,13 +238,12 @@ void require_executable(const CurveFile& curve, const std::string& file) {
     }
 }
 
-CurveFile parse_curve(std::string_view text, const std::string& file, ScalarKind scalar) {
-    return Parser(parse_json(text, file), file, scalar).parse();
+CurveFile curve_of(const json& document, const std::string& file, ScalarKind scalar) {
+    return Parser(document, file, scalar).parse();
 }
 
-CurveFile read_curve_file(const std::string& path, ScalarKind scalar) {
-    constexpr std::size_t largest = std::size_t{1} << 28;
-    return parse_curve(read_text_file(path, largest), path, scalar);
+CurveFile parse_curve(std::string_view text, const std::string& file, ScalarKind scalar) {
+    return curve_of(parse_json(text, file), file, scalar);
 }
 
 } // namespace splinefeed::host

@@ -38,9 +38,13 @@ struct CurveFile {
     }
 };
 
-/// Reads the file ("-": standard input); a description is computed in `scalar`. Segments of the file are checked:
-/// finite numbers in range, equal dimensions, segments that meet. Throws InputError.
-[[nodiscard]] CurveFile read_curve_file(const std::string& path, ScalarKind scalar);
+/// Largest file of a curve or a program. [bytes]
+inline constexpr std::size_t largest_curve_file = std::size_t{1} << 28;
+
+/// Reads a document; a description is computed in `scalar`. Segments of the file are checked: finite numbers in range,
+/// equal dimensions, segments that meet. Throws InputError.
+/// @param file  its name in messages
+[[nodiscard]] CurveFile curve_of(const nlohmann::json& document, const std::string& file, ScalarKind scalar);
 
 /// The same for a text; `file` is its name in messages.
 [[nodiscard]] CurveFile parse_curve(std::string_view text, const std::string& file,

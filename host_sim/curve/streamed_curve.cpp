@@ -101,7 +101,10 @@ constexpr std::array streaming{
                     make_bspline<Fixed>,
                     make_bspline<float>,
                     make_bspline<double>},
-    StreamingMethod{{.name = "polyline"}, make_polyline<Fixed>, make_polyline<float>, make_polyline<double>},
+    StreamingMethod{{.name = "polyline", .takes = takes_tolerance},
+                    make_polyline<Fixed>,
+                    make_polyline<float>,
+                    make_polyline<double>},
 };
 
 } // namespace

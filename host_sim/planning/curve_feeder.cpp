@@ -50,6 +50,10 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
     EndTangents<S> tangents;
     take_tangent(choice.start_tangent, options.axes, tangents.has_start, tangents.start);
     take_tangent(choice.end_tangent, options.axes, tangents.has_end, tangents.end);
+    if (input.within_tolerance()) {
+        source_ = &elements_.emplace(input, input.elements() == nullptr ? input.rows() : nullptr).source();
+        return;
+    }
     if (input.segments() != nullptr) {
         source_ = &segments_.emplace(*input.segments(), options.axes, choice.smooth);
         if (choice.smooth) {
@@ -130,6 +134,12 @@ bool CurveFeeder<S>::next_row(WaypointRow& row, Role& role) {
 
 template <Scalar S>
 bool CurveFeeder<S>::more(Pushed& pushed) {
+    if (elements_) {
+        typename ElementFeeder<S>::Pushed element;
+        const bool any = elements_->more(element);
+        pushed = {0, element.position, false, element.start, element.move};
+        return any;
+    }
     if (finished_) {
         return false;
     }
@@ -150,7 +160,7 @@ bool CurveFeeder<S>::more(Pushed& pushed) {
         if (const Status status = waypoints_->push(waypoint, role); !status.ok()) {
             throw InputError(input_->name(), row.line, describe(status.error()));
         }
-        pushed = {static_cast<std::uint32_t>(pushed_++), waypoint.position, role == Role::path};
+        pushed = {static_cast<std::uint32_t>(pushed_++), waypoint.position, role == Role::path, false, nullptr};
         return true;
     } catch (...) {
         if (!finished_) {
@@ -171,6 +181,9 @@ void CurveFeeder<S>::finish() {
 
 template <Scalar S>
 std::uint32_t CurveFeeder<S>::row_of(std::uint32_t index) const noexcept {
+    if (elements_) {
+        return elements_->row_of(index);
+    }
     if (all_.empty()) {
         return index;
     }
@@ -181,6 +194,9 @@ std::uint32_t CurveFeeder<S>::row_of(std::uint32_t index) const noexcept {
 
 template <Scalar S>
 std::uint64_t CurveFeeder<S>::line_of_row(std::uint32_t row) const noexcept {
+    if (elements_) {
+        return elements_->line_of_row(whole_row(row));
+    }
     if (!all_.empty()) {
         return row < all_.size() ? all_[row].line : 0;
     }
@@ -191,8 +207,14 @@ std::uint64_t CurveFeeder<S>::line_of_row(std::uint32_t row) const noexcept {
 
 template <Scalar S>
 std::uint64_t CurveFeeder<S>::whole_row(std::uint32_t row) const noexcept {
-    const auto ago = static_cast<std::uint32_t>(static_cast<std::uint32_t>(rows_read_) - row);
-    return rows_read_ >= ago ? rows_read_ - ago : row;
+    const auto ago = static_cast<std::uint32_t>(static_cast<std::uint32_t>(rows()) - row);
+    return rows() >= ago ? rows() - ago : row;
+}
+
+template <Scalar S>
+std::string CurveFeeder<S>::name_of_row(std::uint32_t row) const {
+    const ElementProgram* const program = input_->elements();
+    return program != nullptr ? element_name(row, program->line_of(row)) : fmt::format("point {}", row + 1);
 }
 
 template class CurveFeeder<double>;

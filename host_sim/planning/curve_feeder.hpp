@@ -4,6 +4,7 @@
 
 #include "host_sim/curve/bezier_source.hpp"
 #include "host_sim/curve/streamed_curve.hpp"
+#include "host_sim/planning/element_feeder.hpp"
 #include "host_sim/program/path_input.hpp"
 
 #include "splinefeed/s1_curve/smoothed_curve.hpp"
@@ -18,7 +19,7 @@ namespace splinefeed::host {
 
 /// Owns the curve. more() pushes one waypoint at a time, so nothing is read before the curve needs it. A closed curve
 /// has to be read completely first. It is pushed as the 16 points before the seam, the path with its first point at
-/// both ends, and the 16 points after the seam.
+/// both ends, and the 16 points after the seam. Lines and arcs within a tolerance are an ElementFeeder's.
 template <Scalar S>
 class CurveFeeder {
 public:
@@ -33,7 +34,10 @@ public:
     struct Pushed {
         std::uint32_t index = 0; ///< as CurveSegment::waypoint counts, modulo 2^32
         PerAxis<Position> position{};
-        bool on_path = false; ///< false: lead-in or lead-out
+        bool on_path = false; ///< false: lead-in or lead-out, or no waypoint that the path must pass
+        bool start = false;   ///< within a tolerance: where the first move begins
+        const PathElement<double>* move = nullptr; ///< within a tolerance: the move that ends here; valid until the
+                                                   ///< next call
     };
     /// Pushes the next waypoint, or finishes the curve; false if there is none. Throws InputError; the curve then ends
     /// with the waypoints before. @pre the curve is starved
@@ -41,19 +45,28 @@ public:
     /// Whether more() would return without waiting; waits for that up to the given time. A closed curve is read
     /// completely before.
     [[nodiscard]] bool wait_for_row(WaypointRows::Patience patience) {
-        return finished_ || input_->choice().closed || input_rows_->wait(patience);
+        return elements_ ? elements_->wait_for_row(patience)
+                         : finished_ || input_->choice().closed || input_rows_->wait(patience);
+    }
+    /// The path within a tolerance; null: the curve is another one.
+    [[nodiscard]] const TolerancePath<S>* tolerance_path() const noexcept {
+        return elements_ ? &elements_->path() : nullptr;
     }
 
     /// Number of waypoints of the input so far.
-    [[nodiscard]] std::uint64_t rows() const noexcept { return rows_read_; }
+    [[nodiscard]] std::uint64_t rows() const noexcept { return elements_ ? elements_->rows() : rows_read_; }
     /// Index of the waypoint in the input, from 0, for an index of CurveSegment::waypoint.
     [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept;
     /// Line of the waypoint in its file; 0: unknown.
     [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept;
+    /// "element 3 (line 12)" or "point 3", for messages where there is no line.
+    [[nodiscard]] std::string name_of_row(std::uint32_t row) const;
     /// The complete index of a row that was read recently.
     [[nodiscard]] std::uint64_t whole_row(std::uint32_t row) const noexcept;
     /// Memory of the curve stage.
-    [[nodiscard]] std::size_t bytes() const noexcept { return segments_ ? sizeof *segments_ : streamed_.bytes; }
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return segments_ ? sizeof *segments_ : elements_ ? sizeof *elements_ : streamed_.bytes;
+    }
 
 private:
     friend struct splinefeed::CounterSeam;
@@ -67,11 +80,12 @@ private:
     bool next_row(WaypointRow& row, Role& role);
     void finish();
 
-    std::optional<BezierSource<S>> segments_; // one of the two
+    std::optional<BezierSource<S>> segments_; // one of the three
+    std::optional<ElementFeeder<S>> elements_;
     StreamedCurve<S> streamed_;
     std::optional<SmoothedCurve<S>> smoothed_; // --smooth
     CurveSource<S>* source_ = nullptr;
-    WaypointCurve<S>* waypoints_ = nullptr; // streamed_'s; null: Bezier segments
+    WaypointCurve<S>* waypoints_ = nullptr; // streamed_'s; null: one of the others
     PathInput* input_;
     std::unique_ptr<WaypointRows> input_rows_;
     std::vector<WaypointRow> all_;     // closed curves: the whole input

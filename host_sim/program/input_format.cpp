@@ -18,7 +18,7 @@ public:
         : file_(path, name), reader_(stream_, name, axes.empty() ? every_axis : axes, axes.empty()) {}
 
     bool next(WaypointRow& out) override { return reader_.next(out); }
-    [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return reader_.axes(); }
+    [[nodiscard]] const Reader& reader() const noexcept { return reader_; }
 
     void stop() noexcept override { file_.stop(); }
 
@@ -31,8 +31,9 @@ private:
 template <class Reader>
 OpenedRows open_text(const std::string& path, const std::string& name, const std::vector<std::string>& machine_axes) {
     auto rows = std::make_unique<TextRows<Reader>>(path, name, machine_axes);
-    std::vector<std::string> axes = rows->axes();
-    return {std::move(rows), std::move(axes)};
+    std::vector<std::string> axes = rows->reader().axes();
+    const bool has_tolerances = rows->reader().has_tolerances();
+    return {std::move(rows), std::move(axes), has_tolerances};
 }
 
 /// One row per format: a new one adds its own.

@@ -18,6 +18,7 @@ inline const std::vector<std::string> every_axis{"x", "y", "z", "a", "b", "c"};
 struct OpenedRows {
     std::unique_ptr<WaypointRows> rows;
     std::vector<std::string> axes;
+    bool has_tolerances = false; ///< rows may state a tolerance
 };
 
 struct InputFormat {

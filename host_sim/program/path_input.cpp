@@ -2,7 +2,9 @@
 #include "host_sim/program/path_input.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/json_text.hpp"
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/program/element_file.hpp"
 #include "host_sim/program/row_queue.hpp"
 
 #include "host_sim/curve/methods/method_table.hpp"
@@ -25,8 +27,10 @@ bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
 
 } // namespace
 
-PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes)
-    : name_(arguments.input), path_(arguments.input), format_(arguments.format), read_ahead_(use == PathUse::followed) {
+PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes,
+                     const PathTolerances& tolerances)
+    : name_(arguments.input), path_(arguments.input), tolerances_(tolerances), format_(arguments.format),
+      read_ahead_(use == PathUse::followed) {
     if (format_->is_curve()) {
         open_description(arguments, use, machine_axes);
         return;
@@ -40,6 +44,18 @@ PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vec
     OpenedRows opened = format_->open(path_, name_, machine_axes_);
     axes_ = std::move(opened.axes);
     opened_ = std::move(opened.rows);
+    lines_within_tolerance_ = choice_.tolerance_mm > 0.0 || opened.has_tolerances;
+    if (opened.has_tolerances && choice_.method != "polyline") {
+        throw InputError(name_, 0,
+                         fmt::format("there is a column tolerance, and --curve {} has none; add --curve polyline, or "
+                                     "leave the column out",
+                                     choice_.method));
+    }
+    if (lines_within_tolerance_ && choice_.closed) {
+        throw InputError(name_, 0,
+                         "a column tolerance and --closed exclude each other; repeat the first waypoint at the end "
+                         "instead");
+    }
     if (const PointsMethod* const method = points_method(choice_.method)) {
         compute_from_points(*method, arguments.scalar, use);
     }
@@ -86,7 +102,15 @@ void PathInput::open_description(const PathArguments& arguments, PathUse use,
     if (const std::string_view option = first_option(arguments.curve); !option.empty()) {
         throw UsageError(fmt::format("{}: a curve file says itself which curve it is; leave the option out", option));
     }
-    file_ = read_curve_file(name_, arguments.scalar);
+    const nlohmann::json document = parse_json(read_text_file(name_, largest_curve_file), name_);
+    if (has_elements(document)) {
+        open_elements(arguments, document, machine_axes);
+        return;
+    }
+    if (arguments.curve.tolerance) {
+        throw UsageError("--tolerance: a curve is followed exactly; leave the option out, or take a file of elements");
+    }
+    file_ = curve_of(document, name_, arguments.scalar);
     if (file_.described && use != PathUse::drawn) {
         require_executable(file_, name_);
     }
@@ -101,6 +125,19 @@ void PathInput::open_description(const PathArguments& arguments, PathUse use,
                          fmt::format("the points have {} coordinates; the machine has {} axes: {}", count, axes_.size(),
                                      fmt::join(axes_, ", ")));
     }
+}
+
+void PathInput::open_elements(const PathArguments& arguments, const nlohmann::json& document,
+                              const std::vector<std::string>& machine_axes) {
+    if (arguments.curve.smooth) {
+        throw UsageError("--smooth: a program of elements is smoothed within its tolerance; leave the option out");
+    }
+    if (arguments.curve.tolerance) {
+        tolerances_.programmed_mm = read_tolerance(*arguments.curve.tolerance);
+    }
+    choice_.method = "elements";
+    axes_ = machine_axes.empty() ? axes_of_elements(document) : machine_axes;
+    elements_ = read_elements(document, name_, axes_, tolerances_);
 }
 
 std::unique_ptr<WaypointRows> PathInput::rows() {

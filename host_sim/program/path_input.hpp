@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// PathInput: the input of a path: rows of waypoints, from a file or a pipe, or Bezier segments.
+// PathInput: the input of a path: rows of waypoints, from a file or a pipe, Bezier segments, or a program of elements.
 #pragma once
 
 #include "host_sim/base/scalar_kind.hpp"
+#include "host_sim/config/path_tolerances.hpp"
 #include "host_sim/curve/curve_arguments.hpp"
 #include "host_sim/curve/curve_file.hpp"
+#include "host_sim/program/element_program.hpp"
 #include "host_sim/program/input_format.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,35 +36,47 @@ class PathInput {
 public:
     /// Opens the input and reads until its axes are known. Throws InputError and UsageError.
     /// @param machine_axes  names; empty: the path has the axes of the input
-    PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
+    PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes,
+              const PathTolerances& tolerances = {});
 
     [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
     /// The curve's name for files and reports.
     [[nodiscard]] std::string_view curve_name() const noexcept {
-        return file_.segments.empty() ? choice_.method : std::string_view(file_.method);
+        return elements_ ? "elements" : file_.segments.empty() ? choice_.method : std::string_view(file_.method);
     }
     [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
     /// Bezier segments that are executed unchanged: from a curve file, from a description, or computed from all
     /// waypoints. Null: there are waypoints, and the method streams.
     [[nodiscard]] const CurveFile* segments() const noexcept { return file_.segments.empty() ? nullptr : &file_; }
+    /// A program of elements. Null: there is none.
+    [[nodiscard]] const ElementProgram* elements() const noexcept { return elements_ ? &*elements_ : nullptr; }
+    /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.
+    [[nodiscard]] bool lines_within_tolerance() const noexcept { return lines_within_tolerance_; }
+    /// Whether the path follows moves within a tolerance: one of the two above.
+    [[nodiscard]] bool within_tolerance() const noexcept { return elements_ || lines_within_tolerance_; }
+    [[nodiscard]] const PathTolerances& tolerances() const noexcept { return tolerances_; }
     /// Number of waypoints from which the segments were computed; 0: none, or not known.
     [[nodiscard]] std::uint64_t points_read() const noexcept { return points_read_; }
     /// Whether rows() can be called again: the input is not a pipe.
     [[nodiscard]] bool repeatable() const noexcept { return repeatable_; }
     /// The waypoints, from the first one. For a real machine a thread reads them ahead. If the input is not repeatable,
-    /// call it only once. @pre segments() is null
+    /// call it only once. @pre segments() and elements() are null
     [[nodiscard]] std::unique_ptr<WaypointRows> rows();
     /// Name for messages.
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
 private:
     void open_description(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
+    void open_elements(const PathArguments& arguments, const nlohmann::json& document,
+                       const std::vector<std::string>& machine_axes);
     void compute_from_points(const PointsMethod& method, ScalarKind scalar, PathUse use);
 
     std::string name_;
     std::string path_; // the path that is opened: /dev/stdin for a file that is standard input
     CurveChoice choice_;
+    PathTolerances tolerances_;
     CurveFile file_;
+    std::optional<ElementProgram> elements_;
     const InputFormat* format_;
     std::vector<std::string> machine_axes_;
     std::vector<std::string> axes_;
@@ -69,6 +84,7 @@ private:
     std::uint64_t points_read_ = 0;
     bool repeatable_ = true;
     bool read_ahead_ = false;
+    bool lines_within_tolerance_ = false;
 };
 
 } // namespace splinefeed::host

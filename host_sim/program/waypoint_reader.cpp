@@ -5,6 +5,8 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
 
+#include "host_sim/config/path_tolerances.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
@@ -197,24 +199,26 @@ int WaypointReader::axis_index(std::string_view name) const {
 }
 
 std::string WaypointReader::column_name(int column) const {
-    return column == feed_column       ? "feed"
-           : column == max_feed_column ? "max_feed"
-           : column == corner_column   ? "corner"
-                                       : axes_[static_cast<std::size_t>(column)];
+    return column == feed_column        ? "feed"
+           : column == max_feed_column  ? "max_feed"
+           : column == corner_column    ? "corner"
+           : column == tolerance_column ? "tolerance"
+                                        : axes_[static_cast<std::size_t>(column)];
 }
 
 void WaypointReader::read_header(std::string_view line) {
     std::vector<std::string_view> known(axes_.begin(), axes_.end());
-    known.insert(known.end(), {"feed", "max_feed", "corner"});
+    known.insert(known.end(), {"feed", "max_feed", "corner", "tolerance"});
     std::string_view field;
     bool more = true;
     bool has_axis = false;
     while (take_field(line, more, field)) {
         const std::string name = lower(field);
-        const int column = name == "feed"       ? feed_column
-                           : name == "max_feed" ? max_feed_column
-                           : name == "corner"   ? corner_column
-                                                : axis_index(name);
+        const int column = name == "feed"        ? feed_column
+                           : name == "max_feed"  ? max_feed_column
+                           : name == "corner"    ? corner_column
+                           : name == "tolerance" ? tolerance_column
+                                                 : axis_index(name);
         if (column == no_column) {
             if (name.size() == 1 && all_axes.find(name.front()) != std::string_view::npos) {
                 fail(fmt::format("there is a column {}, but the machine has no such axis; it has {}", name,
@@ -237,6 +241,10 @@ void WaypointReader::read_header(std::string_view line) {
     if (!has_axis) {
         fail(fmt::format("there is no column of an axis; name at least one of {}", fmt::join(axes_, ", ")));
     }
+}
+
+bool WaypointReader::has_tolerances() const noexcept {
+    return std::find(columns_.begin(), columns_.end(), tolerance_column) != columns_.end();
 }
 
 // Without a header the columns are x,y[,z[,a,b,c]].
@@ -305,19 +313,27 @@ void WaypointReader::parse_field(std::string_view field, int column, WaypointRow
         return;
     }
     const bool is_feed = column == feed_column || column == max_feed_column;
-    if (is_feed && field.empty()) {
+    if ((is_feed || column == tolerance_column) && field.empty()) {
         return;
     }
     double value = 0.0;
     const NumberText result = read_number(field, value);
     if (result != NumberText::number) {
         if (const std::string name = lower(field);
-            name == "feed" || name == "max_feed" || name == "corner" || axis_index(name) >= 0) {
+            name == "feed" || name == "max_feed" || name == "corner" || name == "tolerance" || axis_index(name) >= 0) {
             fail(fmt::format("{} is a name where a number must be; only the first row can be a header",
                              in_quotes(field)));
         }
         fail(fmt::format("{} {} {}", column_name(column), field.empty() ? "is empty and" : in_quotes(field),
                          why_no_number(result)));
+    }
+    if (column == tolerance_column) {
+        if (value < 0.0 || value > largest_tolerance_mm) {
+            fail(fmt::format("tolerance {} is out of range; it must lie between 0 and {} mm", in_quotes(field),
+                             largest_tolerance_mm));
+        }
+        row.tolerance_mm = value;
+        return;
     }
     if (is_feed) {
         if (value < slowest_feed || value > fastest_feed) {

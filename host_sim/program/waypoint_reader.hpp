@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ struct WaypointRow {
     double feed_mm_s = 0.0;     ///< 0: the machine's feed
     double max_feed_mm_s = 0.0; ///< 0: no limit
     Corner corner = Corner::automatic;
+    std::optional<double> tolerance_mm{}; ///< of the move that ends here
     std::uint64_t line = 0;
 };
 
@@ -42,13 +44,16 @@ public:
 
     /// The names of the coordinates of a row's position.
     [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
+    /// Whether there is a column of tolerances.
+    [[nodiscard]] bool has_tolerances() const noexcept;
     [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
 
 private:
     static constexpr int feed_column = -1;
     static constexpr int corner_column = -2;
     static constexpr int max_feed_column = -3;
-    static constexpr int no_column = -4;
+    static constexpr int tolerance_column = -4;
+    static constexpr int no_column = -5;
 
     bool fill();
     bool next_line(std::string_view& line);

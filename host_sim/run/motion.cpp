@@ -277,7 +277,7 @@ Summary Motion<S>::summary() const {
         acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
     }
     // Segments that came whole are not measured against the points they were made of.
-    if (input_->segments() == nullptr && passes_waypoints(summary.curve)) {
+    if (input_->segments() == nullptr && !input_->within_tolerance() && passes_waypoints(summary.curve)) {
         summary.waypoint_error_mm = error_.largest_mm();
     }
     if (stopped_.empty() && operated_ == 0) { // an override may be faster than what was programmed

@@ -32,7 +32,8 @@ void PathTee<S>::look(CurveSegment<S>& segment) {
         if (const auto violation = observers_.limits->violation(segment)) {
             const std::uint64_t line = feeder_->line_of_row(row);
             throw InputError(*file_, line,
-                             line > 0 ? *violation : fmt::format("on the way to point {}: {}", row + 1, *violation));
+                             line > 0 ? *violation
+                                      : fmt::format("on the way to {}: {}", feeder_->name_of_row(row), *violation));
         }
     }
     if (observers_.error != nullptr) {

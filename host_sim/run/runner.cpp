@@ -44,7 +44,15 @@ std::uint64_t pass(PathInput& input, const PathObservers& observers) {
 
 /// Input that is valid, but whose curve is hardly what was meant.
 void warn(const PathInput& input, bool quiet) {
-    if (input.segments() == nullptr || quiet) {
+    if (quiet) {
+        return;
+    }
+    if (input.elements() != nullptr && input.elements()->dwells().count > 0) {
+        const ElementProgram::Dwells& dwells = input.elements()->dwells();
+        fmt::print(stderr, "{}: warning: dwells: {}, {:.6g} s in all; the machine stops there, but does not wait\n",
+                   printable(input.name()), dwells.count, dwells.seconds);
+    }
+    if (input.segments() == nullptr) {
         return;
     }
     for (const std::string& warning : input.segments()->warnings) {
@@ -132,6 +140,15 @@ Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& tar
     return limits;
 }
 
+/// Without a jerk limit a jump of the curvature costs nothing: exact paths stay as they are.
+PathTolerances tolerances_of(const MachineDescription& machine) {
+    PathTolerances tolerances = machine.tolerances;
+    if (!(axis_totals(machine.settings).smoothest > 0.0)) {
+        tolerances.joint_mm = 0.0;
+    }
+    return tolerances;
+}
+
 template <Scalar S>
 int move_machine(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.
@@ -146,7 +163,7 @@ int move_machine(const RunArguments& arguments) {
     }
     const auto axes = static_cast<std::size_t>(machine.settings.axes);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed,
-                    {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+                    {machine.axis_name.begin(), machine.axis_name.begin() + axes}, tolerances_of(machine));
     warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;

@@ -33,6 +33,7 @@ struct CurveChoice {
     std::optional<double> mu;              ///< nothing: automatic
     std::optional<int> curvature_sign = 1; ///< nothing: automatic
     double corner_angle_deg = 60.0;
+    double tolerance_mm = 0.0; ///< polyline: how far the path may be from the lines; 0: exact
     std::optional<Tangent> start_tangent;
     std::optional<Tangent> end_tangent;
 };

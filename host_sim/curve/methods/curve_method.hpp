@@ -21,6 +21,7 @@ enum CurveOption : unsigned {
     takes_betas = 1U << 7U,
     takes_joints = 1U << 8U, ///< lambda, mu, curvature sign
     takes_smooth = 1U << 9U,
+    takes_tolerance = 1U << 10U,
 };
 
 struct CurveMethod {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// element_shapes: the curves of an element file, with their derivatives.
+#pragma once
+
+#include "host_sim/program/hermite_pieces.hpp"
+
+#include "splinefeed/splines/bezier_piece.hpp"
+
+#include <vector>
+
+namespace splinefeed::host {
+
+/// An arc, a spiral or a helix: radius, angle and height change evenly from `from` to `to`. [mm]
+class ProgrammedArc {
+public:
+    /// @param axis  unit vector
+    /// @param angle  [rad], right-hand rule, several turns at will. The end decides it but for the whole turns.
+    ProgrammedArc(const Vector3& from, const Vector3& to, const Vector3& centre, const Vector3& axis, double angle);
+
+    [[nodiscard]] double radius_from() const noexcept { return radius_from_; }
+    [[nodiscard]] double radius_to() const noexcept { return radius_to_; }
+    /// The angle that leads to the end.
+    [[nodiscard]] double angle() const noexcept { return angle_; }
+    /// Between the end that the stated angle leads to and the end. [mm]
+    [[nodiscard]] double mismatch() const noexcept { return mismatch_; }
+    /// The largest distance from `from` along axis k. [mm]
+    [[nodiscard]] double extent(std::size_t k) const noexcept;
+    [[nodiscard]] double length() const noexcept;
+    /// @param w  0 to 1
+    [[nodiscard]] CurveState at(double w) const noexcept;
+
+private:
+    Vector3 centre_;
+    Vector3 axis_;
+    Vector3 x_{}; // from the centre to the start
+    Vector3 y_{};
+    double radius_from_ = 0.0;
+    double radius_to_ = 0.0;
+    double angle_ = 0.0;
+    double mismatch_ = 0.0;
+    double height_ = 0.0; // of the start above the centre
+    double rise_ = 0.0;
+};
+
+/// A rational Bezier segment: axes 0 to 2 of the piece are x w, y w, z w, axis 3 is w.
+[[nodiscard]] CurveState rational_state(const BezierPiece<double>& piece, double t) noexcept;
+
+} // namespace splinefeed::host
