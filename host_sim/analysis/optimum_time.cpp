@@ -18,6 +18,8 @@
 // Rounding of D is allowed for on the fast side: an axis that hardly moves must not bind by its noise.
 #include "host_sim/analysis/optimum_time.hpp"
 
+#include "host_sim/base/stopwatch.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -28,20 +30,6 @@ namespace splinefeed::host {
 namespace {
 
 constexpr double at_limit = 1.0 - 1e-9;
-
-/// Adds what passes between its construction and destruction.
-class Stopwatch {
-public:
-    using Clock = std::chrono::steady_clock;
-    explicit Stopwatch(Clock::duration& sum) : sum_(&sum), start_(Clock::now()) {}
-    ~Stopwatch() { *sum_ += Clock::now() - start_; }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-    Clock::duration* sum_;
-    Clock::time_point start_;
-};
 
 // Least time of one axis over `travel` from the speed w0 to w1, never above `most` (not below w0 and w1).
 double axis_time(double travel, double w0, double w1, double most, double speeding, double braking) noexcept {

@@ -90,6 +90,10 @@ void write_sentences(Lines out, const Summary& summary) {
         fmt::format_to(out,
                        "The waypoints are control points: the curve is drawn towards them and need not pass them.\n");
     }
+    if (summary.tolerance && !summary.tolerance->kept) {
+        fmt::format_to(out, "The path is further from {} than its tolerance allows.\n",
+                       summary.tolerance->deviation.name);
+    }
     for (const Summary::AxisUse& use : summary.limit_use) {
         write_use_sentence(out, use.axis, "velocity", use.velocity);
         write_use_sentence(out, use.axis, "acceleration", use.acceleration);
@@ -131,6 +135,44 @@ nlohmann::ordered_json share_json(const Summary& summary) {
     json["chord"] = shares.chord.value_or(0.0);
     json["none"] = shares.none;
     return json;
+}
+
+nlohmann::ordered_json place_json(const ToleranceSummary::Place& place) {
+    using Json = nlohmann::ordered_json;
+    return {{"distance", place.distance}, {"at", place.number}, {"line", place.line > 0 ? Json(place.line) : Json()}};
+}
+
+nlohmann::ordered_json tolerance_json(const ToleranceSummary& tolerance) {
+    nlohmann::ordered_json json;
+    json["kept"] = tolerance.kept;
+    json["deviation_mm"] = place_json(tolerance.deviation);
+    if (tolerance.rotary_deviation) {
+        json["deviation_deg"] = place_json(*tolerance.rotary_deviation);
+    }
+    json["blended"] = tolerance.blended;
+    json["stopped"] = tolerance.stopped;
+    json["through"] = tolerance.through;
+    json["chains"] = tolerance.chains;
+    json["elements"] = tolerance.elements;
+    json["pieces"] = tolerance.pieces;
+    json["exact_stop_time_s"] = tolerance.exact_stop_s;
+    return json;
+}
+
+void write_tolerance(Lines out, const Summary& summary) {
+    const ToleranceSummary& tolerance = *summary.tolerance;
+    row(out, "deviation", fine(tolerance.deviation.distance), "mm at most, at " + tolerance.deviation.name);
+    if (tolerance.rotary_deviation) {
+        row(out, "rotary deviation", fine(tolerance.rotary_deviation->distance),
+            "degrees at most, at " + tolerance.rotary_deviation->name);
+    }
+    row(out, "joints", std::to_string(tolerance.blended),
+        fmt::format("rounded, {} with a stop, {} straight on; chains {}", tolerance.stopped, tolerance.through,
+                    tolerance.chains));
+    row(out, "elements", std::to_string(tolerance.elements), fmt::format("to {} pieces", tolerance.pieces));
+    const double saved = tolerance.exact_stop_s > 0.0 ? 1.0 - summary.cycle_time_s / tolerance.exact_stop_s : 0.0;
+    row(out, "with exact stops", fmt::format("{:.3f}", tolerance.exact_stop_s),
+        summary.stopped ? "s (estimated)" : fmt::format("s (estimated; this run takes {:.1f} % less)", saved * 100.0));
 }
 
 } // namespace
@@ -175,6 +217,9 @@ std::string to_json(const Summary& summary) {
         json["events"] = summary.events;
         json["events_not_reached"] = summary.events_not_reached;
     }
+    if (summary.tolerance) {
+        json["tolerance"] = tolerance_json(*summary.tolerance);
+    }
     if (summary.link) {
         json["link"] = to_json(*summary.link);
     }
@@ -196,6 +241,9 @@ std::string to_text(const Summary& summary) {
     row(out, "largest speed", fmt::format("{:.6f}", summary.max_speed_mm_s), "mm/s");
     if (summary.waypoint_error_mm) {
         row(out, "waypoint error", fine(*summary.waypoint_error_mm), "mm at most");
+    }
+    if (summary.tolerance) {
+        write_tolerance(out, summary);
     }
     row(out, "smoothing error", fine(summary.smoothing_bound_mm), "mm at most");
     row(out, "waypoints", std::to_string(summary.waypoints), "");

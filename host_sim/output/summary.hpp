@@ -13,6 +13,26 @@
 
 namespace splinefeed::host {
 
+/// A path within a tolerance of what was programmed.
+struct ToleranceSummary {
+    struct Place {
+        double distance = 0.0;    ///< [mm, degrees]
+        std::uint64_t number = 0; ///< of the element or the waypoint, from 1
+        std::uint64_t line = 0;   ///< 0: unknown
+        std::string name;         ///< for people
+    };
+    Place deviation;                       ///< largest distance between the path and the elements, both ways
+    std::optional<Place> rotary_deviation; ///< nothing: the machine has no rotary axis
+    bool kept = true;                      ///< whether every element kept its tolerance
+    std::uint64_t blended = 0;             ///< joints that were rounded
+    std::uint64_t stopped = 0;             ///< joints where the machine stops, with the end
+    std::uint64_t through = 0;             ///< joints without a corner
+    std::uint64_t chains = 0;              ///< runs of short elements that became one spline
+    std::uint64_t elements = 0;
+    std::uint64_t pieces = 0; ///< Bezier segments
+    double exact_stop_s = 0.0;
+};
+
 struct Summary {
     /// Largest use of an axis's limits on the emitted segments, 1 = at the limit.
     struct AxisUse {
@@ -49,9 +69,10 @@ struct Summary {
     std::uint64_t stops = 0;          ///< corners where the feed is zero, without the ends
     double smoothing_bound_mm = 0.0;  ///< largest distance of the emitted motion from the curve
     std::uint64_t peak_rss_bytes = 0; ///< memory of the process; 0: unknown
-    std::optional<LimitShares> limit_share; ///< which limit bound; axes as in limit_use
-    std::optional<LinkSummary> link;        ///< for a run on Modbus drives
-    std::optional<GpioSummary> gpio;        ///< for a run on lines of GPIO chips
+    std::optional<LimitShares> limit_share;    ///< which limit bound; axes as in limit_use
+    std::optional<ToleranceSummary> tolerance; ///< for elements, and lines within a tolerance
+    std::optional<LinkSummary> link;           ///< for a run on Modbus drives
+    std::optional<GpioSummary> gpio;           ///< for a run on lines of GPIO chips
 };
 
 /// One JSON object, with a line end. An axis without a jerk limit is omitted under limit_use.jerk and limit_share.jerk.

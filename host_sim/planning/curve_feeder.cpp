@@ -137,7 +137,7 @@ bool CurveFeeder<S>::more(Pushed& pushed) {
     if (elements_) {
         typename ElementFeeder<S>::Pushed element;
         const bool any = elements_->more(element);
-        pushed = {0, element.position, false, element.start, element.move};
+        pushed = {0, element.position, false, element.start, element.line, element.move};
         return any;
     }
     if (finished_) {
@@ -160,7 +160,7 @@ bool CurveFeeder<S>::more(Pushed& pushed) {
         if (const Status status = waypoints_->push(waypoint, role); !status.ok()) {
             throw InputError(input_->name(), row.line, describe(status.error()));
         }
-        pushed = {static_cast<std::uint32_t>(pushed_++), waypoint.position, role == Role::path, false, nullptr};
+        pushed = {static_cast<std::uint32_t>(pushed_++), waypoint.position, role == Role::path, false, 0, nullptr};
         return true;
     } catch (...) {
         if (!finished_) {
@@ -215,6 +215,19 @@ template <Scalar S>
 std::string CurveFeeder<S>::name_of_row(std::uint32_t row) const {
     const ElementProgram* const program = input_->elements();
     return program != nullptr ? element_name(row, program->line_of(row)) : fmt::format("point {}", row + 1);
+}
+
+template <Scalar S>
+std::uint64_t CurveFeeder<S>::number_of_move(std::uint64_t move) const noexcept {
+    const ElementProgram* const program = input_->elements();
+    return program != nullptr ? program->element_of(move) + std::uint64_t{1} : move + 2;
+}
+
+template <Scalar S>
+std::string CurveFeeder<S>::name_of_move(std::uint64_t move, std::uint64_t line) const {
+    const std::uint64_t number = number_of_move(move);
+    return input_->elements() != nullptr ? element_name(number - 1, static_cast<std::uint32_t>(line))
+                                         : fmt::format("the move to point {} (line {})", number, line);
 }
 
 template class CurveFeeder<double>;

@@ -34,8 +34,9 @@ public:
     struct Pushed {
         std::uint32_t index = 0; ///< as CurveSegment::waypoint counts, modulo 2^32
         PerAxis<Position> position{};
-        bool on_path = false; ///< false: lead-in or lead-out, or no waypoint that the path must pass
-        bool start = false;   ///< within a tolerance: where the first move begins
+        bool on_path = false;   ///< false: lead-in or lead-out, or no waypoint that the path must pass
+        bool start = false;     ///< within a tolerance: where the first move begins
+        std::uint64_t line = 0; ///< within a tolerance: of the move, in the CSV or in the program of the elements
         const PathElement<double>* move = nullptr; ///< within a tolerance: the move that ends here; valid until the
                                                    ///< next call
     };
@@ -59,6 +60,9 @@ public:
     [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept;
     /// Line of the waypoint in its file; 0: unknown.
     [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept;
+    /// Of a move within a tolerance, from 0: its element or the waypoint at its end, counted from 1; and as a text.
+    [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept;
+    [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const;
     /// "element 3 (line 12)" or "point 3", for messages where there is no line.
     [[nodiscard]] std::string name_of_row(std::uint32_t row) const;
     /// The complete index of a row that was read recently.

@@ -68,14 +68,16 @@ bool ElementFeeder<S>::next(Pushed& pushed) {
         if (started_) {
             move_ = program_->element(moves_);
             pushed.position = move_.to;
-            rows_read_ = program_->element_of(moves_) + std::uint64_t{1};
+            const std::uint32_t element = program_->element_of(moves_);
+            rows_read_ = element + std::uint64_t{1};
+            pushed.line = program_->line_of(element);
         }
     } else {
         WaypointRow row;
         if (!rows_->next(row)) {
             return false;
         }
-        line = lines_[rows_read_++ % remembered] = row.line;
+        pushed.line = line = lines_[rows_read_++ % remembered] = row.line;
         for (unsigned k = 0; k < input_->axes().size(); ++k) {
             pushed.position[k] = position_from_mm(row.position[k]);
         }

@@ -27,6 +27,7 @@ public:
         bool start = false;                ///< it told where the first move begins
         PerAxis<Position> position{};      ///< there, or at the end of the move
         const PathElement<double>* move{}; ///< null: none; valid until the next call
+        std::uint64_t line = 0;            ///< of the move, in the CSV or in the program that the elements came from
     };
     /// Pushes the start, the next move, or finishes the path; false if there is none. Throws InputError; the path then
     /// ends with the moves before. @pre the path is starved

@@ -56,6 +56,19 @@ double ProgrammedArc::length() const noexcept {
     return std::hypot(std::fmax(radius_from_, radius_to_) * angle_, rise_, radius_to_ - radius_from_);
 }
 
+ProgrammedArc::Cylindrical ProgrammedArc::polar(const Vector3& point) const noexcept {
+    double height = 0.0;
+    const Vector3 arm = arm_of(point, centre_, axis_, height);
+    const double growth = radius_to_ - radius_from_;
+    Cylindrical out{std::atan2(dot(arm, y_), dot(arm, x_)), 0.0};
+    if (std::fabs(rise_) > std::fabs(growth)) {
+        out.share = (height - height_) / rise_;
+    } else if (growth != 0.0) {
+        out.share = (std::sqrt(dot(arm, arm)) - radius_from_) / growth;
+    }
+    return out;
+}
+
 CurveState ProgrammedArc::at(double w) const noexcept {
     const double cosine = std::cos(angle_ * w);
     const double sine = std::sin(angle_ * w);

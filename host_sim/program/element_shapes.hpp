@@ -29,6 +29,13 @@ public:
     /// @param w  0 to 1
     [[nodiscard]] CurveState at(double w) const noexcept;
 
+    /// Where a point is about the axis.
+    struct Cylindrical {
+        double angle = 0.0; ///< from the direction of the start [rad], -pi to pi, positive: right-hand rule
+        double share = 0.0; ///< of the arc, at its height or, if the arc is flat, its radius; 0: the arc has neither
+    };
+    [[nodiscard]] Cylindrical polar(const Vector3& point) const noexcept;
+
 private:
     Vector3 centre_;
     Vector3 axis_;

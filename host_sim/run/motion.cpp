@@ -14,6 +14,10 @@ namespace splinefeed::host {
 
 namespace {
 
+/// Of a path, as a part of a move: double and Fixed have digits enough.
+template <Scalar S>
+constexpr double rounding_of = std::same_as<S, float> ? 1e-6 : 0.0;
+
 constexpr std::chrono::milliseconds wait_slice{1}; // for input, before the target is looked at again
 
 } // namespace
@@ -22,14 +26,17 @@ template <Scalar S>
 Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& description,
                   const MotionLimits<S>& limits, PathInput& input, const PathLimits& path_limits, Outputs& outputs,
                   Supervision* target)
-    : quiet_(arguments.quiet), description_(&description), limits_(&limits), input_(&input), outputs_(&outputs),
-      target_(target), optimum_(description.settings, to_double(limits.refinement.direction_jump)),
-      share_(description.settings), feeder_(input), tee_(feeder_, input.name(),
-                                                         {.limits = &path_limits,
-                                                          .writer = outputs.curve(),
-                                                          .error = &error_,
-                                                          .optimum = &optimum_,
-                                                          .share = &share_}),
+    : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), limits_(&limits),
+      input_(&input), outputs_(&outputs), target_(target),
+      deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>), exact_stop_(description.settings),
+      optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
+      feeder_(input), tee_(feeder_, input.name(),
+                           {.limits = &path_limits,
+                            .writer = outputs.curve(),
+                            .error = &error_,
+                            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
+                            .optimum = &optimum_,
+                            .share = &share_}),
       planner_(tee_, limits, arguments.window_cells), trajectory_(planner_.trajectory()),
       machine_(description, limits.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
       events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {}
@@ -112,6 +119,7 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     }
     machine_.finish();
     optimum_.finish();
+    require_tolerance();
     if (const auto& fault = machine_.fault()) {
         Fault whole = *fault;
         whole.waypoint = feeder_.whole_row(static_cast<std::uint32_t>(fault->waypoint));
@@ -199,6 +207,9 @@ void Motion<S>::read() {
         if (!read_all_ && pushed.on_path) {
             error_.waypoint(pushed.index, pushed.position);
         }
+        if (!read_all_) {
+            measure(pushed);
+        }
     } catch (const InputError&) {
         read_all_ = true; // the curve ends with the waypoints before
         keep_failure(std::current_exception());
@@ -231,6 +242,56 @@ bool Motion<S>::execute(const FeedSegment& segment) {
     }
     moves_ = ends_in_motion;
     return true;
+}
+
+// Moves of a program that the path follows within a tolerance.
+template <Scalar S>
+void Motion<S>::measure(const typename CurveFeeder<S>::Pushed& pushed) {
+    if (pushed.start) {
+        deviation_.start(pushed.position);
+        exact_stop_.start(pushed.position);
+    } else if (pushed.move != nullptr) {
+        deviation_.move(*pushed.move, pushed.line);
+        exact_stop_.move(*pushed.move);
+    }
+}
+
+// A path that is too far from its moves is a fault, whatever else happened.
+template <Scalar S>
+void Motion<S>::require_tolerance() {
+    if (!input_->within_tolerance()) {
+        return;
+    }
+    if (trajectory_.state() == Pull::finished && stopped_.empty()) {
+        deviation_.finish();
+    }
+    if (enforce_ && stopped_.empty() && deviation_.excess()) {
+        const PathDeviation::Place& place = deviation_.excess()->place;
+        stopped_ = describe(*deviation_.excess(), feeder_.name_of_move(place.move, place.line));
+    }
+}
+
+template <Scalar S>
+ToleranceSummary Motion<S>::tolerance_summary() const {
+    ToleranceSummary out;
+    const auto place = [&](const PathDeviation::Place& of) {
+        return ToleranceSummary::Place{of.distance, feeder_.number_of_move(of.move), of.line,
+                                       feeder_.name_of_move(of.move, of.line)};
+    };
+    out.deviation = place(deviation_.linear());
+    if (deviation_.has_rotary()) {
+        out.rotary_deviation = place(deviation_.rotary());
+    }
+    out.kept = !deviation_.excess();
+    const PathCounts counts = feeder_.tolerance_path()->counts();
+    out.blended = counts.joints.blended;
+    out.stopped = counts.joints.stopped;
+    out.through = counts.joints.through;
+    out.chains = counts.chains;
+    out.elements = feeder_.rows() - (input_->elements() == nullptr && feeder_.rows() > 0 ? 1U : 0U);
+    out.pieces = tee_.segments();
+    out.exact_stop_s = exact_stop_.seconds();
+    return out;
 }
 
 // Before the first move what is wrong is thrown; after it, it is why the machine stopped.
@@ -283,8 +344,11 @@ Summary Motion<S>::summary() const {
     if (stopped_.empty() && operated_ == 0) { // an override may be faster than what was programmed
         summary.optimum_time_s = optimum_.seconds();
     }
+    if (input_->within_tolerance()) {
+        summary.tolerance = tolerance_summary();
+    }
     summary.limit_share = share_.shares();
-    summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent()).count();
+    summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
     summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};
     summary.stopped = !stopped_.empty();
     summary.events = operated_;

@@ -2,6 +2,7 @@
 // Motion: sends the curve through the planner to the machine, and takes the measurements.
 #pragma once
 
+#include "host_sim/analysis/exact_stop_time.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/planning/planned_trajectory.hpp"
@@ -69,15 +70,21 @@ private:
     bool stand();
     bool execute(const FeedSegment& segment);
     void keep_failure(const std::exception_ptr& failure);
+    void measure(const typename CurveFeeder<S>::Pushed& pushed);
+    void require_tolerance();
+    [[nodiscard]] ToleranceSummary tolerance_summary() const;
     [[nodiscard]] std::string where() const;
 
     bool quiet_;
+    bool enforce_;
     const MachineDescription* description_;
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
     Supervision* target_; // null: only the simulated machine
     WaypointError error_;
+    PathDeviation deviation_;
+    ExactStopTime exact_stop_;
     OptimumTime optimum_;
     LimitShare share_;
     CurveFeeder<S> feeder_;

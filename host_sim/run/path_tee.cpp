@@ -39,6 +39,9 @@ void PathTee<S>::look(CurveSegment<S>& segment) {
     if (observers_.error != nullptr) {
         observers_.error->segment(segment);
     }
+    if (observers_.deviation != nullptr) {
+        observers_.deviation->segment(segment);
+    }
     if (observers_.writer != nullptr) {
         observers_.writer->segment(segment);
     }

@@ -4,6 +4,7 @@
 
 #include "host_sim/analysis/limit_share.hpp"
 #include "host_sim/analysis/optimum_time.hpp"
+#include "host_sim/analysis/path_deviation.hpp"
 #include "host_sim/analysis/waypoint_error.hpp"
 #include "host_sim/output/curve_writer.hpp"
 #include "host_sim/planning/curve_feeder.hpp"
@@ -18,6 +19,7 @@ struct PathObservers {
     const PathLimits* limits = nullptr;
     CurveWriter* writer = nullptr;
     WaypointError* error = nullptr;
+    PathDeviation* deviation = nullptr;
     OptimumTime* optimum = nullptr;
     LimitShare* share = nullptr;
 };

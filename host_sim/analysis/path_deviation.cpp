@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/analysis/path_deviation.hpp"
+
+#include "host_sim/base/stopwatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double arc_error = 9e-8; // of a quintic of 0.4 rad, as a part of the radius
+constexpr int parts_of_line = 8;
+constexpr int parts_a_move = 6; // of a segment through several
+constexpr int searches = 24;    // of the golden section: 1e-5 of a part
+constexpr double golden = 0.6180339887498949;
+
+/// The argument between low and high where `value` is largest, if it has one maximum there.
+template <class Value>
+double argument_of_largest(double low, double high, const Value& value) {
+    double a = high - golden * (high - low);
+    double b = low + golden * (high - low);
+    double at_a = value(a);
+    double at_b = value(b);
+    for (int i = 0; i < searches; ++i) {
+        if (at_a > at_b) {
+            high = b;
+            b = a;
+            at_b = at_a;
+            a = high - golden * (high - low);
+            at_a = value(a);
+        } else {
+            low = a;
+            a = b;
+            at_a = at_b;
+            b = low + golden * (high - low);
+            at_b = value(b);
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+} // namespace
+
+PathDeviation::PathDeviation(const MachineSettings& settings, double joint_mm, double rounding)
+    : axes_(settings.axes), joint_mm_(joint_mm), rounding_(rounding) {
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        AxisSet& set = sets_[settings.axis[k].rotary ? 1 : 0];
+        set.axis[static_cast<unsigned>(set.count++)] = k;
+    }
+}
+
+void PathDeviation::start(const PerAxis<Position>& position) {
+    here_ = position;
+}
+
+void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
+    const Stopwatch stopwatch(spent_);
+    Move added{PathStrand(here_, move, axes_), move.mode, move.tolerance_mm, 0.0, line};
+    if (move.stop_at_end) {
+        added.mode = PathMode::exact_stop;
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        const double way = std::fabs(to_mm(Position{move.to[k].raw - here_[k].raw}));
+        added.rounding = std::fmax(added.rounding, rounding_ * std::fmax(way, added.strand.radius()));
+    }
+    moves_.push_back(std::move(added));
+    here_ = move.to;
+}
+
+// What the joint behind a move may be off.
+double PathDeviation::allowed_at_joint(std::uint64_t index) const noexcept {
+    const Move& before = of(index);
+    if (before.mode == PathMode::exact_stop || index + 1 >= oldest_ + moves_.size()) {
+        return 0.0;
+    }
+    const double both = std::fmin(before.tolerance, of(index + 1).tolerance);
+    return before.mode == PathMode::continuous && both > 0.0 ? both : joint_mm_;
+}
+
+double PathDeviation::allowed(std::uint64_t index) const noexcept {
+    const double start = index > oldest_ ? allowed_at_joint(index - 1) : 0.0;
+    const Move& move = of(index);
+    return std::fmax(start, allowed_at_joint(index)) + slack_mm + arc_error * move.strand.radius() + move.rounding;
+}
+
+PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, const AxisSet& set,
+                                               const Segment& among) const {
+    Found best;
+    double least_excess = 1e300;
+    for (std::uint64_t i = among.first; i <= among.last; ++i) {
+        const PathStrand& strand = of(i).strand;
+        const double permitted = allowed(i);
+        const double bound = strand.at_least(point, set);
+        if (bound >= best.distance && bound - permitted >= least_excess) {
+            continue;
+        }
+        const double distance = strand.distance(point, set);
+        if (distance < best.distance) {
+            best.distance = distance;
+            best.move = i;
+        }
+        if (distance - permitted < least_excess) {
+            least_excess = distance - permitted;
+            best.allowed = permitted;
+        }
+    }
+    best.allowed = best.distance - least_excess; // a move further away may forgive more
+    return best;
+}
+
+double PathDeviation::from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const {
+    double best = 1e300;
+    for (const Segment& segment : segments_) {
+        if (segment.first <= move && move <= segment.last && segment.strand.at_least(point, set) < best) {
+            best = std::fmin(best, segment.strand.distance(point, set));
+        }
+    }
+    return best;
+}
+
+void PathDeviation::found(unsigned set, const Found& found) {
+    const Place place{found.distance, found.move, of(found.move).line};
+    if (found.distance > largest_[set].distance) {
+        largest_[set] = place;
+    }
+    const double over = found.distance - found.allowed;
+    if (over > 0.0 && !(excess_ && excess_->place.distance - excess_->allowed >= over)) {
+        excess_ = Excess{place, found.allowed, set == 1};
+    }
+}
+
+void PathDeviation::measure_segment(const Segment& segment) {
+    const int parts = segment.strand.straight() ? 2 : segment.strand.parts();
+    for (unsigned s = 0; s < sets_.size(); ++s) {
+        if (sets_[s].count == 0) {
+            continue;
+        }
+        const auto at = [&](double t) {
+            return from_moves(segment.strand.at(t), sets_[s], segment);
+        };
+        int worst = 0;
+        Found largest{-1.0, 0.0, 0};
+        for (int i = 0; i <= parts; ++i) {
+            const Found here = at(i / static_cast<double>(parts));
+            found(s, here);
+            if (here.distance > largest.distance) {
+                largest = here;
+                worst = i;
+            }
+        }
+        if (largest.distance > slack_mm) {
+            const double t = argument_of_largest(std::max(worst - 1, 0) / static_cast<double>(parts),
+                                                 std::min(worst + 1, parts) / static_cast<double>(parts),
+                                                 [&](double u) { return at(u).distance; });
+            found(s, at(t));
+        }
+    }
+}
+
+void PathDeviation::measure_move(std::uint64_t index) {
+    const PathStrand& strand = of(index).strand;
+    const int parts = strand.straight() ? parts_of_line : strand.parts();
+    for (unsigned s = 0; s < sets_.size(); ++s) {
+        for (int i = index == 0 ? 0 : 1; i <= parts && sets_[s].count > 0; ++i) {
+            const double distance = from_segments(strand.at(i / static_cast<double>(parts)), sets_[s], index);
+            if (distance < 1e299) {
+                found(s, {distance, allowed(index), index});
+            }
+        }
+    }
+}
+
+// Moves that no later segment follows.
+void PathDeviation::measure_moves_before(std::uint64_t end) {
+    for (; measured_ < end && measured_ < oldest_ + moves_.size(); ++measured_) {
+        measure_move(measured_);
+        if (measured_ > oldest_) {
+            moves_.pop_front();
+            ++oldest_;
+        }
+    }
+    while (!segments_.empty() && segments_.front().last < measured_) {
+        segments_.pop_front();
+    }
+}
+
+template <Scalar S>
+void PathDeviation::segment(const CurveSegment<S>& segment) {
+    const Stopwatch stopwatch(spent_);
+    const std::uint64_t known = oldest_ + moves_.size();
+    if (known == 0) {
+        return;
+    }
+    const std::uint64_t index =
+        known - 1 - static_cast<std::uint32_t>(static_cast<std::uint32_t>(known - 1) - segment.waypoint);
+    measure_moves_before(last_segment_);
+    const std::uint64_t first = std::min(std::max(last_segment_, oldest_), index);
+    const int detail = static_cast<int>(std::min<std::uint64_t>(index - first, 256)) * parts_a_move;
+    segments_.push_back({PathStrand(segment, detail), first, std::min(index + 1, known - 1)});
+    last_segment_ = index;
+    measure_segment(segments_.back());
+}
+
+void PathDeviation::finish() {
+    const Stopwatch stopwatch(spent_);
+    measure_moves_before(oldest_ + moves_.size());
+}
+
+std::string describe(const PathDeviation::Excess& excess, const std::string& name) {
+    const char* const unit = excess.rotary ? "degrees" : "mm";
+    return fmt::format("the path is {:.9g} {} from {}; its tolerance allows {:.9g} {}", excess.place.distance, unit,
+                       name, excess.allowed, unit);
+}
+
+template void PathDeviation::segment(const CurveSegment<double>&);
+template void PathDeviation::segment(const CurveSegment<float>&);
+template void PathDeviation::segment(const CurveSegment<Fixed>&);
+
+} // namespace splinefeed::host

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// PathDeviation: how far a path is from the programmed moves, both ways: a second look that shares no code with the
+// stage that rounds corners and joins short moves.
+#pragma once
+
+#include "host_sim/analysis/path_strand.hpp"
+#include "host_sim/config/machine_description.hpp"
+
+#include <chrono>
+#include <deque>
+#include <string>
+
+namespace splinefeed::host {
+
+/// Takes moves and curve segments as they come, each in order; moves before the segments that follow them. Every point
+/// of a segment is compared with the moves from the end of the segment before it to the one behind its own, and every
+/// point of a move with the segments that may follow it. Linear axes are measured together [mm], and so are rotary axes
+/// [degrees]. The largest distance is found to 1e-6 of itself or better: at some places, and about the worst of them by
+/// a search. Memory: the moves that one segment spans, and the look-ahead. Cost: some microseconds a move.
+class PathDeviation {
+public:
+    /// What a move may be off beyond its tolerance: rounding, and arcs as polynomials. [mm, degrees]
+    static constexpr double slack_mm = 1e-6;
+
+    /// Where a distance was found.
+    struct Place {
+        double distance = 0.0;  ///< [mm, degrees]
+        std::uint64_t move = 0; ///< from 0
+        std::uint64_t line = 0; ///< of the move, as it was told
+    };
+    /// A distance that is too large.
+    struct Excess {
+        Place place;
+        double allowed = 0.0;
+        bool rotary = false;
+    };
+
+    /// @param joint_mm  tolerance of joints where the programmed path is exact
+    /// @param rounding  of the scalar, as a part of the largest coordinate of a move
+    PathDeviation(const MachineSettings& settings, double joint_mm, double rounding);
+
+    void start(const PerAxis<Position>& position);
+    void move(const PathElement<double>& move, std::uint64_t line);
+    /// @param segment  with the index of the move in `waypoint`, modulo 2^32, as the path delivers it
+    template <Scalar S>
+    void segment(const CurveSegment<S>& segment);
+    /// The path is complete: what is left of the moves is measured. Without this call moves that the path did not reach
+    /// are not.
+    void finish();
+
+    [[nodiscard]] const Place& linear() const noexcept { return largest_[0]; }
+    [[nodiscard]] const Place& rotary() const noexcept { return largest_[1]; }
+    [[nodiscard]] bool has_rotary() const noexcept { return sets_[1].count > 0; }
+    /// The worst one; nothing: every move kept its tolerance.
+    [[nodiscard]] const std::optional<Excess>& excess() const noexcept { return excess_; }
+    /// Time that the calls took.
+    [[nodiscard]] std::chrono::steady_clock::duration spent() const noexcept { return spent_; }
+
+private:
+    struct Move {
+        PathStrand strand;
+        PathMode mode = PathMode::continuous;
+        double tolerance = 0.0;
+        double rounding = 0.0;
+        std::uint64_t line = 0;
+    };
+    struct Segment {
+        PathStrand strand;
+        std::uint64_t first = 0; ///< moves that it may follow
+        std::uint64_t last = 0;
+    };
+    struct Found {
+        double distance = 1e300;
+        double allowed = 0.0; ///< of the move that forgives most
+        std::uint64_t move = 0;
+    };
+
+    [[nodiscard]] const Move& of(std::uint64_t index) const noexcept { return moves_[index - oldest_]; }
+    [[nodiscard]] double allowed_at_joint(std::uint64_t index) const noexcept;
+    [[nodiscard]] double allowed(std::uint64_t index) const noexcept;
+    [[nodiscard]] Found from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among) const;
+    [[nodiscard]] double from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const;
+    void measure_segment(const Segment& segment);
+    void measure_move(std::uint64_t index);
+    void measure_moves_before(std::uint64_t end);
+    void found(unsigned set, const Found& found);
+
+    int axes_;
+    double joint_mm_;
+    double rounding_;
+    std::array<AxisSet, 2> sets_{}; // linear, rotary
+    PerAxis<Position> here_{};
+    std::deque<Move> moves_;         // from oldest_
+    std::deque<Segment> segments_;   // those that the moves from measured_ may have
+    std::uint64_t oldest_ = 0;       // one before measured_
+    std::uint64_t measured_ = 0;     // moves before it have been measured
+    std::uint64_t last_segment_ = 0; // index of the move of the last segment
+    std::array<Place, 2> largest_{};
+    std::optional<Excess> excess_;
+    std::chrono::steady_clock::duration spent_{};
+};
+
+/// "the path is 0.02 mm from element 3; its tolerance is 0.01 mm"
+[[nodiscard]] std::string describe(const PathDeviation::Excess& excess, const std::string& name);
+
+} // namespace splinefeed::host

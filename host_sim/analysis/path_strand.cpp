@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/analysis/path_strand.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double chord_mm = 1.0 / 4096.0;
+static_assert(chord_unit_log2 == -12, "update chord_mm");
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr double part_of_arc = 0.1; // [rad]
+constexpr int most_parts = 4096;
+constexpr int parts_of_bezier = 24;
+constexpr int steps = 6; // of Gauss and Newton, each squares the error
+
+Vector3 linear(const PerAxis<Position>& place, int axes) {
+    Vector3 out{};
+    for (unsigned k = 0; k < 3 && k < static_cast<unsigned>(axes); ++k) {
+        out[k] = to_mm(place[k]);
+    }
+    return out;
+}
+
+} // namespace
+
+PathStrand::PathStrand(const PerAxis<Position>& from, const PathElement<double>& move, int axes) : axes_(axes) {
+    if (move.shape == MoveShape::bezier) {
+        degree_ = move.bezier.degree;
+        parts_ = parts_of_bezier;
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            for (unsigned i = 0; i <= static_cast<unsigned>(degree_); ++i) {
+                control_[k][i] = to_mm(from[k]) + move.bezier.points[k][i] * chord_mm;
+            }
+        }
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        control_[k][0] = to_mm(from[k]);
+        control_[k][static_cast<unsigned>(degree_)] = to_mm(move.to[k]);
+    }
+    if (move.shape == MoveShape::arc) {
+        arc_.emplace(linear(from, axes), linear(move.to, axes), linear(move.arc.centre, axes), move.arc.normal,
+                     move.arc.sweep_rad);
+        parts_ = std::clamp(static_cast<int>(std::fabs(arc_->angle()) / part_of_arc), 8, most_parts);
+    }
+    prepare();
+}
+
+template <Scalar S>
+PathStrand::PathStrand(const CurveSegment<S>& segment, int detail) : axes_(segment.axes), degree_(segment.degree) {
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (unsigned i = 0; i <= static_cast<unsigned>(degree_); ++i) {
+            control_[k][i] = segment.control_mm(static_cast<int>(k), static_cast<int>(i));
+        }
+    }
+    parts_ = degree_ == 1 ? 1 : std::min(parts_of_bezier + detail, most_parts);
+    prepare();
+}
+
+void PathStrand::prepare() {
+    if (!straight()) {
+        for (int i = 0; i <= parts_; ++i) {
+            places_.push_back(at(i / static_cast<double>(parts_)));
+        }
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        const auto* const first = control_[k].begin();
+        const auto [low, high] = std::minmax_element(first, first + degree_ + 1);
+        low_[k] = *low;
+        high_[k] = *high;
+        if (arc_ && k < 3) {
+            const double start = control_[k][0];
+            low_[k] = start - arc_->extent(k);
+            high_[k] = start + arc_->extent(k);
+        }
+    }
+}
+
+double PathStrand::radius() const noexcept {
+    return arc_ ? std::fmax(arc_->radius_from(), arc_->radius_to()) : 0.0;
+}
+
+PerAxis<double> PathStrand::at(double t) const noexcept {
+    PerAxis<double> out{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        PerDegree<double> row = control_[k];
+        for (int last = degree_; last > 0; --last) {
+            for (unsigned i = 0; i < static_cast<unsigned>(last); ++i) {
+                row[i] += t * (row[i + 1] - row[i]);
+            }
+        }
+        out[k] = row[0];
+    }
+    if (arc_) {
+        const CurveState state = arc_->at(t);
+        for (unsigned k = 0; k < 3 && k < static_cast<unsigned>(axes_); ++k) {
+            out[k] = state.point[k];
+        }
+    }
+    return out;
+}
+
+PerAxis<double> PathStrand::slope(double t) const noexcept {
+    PerAxis<double> out{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        PerDegree<double> row{};
+        for (unsigned i = 0; i < static_cast<unsigned>(degree_); ++i) {
+            row[i] = degree_ * (control_[k][i + 1] - control_[k][i]);
+        }
+        for (int last = degree_ - 1; last > 0; --last) {
+            for (unsigned i = 0; i < static_cast<unsigned>(last); ++i) {
+                row[i] += t * (row[i + 1] - row[i]);
+            }
+        }
+        out[k] = row[0];
+    }
+    if (arc_) {
+        const CurveState state = arc_->at(t);
+        for (unsigned k = 0; k < 3 && k < static_cast<unsigned>(axes_); ++k) {
+            out[k] = state.first[k];
+        }
+    }
+    return out;
+}
+
+double PathStrand::distance_sq(const PerAxis<double>& point, const AxisSet& set, double t) const noexcept {
+    const PerAxis<double> place = at(t);
+    double sum = 0.0;
+    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+        const double apart = place[set.axis[n]] - point[set.axis[n]];
+        sum += apart * apart;
+    }
+    return sum;
+}
+
+double PathStrand::at_least(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+    double sum = 0.0;
+    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+        const unsigned k = set.axis[n];
+        const double apart = std::fmax(0.0, std::fmax(low_[k] - point[k], point[k] - high_[k]));
+        sum += apart * apart;
+    }
+    return std::sqrt(sum);
+}
+
+double PathStrand::from_line(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+    double along = 0.0;
+    double length_sq = 0.0;
+    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+        const PerDegree<double>& c = control_[set.axis[n]];
+        const double way = c[static_cast<unsigned>(degree_)] - c[0];
+        along += (point[set.axis[n]] - c[0]) * way;
+        length_sq += way * way;
+    }
+    const double t = length_sq > 0.0 ? std::clamp(along / length_sq, 0.0, 1.0) : 0.0;
+    double sum = 0.0;
+    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+        const PerDegree<double>& c = control_[set.axis[n]];
+        const double apart = c[0] + t * (c[static_cast<unsigned>(degree_)] - c[0]) - point[set.axis[n]];
+        sum += apart * apart;
+    }
+    return std::sqrt(sum);
+}
+
+// The nearest of the places.
+PathStrand::Foot PathStrand::guess(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+    Foot best{0.0, 1e300};
+    for (int i = 0; i <= parts_; ++i) {
+        double sum = 0.0;
+        for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+            const double apart = places_[static_cast<unsigned>(i)][set.axis[n]] - point[set.axis[n]];
+            sum += apart * apart;
+        }
+        if (sum < best.distance_sq) {
+            best = {i / static_cast<double>(parts_), sum};
+        }
+    }
+    return best;
+}
+
+// The nearest of its ends and of the places in the direction of the point, in the turns that have about its height or
+// its radius.
+PathStrand::Foot PathStrand::guess_on_arc(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+    const Vector3 place{point[0], point[1], point[2]};
+    const ProgrammedArc::Cylindrical polar = arc_->polar(place);
+    const double turn = two_pi / std::fabs(arc_->angle());
+    const double first = std::fmod(std::fmod(polar.angle / arc_->angle(), turn) + turn, turn); // of the first turn
+    const double turns = std::clamp(std::round((polar.share - first) / turn), 0.0, 1.0 / turn);
+    Foot best{0.0, distance_sq(point, set, 0.0)};
+    for (const double t : {1.0, first + (turns - 1.0) * turn, first + turns * turn, first + (turns + 1.0) * turn}) {
+        if (t >= 0.0 && t <= 1.0) {
+            const double there = distance_sq(point, set, t);
+            best = there < best.distance_sq ? Foot{t, there} : best;
+        }
+    }
+    return best;
+}
+
+double PathStrand::distance(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+    const bool turns = arc_ && set.axis[0] < 3;
+    if (!turns && (degree_ == 1 || arc_)) {
+        return from_line(point, set);
+    }
+    Foot foot = turns ? guess_on_arc(point, set) : guess(point, set);
+    for (int step = 0; step < steps; ++step) {
+        const PerAxis<double> place = at(foot.t);
+        const PerAxis<double> along = slope(foot.t);
+        double way = 0.0;
+        double speed_sq = 0.0;
+        for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+            const unsigned k = set.axis[n];
+            way += (point[k] - place[k]) * along[k];
+            speed_sq += along[k] * along[k];
+        }
+        if (!(speed_sq > 0.0)) {
+            break;
+        }
+        const double t = std::clamp(foot.t + way / speed_sq, 0.0, 1.0);
+        const double there = distance_sq(point, set, t);
+        if (!(there < foot.distance_sq)) {
+            break;
+        }
+        foot = {t, there};
+    }
+    return std::sqrt(foot.distance_sq);
+}
+
+template PathStrand::PathStrand(const CurveSegment<double>&, int);
+template PathStrand::PathStrand(const CurveSegment<float>&, int);
+template PathStrand::PathStrand(const CurveSegment<Fixed>&, int);
+
+} // namespace splinefeed::host

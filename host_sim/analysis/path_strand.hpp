@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// PathStrand: a piece of a path in double - a programmed move or a Bezier segment - and the distance of a point from
+// it.
+#pragma once
+
+#include "host_sim/program/element_shapes.hpp"
+
+#include "splinefeed/s1_blended_path/path_element.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// Axes that are measured together: indices.
+struct AxisSet {
+    int count = 0;
+    std::array<unsigned, max_axes> axis{};
+};
+
+class PathStrand {
+public:
+    /// A programmed move from a place.
+    PathStrand(const PerAxis<Position>& from, const PathElement<double>& move, int axes);
+    /// @param detail  number of places per turn of the curve: more for a long segment through many moves
+    template <Scalar S>
+    PathStrand(const CurveSegment<S>& segment, int detail);
+
+    [[nodiscard]] bool straight() const noexcept { return !arc_ && degree_ == 1; }
+    /// The place at t, 0 to 1. [mm]
+    [[nodiscard]] PerAxis<double> at(double t) const noexcept;
+    /// Distance of the point from the strand, in some of the axes. [mm]
+    [[nodiscard]] double distance(const PerAxis<double>& point, const AxisSet& set) const noexcept;
+    /// A distance that the strand has at least.
+    [[nodiscard]] double at_least(const PerAxis<double>& point, const AxisSet& set) const noexcept;
+    /// How many parts of it are enough to look at.
+    [[nodiscard]] int parts() const noexcept { return parts_; }
+    /// The radius of an arc; 0: it is none.
+    [[nodiscard]] double radius() const noexcept;
+    [[nodiscard]] const std::optional<ProgrammedArc>& arc() const noexcept { return arc_; }
+
+private:
+    struct Foot {
+        double t = 0.0;
+        double distance_sq = 0.0;
+    };
+
+    void prepare();
+    [[nodiscard]] PerAxis<double> slope(double t) const noexcept;
+    [[nodiscard]] double distance_sq(const PerAxis<double>& point, const AxisSet& set, double t) const noexcept;
+    [[nodiscard]] Foot guess(const PerAxis<double>& point, const AxisSet& set) const noexcept;
+    [[nodiscard]] Foot guess_on_arc(const PerAxis<double>& point, const AxisSet& set) const noexcept;
+    [[nodiscard]] double from_line(const PerAxis<double>& point, const AxisSet& set) const noexcept;
+
+    int axes_ = 0;
+    int degree_ = 1;
+    int parts_ = 1;
+    PerAxis<PerDegree<double>> control_{}; // of a line or a Bezier segment; of an arc the axes behind the third
+    std::optional<ProgrammedArc> arc_;
+    std::vector<PerAxis<double>> places_; // at i / parts_
+    PerAxis<double> low_{};
+    PerAxis<double> high_{};
+};
+
+} // namespace splinefeed::host
