@@ -11,7 +11,8 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double arc_error = 9e-8; // of a quintic of 0.4 rad, as a part of the radius
+constexpr double arc_error = 9e-8;   // of a quintic of 0.4 rad, as a part of the radius
+constexpr double spiral_error = 0.1; // of the same, as a part of the growth of the radius for each radian
 constexpr int parts_of_line = 8;
 constexpr int parts_a_move = 6; // of a segment through several
 constexpr int searches = 24;    // of the golden section: 1e-5 of a part
@@ -62,10 +63,16 @@ void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
     if (move.stop_at_end) {
         added.mode = PathMode::exact_stop;
     }
+    if (const auto& arc = added.strand.arc()) {
+        added.rounding = arc_error * added.strand.radius() +
+                         spiral_error * std::fabs((arc->radius_to() - arc->radius_from()) / arc->angle());
+    }
+    double largest = added.strand.radius();
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
         const double way = std::fabs(to_mm(Position{move.to[k].raw - here_[k].raw}));
-        added.rounding = std::fmax(added.rounding, rounding_ * std::fmax(way, added.strand.radius()));
+        largest = std::fmax(largest, way);
     }
+    added.rounding += rounding_ * largest;
     moves_.push_back(std::move(added));
     here_ = move.to;
 }
@@ -83,7 +90,7 @@ double PathDeviation::allowed_at_joint(std::uint64_t index) const noexcept {
 double PathDeviation::allowed(std::uint64_t index) const noexcept {
     const double start = index > oldest_ ? allowed_at_joint(index - 1) : 0.0;
     const Move& move = of(index);
-    return std::fmax(start, allowed_at_joint(index)) + slack_mm + arc_error * move.strand.radius() + move.rounding;
+    return std::fmax(start, allowed_at_joint(index)) + slack_mm + move.rounding;
 }
 
 PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, const AxisSet& set,

@@ -19,7 +19,7 @@ namespace splinefeed::host {
 /// a search. Memory: the moves that one segment spans, and the look-ahead. Cost: some microseconds a move.
 class PathDeviation {
 public:
-    /// What a move may be off beyond its tolerance: rounding, and arcs as polynomials. [mm, degrees]
+    /// What a move may be off beyond its tolerance, rounding of the scalar and arcs as polynomials aside. [mm, degrees]
     static constexpr double slack_mm = 1e-6;
 
     /// Where a distance was found.
@@ -61,7 +61,7 @@ private:
         PathStrand strand;
         PathMode mode = PathMode::continuous;
         double tolerance = 0.0;
-        double rounding = 0.0;
+        double rounding = 0.0; ///< and what polynomials are off an arc
         std::uint64_t line = 0;
     };
     struct Segment {

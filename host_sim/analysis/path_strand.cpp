@@ -188,7 +188,7 @@ PathStrand::Foot PathStrand::guess_on_arc(const PerAxis<double>& point, const Ax
     const ProgrammedArc::Cylindrical polar = arc_->polar(place);
     const double turn = two_pi / std::fabs(arc_->angle());
     const double first = std::fmod(std::fmod(polar.angle / arc_->angle(), turn) + turn, turn); // of the first turn
-    const double turns = std::clamp(std::round((polar.share - first) / turn), 0.0, 1.0 / turn);
+    const double turns = std::clamp(std::round((polar.share - first) / turn), 0.0, std::floor(1.0 / turn));
     Foot best{0.0, distance_sq(point, set, 0.0)};
     for (const double t : {1.0, first + (turns - 1.0) * turn, first + turns * turn, first + (turns + 1.0) * turn}) {
         if (t >= 0.0 && t <= 1.0) {

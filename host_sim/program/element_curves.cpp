@@ -19,7 +19,7 @@ constexpr double still_mm = 1e-9;
 constexpr double arc_mismatch_mm = 0.01; // of a rounded angle; the end of the element is what counts
 constexpr double least_radius_mm = 2e-4;
 constexpr double end_gap_mm = 1e-6;
-constexpr double core_radius_change = 1.0 / 32.0; // twice as much is what the core takes
+constexpr double core_radius_change_mm = 0.002; // of the core's arcs: what rounding to 3 decimals makes
 constexpr double chord_units_per_mm = 4096.0;
 static_assert(chord_unit_log2 == -12, "update chord_units_per_mm");
 constexpr double arc_step = 0.4; // [rad]
@@ -131,14 +131,18 @@ void ElementCurves::add_arc(const ElementProgram::Move& move, const AxisPoint& t
         refuse(fmt::format("\"angle\" {:.9g} ends {:.3g} mm from \"to\"; to end there it would be {:.9g}", angle,
                            arc.mismatch(), arc.angle()));
     }
-    if (std::fabs(arc.angle()) * smaller < least_radius_mm) {
+    if (angle == 0.0) {
         refuse("\"angle\" is 0: an arc must turn; a full circle has 6.283185307");
+    }
+    if (std::fabs(arc.angle()) * smaller < least_radius_mm) { // no further from its chord than rounding is
+        add_line(move, to);
+        return;
     }
     for (std::size_t j = 0; j < 3; ++j) {
         require_still(j, index_[j] < 0 && arc.extent(j) > end_gap_mm ? arc.extent(j) : 0.0);
     }
     const double change = std::fabs(arc.radius_to() - arc.radius_from());
-    if (takes_arcs_ && change <= core_radius_change * smaller) {
+    if (takes_arcs_ && change <= std::fmin(core_radius_change_mm, 0.03 * smaller)) {
         ElementProgram::Move turn = move;
         turn.to = position(to);
         ArcShape<double> shape;

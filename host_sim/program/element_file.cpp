@@ -103,7 +103,8 @@ private:
 
     static std::uint32_t line_number(const json& element) {
         const auto line = element.find("line_number");
-        return line != element.end() && line->is_number_unsigned() && line->get<std::uint64_t>() < (1U << 31U)
+        return line != element.end() && line->is_number_integer() && line->get<std::int64_t>() > 0 &&
+                       line->get<std::int64_t>() < (std::int64_t{1} << 31U)
                    ? line->get<std::uint32_t>()
                    : 0;
     }
@@ -219,8 +220,8 @@ private:
             const json& stop = (*list)[i];
             const std::string what = fmt::format("\"{}\", number {}", key, i + 1);
             const auto place = stop.is_object() ? stop.find("after_element") : stop.end();
-            if (!stop.is_object() || place == stop.end() || !place->is_number_unsigned() ||
-                place->get<std::uint64_t>() > program_.elements()) {
+            if (!stop.is_object() || place == stop.end() || !place->is_number_integer() ||
+                place->get<std::int64_t>() < 0 || place->get<std::uint64_t>() > program_.elements()) {
                 refuse(fmt::format("{} must have \"after_element\": how many elements come before it, 0 to {}", what,
                                    program_.elements()));
             }

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/analysis/path_deviation.hpp"
+
+#include "host_sim/program/element_file.hpp"
+#include "host_sim/program/input_format.hpp"
+#include "random_elements.hpp"
+#include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "support/catch.hpp"
+#include "support/rounds.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+MachineSettings machine_of(int axes, int linear) {
+    MachineSettings machine;
+    machine.axes = axes;
+    for (int k = linear; k < axes; ++k) {
+        machine.axis[static_cast<unsigned>(k)].rotary = true;
+    }
+    return machine;
+}
+
+PathElement<double> line_to(double x, double y, double tolerance) {
+    PathElement<double> out;
+    out.to = {position_from_mm(x), position_from_mm(y)};
+    out.tolerance_mm = tolerance;
+    return out;
+}
+
+/// A Bezier segment between places, offsets from its first point.
+CurveSegment<double> segment_of(const std::vector<std::array<double, 2>>& points, std::uint32_t waypoint) {
+    CurveSegment<double> out;
+    out.axes = 2;
+    out.degree = static_cast<int>(points.size()) - 1;
+    out.waypoint = waypoint;
+    PerAxis<PerDegree<double>> offsets{};
+    for (unsigned k = 0; k < 2; ++k) {
+        out.origin[k] = position_from_mm(points.front()[k]);
+        out.end[k] = position_from_mm(points.back()[k]);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            offsets[k][static_cast<unsigned>(i)] = (points[i][k] - points[0][k]) * 4096.0;
+        }
+    }
+    out.assign(offsets);
+    return out;
+}
+
+template <Scalar S>
+PathElement<S> element_as(const PathElement<double>& e) {
+    PathElement<S> out;
+    out.shape = e.shape;
+    out.mode = e.mode;
+    out.stop_at_end = e.stop_at_end;
+    out.to = e.to;
+    out.arc.centre = e.arc.centre;
+    for (unsigned k = 0; k < 3; ++k) {
+        out.arc.normal[k] = from_double<S>(e.arc.normal[k]);
+    }
+    out.arc.sweep_rad = from_double<S>(e.arc.sweep_rad);
+    out.bezier.degree = e.bezier.degree;
+    for (unsigned k = 0; k < max_axes; ++k) {
+        for (unsigned i = 0; i <= static_cast<unsigned>(max_degree); ++i) {
+            out.bezier.points[k][i] = from_double<S>(e.bezier.points[k][i]);
+        }
+    }
+    out.tolerance_mm = from_double<S>(e.tolerance_mm);
+    return out;
+}
+
+template <Scalar S>
+void require_kept(const ElementProgram& program, int axes, double joint_mm) {
+    TolerancePath<S> path(axes, from_double<S>(joint_mm));
+    PathDeviation deviation(machine_of(axes, std::min(axes, 3)), joint_mm, std::same_as<S, float> ? 1e-6 : 0.0);
+    REQUIRE(path.start(program.start()).ok());
+    deviation.start(program.start());
+    CurveSegment<S> segment;
+    std::size_t pushed = 0;
+    for (Pull pull = Pull::starved; pull != Pull::finished;) {
+        pull = path.next(segment);
+        if (pull == Pull::item) {
+            deviation.segment(segment);
+        } else if (pull == Pull::starved && pushed < program.moves()) {
+            const PathElement<double> move = program.element(pushed);
+            CAPTURE(pushed);
+            const Status status = path.push(element_as<S>(move));
+            CAPTURE(describe(status.error()));
+            CHECK(status.ok());
+            deviation.move(move, 0);
+            ++pushed;
+        } else if (pull == Pull::starved) {
+            static_cast<void>(path.finish());
+        }
+    }
+    deviation.finish();
+    if (const auto& excess = deviation.excess()) {
+        const std::uint32_t element = program.element_of(excess->place.move);
+        FAIL_CHECK(describe(*excess, element_name(element, 0))
+                   << ", move " << excess->place.move << ", axes " << axes << ", " << typeid(S).name());
+    }
+}
+
+} // namespace
+
+TEST_CASE("the distance of a cut corner is found on both sides") {
+    // The bisector cut off: 1 mm from the corner along both lines, so 0.707 mm from the vertex, and inside by 0.5 mm
+    // at most.
+    for (const double tolerance : {0.70, 0.71}) {
+        PathDeviation deviation(machine_of(2, 2), 0.0, 0.0);
+        deviation.start({});
+        deviation.move(line_to(10, 0, tolerance), 3);
+        deviation.move(line_to(10, 10, tolerance), 4);
+        deviation.segment(segment_of({{0, 0}, {9, 0}}, 0));
+        deviation.segment(segment_of({{9, 0}, {10, 1}}, 0));
+        deviation.segment(segment_of({{10, 1}, {10, 10}}, 1));
+        deviation.finish();
+        CHECK(deviation.linear().distance == Approx(std::sqrt(0.5)));
+        CHECK(deviation.linear().move == 0);
+        CHECK(deviation.linear().line == 3);
+        CHECK(deviation.excess().has_value() == (tolerance < 0.705));
+        CHECK_FALSE(deviation.has_rotary());
+    }
+}
+
+TEST_CASE("a path that leaves the moves, skips one or stays short of the end is noticed") {
+    const auto excess = [](const std::vector<CurveSegment<double>>& segments) {
+        PathDeviation deviation(machine_of(2, 2), 0.0, 0.0);
+        deviation.start({});
+        for (const auto& [x, y] : {std::pair{10.0, 0.0}, std::pair{10.0, 5.0}, std::pair{0.0, 5.0}}) {
+            deviation.move(line_to(x, y, 0.01), 0);
+        }
+        for (const CurveSegment<double>& segment : segments) {
+            deviation.segment(segment);
+        }
+        deviation.finish();
+        return deviation.excess() ? deviation.excess()->place.distance : 0.0;
+    };
+    const auto first = segment_of({{0, 0}, {10, 0}}, 0);
+    const auto second = segment_of({{10, 0}, {10, 5}}, 1);
+    const auto third = segment_of({{10, 5}, {0, 5}}, 2);
+    CHECK(excess({first, second, third}) == 0.0);
+    CHECK(excess({first, segment_of({{10, 0}, {10.03, 2.5}, {10, 5}}, 1), third}) == Approx(0.015));
+    CHECK(excess({first, second, segment_of({{10, 5}, {0.5, 5}}, 2)}) == Approx(0.5));
+    CHECK(excess({first, segment_of({{10, 0}, {0, 5}}, 2)}) > 4.0);
+    CHECK(excess({first, second, segment_of({{10, 5}, {5, 5.011}, {0, 5}}, 2)}) == 0.0);
+    CHECK(excess({first, second, segment_of({{10, 5}, {5, 5.021}, {0, 5}}, 2)}) == Approx(0.0105));
+}
+
+TEST_CASE("the tolerance of a joint is the smaller one of its moves, and none where the machine stops") {
+    const auto kept = [](double before, double after, PathMode mode, double joint) {
+        PathDeviation deviation(machine_of(2, 2), joint, 0.0);
+        deviation.start({});
+        PathElement<double> first = line_to(10, 0, before);
+        first.mode = mode;
+        deviation.move(first, 0);
+        deviation.move(line_to(10, 10, after), 0);
+        deviation.segment(segment_of({{0, 0}, {9.9, 0}}, 0));
+        deviation.segment(segment_of({{9.9, 0}, {10, 0}, {10, 0}, {10, 0.1}}, 0)); // 0.0177 mm
+        deviation.segment(segment_of({{10, 0.1}, {10, 10}}, 1));
+        deviation.finish();
+        return !deviation.excess();
+    };
+    CHECK(kept(0.02, 0.02, PathMode::continuous, 0.0));
+    CHECK_FALSE(kept(0.02, 0.01, PathMode::continuous, 0.0));
+    CHECK_FALSE(kept(0.01, 0.02, PathMode::continuous, 0.0));
+    CHECK_FALSE(kept(0.02, 0.02, PathMode::exact_stop, 0.02));
+    CHECK_FALSE(kept(0.02, 0.02, PathMode::exact_path, 0.01));
+    CHECK(kept(0.02, 0.02, PathMode::exact_path, 0.02));
+    CHECK(kept(0.0, 0.02, PathMode::continuous, 0.02));
+}
+
+TEST_CASE("rotary axes are measured by themselves, in degrees") {
+    PathDeviation deviation(machine_of(2, 1), 0.0, 0.0);
+    deviation.start({});
+    deviation.move(line_to(10, 0, 0.1), 0);
+    deviation.move(line_to(10, 90, 0.1), 0);
+    deviation.segment(segment_of({{0, 0}, {9, 0}}, 0));
+    deviation.segment(segment_of({{9, 0}, {10, 1}}, 0));
+    deviation.segment(segment_of({{10, 1}, {10, 90}}, 1));
+    deviation.finish();
+    CHECK(deviation.has_rotary());
+    CHECK(deviation.linear().distance < 1e-9); // x alone passes every place of the moves, and so does y
+    CHECK(deviation.rotary().distance < 1e-9);
+    PathDeviation other(machine_of(2, 1), 0.0, 0.0);
+    other.start({});
+    other.move(line_to(10, 0, 0.1), 0);
+    other.segment(segment_of({{0, 0}, {5, 0.4}, {10, 0}}, 0));
+    other.finish();
+    CHECK(other.rotary().distance == Approx(0.2));
+    REQUIRE(other.excess());
+    CHECK(other.excess()->rotary);
+    CHECK(describe(*other.excess(), "element 1") ==
+          "the path is 0.2 degrees from element 1; its tolerance allows 1e-06 degrees");
+}
+
+TEST_CASE("arcs of many turns, and long segments, are measured where they are") {
+    PathElement<double> helix;
+    helix.shape = MoveShape::arc;
+    helix.to = {position_from_mm(10.0), position_from_mm(0.0), position_from_mm(30.0)};
+    helix.arc.normal = {0.0, 0.0, 1.0};
+    helix.arc.sweep_rad = 200.0 * std::numbers::pi;
+    const PathStrand strand({position_from_mm(10.0)}, helix, 3);
+    const AxisSet all{3, {0, 1, 2}};
+    for (const double turns : {0.0, 0.25, 17.5, 99.9}) {
+        const double angle = turns * 2.0 * std::numbers::pi;
+        const auto at = [&](double radius) {
+            return PerAxis<double>{radius * std::cos(angle), radius * std::sin(angle), 0.3 * turns};
+        };
+        CHECK(strand.distance(at(10.0), all) < 1e-9);
+        CHECK(strand.distance(at(10.1), all) == Approx(0.1).epsilon(1e-3));
+        CHECK(strand.distance(at(9.9), all) == Approx(0.1).epsilon(1e-3));
+    }
+    CHECK(strand.distance({0.0, 0.0, 40.0}, all) == Approx(std::hypot(10.0, 10.0)).epsilon(0.01));
+}
+
+TEST_CASE("random programs keep their tolerances in every scalar") {
+    const int count = splinefeed_test::rounds(300);
+    for (int round = 0; round < count; ++round) {
+        const std::uint64_t seed = 1000 + static_cast<std::uint64_t>(round);
+        CAPTURE(seed);
+        splinefeed_test::RandomElements random(seed);
+        const int axes = 3 + random.random().below(4);
+        const nlohmann::json document = random.document(2 + random.random().below(30), axes);
+        const std::vector<std::string> names(every_axis.begin(), every_axis.begin() + axes);
+        const ElementProgram program = read_elements(document, "e.json", names, {});
+        const double joint = random.random().below(2) == 0 ? 0.0 : 0.001;
+        require_kept<double>(program, axes, joint);
+        require_kept<Fixed>(program, axes, joint);
+        require_kept<float>(program, axes, joint);
+    }
+}
