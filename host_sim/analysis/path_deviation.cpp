@@ -194,6 +194,16 @@ void PathDeviation::measure_moves_before(std::uint64_t end) {
     }
 }
 
+// The last segment reaches into the moves up to `last` at most.
+void PathDeviation::accept(std::uint64_t last) {
+    if (pending_) {
+        pending_->last = last;
+        segments_.push_back(std::move(*pending_));
+        pending_.reset();
+        measure_segment(segments_.back());
+    }
+}
+
 template <Scalar S>
 void PathDeviation::segment(const CurveSegment<S>& segment) {
     const Stopwatch stopwatch(spent_);
@@ -201,18 +211,22 @@ void PathDeviation::segment(const CurveSegment<S>& segment) {
     if (known == 0) {
         return;
     }
-    const std::uint64_t index =
-        known - 1 - static_cast<std::uint32_t>(static_cast<std::uint32_t>(known - 1) - segment.waypoint);
-    measure_moves_before(last_segment_);
-    const std::uint64_t first = std::min(std::max(last_segment_, oldest_), index);
+    const auto back = static_cast<std::uint32_t>(static_cast<std::uint32_t>(known - 1) - segment.waypoint);
+    const std::uint64_t index = known - 1 - back;
+    accept(std::max(index, run_));
+    if (index != run_) {
+        measure_moves_before(run_);
+        run_before_ = std::max(run_, oldest_);
+        run_ = index;
+    }
+    const std::uint64_t first = std::min(run_before_, index);
     const int detail = static_cast<int>(std::min<std::uint64_t>(index - first, 256)) * parts_a_move;
-    segments_.push_back({PathStrand(segment, detail), first, std::min(index + 1, known - 1)});
-    last_segment_ = index;
-    measure_segment(segments_.back());
+    pending_.emplace(Segment{PathStrand(segment, detail), first, index});
 }
 
 void PathDeviation::finish() {
     const Stopwatch stopwatch(spent_);
+    accept(oldest_ + moves_.size() - 1);
     measure_moves_before(oldest_ + moves_.size());
 }
 

@@ -90,9 +90,8 @@ void write_sentences(Lines out, const Summary& summary) {
         fmt::format_to(out,
                        "The waypoints are control points: the curve is drawn towards them and need not pass them.\n");
     }
-    if (summary.tolerance && !summary.tolerance->kept) {
-        fmt::format_to(out, "The path is further from {} than its tolerance allows.\n",
-                       summary.tolerance->deviation.name);
+    if (summary.tolerance && !summary.tolerance->excess.empty()) {
+        fmt::format_to(out, "The tolerance was not kept: {}.\n", summary.tolerance->excess);
     }
     for (const Summary::AxisUse& use : summary.limit_use) {
         write_use_sentence(out, use.axis, "velocity", use.velocity);
@@ -144,7 +143,7 @@ nlohmann::ordered_json place_json(const ToleranceSummary::Place& place) {
 
 nlohmann::ordered_json tolerance_json(const ToleranceSummary& tolerance) {
     nlohmann::ordered_json json;
-    json["kept"] = tolerance.kept;
+    json["kept"] = tolerance.excess.empty();
     json["deviation_mm"] = place_json(tolerance.deviation);
     if (tolerance.rotary_deviation) {
         json["deviation_deg"] = place_json(*tolerance.rotary_deviation);

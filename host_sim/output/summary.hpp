@@ -23,7 +23,7 @@ struct ToleranceSummary {
     };
     Place deviation;                       ///< largest distance between the path and the elements, both ways
     std::optional<Place> rotary_deviation; ///< nothing: the machine has no rotary axis
-    bool kept = true;                      ///< whether every element kept its tolerance
+    std::string excess;                    ///< the worst place where a tolerance was not kept; empty: all were
     std::uint64_t blended = 0;             ///< joints that were rounded
     std::uint64_t stopped = 0;             ///< joints where the machine stops, with the end
     std::uint64_t through = 0;             ///< joints without a corner

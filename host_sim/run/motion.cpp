@@ -265,10 +265,16 @@ void Motion<S>::require_tolerance() {
     if (trajectory_.state() == Pull::finished && stopped_.empty()) {
         deviation_.finish();
     }
-    if (enforce_ && stopped_.empty() && deviation_.excess()) {
-        const PathDeviation::Place& place = deviation_.excess()->place;
-        stopped_ = describe(*deviation_.excess(), feeder_.name_of_move(place.move, place.line));
+    if (enforce_ && stopped_.empty()) {
+        stopped_ = excess();
     }
+}
+
+// Where the path is too far from its moves; empty: nowhere.
+template <Scalar S>
+std::string Motion<S>::excess() const {
+    const auto& excess = deviation_.excess();
+    return excess ? describe(*excess, feeder_.name_of_move(excess->place.move, excess->place.line)) : std::string();
 }
 
 template <Scalar S>
@@ -282,7 +288,7 @@ ToleranceSummary Motion<S>::tolerance_summary() const {
     if (deviation_.has_rotary()) {
         out.rotary_deviation = place(deviation_.rotary());
     }
-    out.kept = !deviation_.excess();
+    out.excess = excess();
     const PathCounts counts = feeder_.tolerance_path()->counts();
     out.blended = counts.joints.blended;
     out.stopped = counts.joints.stopped;

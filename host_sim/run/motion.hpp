@@ -72,6 +72,7 @@ private:
     void keep_failure(const std::exception_ptr& failure);
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
     void require_tolerance();
+    [[nodiscard]] std::string excess() const;
     [[nodiscard]] ToleranceSummary tolerance_summary() const;
     [[nodiscard]] std::string where() const;
 
