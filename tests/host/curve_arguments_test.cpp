@@ -57,6 +57,25 @@ TEST_CASE("Curve options are read") {
     CHECK(first_option({}).empty());
 }
 
+TEST_CASE("A tolerance goes with polylines") {
+    CurveArguments arguments;
+    arguments.tolerance = "0.05";
+    CHECK(refusal(arguments) ==
+          "--curve g2 has no option --tolerance; it goes with --curve polyline, or with a file of "
+          "elements (.json)");
+    CHECK(first_option(arguments).empty()); // a file of elements takes it, too
+    arguments.method = "polyline";
+    CHECK(choose_curve(arguments).tolerance_mm == 0.05);
+    arguments.closed = true;
+    CHECK(refusal(arguments).find("--tolerance and --closed exclude each other") == 0);
+    arguments.tolerance = "0";
+    CHECK(choose_curve(arguments).tolerance_mm == 0.0);
+    for (const char* wrong : {"-1", "101", "wide"}) {
+        arguments.tolerance = wrong;
+        CHECK(refusal(arguments).find("--tolerance") == 0);
+    }
+}
+
 TEST_CASE("A wrong curve option is refused in one line") {
     const auto g2 = [](auto set) {
         CurveArguments arguments;

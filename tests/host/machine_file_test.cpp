@@ -220,3 +220,21 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         CHECK(told.find('\n') == std::string::npos);
     }
 }
+
+TEST_CASE("Tolerances of the path have defaults and ranges") {
+    const PathTolerances usual = parse_machine(good, "m.toml").tolerances;
+    CHECK(usual.joint_mm == 0.001);
+    CHECK(usual.programmed_mm == 0.01);
+    CHECK(usual.rapid_mm == 0.1);
+    const PathTolerances stated = parse_machine(with("[path]", "[path]\njoint_tolerance_mm = 0\n"
+                                                               "default_tolerance_mm = 0.02\nrapid_tolerance_mm = 1"),
+                                                "m.toml")
+                                      .tolerances;
+    CHECK(stated.joint_mm == 0.0);
+    CHECK(stated.programmed_mm == 0.02);
+    CHECK(stated.rapid_mm == 1.0);
+    CHECK(refusal(with("[path]", "[path]\njoint_tolerance_mm = 2")) ==
+          "m.toml:4: joint_tolerance_mm is 2; it must lie between 0 and 1 mm");
+    CHECK(refusal(with("[path]", "[path]\nrapid_tolerance = 2")).find("did you mean 'rapid_tolerance_mm'?") !=
+          std::string::npos);
+}

@@ -160,3 +160,36 @@ TEST_CASE("of inputs that never rest the last changes are kept, and the others c
     CHECK(contains(to_text(gpio), "3 older changes of inputs are left out.\n"));
     CHECK(nlohmann::json(to_json(gpio))["changes_left_out"] == 3);
 }
+
+TEST_CASE("a path within a tolerance says how near it is, and what became of the elements") {
+    Summary summary = sample();
+    CHECK_FALSE(nlohmann::json::parse(to_json(summary)).contains("tolerance"));
+    ToleranceSummary tolerance;
+    tolerance.deviation = {0.01, 3, 12, "element 3 (line 12)"};
+    tolerance.blended = 5;
+    tolerance.stopped = 2;
+    tolerance.through = 1;
+    tolerance.chains = 4;
+    tolerance.elements = 100;
+    tolerance.pieces = 20;
+    tolerance.exact_stop_s = 24.0;
+    summary.tolerance = tolerance;
+    const auto json = nlohmann::ordered_json::parse(to_json(summary))["tolerance"];
+    CHECK(json ==
+          nlohmann::ordered_json::parse(R"({"kept": true, "deviation_mm": {"distance": 0.01, "at": 3, "line": 12},
+        "blended": 5, "stopped": 2, "through": 1, "chains": 4, "elements": 100, "pieces": 20, "exact_stop_time_s": 24.0})"));
+    const std::string text = to_text(summary);
+    CHECK(contains(text, "0.01 mm at most, at element 3 (line 12)"));
+    CHECK(contains(text, "5 rounded, 2 with a stop, 1 straight on; chains 4"));
+    CHECK(contains(text, "100 to 20 pieces"));
+    CHECK(contains(text, "24.000 s (estimated; this run takes 48.6 % less)"));
+    CHECK_FALSE(contains(text, "not kept"));
+    summary.tolerance->rotary_deviation = ToleranceSummary::Place{0.5, 4, 0, "element 4"};
+    summary.tolerance->excess = "the path is 0.5 degrees from element 4";
+    CHECK(contains(to_text(summary), "rotary deviation"));
+    CHECK(contains(to_text(summary), "The tolerance was not kept: the path is 0.5 degrees from element 4."));
+    const auto broken = nlohmann::json::parse(to_json(summary))["tolerance"];
+    CHECK(broken["kept"] == false);
+    CHECK(broken["deviation_deg"]["distance"] == 0.5);
+    CHECK(broken["deviation_deg"]["line"].is_null());
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Any bytes as an element file: a path that chains, in each scalar, and keeps its tolerance, or one line that says what
+// is wrong.
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/json_text.hpp"
+#include "host_sim/program/element_file.hpp"
+
+#include "splinefeed/s1_blended_path/tolerance_path.hpp"
+
+#include <cstdlib>
+#include <string_view>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+constexpr int axes = 4;
+
+template <Scalar S>
+PathElement<S> element_in(const PathElement<double>& element) {
+    PathElement<S> out;
+    out.shape = element.shape;
+    out.mode = element.mode;
+    out.stop_at_end = element.stop_at_end;
+    out.to = element.to;
+    out.arc.centre = element.arc.centre;
+    for (unsigned k = 0; k < 3; ++k) {
+        out.arc.normal[k] = from_double<S>(element.arc.normal[k]);
+    }
+    out.arc.sweep_rad = from_double<S>(element.arc.sweep_rad);
+    out.bezier.degree = element.bezier.degree;
+    for (unsigned k = 0; k < max_axes; ++k) {
+        for (unsigned i = 0; i <= static_cast<unsigned>(max_degree); ++i) {
+            out.bezier.points[k][i] = from_double<S>(element.bezier.points[k][i]);
+        }
+    }
+    out.tolerance_mm = from_double<S>(element.tolerance_mm);
+    return out;
+}
+
+template <Scalar S>
+void require_chain(const ElementProgram& program) {
+    constexpr std::size_t most_segments = 100'000; // of arcs with many turns
+    TolerancePath<S> path(axes, from_double<S>(0.001));
+    if (!path.start(program.start()).ok()) {
+        std::abort();
+    }
+    PerAxis<Position> here = program.start();
+    CurveSegment<S> segment;
+    std::size_t pushed = 0;
+    std::size_t segments = 0;
+    bool ended = false;
+    for (Pull pull = Pull::starved; pull != Pull::finished && segments < most_segments;) {
+        pull = path.next(segment);
+        if (pull == Pull::item) {
+            for (unsigned k = 0; k < axes; ++k) {
+                if (segment.degree == 1 && segment.origin[k] != here[k]) {
+                    std::abort();
+                }
+            }
+            here = segment.end;
+            ++segments;
+        } else if (pull == Pull::starved) {
+            if (ended) {
+                std::abort();
+            }
+            ended = pushed == program.moves() || !path.push(element_in<S>(program.element(pushed++))).ok();
+            if (ended) {
+                static_cast<void>(path.finish());
+            }
+        }
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        const nlohmann::json document = parse_json({reinterpret_cast<const char*>(data), size}, "fuzz.json");
+        if (!has_elements(document)) {
+            return 0;
+        }
+        const std::vector<std::string> names =
+            size % 3 == 0 ? std::vector<std::string>{"x", "y", "z", "a"} : std::vector<std::string>{"y", "x", "a", "z"};
+        const ElementProgram program = read_elements(document, "fuzz.json", names, {});
+        require_chain<double>(program);
+        require_chain<float>(program);
+        require_chain<Fixed>(program);
+    } catch (const InputError& error) {
+        if (std::string_view(error.what()).find('\n') != std::string_view::npos) {
+            std::abort();
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/analysis/exact_stop_time.hpp"
+
+#include "support/catch.hpp"
+
+#include <cmath>
+#include <numbers>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+/// The same by integration: the acceleration of half a move, symmetrical in its middle.
+double integrated_s(double length, double speed, double acceleration, double jerk) {
+    const auto reached = [&](double v, double& way) {
+        const double ramp = v > acceleration * acceleration / jerk ? acceleration / jerk : std::sqrt(v / jerk);
+        const double hold = (v - jerk * ramp * ramp) / (jerk * ramp);
+        const double seconds = 2.0 * ramp + hold;
+        constexpr int steps = 20000;
+        way = 0.0;
+        double now = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            const double t = (i + 0.5) * seconds / steps;
+            const double a = jerk * std::fmin(std::fmin(t, seconds - t), ramp);
+            way += (now + 0.5 * a * seconds / steps) * seconds / steps;
+            now += a * seconds / steps;
+        }
+        return seconds;
+    };
+    double way = 0.0;
+    if (const double seconds = reached(speed, way); 2.0 * way <= length) {
+        return 2.0 * seconds + (length - 2.0 * way) / speed;
+    }
+    double low = 0.0;
+    double high = speed;
+    double seconds = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        seconds = reached(middle, way);
+        (2.0 * way < length ? low : high) = middle;
+    }
+    return 2.0 * seconds;
+}
+
+} // namespace
+
+TEST_CASE("a move from rest to rest takes what its integration says") {
+    for (const double length : {1e-4, 0.01, 0.3, 1.0, 5.0, 40.0, 500.0}) {
+        CAPTURE(length);
+        CHECK(rest_to_rest_s(length, 100.0, 1000.0, 30000.0) ==
+              Approx(integrated_s(length, 100.0, 1000.0, 30000.0)).epsilon(1e-4));
+        CHECK(rest_to_rest_s(length, 10.0, 1000.0, 30000.0) ==
+              Approx(integrated_s(length, 10.0, 1000.0, 30000.0)).epsilon(1e-4));
+    }
+    CHECK(rest_to_rest_s(100.0, 100.0, 1000.0, 0.0) == Approx(1.1));
+    CHECK(rest_to_rest_s(2.5, 100.0, 1000.0, 0.0) == Approx(0.1));
+    CHECK(rest_to_rest_s(0.0, 100.0, 1000.0, 0.0) == 0.0);
+}
+
+TEST_CASE("a program with exact stops is the sum of its moves") {
+    MachineSettings machine;
+    machine.axes = 2;
+    machine.max_feed_mm_s = 100.0;
+    ExactStopTime time(machine);
+    time.start({});
+    PathElement<double> move;
+    move.to = {position_from_mm(100.0)};
+    time.move(move);
+    CHECK(time.seconds() == Approx(1.1));
+    move.to = {position_from_mm(200.0), position_from_mm(100.0)}; // at the feed, with more acceleration
+    time.move(move);
+    CHECK(time.seconds() == Approx(1.1 + std::sqrt(2.0) + 0.1 / std::sqrt(2.0)));
+    move.feed_mm_s = 50.0;
+    move.to = {position_from_mm(200.0)};
+    time.move(move);
+    const double before = time.seconds();
+    PathElement<double> arc;
+    arc.shape = MoveShape::arc;
+    arc.to = {position_from_mm(200.0)};
+    arc.arc.centre = {position_from_mm(190.0)};
+    arc.arc.normal = {0.0, 0.0, 1.0};
+    arc.arc.sweep_rad = 2.0 * std::numbers::pi;
+    time.move(arc);
+    const double a = 1000.0 / std::sqrt(2.0);
+    CHECK(time.seconds() - before ==
+          Approx(rest_to_rest_s(20.0 * std::numbers::pi, std::sqrt(a * 10.0), a, 0.0)).epsilon(0.01));
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+//
+// Lines, arcs and splines within a tolerance, from the command line.
+#include "support/catch.hpp"
+#include "support/places.hpp"
+#include "tool.hpp"
+
+#include <nlohmann/json.hpp>
+
+using nlohmann::json;
+using splinefeed::test::Call;
+using splinefeed::test::last_positions;
+using splinefeed::test::Tool;
+
+namespace {
+
+const std::string examples = "'" + splinefeed::test::source_folder() + "/examples/";
+const std::string square = "run " + examples + "square.csv' --curve polyline --quiet --summary json";
+
+const std::string part = R"({"elements": [
+ {"type": "line", "from": [0, 0, 0], "to": [20, 0, 0], "feed_mm_s": 80},
+ {"type": "arc", "from": [20, 0, 0], "to": [30, 10, 0], "centre": [20, 10, 0], "axis": [0, 0, 1], "angle": 1.570796327, "feed_mm_s": 80},
+ {"type": "line", "from": [30, 10, 0], "to": [30, 30, 0], "feed_mm_s": 40, "line_number": 12},
+ {"type": "line", "from": [30, 30, 0], "to": [10, 30, 5], "feed_mm_s": 80, "mode": "exact_path"},
+ {"type": "bezier", "from": [10, 30, 5], "to": [0, 0, 5], "control_points": [[10, 30, 5], [0, 30, 5], [0, 10, 5], [0, 0, 5]], "rapid": true},
+ {"type": "line", "from": [0, 0, 5], "to": [0, 0, 0], "rapid": true}],
+ "dwells": [{"after_element": 2, "seconds": 0.5}]})";
+
+json summary_of(const Call& call) {
+    CAPTURE(call.error);
+    REQUIRE(call.status == 0);
+    return json::parse(call.output);
+}
+
+} // namespace
+
+TEST_CASE("A polyline within a tolerance goes round its corners") {
+    const Tool tool;
+    const json exact = summary_of(tool(square));
+    CHECK(exact["stops"] == 3);
+    CHECK_FALSE(exact.contains("tolerance"));
+    CHECK(summary_of(tool(square + " --tolerance 0"))["cycle_time_s"] == exact["cycle_time_s"]);
+    const json rounded = summary_of(tool(square + " --tolerance 0.05"));
+    CHECK(rounded["stops"] == 0);
+    CHECK(rounded["waypoints"] == 5);
+    CHECK(rounded["waypoint_error_mm"].is_null());
+    CHECK(rounded["cycle_time_s"].get<double>() < 0.992 * exact["cycle_time_s"].get<double>());
+    const json& tolerance = rounded["tolerance"];
+    CHECK(tolerance["kept"] == true);
+    CHECK(tolerance["deviation_mm"]["distance"].get<double>() == Approx(0.05).margin(1e-6));
+    CHECK(tolerance["blended"] == 3);
+    CHECK(tolerance["stopped"] == 1);
+    CHECK(tolerance["elements"] == 4);
+    CHECK(tolerance["exact_stop_time_s"].get<double>() == Approx(4.4));
+    tool.write("column.csv", "x,y,tolerance,corner\n0,0,,\n10,0,0.1,\n10,10,0.1,1\n0,10,0.02,\n0,0,,\n");
+    const std::string column = "run column.csv --curve polyline --quiet --summary json";
+    const json mixed = summary_of(tool(column));
+    CHECK(mixed["tolerance"]["blended"] == 1); // a mark, and the empty field: --tolerance is 0
+    CHECK(mixed["stops"] == 2);
+    CHECK(mixed["tolerance"]["deviation_mm"]["line"] == 3);
+    CHECK(summary_of(tool(column + " --tolerance 0.05"))["tolerance"]["blended"] == 2);
+    CHECK(tool("run column.csv --quiet").error ==
+          "column.csv: there is a column tolerance, and --curve g2 has none; add --curve polyline, or leave the column "
+          "out\n");
+    CHECK(tool(column + " --closed").status == 2);
+}
+
+TEST_CASE("A pipe of waypoints within a tolerance is run as it comes") {
+    const Tool tool;
+    const Call call = tool.shell("cat " + examples + "star.csv' | '" + splinefeed::test::tool_path() +
+                                 "' run - --curve polyline --tolerance 0.05 --quiet --summary json");
+    const json piped = summary_of(call);
+    const json whole =
+        summary_of(tool("run " + examples + "star.csv' --curve polyline --tolerance 0.05 --quiet --summary json"));
+    CHECK(piped["cycle_time_s"] == whole["cycle_time_s"]);
+    CHECK(piped["tolerance"] == whole["tolerance"]);
+}
+
+TEST_CASE("An element file runs in every scalar and with every planner") {
+    const Tool tool;
+    tool.write("part.json", part);
+    tool.write("bounded.toml", R"(
+sample_period_us = 1000
+[path]
+max_feed_mm_s = 100
+jerk_plan = "bounded"
+[[axis]]
+name = "x"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+max_jerk_mm_s3 = 30000
+[[axis]]
+name = "y"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+max_jerk_mm_s3 = 30000
+[[axis]]
+name = "z"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+max_jerk_mm_s3 = 30000
+)");
+    for (const std::string& kind :
+         {std::string("--scalar fixed"), std::string("--scalar float"), std::string("--scalar double"),
+          "-m " + examples + "jerk_limited.toml'", std::string("-m bounded.toml")}) {
+        CAPTURE(kind);
+        const json summary = summary_of(tool("run part.json --quiet --summary json --segments s.csv " + kind));
+        CHECK(summary["curve"] == "elements");
+        CHECK(summary["tolerance"]["kept"] == true);
+        CHECK(summary["tolerance"]["elements"] == 6);
+        // What the estimate leaves out is what a bounded plan loses at a stop.
+        CHECK(summary["cycle_time_s"].get<double>() <
+              (kind == "-m bounded.toml" ? 1.05 : 1.0) * summary["tolerance"]["exact_stop_time_s"].get<double>());
+        CHECK(summary_of(tool("plan part.json --quiet --summary json " + kind))["cycle_time_s"] ==
+              summary["cycle_time_s"]);
+        for (const std::string& end : last_positions(tool, "s.csv")) {
+            CHECK(end.substr(end.find('=')) == "=0");
+        }
+    }
+    const Call warned = tool("run part.json --summary json");
+    CHECK(warned.error.find(
+              "part.json: warning: dwells: 1, 0.5 s in all; the machine stops there, but does not wait\n") !=
+          std::string::npos);
+    CHECK(summary_of(warned)["stops"].get<int>() >= 2);
+}
+
+TEST_CASE("The path does not depend on overrides, and survives a hold") {
+    const Tool tool;
+    tool.write("part.json", part);
+    tool.write("events.csv", "0.3,override,0.5\n0.6,hold\n1.0,resume\n1.2,override,1.5\n");
+    CHECK(tool("run part.json --quiet --curve-out a.json").status == 0);
+    const json steered =
+        summary_of(tool("run part.json --quiet --curve-out b.json --events events.csv --summary json"));
+    CHECK(steered["events"] == 4);
+    CHECK(steered["tolerance"]["kept"] == true);
+    CHECK(tool.read("a.json") == tool.read("b.json"));
+    CHECK(tool("curve part.json --quiet --curve-out c.json").status == 0);
+    CHECK(json::parse(tool.read("c.json"))["segments"].size() > 6);
+}
+
+TEST_CASE("What does not go with elements is refused in one line") {
+    const Tool tool;
+    tool.write("part.json", part);
+    const auto refused = [&](const std::string& arguments, const std::string& what) {
+        const Call call = tool("run " + arguments + " --quiet");
+        CAPTURE(call.error);
+        CHECK(call.status == 2);
+        CHECK(call.error.find(what) != std::string::npos);
+        CHECK(std::count(call.error.begin(), call.error.end(), '\n') == 1);
+    };
+    refused("part.json --curve g2", "a curve file says itself which curve it is");
+    refused("part.json --smooth", "a program of elements is smoothed within its tolerance");
+    refused("part.json --tolerance 1000", "--tolerance '1000' is out of range");
+    refused(examples + "butterfly.json' --tolerance 0.01", "a curve is followed exactly");
+    tool.write("narrow.toml", R"(
+[path]
+max_feed_mm_s = 100
+[[axis]]
+name = "x"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+travel_mm = [0, 25]
+[[axis]]
+name = "y"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+[[axis]]
+name = "z"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+)");
+    refused("part.json -m narrow.toml", "on the way to element 2: axis x goes to");
+    tool.write("still.json", R"({"elements": [{"from": [1, 0, 0], "to": [1, 0, 0]}]})");
+    refused("still.json", "no element moves; a program needs a move");
+}
