@@ -15,7 +15,8 @@ constexpr double arc_error = 9e-8;   // of a quintic of 0.4 rad, as a part of th
 constexpr double spiral_error = 0.1; // of the same, as a part of the growth of the radius for each radian
 constexpr int parts_of_line = 8;
 constexpr int parts_a_move = 6; // of a segment through several
-constexpr int searches = 24;    // of the golden section: 1e-5 of a part
+constexpr std::size_t halves_of_blend = 2;
+constexpr int searches = 24; // of the golden section: 1e-5 of a part
 constexpr double golden = 0.6180339887498949;
 
 /// The argument between low and high where `value` is largest, if it has one maximum there.
@@ -194,12 +195,12 @@ void PathDeviation::measure_moves_before(std::uint64_t end) {
     }
 }
 
-// The last segment reaches into the moves up to `last` at most.
-void PathDeviation::accept(std::uint64_t last) {
-    if (pending_) {
-        pending_->last = last;
-        segments_.push_back(std::move(*pending_));
-        pending_.reset();
+// The last segments but some reach into the moves up to `last` at most.
+void PathDeviation::accept(std::size_t kept, std::uint64_t last) {
+    while (pending_.size() > kept) {
+        pending_.front().last = last;
+        segments_.push_back(std::move(pending_.front()));
+        pending_.pop_front();
         measure_segment(segments_.back());
     }
 }
@@ -213,7 +214,7 @@ void PathDeviation::segment(const CurveSegment<S>& segment) {
     }
     const auto back = static_cast<std::uint32_t>(static_cast<std::uint32_t>(known - 1) - segment.waypoint);
     const std::uint64_t index = known - 1 - back;
-    accept(std::max(index, run_));
+    accept(index == run_ ? halves_of_blend - 1 : 0, std::max(index, run_));
     if (index != run_) {
         measure_moves_before(run_);
         run_before_ = std::max(run_, oldest_);
@@ -221,12 +222,12 @@ void PathDeviation::segment(const CurveSegment<S>& segment) {
     }
     const std::uint64_t first = std::min(run_before_, index);
     const int detail = static_cast<int>(std::min<std::uint64_t>(index - first, 256)) * parts_a_move;
-    pending_.emplace(Segment{PathStrand(segment, detail), first, index});
+    pending_.push_back({PathStrand(segment, detail), first, index});
 }
 
 void PathDeviation::finish() {
     const Stopwatch stopwatch(spent_);
-    accept(oldest_ + moves_.size() - 1);
+    accept(0, oldest_ + moves_.size() - 1);
     measure_moves_before(oldest_ + moves_.size());
 }
 

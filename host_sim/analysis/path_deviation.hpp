@@ -13,11 +13,12 @@
 namespace splinefeed::host {
 
 /// Takes moves and curve segments as they come, each in order; moves before the segments that follow them. A segment
-/// names the last move of the run that it belongs to, and only the last one of a run may reach into the next run. So
-/// every point of a segment is compared with the moves of its run, the one before that and, of the last segment, the
-/// next run; and every point of a move with the segments that may follow it. Linear axes are measured together [mm], and so are rotary axes
-/// [degrees]. The largest distance is found to 1e-6 of itself or better: at some places, and about the worst of them by
-/// a search. Memory: the moves that one segment spans, and the look-ahead. Cost: some microseconds a move.
+/// names the last move of the run that it belongs to, and only the last two of a run, the halves of a
+/// blend, may reach into the next run. So every point of a segment is compared with the moves of its run, the one
+/// before that and, of the last two, the next run; and every point of a move with the segments that may follow it.
+/// Linear axes are measured together [mm], and so are rotary axes [degrees]. The largest distance is found to 1e-6 of
+/// itself or better: at some places, and about the worst of them by a search. Memory: the moves that one segment spans,
+/// and the look-ahead. Cost: some microseconds a move.
 class PathDeviation {
 public:
     /// What a move may be off beyond its tolerance, rounding of the scalar and arcs as polynomials aside. [mm, degrees]
@@ -81,7 +82,7 @@ private:
     [[nodiscard]] double allowed(std::uint64_t index) const noexcept;
     [[nodiscard]] Found from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among) const;
     [[nodiscard]] double from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const;
-    void accept(std::uint64_t last);
+    void accept(std::size_t kept, std::uint64_t last);
     void measure_segment(const Segment& segment);
     void measure_move(std::uint64_t index);
     void measure_moves_before(std::uint64_t end);
@@ -92,13 +93,13 @@ private:
     double rounding_;
     std::array<AxisSet, 2> sets_{}; // linear, rotary
     PerAxis<Position> here_{};
-    std::deque<Move> moves_;         // from oldest_
-    std::deque<Segment> segments_;   // those that the moves from measured_ may have
-    std::uint64_t oldest_ = 0;       // one before measured_
-    std::uint64_t measured_ = 0;     // moves before it have been measured
-    std::optional<Segment> pending_; // the last segment: the one behind it tells how far it reaches
-    std::uint64_t run_before_ = 0;   // last move of the run before
-    std::uint64_t run_ = 0;          // of the run of the last segment
+    std::deque<Move> moves_;       // from oldest_
+    std::deque<Segment> segments_; // those that the moves from measured_ may have
+    std::uint64_t oldest_ = 0;     // one before measured_
+    std::uint64_t measured_ = 0;   // moves before it have been measured
+    std::deque<Segment> pending_;  // the last segments: the one behind them tells how far they reach
+    std::uint64_t run_before_ = 0; // last move of the run before
+    std::uint64_t run_ = 0;        // of the run of the last segment
     std::array<Place, 2> largest_{};
     std::optional<Excess> excess_;
     std::chrono::steady_clock::duration spent_{};

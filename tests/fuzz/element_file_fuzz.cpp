@@ -18,28 +18,6 @@ namespace {
 constexpr int axes = 4;
 
 template <Scalar S>
-PathElement<S> element_in(const PathElement<double>& element) {
-    PathElement<S> out;
-    out.shape = element.shape;
-    out.mode = element.mode;
-    out.stop_at_end = element.stop_at_end;
-    out.to = element.to;
-    out.arc.centre = element.arc.centre;
-    for (unsigned k = 0; k < 3; ++k) {
-        out.arc.normal[k] = from_double<S>(element.arc.normal[k]);
-    }
-    out.arc.sweep_rad = from_double<S>(element.arc.sweep_rad);
-    out.bezier.degree = element.bezier.degree;
-    for (unsigned k = 0; k < max_axes; ++k) {
-        for (unsigned i = 0; i <= static_cast<unsigned>(max_degree); ++i) {
-            out.bezier.points[k][i] = from_double<S>(element.bezier.points[k][i]);
-        }
-    }
-    out.tolerance_mm = from_double<S>(element.tolerance_mm);
-    return out;
-}
-
-template <Scalar S>
 void require_chain(const ElementProgram& program) {
     constexpr std::size_t most_segments = 100'000; // of arcs with many turns
     TolerancePath<S> path(axes, from_double<S>(0.001));

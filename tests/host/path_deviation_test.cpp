@@ -48,28 +48,6 @@ CurveSegment<double> segment_of(const std::vector<std::array<double, 2>>& points
 }
 
 template <Scalar S>
-PathElement<S> element_as(const PathElement<double>& e) {
-    PathElement<S> out;
-    out.shape = e.shape;
-    out.mode = e.mode;
-    out.stop_at_end = e.stop_at_end;
-    out.to = e.to;
-    out.arc.centre = e.arc.centre;
-    for (unsigned k = 0; k < 3; ++k) {
-        out.arc.normal[k] = from_double<S>(e.arc.normal[k]);
-    }
-    out.arc.sweep_rad = from_double<S>(e.arc.sweep_rad);
-    out.bezier.degree = e.bezier.degree;
-    for (unsigned k = 0; k < max_axes; ++k) {
-        for (unsigned i = 0; i <= static_cast<unsigned>(max_degree); ++i) {
-            out.bezier.points[k][i] = from_double<S>(e.bezier.points[k][i]);
-        }
-    }
-    out.tolerance_mm = from_double<S>(e.tolerance_mm);
-    return out;
-}
-
-template <Scalar S>
 void require_kept(const ElementProgram& program, int axes, double joint_mm) {
     TolerancePath<S> path(axes, from_double<S>(joint_mm));
     PathDeviation deviation(machine_of(axes, std::min(axes, 3)), joint_mm, std::same_as<S, float> ? 1e-6 : 0.0);
@@ -84,7 +62,7 @@ void require_kept(const ElementProgram& program, int axes, double joint_mm) {
         } else if (pull == Pull::starved && pushed < program.moves()) {
             const PathElement<double> move = program.element(pushed);
             CAPTURE(pushed);
-            const Status status = path.push(element_as<S>(move));
+            const Status status = path.push(element_in<S>(move));
             CAPTURE(describe(status.error()));
             CHECK(status.ok());
             deviation.move(move, 0);
