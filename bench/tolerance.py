@@ -1,0 +1,190 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Programs within a tolerance: cycle times of all plans against exact stops and against goals.
+
+    /usr/bin/python3 bench/tolerance.py [--tool build/release/bin/splinefeed] [--only NAME...] [--judge] [--write FOLDER]
+
+100 mm/s, 1000 mm/s^2 for each axis, a sample period of 1 ms; `acc` without a jerk limit, `optimal` and `bounded` with 30000 mm/s^3.
+A goal is beside its time, with ! where the time is above it. `stop` is the estimate with a stop at each element; a time above it
+has a ^. With --judge, which needs python3-numpy and python3-scipy, tests/judge looks at every run with `acc`, too. --write keeps the
+programs. Exit status 1 where a tolerance was not kept."""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+EXAMPLES = ROOT / "examples"
+PLANS = ("acc", "optimal", "bounded")
+# (program, tolerance): what acc and optimal are to take at most [s].
+GOALS = {("square", 0.05): (4.37, 4.46), ("star", 0.01): (5.70, 6.30), ("star", 0.05): (5.66, 5.95), ("circle720", 0.01): (1.36, 1.41),
+         ("zigzag", 0.05): (3.00, 3.22), ("line_arc_10", 0.001): (None, 0.79), ("line_arc_10", 0.01): (None, 0.71),
+         ("wavy", 0.01): (0.64, 0.69), ("contour", 0.01): (1.08, 1.13), ("raster", 0.01): (2.78, 3.10)}
+FEWER_PIECES = {("wavy", 0.01): 0.1, ("contour", 0.01): 0.1}  # of the elements
+
+
+def machine(plan):
+    text = f'[path]\nmax_feed_mm_s = 100\njerk_plan = "{"bounded" if plan == "bounded" else "optimal"}"\n'
+    for axis in "xyz":
+        text += f'[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n'
+        text += "" if plan == "acc" else "max_jerk_mm_s3 = 30000\n"
+    return text
+
+
+def lines(places):
+    """Elements through places, rounded to 0.001 mm."""
+    points = [[round(x, 3) for x in place] + [0.0] * (3 - len(place)) for place in places]
+    return [{"from": a, "to": b} for a, b in zip(points, points[1:])]
+
+
+def line_arc_line(radius, leg=20.0):
+    end = leg + radius
+    return [{"from": [0, 0, 0], "to": [leg, 0, 0]},
+            {"type": "arc", "from": [leg, 0, 0], "to": [end, radius, 0], "centre": [leg, radius, 0], "axis": [0, 0, 1],
+             "angle": math.pi / 2},
+            {"from": [end, radius, 0], "to": [end, radius + leg, 0]}]
+
+
+def by_steps(curve, low, high, step):
+    """Places of a curve so far apart along it."""
+    fine = [curve(low + (high - low) * i / 200000) for i in range(200001)]
+    places, way = [fine[0]], 0.0
+    for a, b in zip(fine, fine[1:]):
+        way += math.dist(a, b)
+        if way >= step:
+            places.append(b)
+            way = 0.0
+    return places + ([fine[-1]] if places[-1] != fine[-1] else [])
+
+
+def by_chord(curve, low, high, error):
+    """Places whose chords are within an error: each chord as long as it may be."""
+    places, at = [curve(low)], low
+    while at < high:
+        near, far = at, high
+        for _ in range(50):
+            middle = 0.5 * (near + far)
+            a, b, m = curve(at), curve(middle), curve(0.5 * (at + middle))
+            off = math.dist(m, [0.5 * (x + y) for x, y in zip(a, b)])
+            near, far = (middle, far) if off <= error else (near, middle)
+        at = high if near > high - 1e-9 else near
+        places.append(curve(at))
+    return places
+
+
+def wavy(x):
+    return (x, 3.7 * math.sin(2.0 * math.pi * x / 40.0), 0.0)
+
+
+def contour(angle):
+    radius = 13.88 + 1.9 * math.cos(3.0 * angle)
+    return (radius * math.cos(angle), radius * math.sin(angle), 0.0)
+
+
+def small_raster(error):
+    """Four lines of 50 mm over a surface, to and fro, 2.5 mm apart."""
+    def surface(x, y):
+        return (x, y, 2.1 * math.sin(2.0 * math.pi * x / 32.0 + 0.2 * y))
+    places = []
+    for row in range(4):
+        y = 2.5 * row
+        along = by_chord(lambda x, y=y: surface(x, y), 0.0, 50.0, error)
+        places += along if row % 2 == 0 else along[::-1]
+    return places
+
+
+def zigzag():
+    half = math.radians(170.0) / 2.0
+    return [(20.0 * i * math.cos(half), 20.0 * math.sin(half) * (i % 2), 0.0) for i in range(11)]
+
+
+def programs():
+    """By name: a file, or elements."""
+    return {"square": EXAMPLES / "square.csv", "star": EXAMPLES / "star.csv", "circle720": EXAMPLES / "circle720.csv",
+            "zigzag": lines(zigzag()), "line_arc_10": line_arc_line(10.0), "line_arc_2": line_arc_line(2.0),
+            "wavy": lines(by_steps(wavy, 0.0, 50.0, 0.1)), "contour": lines(by_steps(contour, 0.0, 2.0 * math.pi, 0.1)),
+            "contour_coarse": lines(by_chord(contour, 0.0, 2.0 * math.pi, 0.001)), "raster_coarse": lines(small_raster(0.01)),
+            "raster": lines(small_raster(0.001))}
+
+
+def run(tool, program, tolerance, plan, folder, trace=False):
+    """The summary of a run; None where the tool refuses it."""
+    path = pathlib.Path(folder, f"{plan}.toml")
+    path.write_text(machine(plan), encoding="ascii")
+    command = [tool, "plan", program, "-m", path, "--tolerance", str(tolerance), "--summary", "json", "--quiet"]
+    if str(program).endswith(".csv"):
+        command += ["--curve", "polyline"]
+    if trace:
+        command += ["--trace", pathlib.Path(folder, "trace.csv")]
+    call = subprocess.run(command, capture_output=True, text=True, check=False)
+    if call.returncode != 0:
+        print(call.stderr, file=sys.stderr)
+        return None
+    return json.loads(call.stdout)
+
+
+def judged(program, tolerance, folder):
+    """Whether tests/judge says that the last run kept its tolerance."""
+    script = ROOT / "tests/judge/path_tolerance.py"
+    call = subprocess.run(["/usr/bin/python3", "-B", script, "--program", program, "--tolerance", str(tolerance), "--machine",
+                           pathlib.Path(folder, "acc.toml"), "--trace", pathlib.Path(folder, "trace.csv")],
+                          capture_output=True, text=True, check=False)
+    return json.loads(call.stdout)["kept"]
+
+
+def cell(seconds, goal, stop):
+    text = f"{seconds:.3f}" + ("^" if seconds > 1.001 * stop else "")
+    return text if goal is None else f"{text} ({goal}{'!' if seconds > goal else ''})"
+
+
+def table_rows(name, program, tool, folder, judge, tolerances):
+    kept = True
+    for tolerance in tolerances:
+        goals = GOALS.get((name, tolerance), (None, None))
+        cells, found = [], None
+        for plan, goal in zip(PLANS, (*goals, None)):
+            summary = run(tool, program, tolerance, plan, folder, judge and plan == "acc")
+            if summary is None:
+                return False
+            found = summary["tolerance"]
+            cells.append(cell(summary["cycle_time_s"], goal, found["exact_stop_time_s"]) + f" of {found['exact_stop_time_s']:.3f}")
+            kept = kept and found["kept"]
+            if judge and plan == "acc" and not judged(program, tolerance, folder):
+                kept = False
+                cells[-1] += " JUDGE"
+        most = FEWER_PIECES.get((name, tolerance))
+        pieces = f"{found['elements']} to {found['pieces']}" + ("!" if most and found["pieces"] > most * found["elements"] else "")
+        off = found["deviation_mm"]["distance"]
+        print(f"| {name} | {tolerance} | " + " | ".join(cells) + f" | {pieces} | {found['blended']}, {found['stopped']} | "
+              f"{off:.6g}{'' if found['kept'] else ' NOT KEPT'} |", flush=True)
+    return kept
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tool", default=ROOT / "build/release/bin/splinefeed")
+    parser.add_argument("--only", nargs="*")
+    parser.add_argument("--judge", action="store_true")
+    parser.add_argument("--write")
+    options = parser.parse_args()
+    print("| program | tolerance [mm] | acc of stop [s] | optimal of stop [s] | bounded of stop [s] | elements to pieces | rounded, "
+          "stops | deviation [mm] |\n|---|---|---|---|---|---|---|---|")
+    kept = True
+    with tempfile.TemporaryDirectory() as folder:
+        for name, program in programs().items():
+            if options.only and name not in options.only:
+                continue
+            if isinstance(program, list):
+                place = pathlib.Path(options.write or folder, f"{name}.json")
+                place.write_text(json.dumps({"elements": program}, indent=0), encoding="ascii")
+                program = place
+            tolerances = (0.001, 0.01) if name.startswith("line_arc") else (0.01, 0.05, 0.1)
+            kept = table_rows(name, program, options.tool, folder, options.judge, tolerances) and kept
+    sys.exit(0 if kept else 1)
+
+
+if __name__ == "__main__":
+    main()
