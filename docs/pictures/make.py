@@ -34,6 +34,7 @@ def pictures(tool, folder):
     yield "curves.svg", drawn("curves.py", tool)
     yield "binding.svg", drawn("binding.py", "--tool", tool, "--machine", "examples/jerk_limited.toml", "--end", "2.6",
                                "examples/butterfly.json")
+    yield "tolerance.svg", drawn("tolerance.py", tool)
     yield "late.svg", drawn("late.py", "docs/pictures/late.json")
 
 
