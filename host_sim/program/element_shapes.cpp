@@ -9,18 +9,18 @@ namespace splinefeed::host {
 
 namespace {
 
-double dot(const Vector3& a, const Vector3& b) noexcept {
+double scalar_product(const Vector3& a, const Vector3& b) noexcept {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-Vector3 cross(const Vector3& a, const Vector3& b) noexcept {
+Vector3 vector_product(const Vector3& a, const Vector3& b) noexcept {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// The part of p - centre that is normal to the axis; `height` gets the other part.
 Vector3 arm_of(const Vector3& p, const Vector3& centre, const Vector3& axis, double& height) noexcept {
     Vector3 arm{p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]};
-    height = dot(arm, axis);
+    height = scalar_product(arm, axis);
     for (std::size_t k = 0; k < 3; ++k) {
         arm[k] -= height * axis[k];
     }
@@ -36,13 +36,14 @@ ProgrammedArc::ProgrammedArc(const Vector3& from, const Vector3& to, const Vecto
     x_ = arm_of(from, centre, axis, height_);
     const Vector3 end = arm_of(to, centre, axis, end_height);
     rise_ = end_height - height_;
-    radius_from_ = std::sqrt(dot(x_, x_));
-    radius_to_ = std::sqrt(dot(end, end));
+    radius_from_ = std::sqrt(scalar_product(x_, x_));
+    radius_to_ = std::sqrt(scalar_product(end, end));
     for (double& part : x_) {
         part /= std::fmax(radius_from_, 1e-12);
     }
-    y_ = cross(axis, x_);
-    const double off = std::remainder(angle - std::atan2(dot(end, y_), dot(end, x_)), 2.0 * std::numbers::pi);
+    y_ = vector_product(axis, x_);
+    const double off =
+        std::remainder(angle - std::atan2(scalar_product(end, y_), scalar_product(end, x_)), 2.0 * std::numbers::pi);
     angle_ = angle - off;
     mismatch_ = std::fabs(off) * radius_to_;
 }
@@ -60,11 +61,11 @@ ProgrammedArc::Cylindrical ProgrammedArc::polar(const Vector3& point) const noex
     double height = 0.0;
     const Vector3 arm = arm_of(point, centre_, axis_, height);
     const double growth = radius_to_ - radius_from_;
-    Cylindrical out{std::atan2(dot(arm, y_), dot(arm, x_)), 0.0};
+    Cylindrical out{std::atan2(scalar_product(arm, y_), scalar_product(arm, x_)), 0.0};
     if (std::fabs(rise_) > std::fabs(growth)) {
         out.share = (height - height_) / rise_;
     } else if (growth != 0.0) {
-        out.share = (std::sqrt(dot(arm, arm)) - radius_from_) / growth;
+        out.share = (std::sqrt(scalar_product(arm, arm)) - radius_from_) / growth;
     }
     return out;
 }
