@@ -11,8 +11,9 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double arc_error = 9e-8;   // of a quintic of 0.4 rad, as a part of the radius
-constexpr double spiral_error = 0.1; // of the same, as a part of the growth of the radius for each radian
+constexpr double arc_error = 9e-8;         // of a quintic of 0.4 rad, as a part of the radius
+constexpr double spiral_error = 0.1;       // of the same, as a part of the growth of the radius for each radian
+constexpr double left_out_below_mm = 1e-4; // on every axis, as waypoints are merged
 constexpr int parts_of_line = 8;
 constexpr int parts_a_move = 6; // of a segment through several
 constexpr std::size_t halves_of_blend = 2;
@@ -55,43 +56,76 @@ PathDeviation::PathDeviation(const MachineSettings& settings, double joint_mm, d
 }
 
 void PathDeviation::start(const PerAxis<Position>& position) {
-    here_ = position;
+    here_ = whole_end_ = position;
 }
 
 void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
     const Stopwatch stopwatch(spent_);
-    Move added{PathStrand(here_, move, axes_), move.mode, move.tolerance_mm, 0.0, line};
-    if (move.stop_at_end) {
-        added.mode = PathMode::exact_stop;
-    }
+    Move added{.strand = PathStrand(here_, move, axes_),
+               .mode = move.stop_at_end ? PathMode::exact_stop : move.mode,
+               .tolerance = move.tolerance_mm,
+               .line = line};
     if (const auto& arc = added.strand.arc()) {
         added.rounding = arc_error * added.strand.radius() +
                          spiral_error * std::fabs((arc->radius_to() - arc->radius_from()) / arc->angle());
     }
-    double largest = added.strand.radius();
+    double largest = 0.0;
+    double farthest = 0.0;
+    double apart_sq = 0.0;
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
         const double way = std::fabs(to_mm(Position{move.to[k].raw - here_[k].raw}));
         largest = std::fmax(largest, way);
+        const double apart = std::fabs(to_mm(Position{move.to[k].raw - whole_end_[k].raw}));
+        farthest = std::fmax(farthest, apart);
+        apart_sq += apart * apart;
     }
-    added.rounding += rounding_ * largest;
+    added.rounding += rounding_ * std::fmax(largest, added.strand.radius());
+    if (move.shape != MoveShape::arc && farthest < left_out_below_mm) {
+        leave_out(added, std::sqrt(apart_sq));
+    } else {
+        join(added);
+        whole_end_ = move.to;
+    }
     moves_.push_back(std::move(added));
     here_ = move.to;
 }
 
-// What the joint behind a move may be off.
-double PathDeviation::allowed_at_joint(std::uint64_t index) const noexcept {
-    const Move& before = of(index);
-    if (before.mode == PathMode::exact_stop || index + 1 >= oldest_ + moves_.size()) {
-        return 0.0;
+// The path need not have a move that is as short as rounding; the moves beside it may begin and end beside it.
+void PathDeviation::leave_out(Move& move, double apart) {
+    left_out_ = std::fmax(left_out_, apart);
+    if (last_whole_ >= oldest_ && last_whole_ - oldest_ < moves_.size()) {
+        Move& before = moves_[last_whole_ - oldest_];
+        before.rounding += apart;
+        before.mode = move.mode == PathMode::exact_stop ? move.mode : before.mode;
+        move.rounding = before.rounding;
+        move.start_joint = before.start_joint;
     }
-    const double both = std::fmin(before.tolerance, of(index + 1).tolerance);
-    return before.mode == PathMode::continuous && both > 0.0 ? both : joint_mm_;
+}
+
+// The joint of the move and the one before it that is not negligible.
+void PathDeviation::join(Move& move) {
+    move.rounding += left_out_;
+    left_out_ = 0.0;
+    const std::uint64_t index = oldest_ + moves_.size();
+    if (last_whole_ >= oldest_ && last_whole_ < index) {
+        move.start_joint = allowed_at_joint(of(last_whole_), move);
+        for (std::uint64_t i = last_whole_; i < index; ++i) {
+            moves_[i - oldest_].end_joint = move.start_joint;
+        }
+    }
+    last_whole_ = index;
+}
+
+double PathDeviation::allowed_at_joint(const Move& before, const Move& after) const noexcept {
+    const double both = std::fmin(before.tolerance, after.tolerance);
+    return before.mode == PathMode::exact_stop                 ? 0.0
+           : before.mode == PathMode::continuous && both > 0.0 ? both
+                                                               : joint_mm_;
 }
 
 double PathDeviation::allowed(std::uint64_t index) const noexcept {
-    const double start = index > oldest_ ? allowed_at_joint(index - 1) : 0.0;
     const Move& move = of(index);
-    return std::fmax(start, allowed_at_joint(index)) + slack_mm + move.rounding;
+    return std::fmax(move.start_joint, move.end_joint) + slack_mm + move.rounding;
 }
 
 PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, const AxisSet& set,

@@ -63,7 +63,9 @@ private:
         PathStrand strand;
         PathMode mode = PathMode::continuous;
         double tolerance = 0.0;
-        double rounding = 0.0; ///< and what polynomials are off an arc
+        double start_joint = 0.0; ///< what the joints at its ends may be off
+        double end_joint = 0.0;
+        double rounding = 0.0; ///< and what polynomials are off an arc, and moves that are left out
         std::uint64_t line = 0;
     };
     struct Segment {
@@ -78,8 +80,10 @@ private:
     };
 
     [[nodiscard]] const Move& of(std::uint64_t index) const noexcept { return moves_[index - oldest_]; }
-    [[nodiscard]] double allowed_at_joint(std::uint64_t index) const noexcept;
+    [[nodiscard]] double allowed_at_joint(const Move& before, const Move& after) const noexcept;
     [[nodiscard]] double allowed(std::uint64_t index) const noexcept;
+    void leave_out(Move& move, double apart);
+    void join(Move& move);
     [[nodiscard]] Found from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among) const;
     [[nodiscard]] double from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const;
     void accept(std::size_t kept, std::uint64_t last);
@@ -101,6 +105,9 @@ private:
     std::uint64_t run_before_ = 0; // last move of the run before
     std::uint64_t run_ = 0;        // of the run of the last segment
     std::array<Place, 2> largest_{};
+    std::uint64_t last_whole_ = 0;  // index of the last move that is not negligible
+    PerAxis<Position> whole_end_{}; // its end
+    double left_out_ = 0.0;         // how far the moves behind it led away from there
     std::optional<Excess> excess_;
     std::chrono::steady_clock::duration spent_{};
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Random element files: lines, arcs in any plane with any sweep, helices and spirals, Bezier segments and NURBS that
-// meet.
+// Random element files: lines of all lengths and turns, arcs in any plane with any sweep, helices and spirals, Bezier
+// segments and NURBS, runs of short lines along curves with rounded ends; all that meet.
 #pragma once
 
 #include "support/random_path.hpp"
@@ -25,9 +25,15 @@ public:
         scale_ = std::pow(10.0, random_.between(-1.0, 2.0));
         nlohmann::json out;
         out["elements"] = nlohmann::json::array();
+        nlohmann::json& elements = out["elements"];
         for (int i = 0; i < count; ++i) {
-            out["elements"].push_back(element());
+            if (random_.below(12) == 0) {
+                short_lines(elements);
+            } else {
+                elements.push_back(element());
+            }
         }
+        count = static_cast<int>(elements.size());
         for (int i = random_.below(3); i > 0; --i) {
             out["events"].push_back({{"after_element", random_.below(count + 1)}, {"what", "stop"}});
             out["dwells"].push_back({{"after_element", random_.below(count + 1)}, {"seconds", 0.5}});
@@ -48,7 +54,7 @@ private:
         }
     }
 
-    static Vector cross(const Vector& a, const Vector& b) {
+    static Vector vector_product(const Vector& a, const Vector& b) {
         return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     }
 
@@ -84,17 +90,57 @@ private:
         return e;
     }
 
+    // Any direction, or about the one before: on, back, or a little beside.
     void line() {
-        const double l = length();
-        const Vector way = direction();
+        const double l = random_.below(10) == 0 ? scale_ * std::pow(10.0, random_.between(-6.0, 0.0)) : length();
+        Vector way = direction();
+        if (random_.below(4) == 0) {
+            const double beside = random_.below(3) == 0 ? 0.0 : std::pow(10.0, random_.between(-6.0, -1.0));
+            const double sense = random_.below(3) == 0 ? -1.0 : 1.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                way[k] = sense * last_way_[k] + beside * way[k];
+            }
+        }
         for (std::size_t k = 0; k < 3; ++k) {
-            here_[k] += random_.below(20) == 0 ? 0.0 : l * way[k];
+            here_[k] += random_.below(40) == 0 ? 0.0 : l * way[k];
+        }
+        last_way_ = way;
+    }
+
+    // As a CAM program has them: chords of a helix about any axis, rounded to a grid.
+    void short_lines(nlohmann::json& out) {
+        const Vector axis = direction();
+        Vector x = vector_product(axis, direction());
+        const double n = std::hypot(x[0], x[1], x[2]);
+        const double radius = length();
+        const double rise = random_.between(-1, 1) * radius;
+        const double step = std::pow(10.0, random_.between(-2.5, -0.3));
+        const double uneven = random_.below(2) == 0 ? 0.0 : 0.8;
+        const double grid = random_.below(3) == 0 ? 1e-9 : std::pow(10.0, -random_.between(2.0, 4.0));
+        const double tolerance = std::pow(10.0, random_.between(-3.0, -0.5));
+        const double feed = random_.between(10, 200);
+        for (double& part : x) {
+            part /= n;
+        }
+        const Vector y = vector_product(axis, x);
+        const std::vector<double> start = here_;
+        double angle = 0.0;
+        for (int i = 5 + random_.below(120); i > 0; --i) {
+            nlohmann::json e{{"from", here_}, {"tolerance_mm", tolerance}, {"feed_mm_s", feed}};
+            angle += step * random_.between(1.0 - uneven, 1.0 + uneven);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double place = start[k] + radius * ((std::cos(angle) - 1.0) * x[k] + std::sin(angle) * y[k]) +
+                                     0.16 * angle * rise * axis[k];
+                here_[k] = std::round(place / grid) * grid;
+            }
+            e["to"] = here_;
+            out.push_back(e);
         }
     }
 
     void arc(nlohmann::json& e, const std::vector<double>& old) {
         const Vector axis = random_.below(2) == 0 ? Vector{0, 0, 1} : direction();
-        Vector x = cross(axis, direction());
+        Vector x = vector_product(axis, direction());
         const double n = std::hypot(x[0], x[1], x[2]);
         const double radius = length();
         const double end_radius = random_.below(4) == 0 ? radius * random_.between(0.8, 1.2) : radius;
@@ -104,7 +150,7 @@ private:
         for (double& part : x) {
             part /= n;
         }
-        const Vector y = cross(axis, x);
+        const Vector y = vector_product(axis, x);
         Vector centre{};
         for (std::size_t k = 0; k < 3; ++k) {
             centre[k] = old[k] - radius * x[k];
@@ -150,6 +196,7 @@ private:
     RandomPath random_;
     std::vector<double> here_;
     int numbers_ = 3;
+    Vector last_way_{1.0, 0.0, 0.0};
     double scale_ = 1.0;
 };
 

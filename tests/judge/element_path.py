@@ -8,6 +8,7 @@ import numpy as np
 
 AXES = "xyzabc"
 CHORD_MM = 1e-6  # between a piece and the curve
+LEFT_OUT_MM = 1e-4  # moves that are shorter need not be there
 LONGEST_PIECE_MM = 2.0  # of a line: within a piece nobody looks at the order
 JOINT_MM, DEFAULT_MM, RAPID_MM = 1e-3, 1e-2, 0.1  # what a machine file need not state
 
@@ -119,6 +120,22 @@ def lines_between(path, tolerance):
     return elements
 
 
+def whole(elements):
+    """Indices of the elements that are there for the path: not those that end within LEFT_OUT_MM, on every axis, of where the one
+    before them ended. Their stops are those of the one before."""
+    kept, end = [], None
+    for index, element in enumerate(elements):
+        start, to = six(element["from"]), six(element["to"])
+        end = start if end is None else end
+        if element.get("type", "line") != "arc" and np.abs(to - end).max() < LEFT_OUT_MM:
+            if kept and element.get("mode") == "exact_stop":
+                elements[kept[-1]] = {**elements[kept[-1]], "mode": "exact_stop"}
+            continue
+        kept.append(index)
+        end = to
+    return kept
+
+
 def allowed(elements, joint):
     """What the path may be off each element: the larger one of what the joints at its ends allow."""
     at_end = []
@@ -130,10 +147,14 @@ def allowed(elements, joint):
 
 
 class ElementPath:
-    """pieces: starts, ways [n, axes]; owner: index of the element of each; allowed: by element."""
+    """pieces: starts, ways [n, axes]; owner: which element each belongs to; allowed: of these; number: of these in the program, from 1."""
 
     def __init__(self, elements, axes, joint=JOINT_MM):
         columns = [AXES.index(axis) for axis in axes]
+        elements = list(elements)
+        kept = whole(elements)
+        elements = [elements[index] for index in kept]
+        self.number = [index + 1 for index in kept]
         points = [points_of(element)[:, columns] for element in elements]
         self.starts = np.vstack([p[:-1] for p in points])
         self.ways = np.vstack([np.diff(p, axis=0) for p in points])

@@ -107,8 +107,8 @@ def judged(elements, machine, trace, names):
             continue
         path = ElementPath(elements, [names[i] for i in chosen], joint)
         (deviation, at), (coverage, covered), over = measured(path, trace.positions[:, chosen], slack, bend / 8.0)
-        found[f"deviation_{unit}"], found[f"deviation_{unit}_at_element"] = deviation, at + 1
-        found[f"coverage_{unit}"], found[f"coverage_{unit}_at_element"] = coverage, covered + 1
+        found[f"deviation_{unit}"], found[f"deviation_{unit}_at_element"] = deviation, path.number[at]
+        found[f"coverage_{unit}"], found[f"coverage_{unit}_at_element"] = coverage, path.number[covered]
         found[f"over_{unit}"] = float(over)
         found["kept"] = found["kept"] and bool(over <= slack)
     return found

@@ -63,6 +63,15 @@ class Known(unittest.TestCase):
         self.assertFalse(self.judge(corner(), (0, 0), (10, 0), (10, 10), (10, 0))["kept"])
         self.assertFalse(self.judge(corner(), (10, 10), (10, 0), (0, 0))["kept"])
 
+    def test_elements_shorter_than_rounding_are_left_out(self):
+        elements = corner(0.1)
+        elements.insert(1, {"from": [10, 0, 0], "to": [10, 0.00005, 0], "tolerance_mm": 0.0})
+        elements[2]["from"] = [10, 0.00005, 0]
+        cut = ((0, 0), (9.9, 0), (10, 0.1), (10, 10))
+        self.assertTrue(self.judge(elements, *cut)["kept"])
+        elements[1]["mode"] = "exact_stop"
+        self.assertFalse(self.judge(elements, *cut)["kept"])
+
     def test_points_of_curves(self):
         circle = points_of({"type": "arc", "from": [5, 0, 0], "to": [5, 0, 3], "centre": [0, 0, 0], "axis": [0, 0, 1],
                             "angle": -2 * math.pi})
