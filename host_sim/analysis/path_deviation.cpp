@@ -13,7 +13,7 @@ namespace {
 
 constexpr double arc_error = 9e-8;         // of a quintic of 0.4 rad, as a part of the radius
 constexpr double spiral_error = 0.1;       // of the same, as a part of the growth of the radius for each radian
-constexpr double left_out_below_mm = 1e-4; // on every axis, as waypoints are merged
+constexpr double left_out_below_mm = 2e-4; // on every axis: waypoints merge within half of it, and ends add up
 constexpr int parts_of_line = 8;
 constexpr int parts_a_move = 6; // of a segment through several
 constexpr std::size_t halves_of_blend = 2;
@@ -93,11 +93,12 @@ void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
 // The path need not have a move that is as short as rounding; the moves beside it may begin and end beside it.
 void PathDeviation::leave_out(Move& move, double apart) {
     left_out_ = std::fmax(left_out_, apart);
+    move.rounding += apart;
     if (last_whole_ >= oldest_ && last_whole_ - oldest_ < moves_.size()) {
         Move& before = moves_[last_whole_ - oldest_];
         before.rounding += apart;
         before.mode = move.mode == PathMode::exact_stop ? move.mode : before.mode;
-        move.rounding = before.rounding;
+        move.rounding = std::fmax(move.rounding, before.rounding);
         move.start_joint = before.start_joint;
     }
 }

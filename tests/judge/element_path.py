@@ -8,7 +8,7 @@ import numpy as np
 
 AXES = "xyzabc"
 CHORD_MM = 1e-6  # between a piece and the curve
-LEFT_OUT_MM = 1e-4  # moves that are shorter need not be there
+LEFT_OUT_MM = 2e-4  # moves that are shorter need not be there
 LONGEST_PIECE_MM = 2.0  # of a line: within a piece nobody looks at the order
 JOINT_MM, DEFAULT_MM, RAPID_MM = 1e-3, 1e-2, 0.1  # what a machine file need not state
 
