@@ -28,6 +28,68 @@ constexpr double arc_step = 0.4; // [rad]
     throw DescriptionError(what);
 }
 
+constexpr const char* not_followed = "it cannot be followed within 1e-6 mm; check its centre, or its weights and knots";
+
+/// The Bezier pieces of a NURBS, in homogeneous coordinates; `breaks` gets the parameters where they begin and end.
+std::vector<BezierPiece<double>> pieces_of(const ProgrammedNurbs& nurbs, std::vector<double>& breaks) {
+    const auto degree = static_cast<std::size_t>(nurbs.degree);
+    const std::size_t count = nurbs.points.size();
+    if (count < degree + 1) {
+        refuse(fmt::format("there are {} control points; an order of {} needs as many at least", count, degree + 1));
+    }
+    if (nurbs.weights.size() != count || nurbs.knots.size() != count + degree + 1) {
+        refuse(fmt::format("there are {} weights and {} knots; {} control points of order {} need {} and {}",
+                           nurbs.weights.size(), nurbs.knots.size(), count, degree + 1, count, count + degree + 1));
+    }
+    const auto [lightest, heaviest] = std::minmax_element(nurbs.weights.begin(), nurbs.weights.end());
+    if (!(*lightest > 0.0) || *heaviest > 1e6 * *lightest) {
+        refuse("every weight must be above 0, and the largest at most a million times the smallest");
+    }
+    if (!std::is_sorted(nurbs.knots.begin(), nurbs.knots.end()) || !(nurbs.knots[count] > nurbs.knots[degree])) {
+        refuse("\"knots\" must not decrease, and the curve needs an interval between knots of the middle");
+    }
+    std::vector<Point<double>> controls(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double weight = nurbs.weights[i] / *heaviest; // exactly 1 if all are equal
+        for (std::size_t k = 0; k < 3; ++k) {
+            controls[i][k] = nurbs.points[i][k] * weight;
+        }
+        controls[i][3] = weight;
+    }
+    std::vector<BezierPiece<double>> pieces(bezier_piece_count<double>(nurbs.knots, nurbs.degree));
+    breaks.resize(pieces.size() + 1);
+    if (const Status status = bezier_pieces<double>(nurbs.knots, nurbs.degree, controls, 4, false, pieces, breaks);
+        !status.ok()) {
+        refuse(describe(status.error()));
+    }
+    return pieces;
+}
+
+/// A piece as the core takes it: itself if all weights are equal and its degree is at most 5, otherwise quintics.
+void add_parts(const BezierPiece<double>& piece, double from, double width, std::vector<SplinePart>& parts) {
+    const auto degree = static_cast<std::size_t>(piece.degree);
+    const auto* const weights = piece.control[3].begin();
+    const bool rational =
+        std::any_of(weights, weights + degree + 1, [](double weight) { return std::fabs(weight - 1.0) > 1e-12; });
+    if (!rational && degree <= 5) {
+        SplinePart& part = parts.emplace_back(SplinePart{degree, from + width, {}});
+        for (std::size_t p = 0; p <= degree; ++p) {
+            part.points[p] = {piece.control[0][p], piece.control[1][p], piece.control[2][p]};
+        }
+        return;
+    }
+    const auto within = [&piece](double t) {
+        return rational_state(piece, t);
+    };
+    const std::vector<HermitePiece> quintics = hermite_pieces(within, {0.0, 1.0}); // alone: a knot may be a kink
+    if (quintics.empty()) {
+        refuse(not_followed);
+    }
+    for (const HermitePiece& quintic : quintics) {
+        parts.push_back({5, from + quintic.to * width, quintic.points});
+    }
+}
+
 Vector3 linear(const AxisPoint& place) {
     return {place[0], place[1], place[2]};
 }
@@ -172,100 +234,44 @@ void ElementCurves::add_bezier(const ElementProgram::Move& move, const AxisPoint
 }
 
 void ElementCurves::add_nurbs(const ElementProgram::Move& move, const AxisPoint& to, const ProgrammedNurbs& nurbs) {
-    const auto degree = static_cast<std::size_t>(nurbs.degree);
-    const std::size_t count = nurbs.points.size();
-    if (count < degree + 1) {
-        refuse(fmt::format("there are {} control points; an order of {} needs as many at least", count, degree + 1));
-    }
-    if (nurbs.weights.size() != count || nurbs.knots.size() != count + degree + 1) {
-        refuse(fmt::format("there are {} weights and {} knots; {} control points of order {} need {} and {}",
-                           nurbs.weights.size(), nurbs.knots.size(), count, degree + 1, count, count + degree + 1));
-    }
-    const auto [lightest, heaviest] = std::minmax_element(nurbs.weights.begin(), nurbs.weights.end());
-    if (!(*lightest > 0.0) || *heaviest > 1e6 * *lightest) {
-        refuse("every weight must be above 0, and the largest at most a million times the smallest");
-    }
-    const bool rational = *heaviest > *lightest;
-    std::vector<Point<double>> controls(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double weight = rational ? nurbs.weights[i] / *heaviest : 1.0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            controls[i][k] = nurbs.points[i][k] * weight;
-        }
-        controls[i][3] = weight;
-    }
-    const double first = nurbs.knots[degree];
-    const double last = nurbs.knots[count];
-    if (!std::is_sorted(nurbs.knots.begin(), nurbs.knots.end()) || !(last > first)) {
-        refuse("\"knots\" must not decrease, and the curve needs an interval between knots of the middle");
-    }
-    std::vector<BezierPiece<double>> pieces(bezier_piece_count<double>(nurbs.knots, nurbs.degree));
-    std::vector<double> breaks(pieces.size() + 1);
-    if (const Status status = bezier_pieces<double>(nurbs.knots, nurbs.degree, controls, 4, false, pieces, breaks);
-        !status.ok()) {
-        refuse(describe(status.error()));
-    }
+    std::vector<double> breaks;
+    const std::vector<BezierPiece<double>> pieces = pieces_of(nurbs, breaks);
     require_reachable(to);
     require_ends(rational_state(pieces.front(), 0.0).point, rational_state(pieces.back(), 1.0).point, to);
-    if (rational || degree > 5) {
-        std::vector<HermitePiece> smooth;
-        for (std::size_t i = 0; i < pieces.size(); ++i) { // each alone: a knot may be a kink
-            const auto within = [&](double t) {
-                return rational_state(pieces[i], t);
-            };
-            const std::vector<HermitePiece> parts = hermite_pieces(within, {0.0, 1.0});
-            if (parts.empty()) {
-                smooth.clear();
-                break;
-            }
-            for (HermitePiece part : parts) {
-                const double width = breaks[i + 1] - breaks[i];
-                part.from = (breaks[i] + part.from * width - first) / (last - first);
-                part.to = (breaks[i] + part.to * width - first) / (last - first);
-                smooth.push_back(part);
-            }
-        }
-        add_pieces(move, to, smooth);
-        return;
-    }
-    const AxisPoint from = here_;
+    const double domain = breaks.back() - breaks.front();
+    std::vector<SplinePart> parts;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        std::array<Vector3, 6> points{};
-        for (std::size_t p = 0; p <= degree; ++p) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                points[p][k] = pieces[i].control[k][p];
-            }
-        }
-        const double share = (breaks[i + 1] - first) / (last - first);
-        AxisPoint end = to;
-        if (i + 1 < pieces.size()) {
-            for (std::size_t j = 0; j < end.size(); ++j) {
-                end[j] = j < 3 ? points[degree][j] : from[j] + share * (to[j] - from[j]);
-            }
-        }
-        ElementProgram::Move piece = move;
-        piece.mode = i + 1 < pieces.size() && move.mode == PathMode::exact_stop ? PathMode::exact_path : move.mode;
-        add_piece(piece, here_, end, points.data(), degree);
+        const double from = (breaks[i] - breaks.front()) / domain;
+        add_parts(pieces[i], from, (breaks[i + 1] - breaks[i]) / domain, parts);
+    }
+    const AxisPoint start = here_;
+    for (const SplinePart& part : parts) {
+        add_part(move, start, to, part, &part == &parts.back());
     }
 }
 
-// The pieces of one element; it stops, if at all, at its end.
-void ElementCurves::add_pieces(ElementProgram::Move move, const AxisPoint& to,
+// The pieces of an arc.
+void ElementCurves::add_pieces(const ElementProgram::Move& move, const AxisPoint& to,
                                const std::vector<HermitePiece>& pieces) {
     if (pieces.empty()) {
-        refuse("it cannot be followed within 1e-6 mm; check its centre, or its weights and knots");
+        refuse(not_followed);
     }
-    const PathMode mode = move.mode;
-    const AxisPoint from = here_;
+    const AxisPoint start = here_;
     for (const HermitePiece& piece : pieces) {
-        AxisPoint end = to;
-        const bool last = &piece == &pieces.back();
-        for (std::size_t j = 0; j < end.size() && !last; ++j) {
-            end[j] = j < 3 ? piece.points[5][j] : from[j] + piece.to * (to[j] - from[j]);
-        }
-        move.mode = !last && mode == PathMode::exact_stop ? PathMode::exact_path : mode;
-        add_piece(move, here_, end, piece.points.data(), 5);
+        add_part(move, start, to, {5, piece.to, piece.points}, &piece == &pieces.back());
     }
+}
+
+// One of the pieces of an element; the element stops, if at all, at its end.
+void ElementCurves::add_part(const ElementProgram::Move& move, const AxisPoint& start, const AxisPoint& to,
+                             const SplinePart& part, bool last) {
+    AxisPoint end = to;
+    for (std::size_t j = 0; j < end.size() && !last; ++j) {
+        end[j] = j < 3 ? part.points[part.degree][j] : start[j] + part.to * (to[j] - start[j]);
+    }
+    ElementProgram::Move piece = move;
+    piece.mode = !last && move.mode == PathMode::exact_stop ? PathMode::exact_path : move.mode;
+    add_piece(piece, here_, end, part.points.data(), part.degree);
 }
 
 void ElementCurves::add_piece(ElementProgram::Move move, const AxisPoint& from, const AxisPoint& to,

@@ -21,6 +21,13 @@ struct ProgrammedNurbs {
     std::vector<double> knots;
 };
 
+/// A Bezier segment of a spline.
+struct SplinePart {
+    std::size_t degree = 5;
+    double to = 1.0; ///< where it ends, as a part of the spline's parameter
+    std::array<Vector3, 6> points{};
+};
+
 /// Adds moves to a program. Lines and arcs stay what they are; a spline becomes Bezier segments. Those are exact if all
 /// weights are equal and the degree is at most 5; otherwise, as for arcs that the core does not take (the machine's
 /// first axes are not x, y, z, or the radius changes much), they are within hermite_error_mm. Axes a, b, c turn in
@@ -44,7 +51,9 @@ private:
     void require_reachable(const AxisPoint& to) const;
     void require_still(std::size_t axis, double way) const;
     void require_ends(const Vector3& first, const Vector3& last, const AxisPoint& to) const;
-    void add_pieces(ElementProgram::Move move, const AxisPoint& to, const std::vector<HermitePiece>& pieces);
+    void add_pieces(const ElementProgram::Move& move, const AxisPoint& to, const std::vector<HermitePiece>& pieces);
+    void add_part(const ElementProgram::Move& move, const AxisPoint& start, const AxisPoint& to, const SplinePart& part,
+                  bool last);
     void add_piece(ElementProgram::Move move, const AxisPoint& from, const AxisPoint& to, const Vector3* points,
                    std::size_t degree);
 
