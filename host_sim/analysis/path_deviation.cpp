@@ -14,8 +14,8 @@ namespace {
 constexpr double arc_error = 9e-8;         // of a quintic of 0.4 rad, as a part of the radius
 constexpr double spiral_error = 0.1;       // of the same, as a part of the growth of the radius for each radian
 constexpr double left_out_below_mm = 2e-4; // on every axis: waypoints merge within half of it, and ends add up
-constexpr int parts_of_line = 8;
-constexpr int parts_a_move = 6; // of a segment through several
+constexpr int parts_of_line = 4;
+constexpr int parts_a_move = 4; // of a segment through several
 constexpr std::size_t halves_of_blend = 2;
 constexpr int searches = 24; // of the golden section: 1e-5 of a part
 constexpr double golden = 0.6180339887498949;
@@ -129,35 +129,37 @@ double PathDeviation::allowed(std::uint64_t index) const noexcept {
     return std::fmax(move.start_joint, move.end_joint) + slack_mm + move.rounding;
 }
 
-PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, const AxisSet& set,
-                                               const Segment& among) const {
+// @param hint  a move that is probably near
+PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among,
+                                               std::uint64_t hint) const {
     Found best;
-    double least_excess = 1e300;
-    for (std::uint64_t i = among.first; i <= among.last; ++i) {
+    double least_excess = 1e150;
+    const auto look_at = [&](std::uint64_t i) {
         const PathStrand& strand = of(i).strand;
         const double permitted = allowed(i);
-        const double bound = strand.at_least(point, set);
-        if (bound >= best.distance && bound - permitted >= least_excess) {
-            continue;
+        const double worth = std::fmax(best.distance, least_excess + permitted);
+        if (worth <= 0.0 || strand.at_least_sq(point, set) >= worth * worth) {
+            return;
         }
         const double distance = strand.distance(point, set);
         if (distance < best.distance) {
             best.distance = distance;
             best.move = i;
         }
-        if (distance - permitted < least_excess) {
-            least_excess = distance - permitted;
-            best.allowed = permitted;
-        }
+        least_excess = std::fmin(least_excess, distance - permitted);
+    };
+    look_at(hint);
+    for (std::uint64_t i = among.first; i <= among.last; ++i) {
+        look_at(i);
     }
     best.allowed = best.distance - least_excess; // a move further away may forgive more
     return best;
 }
 
 double PathDeviation::from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const {
-    double best = 1e300;
+    double best = 1e150;
     for (const Segment& segment : segments_) {
-        if (segment.first <= move && move <= segment.last && segment.strand.at_least(point, set) < best) {
+        if (segment.first <= move && move <= segment.last && segment.strand.at_least_sq(point, set) < best * best) {
             best = std::fmin(best, segment.strand.distance(point, set));
         }
     }
@@ -181,8 +183,11 @@ void PathDeviation::measure_segment(const Segment& segment) {
         if (sets_[s].count == 0) {
             continue;
         }
+        std::uint64_t near = segment.first;
         const auto at = [&](double t) {
-            return from_moves(segment.strand.at(t), sets_[s], segment);
+            const Found here = from_moves(segment.strand.at(t), sets_[s], segment, near);
+            near = here.move;
+            return here;
         };
         int worst = 0;
         Found largest{-1.0, 0.0, 0};
@@ -209,7 +214,7 @@ void PathDeviation::measure_move(std::uint64_t index) {
     for (unsigned s = 0; s < sets_.size(); ++s) {
         for (int i = index == 0 ? 0 : 1; i <= parts && sets_[s].count > 0; ++i) {
             const double distance = from_segments(strand.at(i / static_cast<double>(parts)), sets_[s], index);
-            if (distance < 1e299) {
+            if (distance < 1e149) {
                 found(s, {distance, allowed(index), index});
             }
         }

@@ -18,7 +18,8 @@ namespace splinefeed::host {
 /// before that and, of the last two, the next run; and every point of a move with the segments that may follow it.
 /// Linear axes are measured together [mm], and so are rotary axes [degrees]. The largest distance is found to 1e-6 of
 /// itself or better: at some places, and about the worst of them by a search. Memory: the moves that one segment spans,
-/// and the look-ahead. Cost: some microseconds a move.
+/// and the look-ahead. Cost: about ten
+/// microseconds a move.
 class PathDeviation {
 public:
     /// What a move may be off beyond its tolerance, rounding of the scalar and arcs as polynomials aside. [mm, degrees]
@@ -74,7 +75,7 @@ private:
         std::uint64_t last = 0;
     };
     struct Found {
-        double distance = 1e300;
+        double distance = 1e150;
         double allowed = 0.0; ///< of the move that forgives most
         std::uint64_t move = 0;
     };
@@ -84,7 +85,8 @@ private:
     [[nodiscard]] double allowed(std::uint64_t index) const noexcept;
     void leave_out(Move& move, double apart);
     void join(Move& move);
-    [[nodiscard]] Found from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among) const;
+    [[nodiscard]] Found from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among,
+                                   std::uint64_t hint) const;
     [[nodiscard]] double from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const;
     void accept(std::size_t kept, std::uint64_t last);
     void measure_segment(const Segment& segment);

@@ -15,7 +15,8 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double part_of_arc = 0.1; // [rad]
 constexpr int most_parts = 4096;
 constexpr int parts_of_bezier = 24;
-constexpr int steps = 6; // of Gauss and Newton, each squares the error
+constexpr std::size_t block = 12; // places
+constexpr int steps = 6;          // of Gauss and Newton, each squares the error
 
 Vector3 linear(const PerAxis<Position>& place, int axes) {
     Vector3 out{};
@@ -65,16 +66,25 @@ void PathStrand::prepare() {
         for (int i = 0; i <= parts_; ++i) {
             places_.push_back(at(i / static_cast<double>(parts_)));
         }
+        for (std::size_t first = 0; first < places_.size(); first += block) {
+            Box& box = blocks_.emplace_back(Box{places_[first], places_[first]});
+            for (std::size_t i = first; i < std::min(first + block, places_.size()); ++i) {
+                for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+                    box.low[k] = std::fmin(box.low[k], places_[i][k]);
+                    box.high[k] = std::fmax(box.high[k], places_[i][k]);
+                }
+            }
+        }
     }
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
         const auto* const first = control_[k].begin();
         const auto [low, high] = std::minmax_element(first, first + degree_ + 1);
-        low_[k] = *low;
-        high_[k] = *high;
+        box_.low[k] = *low;
+        box_.high[k] = *high;
         if (arc_ && k < 3) {
             const double start = control_[k][0];
-            low_[k] = start - arc_->extent(k);
-            high_[k] = start + arc_->extent(k);
+            box_.low[k] = start - arc_->extent(k);
+            box_.high[k] = start + arc_->extent(k);
         }
     }
 }
@@ -136,14 +146,14 @@ double PathStrand::distance_sq(const PerAxis<double>& point, const AxisSet& set,
     return sum;
 }
 
-double PathStrand::at_least(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+double PathStrand::Box::distance_sq(const PerAxis<double>& point, const AxisSet& set) const noexcept {
     double sum = 0.0;
     for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
         const unsigned k = set.axis[n];
-        const double apart = std::fmax(0.0, std::fmax(low_[k] - point[k], point[k] - high_[k]));
+        const double apart = std::max(0.0, std::max(low[k] - point[k], point[k] - high[k]));
         sum += apart * apart;
     }
-    return std::sqrt(sum);
+    return sum;
 }
 
 double PathStrand::from_line(const PerAxis<double>& point, const AxisSet& set) const noexcept {
@@ -167,18 +177,25 @@ double PathStrand::from_line(const PerAxis<double>& point, const AxisSet& set) c
 
 // The nearest of the places.
 PathStrand::Foot PathStrand::guess(const PerAxis<double>& point, const AxisSet& set) const noexcept {
-    Foot best{0.0, 1e300};
-    for (int i = 0; i <= parts_; ++i) {
-        double sum = 0.0;
-        for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
-            const double apart = places_[static_cast<unsigned>(i)][set.axis[n]] - point[set.axis[n]];
-            sum += apart * apart;
+    std::size_t nearest = 0;
+    double best_sq = 1e300;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        if (blocks_[b].distance_sq(point, set) >= best_sq) {
+            continue;
         }
-        if (sum < best.distance_sq) {
-            best = {i / static_cast<double>(parts_), sum};
+        for (std::size_t i = b * block; i < std::min((b + 1) * block, places_.size()); ++i) {
+            double sum = 0.0;
+            for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+                const double apart = places_[i][set.axis[n]] - point[set.axis[n]];
+                sum += apart * apart;
+            }
+            if (sum < best_sq) {
+                best_sq = sum;
+                nearest = i;
+            }
         }
     }
-    return best;
+    return {static_cast<double>(nearest) / static_cast<double>(parts_), best_sq};
 }
 
 // The nearest of its ends and of the places in the direction of the point, in the turns that have about its height or

@@ -31,8 +31,10 @@ public:
     [[nodiscard]] PerAxis<double> at(double t) const noexcept;
     /// Distance of the point from the strand, in some of the axes. [mm]
     [[nodiscard]] double distance(const PerAxis<double>& point, const AxisSet& set) const noexcept;
-    /// A distance that the strand has at least.
-    [[nodiscard]] double at_least(const PerAxis<double>& point, const AxisSet& set) const noexcept;
+    /// The square of a distance that the strand has at least.
+    [[nodiscard]] double at_least_sq(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+        return box_.distance_sq(point, set);
+    }
     /// How many parts of it are enough to look at.
     [[nodiscard]] int parts() const noexcept { return parts_; }
     /// The radius of an arc; 0: it is none.
@@ -40,6 +42,13 @@ public:
     [[nodiscard]] const std::optional<ProgrammedArc>& arc() const noexcept { return arc_; }
 
 private:
+    /// Extents along the axes.
+    struct Box {
+        PerAxis<double> low{};
+        PerAxis<double> high{};
+
+        [[nodiscard]] double distance_sq(const PerAxis<double>& point, const AxisSet& set) const noexcept;
+    };
     struct Foot {
         double t = 0.0;
         double distance_sq = 0.0;
@@ -58,8 +67,8 @@ private:
     PerAxis<PerDegree<double>> control_{}; // of a line or a Bezier segment; of an arc the axes behind the third
     std::optional<ProgrammedArc> arc_;
     std::vector<PerAxis<double>> places_; // at i / parts_
-    PerAxis<double> low_{};
-    PerAxis<double> high_{};
+    std::vector<Box> blocks_;             // of so many places each: most need no look
+    Box box_;
 };
 
 } // namespace splinefeed::host
