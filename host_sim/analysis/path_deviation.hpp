@@ -13,13 +13,12 @@
 namespace splinefeed::host {
 
 /// Takes moves and curve segments as they come, each in order; moves before the segments that follow them. A segment
-/// names the last move of the run that it belongs to, and only the last two of a run, the halves of a
-/// blend, may reach into the next run. So every point of a segment is compared with the moves of its run, the one
-/// before that and, of the last two, the next run; and every point of a move with the segments that may follow it.
-/// Linear axes are measured together [mm], and so are rotary axes [degrees]. The largest distance is found to 1e-6 of
-/// itself or better: at some places, and about the worst of them by a search. Memory: the moves that one segment spans,
-/// and the look-ahead. Cost: about ten
-/// microseconds a move.
+/// names the last move of the run that it belongs to, and only the last two of a run, the halves of a blend, may reach
+/// into the next run. So every point of a segment is compared with the moves of its run, the one before that and, of
+/// the last two, the next run; and every point of a move with the segments that may follow it. Linear axes are measured
+/// together [mm], and so are rotary axes [degrees]. The largest distance is found to 1e-6 of itself or better: at some
+/// places, and about the worst of them by a search. Memory: the moves that one segment spans, and the look-ahead. Cost:
+/// about ten microseconds a move.
 class PathDeviation {
 public:
     /// What a move may be off beyond its tolerance, rounding of the scalar and arcs as polynomials aside. [mm, degrees]
