@@ -24,7 +24,7 @@ const char* fault_name(FaultKind kind) noexcept {
     return "unknown";
 }
 
-std::string describe(const Fault& fault) {
+std::string describe(const Fault& fault, const std::string& place) {
     const std::string where = fault.axis.empty() ? "path" : "axis " + fault.axis;
     const std::string_view mm = fault.unit;
     const std::string unit =
@@ -57,7 +57,8 @@ std::string describe(const Fault& fault) {
         break;
     case FaultKind::trace: what = "the trace could not be written"; break;
     }
-    return fmt::format("{}, at t = {:.6f} s near waypoint {}", what, fault.time_s, fault.waypoint);
+    return fmt::format("{}, at t = {:.6f} s near {}", what, fault.time_s,
+                       place.empty() ? fmt::format("waypoint {}", fault.waypoint) : place);
 }
 
 } // namespace splinefeed::host

@@ -37,6 +37,7 @@ struct Fault {
 };
 
 /// The fault as one sentence without a full stop.
-[[nodiscard]] std::string describe(const Fault& fault);
+/// @param place  what it happened near; empty: the waypoint of the fault
+[[nodiscard]] std::string describe(const Fault& fault, const std::string& place = {});
 
 } // namespace splinefeed::host

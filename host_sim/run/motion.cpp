@@ -123,7 +123,8 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     if (const auto& fault = machine_.fault()) {
         Fault whole = *fault;
         whole.waypoint = feeder_.whole_row(static_cast<std::uint32_t>(fault->waypoint));
-        stopped_ = describe(whole);
+        const auto row = static_cast<std::uint32_t>(whole.waypoint);
+        stopped_ = describe(whole, input_->elements() != nullptr ? feeder_.name_of_row(row) : std::string());
     }
     if (target_ == nullptr) {
         return stopped_.empty() ? stopped_ : stopped_ + where();
