@@ -43,7 +43,8 @@ struct Blend {
 
 /// The blend of a joint that has `room` on both moves. It joins both with their direction and curvature (G2), lies
 /// within joint.tolerance of the moves, and they within it. Between lines that holds by construction; where a move is
-/// an arc or a Bezier segment it is measured at eleven places, and the blend made shorter. false: there is none, the machine has to stop.
+/// an arc or a Bezier segment it is measured at eleven places, and the blend made shorter. false: there is none, the
+/// machine has to stop.
 ///
 /// Between lines: a cubic with both inner points on the corner; its largest distance from the corner is
 /// way sin(phi/2) / 4. Where the room is shorter than joint.way it becomes a quintic that uses the tolerance on less

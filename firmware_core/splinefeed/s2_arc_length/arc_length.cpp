@@ -20,6 +20,10 @@ constexpr S finest = S{};
 template <>
 constexpr float finest<float> = 16.0F;
 
+// A segment is passed slowly if v^2 = A r, r its mean radius, is below a quarter of feed^2 = 14.6 A grades: a radius of
+// 3.6 grades.
+constexpr double slow_grades = 3.6;
+
 } // namespace
 
 template <Scalar S>
@@ -34,10 +38,11 @@ bool ArcLength<S>::vanishes(const Piece<S>& piece) const noexcept {
     return true;
 }
 
-// Within the braking distance of a stop (7.3 grades) a cell is at most a grade or about a third of its distance to the
-// stop. (Not exactly a third: on straight lines that would be a tie, and rounding would decide.)
+// Within the braking distance of a stop (7.3 grades), or of a segment that is passed slowly, a cell is at most a grade
+// or about a third of its distance to it. (Not exactly a third: on straight lines that would be a tie, and rounding
+// would decide.)
 template <Scalar S>
-bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
+bool ArcLength<S>::coarse_near(const Piece<S>& piece, bool start, bool end) const noexcept {
     const auto n = static_cast<unsigned>(current().degree);
     const auto distance_mm = [&](unsigned of_piece, unsigned of_segment) {
         PerAxis<S> gap{};
@@ -52,7 +57,7 @@ bool ArcLength<S>::near_stop(const Piece<S>& piece) const noexcept {
     const auto coarse = [&](S gap) {
         return gap < literal<S>(9.1) * grade_mm_ && m_.length_mm > gap / literal<S>(2.93);
     };
-    return (stop_before_ && coarse(distance_mm(0, 0))) || (stop_after_ && coarse(distance_mm(n, n)));
+    return (start && coarse(distance_mm(0, 0))) || (end && coarse(distance_mm(n, n)));
 }
 
 // Whether an end of an axis's open travel lies in the hull of the piece.
@@ -83,7 +88,9 @@ bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
     if (m_.length_mm > grade_mm_ && (piece.at_start || piece.at_end) && piece.level < 3) {
         return true;
     }
-    return m_.length_mm > scale2(grade_mm_, -refinement_.finest_grade_log2) && near_stop(piece);
+    return (m_.length_mm > grade_mm_ && coarse_near(piece, slow_before_, slow_after_)) ||
+           (m_.length_mm > scale2(grade_mm_, -refinement_.finest_grade_log2) &&
+            coarse_near(piece, stop_before_, stop_after_));
 }
 
 template <Scalar S>
@@ -311,6 +318,8 @@ Pull ArcLength<S>::load() noexcept {
     // Below 2e-8 mm Fixed has no digits for a length; a cell of 2 nm still has some.
     nothing_ = larger(negligible_units<S>, scale2(literal<S>(2e-8), -current().unit_log2));
     grade_mm_ = larger(feed * feed * refinement_.grade_per_feed_sq, literal<S>(2e-6));
+    slow_ = slow_after_;
+    slow_after_ = has_ahead_ && !stop_after_ && turns_within(ahead, literal<S>(slow_grades) * grade_mm_);
     stack_[0].control = current().control;
     if constexpr (counts_from_own_start<S>) {
         for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
@@ -387,6 +396,7 @@ void ArcLength<S>::leave() noexcept {
     --depth_;
     if (depth_ == 0) {
         stop_before_ = stop_after_;
+        slow_before_ = slow_;
         current_ ^= 1U;
         has_current_ = false;
     }

@@ -31,6 +31,7 @@ public:
         depth_ = 0;
         has_current_ = has_ahead_ = in_cusp_ = after_cusp_ = false;
         stop_before_ = stop_after_ = true;
+        slow_before_ = slow_ = slow_after_ = false;
     }
     /// Writes the next cell in the order of travel. The path ends before a segment that does not fit the machine: see
     /// status().
@@ -55,7 +56,7 @@ private:
     [[nodiscard]] bool too_long(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool leaves_open_travel(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool bends_too_much() const noexcept;
-    [[nodiscard]] bool near_stop(const Piece<S>& piece) const noexcept;
+    [[nodiscard]] bool coarse_near(const Piece<S>& piece, bool start, bool end) const noexcept;
     void split() noexcept;
     void leave() noexcept;
     void fill(const Piece<S>& piece, Cell<S>& out) noexcept;
@@ -89,6 +90,9 @@ private:
     bool after_cusp_ = false; // the previous cell was such a chord
     bool stop_before_ = true;
     bool stop_after_ = true;
+    bool slow_before_ = false; // the segment before this one is passed slowly, this one, the one after it
+    bool slow_ = false;
+    bool slow_after_ = false;
 };
 
 } // namespace splinefeed

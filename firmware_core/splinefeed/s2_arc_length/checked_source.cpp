@@ -43,6 +43,29 @@ bool direction_jumps(const CurveSegment<S>& before, const CurveSegment<S>& after
     return jump > most;
 }
 
+template <Scalar S>
+bool turns_within(const CurveSegment<S>& segment, S radius_mm) noexcept {
+    const int axes = segment.axes;
+    PerAxis<S> first{};
+    PerAxis<S> side{};
+    S length{};
+    for (unsigned i = 0; i < static_cast<unsigned>(segment.degree); ++i) {
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            side[k] = segment.control[k][i + 1] - segment.control[k][i];
+        }
+        const S part = norm(side.data(), axes);
+        length += part;
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            side[k] = part > S{} ? side[k] / part : S{};
+            first[k] = i == 0 ? side[k] : first[k];
+        }
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        side[k] = side[k] - first[k];
+    }
+    return segment.degree > 1 && scale2(length, segment.unit_log2) < norm(side.data(), axes) * radius_mm;
+}
+
 // Whether the machine can be where a segment leads: its counters reach the whole segment, and the first segment begins
 // where the machine stands.
 template <Scalar S>
@@ -80,11 +103,14 @@ Pull CheckedSource<S>::next(CurveSegment<S>& out) noexcept {
 template class CheckedSource<double>;
 template PositionRange hull(const PerDegree<double>&, int, Position, int) noexcept;
 template bool direction_jumps(const CurveSegment<double>&, const CurveSegment<double>&, double) noexcept;
+template bool turns_within(const CurveSegment<double>&, double) noexcept;
 template class CheckedSource<float>;
 template PositionRange hull(const PerDegree<float>&, int, Position, int) noexcept;
 template bool direction_jumps(const CurveSegment<float>&, const CurveSegment<float>&, float) noexcept;
+template bool turns_within(const CurveSegment<float>&, float) noexcept;
 template class CheckedSource<Fixed>;
 template PositionRange hull(const PerDegree<Fixed>&, int, Position, int) noexcept;
 template bool direction_jumps(const CurveSegment<Fixed>&, const CurveSegment<Fixed>&, Fixed) noexcept;
+template bool turns_within(const CurveSegment<Fixed>&, Fixed) noexcept;
 
 } // namespace splinefeed

@@ -16,6 +16,11 @@ template <Scalar S>
 template <Scalar S>
 [[nodiscard]] bool direction_jumps(const CurveSegment<S>& before, const CurveSegment<S>& after, S most) noexcept;
 
+/// Whether a segment turns as if its mean radius were below this one. Cost: a root for each side of its control
+/// polygon.
+template <Scalar S>
+[[nodiscard]] bool turns_within(const CurveSegment<S>& segment, S radius_mm) noexcept;
+
 template <Scalar S>
 class CheckedSource {
 public:
