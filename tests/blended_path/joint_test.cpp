@@ -37,7 +37,7 @@ template <Scalar S>
 Joint<S> joint_of(const MoveProgram& program, PathMode mode = PathMode::continuous) {
     const auto moves = moves_of<S>(program);
     const S tolerance = from_double<S>(program.moves[0].tolerance_mm * 4096.0);
-    return decide_joint<S>(moves[0], moves[1], mode, {tolerance, from_double<S>(4.096)}, program.axes);
+    return decide_joint<S>(moves[0], moves[1], mode, {tolerance, from_double<S>(4.096), S{}}, program.axes);
 }
 
 } // namespace
@@ -111,5 +111,24 @@ TEMPLATE_TEST_CASE("what becomes of a joint depends on geometry and mode", "[ble
         CHECK(std::fabs(exact(joint.tolerance) / 4096.0L - tolerance) < 1e-6L);
         // a = sqrt(e / (0.011 |K1 - K0|))
         CHECK(std::fabs(exact(joint.way) / 4096.0L / std::sqrt(tolerance / (0.011L * 0.1L)) - 1.0L) < 1e-4L);
+    }
+}
+
+TEMPLATE_TEST_CASE("a corner whose blend would be too sharp is a stop", "[blended_path]", double, float, Fixed) {
+    using S = TestType;
+    // The curvature in the middle is (2/3) tan^2(phi/2) / e: 0.48 / mm and 1.14 / mm
+    for (const double tolerance : {0.1, 0.05}) {
+        for (const Real degrees : {30.0L, 45.0L}) {
+            const MoveProgram program = corner(degrees, 10.0L, 10.0L, tolerance);
+            TolerancePath<S> path(2, from_double<S>(0.001), from_double<S>(0.5));
+            REQUIRE(path.start(position_of<S>(program.start)).ok());
+            REQUIRE(path.push(element_of<S>(program.moves[0], 2)).ok());
+            REQUIRE(path.push(element_of<S>(program.moves[1], 2)).ok());
+            REQUIRE(path.finish().ok());
+            CurveSegment<S> segment;
+            while (path.next(segment) == Pull::item) {
+            }
+            CHECK(path.counts().joints.blended == (tolerance > 0.07 && degrees < 40.0L ? 1U : 0U));
+        }
     }
 }

@@ -140,7 +140,7 @@ void BlendedPath<S>::decide(std::uint64_t i) noexcept {
         return;
     }
     before.joint = decide_joint(before.move, after.move, before.mode,
-                                {smaller(before.tolerance, after.tolerance), joint_tolerance_}, axes_);
+                                {smaller(before.tolerance, after.tolerance), joint_tolerance_, sharpest_}, axes_);
 }
 
 // What the joint at the end of move i wishes to take of the moves beside it.

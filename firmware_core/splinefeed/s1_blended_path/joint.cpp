@@ -89,6 +89,15 @@ void draw(const PathMove<S>& before, const PathMove<S>& after, S way, S w, int a
                     (literal<S>(0.9) - literal<S>(0.1) * w) * way, axes, out.points);
 }
 
+// The curvature in the middle of the cubic, (8/3) sin(phi/2) / (l cos^2(phi/2)).
+template <Scalar S>
+bool too_sharp(const Joint<S>& joint, S way) noexcept {
+    const S sine = joint.half_sine;
+    const S square = from_integer<S>(1) - sine * sine;
+    return joint.sharpest > S{} && sine > literal<S>(0.5 * corner_jump) &&
+           literal<S>(0x1p20 * 8.0 / 3.0) * sine > joint.sharpest * (way * square);
+}
+
 } // namespace
 
 template <Scalar S>
@@ -121,6 +130,7 @@ Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathM
         return joint;
     }
     joint.kind = JointKind::blend;
+    joint.sharpest = tolerances.sharpest;
     joint.way = quotient_or_max(scale2(joint.tolerance, 2), joint.half_sine);
     if (!lines) {
         // |K1 - K0| is in units of 2^-bend_log2.
@@ -148,6 +158,9 @@ bool fit_blend(const Joint<S>& joint, const PathMove<S>& before, const PathMove<
         const S w =
             tangent ? from_integer<S>(1) : larger(S{}, smaller(from_integer<S>(1), scale2(used - literal<S>(0.25), 3)));
         draw(before, after, way, w, axes, out);
+        if (too_sharp(joint, way)) {
+            return false;
+        }
         if (lines) {
             return true;
         }

@@ -18,13 +18,15 @@ struct Joint {
     S way{};       ///< of a blend: what it would take of each move if there is room, in chord units
     S half_sine{}; ///< sin(phi/2) of the angle phi between the moves
     S tolerance{}; ///< largest distance of the blend from the moves, in chord units
+    S sharpest{};  ///< largest curvature of a blend in units of 2^-20 per chord unit; 0: any
 };
 
-/// Tolerances of a path in chord units.
+/// What a joint may be, in chord units.
 template <Scalar S>
 struct JointTolerances {
-    S corner{};  ///< 0: the path is exact
-    S tangent{}; ///< where only the curvature jumps
+    S corner{};   ///< 0: the path is exact
+    S tangent{};  ///< where only the curvature jumps
+    S sharpest{}; ///< see Joint
 };
 
 /// Decides by the geometry of two moves alone, so the path does not depend on feed or override. A joint whose direction
