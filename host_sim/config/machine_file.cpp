@@ -50,6 +50,7 @@ public:
         path(root, machine.settings, machine.tolerances);
         step(root, machine.step);
         axes(root, machine);
+        machine.tolerances.sharpest_1_mm = sharpest_blend_1_mm(machine.settings);
         return machine;
     }
 

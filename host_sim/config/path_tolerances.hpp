@@ -2,6 +2,10 @@
 // PathTolerances: how far the path of a program may be from its lines and arcs, where the program does not say it.
 #pragma once
 
+#include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
+
+#include <algorithm>
+
 namespace splinefeed::host {
 
 /// Keys of [path] in a machine file, in mm.
@@ -9,6 +13,7 @@ struct PathTolerances {
     double joint_mm = 0.001;     ///< where only the curvature jumps, for machines with a jerk limit
     double programmed_mm = 0.01; ///< elements that state no tolerance
     double rapid_mm = 0.1;       ///< rapids
+    double sharpest_1_mm = 0.0;  ///< no key: a corner whose blend would bend more is a stop; 0: none
 };
 
 /// The largest that a program or a machine file may state.
@@ -25,5 +30,19 @@ inline constexpr PathToleranceKey path_tolerance_keys[] = {
     {"default_tolerance_mm", &PathTolerances::programmed_mm, largest_tolerance_mm},
     {"rapid_tolerance_mm", &PathTolerances::rapid_mm, largest_tolerance_mm},
 };
+
+/// PathTolerances::sharpest_1_mm of a machine. The plan `bounded` mixes a bend with the path beside it: a corner that it
+/// passes with less than half of the feed, v^2 = A / kappa, takes longer than a stop (bench/tolerance.py, corners of 1 to
+/// 170 degrees between lines of 1 to 40 mm).
+[[nodiscard]] inline double sharpest_blend_1_mm(const MachineSettings& machine) {
+    bool jerk_limited = false;
+    double acceleration = machine.axis[0].max_acceleration_mm_s2;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+        jerk_limited = jerk_limited || machine.axis[k].max_jerk_mm_s3 > 0.0;
+        acceleration = std::min(acceleration, machine.axis[k].max_acceleration_mm_s2);
+    }
+    const double half_feed = machine.max_feed_mm_s / 2.0;
+    return jerk_limited && machine.jerk_tier == JerkTier::bounded ? acceleration / (half_feed * half_feed) : 0.0;
+}
 
 } // namespace splinefeed::host

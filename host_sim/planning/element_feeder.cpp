@@ -10,7 +10,8 @@ namespace splinefeed::host {
 template <Scalar S>
 ElementFeeder<S>::ElementFeeder(PathInput& input, std::unique_ptr<WaypointRows> rows)
     : input_(&input), program_(input.elements()), rows_(std::move(rows)),
-      path_(static_cast<int>(input.axes().size()), from_double<S>(input.tolerances().joint_mm)) {
+      path_(static_cast<int>(input.axes().size()), from_double<S>(input.tolerances().joint_mm),
+            from_double<S>(input.tolerances().sharpest_1_mm)) {
     if (program_ == nullptr) {
         lines_.resize(remembered);
     }
