@@ -23,7 +23,7 @@ constexpr double most_uneven = 12.0; // longer line over the shorter one, unless
 constexpr double whole = 0.96;
 constexpr double edge = 0.48;     // at the ends of a chain: the other half is that of the joint
 constexpr double of_joint = 0.03; // behind a quintic that took its whole share
-constexpr double left_out = 0.25; // places nearer than this to the one before are left out
+constexpr double left_out = 0.25; // places nearer than this to the one before, or to the line past them, are left out
 constexpr double rest = 0.75;
 
 } // namespace
@@ -35,6 +35,9 @@ bool ChainSmoother<S>::has_room() const noexcept {
 
 template <Scalar S>
 void ChainSmoother<S>::push(const PathElement<S>& element, std::uint32_t index) noexcept {
+    if (left_out_ && !may_leave_out(element)) {
+        restore();
+    }
     if (kind_ == Kind::nothing) {
         begin(element, index, start_);
     } else if (kind_ == Kind::chain && !closed_ && goes_on(element)) {
@@ -104,10 +107,10 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
     const S length = length_to(element.to, direction);
     const bool plain = element.mode == PathMode::continuous && !element.stop_at_end;
     const bool same_feed = element.feed_mm_s == end_.feed_mm_s && element.max_feed_mm_s == end_.max_feed_mm_s;
-    if (length < literal<S>(left_out) * tolerance_) {
-        return plain && same_feed;
-    }
     const S before = points_[points_.last()].chord;
+    if (too_short(length) && plain && same_feed) {
+        return true;
+    }
     const S longer = larger(length, before);
     for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
         direction[k] = direction[k] - direction_[k];
@@ -122,10 +125,50 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
            (longer <= literal<S>(most_uneven) * smaller(length, before) || bow < from_integer<S>(1));
 }
 
+// A line so short that its end may be no point of the chain: it is near the last point, or its direction is chance.
+template <Scalar S>
+bool ChainSmoother<S>::too_short(S length) const noexcept {
+    return length < literal<S>(left_out) * tolerance_ ||
+           literal<S>(most_uneven) * length < points_[points_.last()].chord;
+}
+
+// Whether the place that was left out is near enough to the line to the end of an element.
+template <Scalar S>
+bool ChainSmoother<S>::may_leave_out(const PathElement<S>& element) const noexcept {
+    PerAxis<S> out{};
+    const S far = length_to(end_.to, out);
+    if (far < literal<S>(left_out) * tolerance_) {
+        return true;
+    }
+    PerAxis<S> direction{};
+    const S length = length_to(element.to, direction);
+    S along{};
+    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+        out[k] = far * out[k];
+        along += out[k] * direction[k];
+    }
+    along = larger(S{}, smaller(along, length));
+    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+        out[k] = out[k] - along * direction[k];
+    }
+    return element.shape == MoveShape::line && !too_short(length) &&
+           norm(out.data(), points_.axes()) < literal<S>(left_out) * tolerance_;
+}
+
+// The place that was left out becomes a point.
+template <Scalar S>
+void ChainSmoother<S>::restore() noexcept {
+    left_out_ = false;
+    add_point(end_.to, end_index_);
+    smooth_newest();
+}
+
 template <Scalar S>
 void ChainSmoother<S>::append(const PathElement<S>& element, std::uint32_t index) noexcept {
     PerAxis<S> direction{};
-    left_out_ = length_to(element.to, direction) < literal<S>(left_out) * tolerance_;
+    const bool plain = element.mode == PathMode::continuous && !element.stop_at_end;
+    const S length = length_to(element.to, direction);
+    left_out_ = length < literal<S>(left_out) * tolerance_ || (plain && too_short(length));
     end_ = element;
     end_index_ = index;
     if (left_out_) {
@@ -133,7 +176,12 @@ void ChainSmoother<S>::append(const PathElement<S>& element, std::uint32_t index
         return;
     }
     add_point(element.to, index);
-    // Alternating directions: what one point moves reaches the others from both sides.
+    smooth_newest();
+}
+
+// Alternating directions: what one point moves reaches the others from both sides.
+template <Scalar S>
+void ChainSmoother<S>::smooth_newest() noexcept {
     const std::uint64_t last = points_.last();
     if (last < fewest_lines + 1) {
         return;
@@ -162,6 +210,12 @@ void ChainSmoother<S>::add_point(const PerAxis<Position>& place, std::uint32_t i
 // The chain ends: its last place is met exactly, and its last points are smoothed with what is known.
 template <Scalar S>
 void ChainSmoother<S>::close() noexcept {
+    if (left_out_) {
+        PerAxis<S> direction{};
+        if (!(length_to(end_.to, direction) < literal<S>(left_out) * tolerance_)) {
+            restore();
+        }
+    }
     closed_ = true;
     const std::uint64_t last = points_.last();
     if (left_out_) {
@@ -174,6 +228,7 @@ void ChainSmoother<S>::close() noexcept {
         point.chord = norm(chord.data(), points_.axes());
         point.index = end_index_;
         measure_last_point(points_, tolerance_);
+        left_out_ = false;
     }
     points_[last].moved = {};
     const std::uint64_t low = larger(front_ + 1, last < smoothed_points ? 1 : last + 1 - smoothed_points);

@@ -46,6 +46,10 @@ private:
     enum class Kind : std::uint8_t { nothing, single, chain };
 
     [[nodiscard]] bool goes_on(const PathElement<S>& element) const noexcept;
+    [[nodiscard]] bool too_short(S length) const noexcept;
+    [[nodiscard]] bool may_leave_out(const PathElement<S>& element) const noexcept;
+    void restore() noexcept;
+    void smooth_newest() noexcept;
     void begin(const PathElement<S>& element, std::uint32_t index, const PerAxis<Position>& from) noexcept;
     void begin_pending(const PerAxis<Position>& from) noexcept;
     void append(const PathElement<S>& element, std::uint32_t index) noexcept;
@@ -68,8 +72,8 @@ private:
     IndexedMove<S> pending_{}; // the move behind the chain
     PathElement<S> end_{};     // the last one of the chain
     std::uint32_t end_index_ = 0;
-    bool left_out_ = false; // end_ is nearer to the last point than a quarter of the tolerance, and no point of its own
-    S tolerance_{};         // of the chain, in chord units
+    bool left_out_ = false;   // the end of end_ is no point of its own
+    S tolerance_{};           // of the chain, in chord units
     std::uint64_t front_ = 0; // the point that was passed on last
     std::uint64_t span_ = 8;  // lines of the last quintic
     std::uint64_t chains_ = 0;
