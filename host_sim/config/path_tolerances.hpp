@@ -31,9 +31,9 @@ inline constexpr PathToleranceKey path_tolerance_keys[] = {
     {"rapid_tolerance_mm", &PathTolerances::rapid_mm, largest_tolerance_mm},
 };
 
-/// PathTolerances::sharpest_1_mm of a machine. The plan `bounded` mixes a bend with the path beside it: a corner that it
-/// passes with less than half of the feed, v^2 = A / kappa, takes longer than a stop (bench/tolerance.py, corners of 1 to
-/// 170 degrees between lines of 1 to 40 mm).
+/// PathTolerances::sharpest_1_mm of a machine. The plan `bounded` mixes a bend with the path beside it: a corner that
+/// it passes with less than half of the feed, v^2 = A / kappa, takes longer than a stop (bench/tolerance.py, corners of
+/// 1 to 170 degrees between lines of 1 to 40 mm).
 [[nodiscard]] inline double sharpest_blend_1_mm(const MachineSettings& machine) {
     bool jerk_limited = false;
     double acceleration = machine.axis[0].max_acceleration_mm_s2;
