@@ -63,16 +63,18 @@ TEMPLATE_TEST_CASE("states near the ends of arcs, helices and Bezier segments", 
     for (int round = 0; round < rounds(60); ++round) {
         MoveProgram program;
         program.axes = random.integer(2, 4);
-        const Real size = random.decades(0.01, 1000.0);
-        program.start = {random.between(-100.0, 100.0), random.between(-100.0, 100.0)};
+        const Real size = real_decades(random, 0.01, 1000.0);
+        program.start = {real_between(random, -100.0, 100.0), real_between(random, -100.0, 100.0)};
         if (random.chance(0.5)) {
-            program.arc(
-                program.start[0] + size * random.between(0.3, 1.0), program.start[1] + size * random.between(0.3, 1.0),
-                random.between(0.3, 20.0) * (random.chance(0.5) ? 1.0 : -1.0), size * random.between(-1.0, 1.0));
+            program.arc(program.start[0] + size * real_between(random, 0.3, 1.0),
+                        program.start[1] + size * real_between(random, 0.3, 1.0),
+                        real_between(random, 0.3, 20.0) * (random.chance(0.5) ? 1.0L : -1.0L),
+                        size * real_between(random, -1.0, 1.0));
         } else {
             std::vector<PlaceMm> offsets;
             for (int i = 1, degree = random.integer(2, 5); i <= degree; ++i) {
-                offsets.push_back({size * i, size * random.between(-1.0, 1.0), size * random.between(-1.0, 1.0)});
+                offsets.push_back(
+                    {size * i, size * real_between(random, -1.0, 1.0), size * real_between(random, -1.0, 1.0)});
             }
             program.bezier(offsets);
         }

@@ -52,11 +52,11 @@ MoveProgram random_moves(Random& random) {
     PlaceMm direction{};
     direction[0] = 1.0L;
     for (int i = 0, count = random.integer(1, 20); i < count; ++i) {
-        const Real length = size * random.decades(1.0 / spread, spread);
+        const Real length = std::min(2e4L, real_decades(random, size / spread, size * spread));
         Real sum = 0.0L;
         const double turn = smooth && random.chance(0.9) ? 0.3 : random.decades(1e-4, 10.0);
         for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
-            direction[k] += turn * random.between(-1.0, 1.0);
+            direction[k] += real_between(random, -turn, turn);
             sum += direction[k] * direction[k];
         }
         PlaceMm to = program.moves.empty() ? program.start : program.moves.back().to;
@@ -66,14 +66,14 @@ MoveProgram random_moves(Random& random) {
         }
         if (program.axes > 1 && random.chance(0.15)) {
             const PlaceMm from = program.moves.empty() ? program.start : program.moves.back().to;
-            const Real radius = length * random.decades(0.1, 10.0);
+            const Real radius = length * real_decades(random, 0.1, 10.0);
             const Real side = random.chance(0.5) ? 1.0L : -1.0L;
-            const Real angle = random.chance(0.5) ? 0.0L : random.between(-1.0, 1.0);
+            const Real angle = random.chance(0.5) ? 0.0L : real_between(random, -1.0, 1.0);
             const Real plane = std::max(1e-3L, std::hypot(direction[0], direction[1]));
             const Real x = -side * (direction[1] * std::cos(angle) + direction[0] * std::sin(angle)) / plane;
             const Real y = side * (direction[0] * std::cos(angle) - direction[1] * std::sin(angle)) / plane;
             program.arc(from[0] + radius * x, from[1] + radius * y,
-                        side * (random.chance(0.2) ? random.between(0.1, 15.0) : random.between(0.05, 3.0)),
+                        side * (random.chance(0.2) ? real_between(random, 0.1, 15.0) : real_between(random, 0.05, 3.0)),
                         random.chance(0.3) ? length * 0.1L : 0.0L);
         } else if (random.chance(0.1)) {
             const PlaceMm from = program.moves.empty() ? program.start : program.moves.back().to;
@@ -81,7 +81,8 @@ MoveProgram random_moves(Random& random) {
             for (int n = 1, degree = random.integer(1, 5); n <= degree; ++n) {
                 PlaceMm offset{};
                 for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
-                    offset[k] = (to[k] - from[k]) * n / degree + 0.3L * length * random.between(-1.0, 1.0) / degree;
+                    offset[k] =
+                        (to[k] - from[k]) * n / degree + 0.3L * length * real_between(random, -1.0, 1.0) / degree;
                 }
                 offsets.push_back(offset);
             }
@@ -117,7 +118,7 @@ void require_path(const MoveProgram& program, const BlendedRun<S>& run) {
     REQUIRE_FALSE(run.segments.empty());
     Real least = 1e9L;
     for (const ProgrammedMove& move : program.moves) {
-        least = std::min(least, std::max<Real>(move.tolerance_mm, program.joint_tolerance_mm));
+        least = std::min(least, static_cast<Real>(std::max(move.tolerance_mm, program.joint_tolerance_mm)));
     }
     const Deviation found = deviation(program, run.segments, 8);
     CAPTURE(found.move, found.from_path, static_cast<double>(found.at), static_cast<double>(least));

@@ -17,6 +17,13 @@ namespace splinefeed_test {
 
 using PlaceMm = PerAxis<Real>;
 
+inline Real real_between(Random& random, double low, double high) {
+    return static_cast<Real>(random.between(low, high));
+}
+inline Real real_decades(Random& random, double low, double high) {
+    return static_cast<Real>(random.decades(low, high));
+}
+
 inline Real apart(const PlaceMm& a, const PlaceMm& b, int axes) {
     Real sum = 0.0L;
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
@@ -387,7 +394,8 @@ Deviation deviation(const MoveProgram& program, const std::vector<CurveSegment<S
                 for (const std::int64_t n : {here - away, here + away}) {
                     if (n >= 0 && n < count) {
                         const ProgrammedMove& move = program.moves[static_cast<std::size_t>(n)];
-                        const Real tolerance = std::max<Real>(move.tolerance_mm, program.joint_tolerance_mm);
+                        const Real tolerance =
+                            static_cast<Real>(std::max(move.tolerance_mm, program.joint_tolerance_mm));
                         least = std::min(least, move.distance(place, axes) / tolerance);
                     }
                 }
@@ -400,7 +408,7 @@ Deviation deviation(const MoveProgram& program, const std::vector<CurveSegment<S
     const std::vector<SampledSegment<S>> sampled(segments.begin(), segments.end());
     for (std::size_t n = 0; n < program.moves.size(); ++n) {
         const ProgrammedMove& move = program.moves[n];
-        const Real tolerance = std::max<Real>(move.tolerance_mm, program.joint_tolerance_mm);
+        const Real tolerance = static_cast<Real>(std::max(move.tolerance_mm, program.joint_tolerance_mm));
         // The segments of this move, and three on either side: the segment of a place counts to the move at its end.
         const auto index = static_cast<std::uint32_t>(n);
         const auto before = [](const CurveSegment<S>& segment, std::uint32_t i) {

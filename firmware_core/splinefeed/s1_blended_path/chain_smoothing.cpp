@@ -83,6 +83,15 @@ void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
         return;
     }
     const auto axes = static_cast<unsigned>(points.axes());
+    // The points first - 3 to end, from this one as programmed, in units of 2^finest.
+    std::array<PerAxis<S>, 7> around{};
+    for (std::uint64_t j = first - 3; j <= end; ++j) {
+        PerAxis<S>& at = around[static_cast<unsigned>(j - (first - 3))];
+        points.programmed(i, j, at);
+        for (unsigned k = 0; k < axes; ++k) {
+            at[k] = scale2(at[k] + points[j].moved[k], -finest);
+        }
+    }
     PerAxis<S> pull{};
     S stiffness{};
     for (std::uint64_t j = first; j <= end; ++j) {
@@ -93,18 +102,17 @@ void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
         }
         PerAxis<S> difference{};
         for (unsigned m = 0; m < 4; ++m) {
-            PerAxis<S> at{};
-            points.programmed(i, j - 3 + m, at);
+            const PerAxis<S>& at = around[static_cast<unsigned>(j - first) + m];
             for (unsigned k = 0; k < axes; ++k) {
-                difference[k] += of.difference[m] * scale2(at[k] + points[j - 3 + m].moved[k], -of.exponent);
+                difference[k] += of.difference[m] * at[k];
             }
         }
-        // In units of 2^finest a difference of third order, squared, over a length is as small as the fifth power.
+        // The square of a factor times a length: the fifth power of its unit.
         const S factor = of.difference[static_cast<unsigned>(i - (j - 3))];
         const S share = scale2(of.weight * factor, -5 * coarser);
         stiffness += share * factor;
         for (unsigned k = 0; k < axes; ++k) {
-            pull[k] += scale2(share * difference[k], coarser);
+            pull[k] += share * difference[k];
         }
     }
     if (!(stiffness > S{})) {
