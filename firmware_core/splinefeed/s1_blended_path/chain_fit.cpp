@@ -184,8 +184,10 @@ bool ChainFit<S>::reaches(std::uint64_t to, S limit) noexcept {
     return true;
 }
 
+#if SPLINEFEED_MAX_DEGREE >= 5
 template class ChainFit<double>;
 template class ChainFit<float>;
 template class ChainFit<Fixed>;
+#endif
 
 } // namespace splinefeed

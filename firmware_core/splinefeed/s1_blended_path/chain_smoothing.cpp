@@ -128,11 +128,13 @@ void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
     }
 }
 
+#if SPLINEFEED_MAX_DEGREE >= 5
 template void measure_last_point(ChainPoints<double>&, double) noexcept;
 template void measure_last_point(ChainPoints<float>&, float) noexcept;
 template void measure_last_point(ChainPoints<Fixed>&, Fixed) noexcept;
 template void smooth_point(ChainPoints<double>&, std::uint64_t) noexcept;
 template void smooth_point(ChainPoints<float>&, std::uint64_t) noexcept;
 template void smooth_point(ChainPoints<Fixed>&, std::uint64_t) noexcept;
+#endif
 
 } // namespace splinefeed

@@ -67,8 +67,10 @@ void chain_state(const ChainPoints<S>& points, std::uint64_t at, PathState<S>& o
     }
 }
 
+#if SPLINEFEED_MAX_DEGREE >= 5
 template void chain_state(const ChainPoints<double>&, std::uint64_t, PathState<double>&) noexcept;
 template void chain_state(const ChainPoints<float>&, std::uint64_t, PathState<float>&) noexcept;
 template void chain_state(const ChainPoints<Fixed>&, std::uint64_t, PathState<Fixed>&) noexcept;
+#endif
 
 } // namespace splinefeed

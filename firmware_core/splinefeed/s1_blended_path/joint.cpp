@@ -175,6 +175,7 @@ bool fit_blend(const Joint<S>& joint, const PathMove<S>& before, const PathMove<
     return false;
 }
 
+#if SPLINEFEED_MAX_DEGREE >= 5
 template Joint<double> decide_joint(const PathMove<double>&, const PathMove<double>&, PathMode,
                                     const JointTolerances<double>&, int) noexcept;
 template bool fit_blend(const Joint<double>&, const PathMove<double>&, const PathMove<double>&, double, int,
@@ -187,5 +188,6 @@ template Joint<Fixed> decide_joint(const PathMove<Fixed>&, const PathMove<Fixed>
                                    const JointTolerances<Fixed>&, int) noexcept;
 template bool fit_blend(const Joint<Fixed>&, const PathMove<Fixed>&, const PathMove<Fixed>&, Fixed, int,
                         Blend<Fixed>&) noexcept;
+#endif
 
 } // namespace splinefeed

@@ -304,8 +304,10 @@ void PathMove<S>::piece_end(S trim_start, S trim_end, int index, int count, Path
     }
 }
 
+#if SPLINEFEED_MAX_DEGREE >= 5
 template class PathMove<double>;
 template class PathMove<float>;
 template class PathMove<Fixed>;
+#endif
 
 } // namespace splinefeed

@@ -20,11 +20,13 @@ void quintic_between(const PathState<S>& from, const PathState<S>& to, S first, 
     }
 }
 
+#if SPLINEFEED_MAX_DEGREE >= 5
 template void quintic_between(const PathState<double>&, const PathState<double>&, double, double, int,
                               PerAxis<PerDegree<double>>&) noexcept;
 template void quintic_between(const PathState<float>&, const PathState<float>&, float, float, int,
                               PerAxis<PerDegree<float>>&) noexcept;
 template void quintic_between(const PathState<Fixed>&, const PathState<Fixed>&, Fixed, Fixed, int,
                               PerAxis<PerDegree<Fixed>>&) noexcept;
+#endif
 
 } // namespace splinefeed
