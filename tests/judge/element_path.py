@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 AXES = "xyzabc"
-CHORD_MM = 1e-6  # between a piece and the curve
+CHORD_MM = 1e-5  # between a piece and the curve
 LEFT_OUT_MM = 2e-4  # moves that are shorter need not be there
 LONGEST_PIECE_MM = 2.0  # of a line: within a piece nobody looks at the order
 JOINT_MM, DEFAULT_MM, RAPID_MM = 1e-3, 1e-2, 0.1  # what a machine file need not state
@@ -137,13 +137,16 @@ def whole(elements):
 
 
 def allowed(elements, joint):
-    """What the path may be off each element: the larger one of what the joints at its ends allow."""
+    """What the path may be off each element: the larger one of what the joints at its ends allow, and those between the pieces of a
+    NURBS."""
     at_end = []
     for one, following in zip(elements, elements[1:]):
         both = min(one["tolerance_mm"], following["tolerance_mm"])
         mode = one.get("mode", "continuous")
         at_end.append(0.0 if mode == "exact_stop" else both if mode == "continuous" and both > 0.0 else joint)
-    return np.maximum(np.array([0.0] + at_end), np.array(at_end + [0.0]))
+    within = [(element["tolerance_mm"] if element.get("mode", "continuous") == "continuous" and element["tolerance_mm"] > 0.0 else joint)
+              if element.get("type") == "nurbs" else 0.0 for element in elements]
+    return np.max([[0.0] + at_end, at_end + [0.0], within], axis=0)
 
 
 class ElementPath:

@@ -11,7 +11,7 @@ together, and rotary ones, in degrees. All outputs:
   deviation_mm      the largest distance of a sample from the program, and at_element (from 1)
   coverage_mm       the largest distance of the program from the trace, and at_element
   over_mm           the largest distance beyond what its element allows, chords between samples aside
-  slack_mm          what a sample period smoothes, and 2e-6
+  slack_mm          what a sample period smoothes, 1e-5 for chords of arcs and splines, and 1e-6
   deviation_deg, coverage_deg, over_deg    of rotary axes, if there are any
 
 Needs python3-numpy."""
