@@ -51,6 +51,9 @@ public:
         step(root, machine.step);
         axes(root, machine);
         machine.tolerances.sharpest_1_mm = sharpest_blend_1_mm(machine.settings);
+        for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {
+            machine.tolerances.rotary[k] = machine.settings.axis[k].rotary;
+        }
         return machine;
     }
 
@@ -96,7 +99,7 @@ private:
         }
         for (const PathToleranceKey& tolerance : path_tolerance_keys) {
             if (const toml::node* given = table.get(tolerance.key)) {
-                tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, "mm"});
+                tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, tolerance.unit});
             }
         }
         if (const toml::node* tier = table.get("jerk_plan")) {

@@ -8,12 +8,14 @@
 
 namespace splinefeed::host {
 
-/// Keys of [path] in a machine file, in mm.
+/// Keys of [path] in a machine file, in mm and degrees.
 struct PathTolerances {
     double joint_mm = 0.001;     ///< where only the curvature jumps, for machines with a jerk limit
     double programmed_mm = 0.01; ///< elements that state no tolerance
     double rapid_mm = 0.1;       ///< rapids
+    double rotary_deg = 100.0;   ///< of rotary axes, where a move's own number is larger
     double sharpest_1_mm = 0.0;  ///< no key: a corner whose blend would bend more is a stop; 0: none
+    PerAxis<bool> rotary{};      ///< no key: of the machine
 };
 
 /// The largest that a program or a machine file may state.
@@ -23,12 +25,14 @@ inline constexpr double largest_tolerance_mm = 100.0;
 struct PathToleranceKey {
     const char* key;
     double PathTolerances::*value;
-    double high; ///< the range is 0 to this [mm]
+    double high; ///< the range is 0 to this
+    const char* unit;
 };
 inline constexpr PathToleranceKey path_tolerance_keys[] = {
-    {"joint_tolerance_mm", &PathTolerances::joint_mm, 1.0},
-    {"default_tolerance_mm", &PathTolerances::programmed_mm, largest_tolerance_mm},
-    {"rapid_tolerance_mm", &PathTolerances::rapid_mm, largest_tolerance_mm},
+    {"joint_tolerance_mm", &PathTolerances::joint_mm, 1.0, "mm"},
+    {"default_tolerance_mm", &PathTolerances::programmed_mm, largest_tolerance_mm, "mm"},
+    {"rapid_tolerance_mm", &PathTolerances::rapid_mm, largest_tolerance_mm, "mm"},
+    {"rotary_tolerance_deg", &PathTolerances::rotary_deg, largest_tolerance_mm, "degrees"},
 };
 
 /// PathTolerances::sharpest_1_mm of a machine. The plan `bounded` mixes a bend with the path beside it: a corner that

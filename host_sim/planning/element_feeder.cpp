@@ -5,7 +5,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace splinefeed::host {
+
+namespace {
+
+bool turns_rotary_axis(const PathElement<double>& move, const PerAxis<Position>& from, const PerAxis<bool>& rotary) {
+    for (unsigned k = 0; k < max_axes; ++k) {
+        const auto& points = move.bezier.points[k];
+        const bool bends = move.shape == MoveShape::bezier &&
+                           std::any_of(points.begin(), points.end(), [](double offset) { return offset != 0.0; });
+        if (rotary[k] && (move.to[k] != from[k] || bends)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
 
 template <Scalar S>
 ElementFeeder<S>::ElementFeeder(PathInput& input, std::unique_ptr<WaypointRows> rows)
@@ -60,6 +78,11 @@ bool ElementFeeder<S>::next(Pushed& pushed) {
         move_.feed_mm_s = row.feed_mm_s;
         move_.max_feed_mm_s = row.max_feed_mm_s;
     }
+    if (started_ && turns_rotary_axis(move_, at_, input_->tolerances().rotary)) {
+        // Then the path is nowhere farther off than the smaller number, in mm and in degrees.
+        move_.tolerance_mm = std::min(move_.tolerance_mm, input_->tolerances().rotary_deg);
+    }
+    at_ = pushed.position;
     const Status status = started_ ? path_.push(element_in<S>(move_)) : path_.start(pushed.position);
     if (!status.ok()) {
         refuse(status.error(), line);

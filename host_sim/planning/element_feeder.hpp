@@ -57,6 +57,7 @@ private:
     std::unique_ptr<WaypointRows> rows_;
     TolerancePath<S> path_;
     PathElement<double> move_;         // the last one
+    PerAxis<Position> at_{};           // its end
     std::vector<std::uint64_t> lines_; // line of row i at index i % remembered
     std::uint64_t rows_read_ = 0;
     std::uint64_t moves_ = 0;

@@ -226,15 +226,20 @@ TEST_CASE("Tolerances of the path have defaults and ranges") {
     CHECK(usual.joint_mm == 0.001);
     CHECK(usual.programmed_mm == 0.01);
     CHECK(usual.rapid_mm == 0.1);
+    CHECK(usual.rotary_deg == 100.0);
     const PathTolerances stated = parse_machine(with("[path]", "[path]\njoint_tolerance_mm = 0\n"
-                                                               "default_tolerance_mm = 0.02\nrapid_tolerance_mm = 1"),
+                                                               "default_tolerance_mm = 0.02\nrapid_tolerance_mm = 1\n"
+                                                               "rotary_tolerance_deg = 0.5"),
                                                 "m.toml")
                                       .tolerances;
     CHECK(stated.joint_mm == 0.0);
     CHECK(stated.programmed_mm == 0.02);
     CHECK(stated.rapid_mm == 1.0);
+    CHECK(stated.rotary_deg == 0.5);
     CHECK(refusal(with("[path]", "[path]\njoint_tolerance_mm = 2")) ==
           "m.toml:4: joint_tolerance_mm is 2; it must lie between 0 and 1 mm");
+    CHECK(refusal(with("[path]", "[path]\nrotary_tolerance_deg = -1")) ==
+          "m.toml:4: rotary_tolerance_deg is -1; it must lie between 0 and 100 degrees");
     CHECK(refusal(with("[path]", "[path]\nrapid_tolerance = 2")).find("did you mean 'rapid_tolerance_mm'?") !=
           std::string::npos);
 }

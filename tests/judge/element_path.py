@@ -84,6 +84,12 @@ def points_of(element):
     return points
 
 
+def turns_rotary_axis(element, machine):
+    rotary = {"xyzabc".index(axis["name"]) for axis in machine.get("axis", []) if axis.get("kind") == "rotary"}
+    points = [element["from"], *element.get("control_points", []), element["to"]]
+    return any(len({point[k] if k < len(point) else 0.0 for point in points}) > 1 for k in rotary)
+
+
 def read_elements(path, machine, tolerance=None):
     """Elements of a .json, or the lines between the waypoints of a .csv, each with its "tolerance_mm"; those that stop at their end
     are exact_stop."""
@@ -97,6 +103,8 @@ def read_elements(path, machine, tolerance=None):
     for element in elements:
         rapid = stated.get("rapid_tolerance_mm", RAPID_MM)
         element["tolerance_mm"] = rapid if element.get("rapid") else element.get("tolerance_mm", default)
+        if turns_rotary_axis(element, machine):
+            element["tolerance_mm"] = min(element["tolerance_mm"], stated.get("rotary_tolerance_deg", math.inf))
     for stop in data.get("dwells", []) + data.get("events", []):
         if stop["after_element"] > 0:
             elements[stop["after_element"] - 1]["mode"] = "exact_stop"

@@ -58,6 +58,20 @@ class Cable:
         for space in (self.space, self.switch):  # and with them what is in them
             ip("ip", "netns", "del", space)
 
+    def connected(self):
+        shown = subprocess.run(["ip", "netns", "exec", self.space, "ss", "-Htn", "state", "established"],
+                               capture_output=True, text=True, check=False)
+        return shown.returncode != 0 or shown.stdout.strip() != ""
+
+    def pull_later(self, seconds):
+        """PULLED_AT_S after a drive behind the switch has been connected: a busy host begins late."""
+        for _ in range(600):
+            if self.connected():
+                break
+            time.sleep(0.05)
+        time.sleep(PULLED_AT_S)
+        self.pull(seconds)
+
     def pull(self, seconds):
         for state in ("down", "up"):
             if why := ip("ip", "-n", self.switch, "link", "set", self.behind, state):
@@ -78,7 +92,7 @@ def run(options, cable, tolerance_mm, asked):
                         under=["ip", "netns", "exec", cable.space] if far[k] else [], extra=["--allow-remote"])
                   for k in range(3)]
         machine, steps = machine_file(options.machine, folder, [drive.tcp_address() for drive in drives])
-        puller = threading.Timer(PULLED_AT_S, cable.pull, [options.away_s])
+        puller = threading.Thread(target=cable.pull_later, args=[options.away_s])
         if options.away_s:
             puller.start()
         name = f"{options.far} of 3 drives far, " + (f"pulled for {options.away_s} s" if options.away_s else options.netem)

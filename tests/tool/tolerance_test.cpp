@@ -65,6 +65,25 @@ TEST_CASE("A polyline within a tolerance goes round its corners") {
     CHECK(tool(column + " --closed").status == 2);
 }
 
+TEST_CASE("Moves of a rotary axis keep its tolerance, too") {
+    const Tool tool;
+    tool.write("wrap.csv", "x,y,a\n0,0,0\n20,0,0\n20,20,30\n0,20,60\n0,0,60\n");
+    const std::string machine = "[path]\nmax_feed_mm_s = 100\nrotary_tolerance_deg = 0.02\n"
+                                "[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n"
+                                "[[axis]]\nname = \"y\"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n"
+                                "[[axis]]\nname = \"a\"\nkind = \"rotary\"\nmax_velocity_mm_s = 100\n"
+                                "max_acceleration_mm_s2 = 1000\n";
+    tool.write("own.toml", machine);
+    tool.write("none.toml", std::string(machine).replace(machine.find("rotary_tol"), 27, ""));
+    const std::string run = "run wrap.csv --curve polyline --tolerance 0.1 --quiet --summary json -m ";
+    const json own = summary_of(tool(run + "own.toml"));
+    const json none = summary_of(tool(run + "none.toml"));
+    CHECK(own["tolerance"]["kept"] == true);
+    CHECK(own["tolerance"]["blended"] == 3);
+    CHECK(own["tolerance"]["deviation_mm"]["distance"].get<double>() == Approx(0.02).margin(1e-6));
+    CHECK(none["tolerance"]["deviation_mm"]["distance"].get<double>() > 0.05);
+}
+
 TEST_CASE("A pipe of waypoints within a tolerance is run as it comes") {
     const Tool tool;
     const Call call = tool.shell("cat " + examples + "star.csv' | '" + splinefeed::test::tool_path() +

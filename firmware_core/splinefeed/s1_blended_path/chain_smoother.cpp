@@ -159,6 +159,7 @@ bool ChainSmoother<S>::may_leave_out(const PathElement<S>& element) const noexce
 template <Scalar S>
 void ChainSmoother<S>::restore() noexcept {
     left_out_ = false;
+    points_[points_.last()].merged = merged_before_;
     add_point(end_.to, end_index_);
     smooth_newest();
 }
@@ -168,6 +169,7 @@ void ChainSmoother<S>::append(const PathElement<S>& element, std::uint32_t index
     PerAxis<S> direction{};
     const bool plain = element.mode == PathMode::continuous && !element.stop_at_end;
     const S length = length_to(element.to, direction);
+    merged_before_ = left_out_ || points_[points_.last()].merged;
     left_out_ = length < literal<S>(left_out) * tolerance_ || (plain && too_short(length));
     end_ = element;
     end_index_ = index;

@@ -72,10 +72,11 @@ private:
     IndexedMove<S> pending_{}; // the move behind the chain
     PathElement<S> end_{};     // the last one of the chain
     std::uint32_t end_index_ = 0;
-    bool left_out_ = false;   // the end of end_ is no point of its own
-    S tolerance_{};           // of the chain, in chord units
-    std::uint64_t front_ = 0; // the point that was passed on last
-    std::uint64_t span_ = 8;  // lines of the last quintic
+    bool left_out_ = false;      // the end of end_ is no point of its own
+    bool merged_before_ = false; // the last point, had that place not been left out
+    S tolerance_{};              // of the chain, in chord units
+    std::uint64_t front_ = 0;    // the point that was passed on last
+    std::uint64_t span_ = 8;     // lines of the last quintic
     std::uint64_t chains_ = 0;
     Kind kind_ = Kind::nothing;
     bool has_pending_ = false;
