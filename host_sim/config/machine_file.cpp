@@ -88,7 +88,7 @@ private:
             known.insert(known.end() - 1, limit.key);
         }
         for (const PathToleranceKey& tolerance : path_tolerance_keys) {
-            known.push_back(tolerance.key);
+            known.emplace_back(tolerance.key);
         }
         check_.require_known(table, known, "[path]");
         settings.max_feed_mm_s = required(table, "max_feed_mm_s", velocity_range, "[path]");

@@ -3,6 +3,7 @@
 // costs.
 #include "instructions.hpp"
 #include "splinefeed/s5_pulse_train/pulse_train.hpp"
+#include "write_number.hpp"
 #include "write_value.hpp"
 
 #include <cstdint>
@@ -87,16 +88,6 @@ struct Cost {
         ++calls;
     }
 };
-
-[[gnu::noinline]] void write_number(std::uint32_t value) {
-    char text[12] = {};
-    char* digit = text + sizeof text - 1;
-    do {
-        *--digit = static_cast<char>('0' + value % 10);
-        value /= 10;
-    } while (value != 0);
-    write_text(digit);
-}
 
 /// Measured empty, then with the calls: what a call costs, on average.
 [[gnu::noinline]] void write_cost(const char* name, const Cost& cost, const Cost& empty) {

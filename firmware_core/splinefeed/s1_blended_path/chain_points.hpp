@@ -2,6 +2,7 @@
 // ChainPoints: the points of a run of short lines, as many as the look-ahead holds.
 #pragma once
 
+#include "splinefeed/base/ring_index.hpp"
 #include "splinefeed/s1_curve/curve_segment.hpp"
 
 namespace splinefeed {
@@ -29,7 +30,7 @@ struct ChainPoint {
 template <Scalar S>
 class ChainPoints {
 public:
-    static constexpr std::uint64_t capacity = 72;
+    static constexpr std::size_t capacity = 72;
 
     explicit ChainPoints(int axes) noexcept : axes_(axes) {}
 
@@ -39,12 +40,13 @@ public:
     [[nodiscard]] std::uint64_t oldest() const noexcept {
         return last_ + 1 > first_ + capacity ? last_ + 1 - capacity : first_;
     }
-    [[nodiscard]] ChainPoint<S>& operator[](std::uint64_t i) noexcept { return ring_[i % capacity]; }
-    [[nodiscard]] const ChainPoint<S>& operator[](std::uint64_t i) const noexcept { return ring_[i % capacity]; }
+    [[nodiscard]] ChainPoint<S>& operator[](std::uint64_t i) noexcept { return ring_[slot(i)]; }
+    [[nodiscard]] const ChainPoint<S>& operator[](std::uint64_t i) const noexcept { return ring_[slot(i)]; }
 
     /// The first point of a new chain.
     void start(const PerAxis<Position>& place) noexcept {
         last_ = first_ = 0;
+        last_slot_ = 0;
         ring_[0] = {};
         ring_[0].place = place;
     }
@@ -54,7 +56,9 @@ public:
         (*this)[at].moved = {};
     }
     ChainPoint<S>& append() noexcept {
-        ChainPoint<S>& point = (*this)[++last_];
+        ++last_;
+        last_slot_ = ring_index(last_slot_ + 1, capacity);
+        ChainPoint<S>& point = ring_[last_slot_];
         point = {};
         return point;
     }
@@ -73,9 +77,15 @@ public:
     }
 
 private:
+    /// A remainder of 64 bits takes small processors hundreds of instructions. @pre last - capacity < i <= last
+    [[nodiscard]] std::size_t slot(std::uint64_t i) const noexcept {
+        return ring_index(last_slot_ + capacity - static_cast<std::size_t>(last_ - i), capacity);
+    }
+
     int axes_;
     std::uint64_t first_ = 0;
     std::uint64_t last_ = 0;
+    std::size_t last_slot_ = 0; // of last_
     std::array<ChainPoint<S>, capacity> ring_{};
 };
 

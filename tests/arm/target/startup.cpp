@@ -2,6 +2,7 @@
 // Reset: prepares RAM and the floating point unit and calls main; every exception ends the program.
 #include "platform.hpp"
 #include "semihosting.hpp"
+#include "write_number.hpp"
 
 #include <cstdint>
 
@@ -23,16 +24,6 @@ extern std::uint32_t bss_end[];
 namespace {
 
 constexpr std::uint32_t paint = 0xa5a5a5a5;
-
-void write_number(std::uint32_t value) {
-    char text[11] = {};
-    char* digit = text + sizeof text - 1;
-    do {
-        *--digit = static_cast<char>('0' + value % 10);
-        value /= 10;
-    } while (value != 0);
-    write_text(digit);
-}
 
 // How deep the stack has been: everything above the lowest word that is no longer painted.
 void report_stack() {
