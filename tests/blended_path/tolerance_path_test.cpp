@@ -42,7 +42,7 @@ PlaceMm wave(Real t) {
 }
 
 /// Moves of all kinds and sizes.
-MoveProgram random_moves(Random& random) {
+MoveProgram random_moves(Random& random, Real longest = 2e3L) {
     MoveProgram program;
     program.axes = random.integer(1, max_axes);
     const double tolerance = random.decades(1e-3, 0.5);
@@ -52,7 +52,7 @@ MoveProgram random_moves(Random& random) {
     PlaceMm direction{};
     direction[0] = 1.0L;
     for (int i = 0, count = random.integer(1, 20); i < count; ++i) {
-        const Real length = std::min(2e4L, real_decades(random, size / spread, size * spread));
+        const Real length = std::min(longest, real_decades(random, size / spread, size * spread));
         Real sum = 0.0L;
         const double turn = smooth && random.chance(0.9) ? 0.3 : random.decades(1e-4, 10.0);
         for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
@@ -101,7 +101,7 @@ MoveProgram random_moves(Random& random) {
     return program;
 }
 
-/// float resolves 2^-24 of a move.
+/// float resolves 2^-24 of a move; Fixed has angles in 2^-32.
 template <Scalar S>
 Real digits_mm(const MoveProgram& program) {
     Real largest = 0.0L;
@@ -110,7 +110,15 @@ Real digits_mm(const MoveProgram& program) {
             largest = std::max(largest, apart(move.at(t, program.axes), move.from, program.axes));
         }
     }
-    return std::same_as<S, float> ? 64.0L * 0x1p-24L * largest : 1e-9L + 64.0L * 0x1p-44L * largest;
+    Real radius = 0.0L;
+    for (const ProgrammedMove& move : program.moves) {
+        if (move.shape == MoveShape::arc) {
+            radius = std::max(radius, std::hypot(move.from[0] - move.centre[0], move.from[1] - move.centre[1]));
+        }
+    }
+    return std::same_as<S, float>   ? 64.0L * 0x1p-24L * largest
+           : std::same_as<S, Fixed> ? 1e-9L + 64.0L * 0x1p-44L * largest + 4.0L * 0x1p-32L * radius
+                                    : 1e-9L + 64.0L * 0x1p-44L * largest;
 }
 
 template <Scalar S>
@@ -278,7 +286,7 @@ TEMPLATE_TEST_CASE("random moves of all kinds are kept within their tolerance", 
     int joints = 0;
     for (int round = 0; round < count; ++round) {
         Random random(seed + 1000 + static_cast<std::uint64_t>(round));
-        const MoveProgram program = random_moves(random);
+        const MoveProgram program = random_moves(random, std::same_as<S, float> ? 20.0L : 2e3L);
         CAPTURE(seed, round, program.axes, program.moves.size());
         const BlendedRun<S> run = blended<S>(program);
         require_path(program, run);

@@ -98,16 +98,20 @@ Status BlendedPath<S>::push(const PathElement<S>& element, std::uint32_t index) 
         return status;
     }
     const bool stops = element.stop_at_end || element.mode == PathMode::exact_stop;
+    const S tolerance = scale2(element.tolerance_mm, -chord_unit_log2);
     if (!(move.length() > S{})) {
-        if (known_ > 0) {
-            entry(known_ - 1).stop_at_end = entry(known_ - 1).stop_at_end || stops;
+        if (known_ > 0) { // its joints become one with that of the move before it, and each of the three counts
+            Entry& before = entry(known_ - 1);
+            before.stop_at_end = before.stop_at_end || stops;
+            before.tolerance_at_end = smaller(before.tolerance_at_end, tolerance);
+            before.mode = before.mode < element.mode ? element.mode : before.mode;
         }
         return {};
     }
     Entry& fresh = entry(known_);
     fresh = {};
     fresh.move = move;
-    fresh.tolerance = scale2(element.tolerance_mm, -chord_unit_log2);
+    fresh.tolerance = fresh.tolerance_at_end = tolerance;
     fresh.feed_mm_s = element.feed_mm_s;
     fresh.max_feed_mm_s = element.max_feed_mm_s;
     fresh.mode = element.mode;
@@ -140,7 +144,7 @@ void BlendedPath<S>::decide(std::uint64_t i) noexcept {
         return;
     }
     before.joint = decide_joint(before.move, after.move, before.mode,
-                                {smaller(before.tolerance, after.tolerance), joint_tolerance_, sharpest_}, axes_);
+                                {smaller(before.tolerance_at_end, after.tolerance), joint_tolerance_, sharpest_}, axes_);
 }
 
 // What the joint at the end of move i wishes to take of the moves beside it.

@@ -62,6 +62,7 @@ private:
         PathMove<S> move;
         Joint<S> joint{};
         S tolerance{};
+        S tolerance_at_end{}; // at most that
         S feed_mm_s{};
         S max_feed_mm_s{};
         PathMode mode = PathMode::continuous;
