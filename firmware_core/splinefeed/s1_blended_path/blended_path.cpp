@@ -100,10 +100,15 @@ Status BlendedPath<S>::push(const PathElement<S>& element, std::uint32_t index) 
     const bool stops = element.stop_at_end || element.mode == PathMode::exact_stop;
     const S tolerance = scale2(element.tolerance_mm, -chord_unit_log2);
     if (!(move.length() > S{})) {
-        if (known_ > 0) { // its joints become one with that of the move before it, and each of the three counts
+        if (known_ > 0) { // its joints become one with that of the move before it, which is off by what is left out
             Entry& before = entry(known_ - 1);
+            PerAxis<S> off{};
+            for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+                off[k] = distance<S>(last_[k], element.to[k], chord_unit_log2);
+            }
             before.stop_at_end = before.stop_at_end || stops;
             before.tolerance_at_end = smaller(before.tolerance_at_end, tolerance);
+            before.left_out = larger(before.left_out, norm(off.data(), axes_));
             before.mode = before.mode < element.mode ? element.mode : before.mode;
         }
         return {};
@@ -143,8 +148,9 @@ void BlendedPath<S>::decide(std::uint64_t i) noexcept {
         before.joint.kind = JointKind::through;
         return;
     }
+    const S tolerance = smaller(before.tolerance_at_end, after.tolerance) - before.left_out;
     before.joint = decide_joint(before.move, after.move, before.mode,
-                                {smaller(before.tolerance_at_end, after.tolerance), joint_tolerance_, sharpest_}, axes_);
+                                {larger(S{}, tolerance), joint_tolerance_, sharpest_}, axes_);
 }
 
 // What the joint at the end of move i wishes to take of the moves beside it.

@@ -63,6 +63,7 @@ private:
         Joint<S> joint{};
         S tolerance{};
         S tolerance_at_end{}; // at most that
+        S left_out{};         // how far moves behind it went that were too short to be any
         S feed_mm_s{};
         S max_feed_mm_s{};
         PathMode mode = PathMode::continuous;

@@ -126,7 +126,7 @@ bool ChainFit<S>::near(const PerAxis<S>& place, const Line& line, S limit) const
 
 // The distance from any place of the quintic is not below the distance from it: after a step of Newton it is near.
 template <Scalar S>
-bool ChainFit<S>::near_point(const PerAxis<S>& point, S u, S limit) const noexcept {
+bool ChainFit<S>::near_point(const PerAxis<S>& point, S u, S limit, bool bends) const noexcept {
     PerAxis<S> at{};
     PerAxis<S> first{};
     PerAxis<S> second{};
@@ -146,7 +146,8 @@ bool ChainFit<S>::near_point(const PerAxis<S>& point, S u, S limit) const noexce
         second[k] = second[k] / speed - across * (first[k] / speed);
     }
     const S bend = scale2(scale2(norm(second.data(), points_.axes()), bend_log2 - unit_) / speed, 0);
-    return norm(at.data(), points_.axes()) <= limit && bend <= literal<S>(bend_factor) * bend_ + literal<S>(bend_more);
+    return norm(at.data(), points_.axes()) <= limit &&
+           (!bends || bend <= literal<S>(bend_factor) * bend_ + literal<S>(bend_more));
 }
 
 template <Scalar S>
@@ -175,7 +176,7 @@ bool ChainFit<S>::reaches(std::uint64_t to, S limit) noexcept {
             }
         }
         way += part;
-        if (i < to && !near_point(lines[2].start, way, within)) {
+        if (i < points_.last() && !near_point(lines[2].start, way, within, i < to)) {
             return false;
         }
         lines[0] = lines[1];

@@ -38,7 +38,7 @@ private:
     void place(S u, PerAxis<S>& out) const noexcept;
     void derivatives(S u, PerAxis<S>& first, PerAxis<S>& second) const noexcept;
     [[nodiscard]] bool near(const PerAxis<S>& place, const Line& line, S limit) const noexcept;
-    [[nodiscard]] bool near_point(const PerAxis<S>& point, S u, S limit) const noexcept;
+    [[nodiscard]] bool near_point(const PerAxis<S>& point, S u, S limit, bool bends) const noexcept;
 
     ChainPoints<S>& points_;
     std::uint64_t from_;

@@ -14,7 +14,7 @@ constexpr std::uint64_t smoothed_points = 16; // that a new point moves, but for
 constexpr std::uint64_t unsettled = 8;        // the last points of a chain that goes on: no quintic ends there
 constexpr std::uint64_t fewest_lines = 3;     // of a chain
 
-constexpr double shortest = 4e-4;    // 0.1 um: a shorter line is none
+constexpr double shortest = 4e-4;    // 0.1 nm: a shorter line is none
 constexpr double most_turn = 0.684;  // 2 sin(phi / 2) at 40 degrees
 constexpr double most_bow = 12.0;    // h phi in tolerances: a bow of 1.5
 constexpr double most_uneven = 12.0; // longer line over the shorter one, unless h phi is below one tolerance

@@ -20,7 +20,7 @@ constexpr double least_way = 0.04;               // 1e-5 mm: a shorter blend is 
 constexpr double curvature_share = 0.011;
 constexpr double bent_share = 0.88; // of the way where a bent move may turn as the corner does
 constexpr int measured_places = 11;
-constexpr double measured_share = 0.97; // of the tolerance: between two places the distance may be a little larger
+constexpr double measured_share = 0.97; // of the tolerance: the distance is that of a parabola through three places
 constexpr int shortenings = 4;
 
 template <Scalar S>
@@ -53,17 +53,32 @@ PerAxis<S> point_at(const Blend<S>& blend, S u, int axes) noexcept {
     return point;
 }
 
-// Largest distance between the blend and the moves, at some places, and of the vertex from the blend.
+// The largest value of the parabola through three values at even distances, the middle one of which is the largest.
+template <Scalar S>
+S peak(S before, S middle, S after) noexcept {
+    const S rise = middle - before;
+    const S fall = middle - after;
+    if (!(rise >= S{} && fall >= S{} && rise + fall > S{})) {
+        return middle;
+    }
+    return middle + scale2((rise - fall) * ((rise - fall) / (rise + fall)), -3);
+}
+
+// Largest distance between the blend and the moves, from some places, and of the vertex from the blend.
 template <Scalar S>
 S measured_deviation(const Blend<S>& blend, const PathMove<S>& before, const PathMove<S>& after, int axes) noexcept {
     S largest_yet{};
     S vertex = largest<S>();
-    for (int i = 1; i <= measured_places; ++i) {
-        const S u = from_integer<S>(i) / from_integer<S>(measured_places + 1);
-        const PerAxis<S> point = point_at(blend, u, axes);
-        largest_yet =
-            larger(largest_yet, smaller(before.distance_near(true, point), after.distance_near(false, point)));
-        vertex = smaller(vertex, norm(point.data(), axes));
+    std::array<S, 3> last{}; // distances; at the ends it is 0
+    for (int i = 1; i <= measured_places + 1; ++i) {
+        last = {last[1], last[2], S{}};
+        if (i <= measured_places) {
+            const S u = from_integer<S>(i) / from_integer<S>(measured_places + 1);
+            const PerAxis<S> point = point_at(blend, u, axes);
+            last[2] = smaller(before.distance_near(true, point), after.distance_near(false, point));
+            vertex = smaller(vertex, norm(point.data(), axes));
+        }
+        largest_yet = larger(largest_yet, peak(last[0], last[1], last[2]));
     }
     return larger(largest_yet, vertex);
 }

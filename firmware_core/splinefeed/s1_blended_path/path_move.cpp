@@ -15,7 +15,7 @@ namespace {
 // 0.1 um in units of 2^-40 mm: a shorter move is dropped, as waypoints that coincide are.
 constexpr std::int64_t merge_raw = (std::int64_t{1} << Position::fraction_bits) / 10000;
 constexpr std::int64_t longest_raw = std::int64_t{65536} << Position::fraction_bits;
-constexpr double shortest = 4e-4;  // chord units, 0.1 um
+constexpr double shortest = 4e-4;  // chord units, 0.1 nm
 constexpr double longest = 0x1p28; // 65 m
 constexpr double two_pi = 6.28318530717958647692;
 constexpr double most_of_piece = 0.4; // [rad]
