@@ -66,7 +66,14 @@ void measure_last_point(ChainPoints<S>& points, S tolerance) noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(points.axes()); ++k) {
         in[k] = (out[k] / ahead - in[k] / behind) * (longer / both) * scale2(longer, -3); // half the bow
     }
-    const S half_bow = norm(in.data(), points.axes());
+    S half_bow = norm(in.data(), points.axes());
+    if (half_bow >= tolerance) {
+        const S share = smaller(behind, ahead) / longer;
+        for (unsigned k = 0; k < static_cast<unsigned>(points.axes()); ++k) {
+            in[k] = share * share * in[k];
+        }
+        half_bow = share * share * half_bow;
+    }
     here.centre = half_bow < tolerance ? in : PerAxis<S>{};
     here.radius = literal<S>(used) * (half_bow < tolerance ? tolerance - half_bow : tolerance);
 }
