@@ -38,7 +38,7 @@ def built(revision):
         subprocess.run(["git", "clone", "--quiet", "--no-checkout", str(ROOT), str(folder)], check=True)
         subprocess.run(["git", "-C", str(folder), "checkout", "--quiet", revision], check=True)
         subprocess.run(["cmake", "--preset", "release", "-S", str(folder), "-B", str(folder / "build"), "-DSPLINEFEED_TESTS=OFF",
-                        "-DSPLINEFEED_REPOSITORY_TESTS=OFF"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+                        "-DSPLINEFEED_REPOSITORY_TESTS=OFF", "-DSPLINEFEED_BENCHMARKS=ON"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
         subprocess.run(["ninja", "-C", str(folder / "build"), "splinefeed", "feed_plan_bench"], check=True, stdout=subprocess.DEVNULL)
     return folder / "build/bin"
 

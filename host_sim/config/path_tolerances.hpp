@@ -2,6 +2,7 @@
 // PathTolerances: how far the path of a program may be from its lines and arcs, where the program does not say it.
 #pragma once
 
+#include "splinefeed/s1_blended_path/joint.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
 
 #include <algorithm>
@@ -10,12 +11,12 @@ namespace splinefeed::host {
 
 /// Keys of [path] in a machine file, in mm and degrees.
 struct PathTolerances {
-    double joint_mm = 0.001;     ///< where only the curvature jumps, for machines with a jerk limit
-    double programmed_mm = 0.01; ///< elements that state no tolerance
-    double rapid_mm = 0.1;       ///< rapids
-    double rotary_deg = 100.0;   ///< of rotary axes, where a move's own number is larger
-    double sharpest_1_mm = 0.0;  ///< no key: a corner whose blend would bend more is a stop; 0: none
-    PerAxis<bool> rotary{};      ///< no key: of the machine
+    double joint_mm = 0.001;          ///< where only the curvature jumps, for machines with a jerk limit
+    double programmed_mm = 0.01;      ///< elements that state no tolerance
+    double rapid_mm = 0.1;            ///< rapids
+    double rotary_deg = 100.0;        ///< of rotary axes, where a move's own number is larger
+    SharpestBlend<double> sharpest{}; ///< no key: of the planner
+    PerAxis<bool> rotary{};           ///< no key: of the machine
 };
 
 /// The largest that a program or a machine file may state.
@@ -35,18 +36,29 @@ inline constexpr PathToleranceKey path_tolerance_keys[] = {
     {"rotary_tolerance_deg", &PathTolerances::rotary_deg, largest_tolerance_mm, "degrees"},
 };
 
-/// PathTolerances::sharpest_1_mm of a machine. The plan `bounded` mixes a bend with the path beside it: a corner that
-/// it passes with less than half of the feed, v^2 = A / kappa, takes longer than a stop (bench/tolerance.py, corners of
-/// 1 to 170 degrees between lines of 1 to 40 mm).
-[[nodiscard]] inline double sharpest_blend_1_mm(const MachineSettings& machine) {
-    bool jerk_limited = false;
+/// The corners that a planner passes more slowly than a stop (bench/tolerance.py; corners of 1 to 170 degrees between
+/// lines of 1 to 40 mm). `bounded` mixes a bend with the path beside it: those that allow less than half of the feed,
+/// v^2 = A / kappa. `optimal` loses at turns below 105 degrees, where the blend allows less than
+/// (1 - 1.6 sin^2(phi/2)) A^2 / (2 J).
+[[nodiscard]] inline SharpestBlend<double> sharpest_blend(const MachineSettings& machine) {
+    double jerk = 0.0;
     double acceleration = machine.axis[0].max_acceleration_mm_s2;
     for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
-        jerk_limited = jerk_limited || machine.axis[k].max_jerk_mm_s3 > 0.0;
-        acceleration = std::min(acceleration, machine.axis[k].max_acceleration_mm_s2);
+        const AxisSettings& axis = machine.axis[k];
+        if (axis.max_jerk_mm_s3 > 0.0) {
+            jerk = jerk > 0.0 ? std::min(jerk, axis.max_jerk_mm_s3) : axis.max_jerk_mm_s3;
+        }
+        acceleration = std::min(acceleration, axis.max_acceleration_mm_s2);
+    }
+    if (!(jerk > 0.0)) {
+        return {};
     }
     const double half_feed = machine.max_feed_mm_s / 2.0;
-    return jerk_limited && machine.jerk_tier == JerkTier::bounded ? acceleration / (half_feed * half_feed) : 0.0;
+    if (machine.jerk_tier == JerkTier::bounded) {
+        return {acceleration / (half_feed * half_feed), 0.0};
+    }
+    const double slow = std::min(half_feed, acceleration * acceleration / (2.0 * jerk));
+    return {acceleration / (slow * slow), 1.6};
 }
 
 } // namespace splinefeed::host

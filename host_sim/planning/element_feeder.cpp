@@ -29,7 +29,8 @@ template <Scalar S>
 ElementFeeder<S>::ElementFeeder(PathInput& input, std::unique_ptr<WaypointRows> rows)
     : input_(&input), program_(input.elements()), rows_(std::move(rows)),
       path_(static_cast<int>(input.axes().size()), from_double<S>(input.tolerances().joint_mm),
-            from_double<S>(input.tolerances().sharpest_1_mm)) {
+            {from_double<S>(input.tolerances().sharpest.curvature_1_mm),
+             from_double<S>(input.tolerances().sharpest.fading)}) {
     if (program_ == nullptr) {
         lines_.resize(remembered);
     }

@@ -120,7 +120,7 @@ TEMPLATE_TEST_CASE("a corner whose blend would be too sharp is a stop", "[blende
     for (const double tolerance : {0.1, 0.05}) {
         for (const Real degrees : {30.0L, 45.0L}) {
             const MoveProgram program = corner(degrees, 10.0L, 10.0L, tolerance);
-            TolerancePath<S> path(2, from_double<S>(0.001), from_double<S>(0.5));
+            TolerancePath<S> path(2, from_double<S>(0.001), {from_double<S>(0.5), S{}});
             REQUIRE(path.start(position_of<S>(program.start)).ok());
             REQUIRE(path.push(element_of<S>(program.moves[0], 2)).ok());
             REQUIRE(path.push(element_of<S>(program.moves[1], 2)).ok());
@@ -130,5 +130,29 @@ TEMPLATE_TEST_CASE("a corner whose blend would be too sharp is a stop", "[blende
             }
             CHECK(path.counts().joints.blended == (tolerance > 0.07 && degrees < 40.0L ? 1U : 0U));
         }
+    }
+}
+
+TEMPLATE_TEST_CASE("how sharp a blend may be depends on the turn", "[blended_path]", double, float, Fixed) {
+    using S = TestType;
+    // Within 0.01 mm: 22 / mm at 60 degrees, 67 / mm at 90. The limits are multiplied by 1 / 0.6^2, 1 / 0.2^2, without
+    // end.
+    struct Case {
+        Real degrees;
+        double most_1_mm;
+        unsigned blends;
+    };
+    for (const Case& c : {Case{60.0L, 8.3, 1}, {60.0L, 7.7, 0}, {90.0L, 2.8, 1}, {90.0L, 2.5, 0}, {120.0L, 0.001, 1}}) {
+        const MoveProgram program = corner(c.degrees, 10.0L, 10.0L, 0.01);
+        TolerancePath<S> path(2, from_double<S>(0.001), {from_double<S>(c.most_1_mm), from_double<S>(1.6)});
+        REQUIRE(path.start(position_of<S>(program.start)).ok());
+        REQUIRE(path.push(element_of<S>(program.moves[0], 2)).ok());
+        REQUIRE(path.push(element_of<S>(program.moves[1], 2)).ok());
+        REQUIRE(path.finish().ok());
+        CurveSegment<S> segment;
+        while (path.next(segment) == Pull::item) {
+        }
+        CAPTURE(static_cast<double>(c.degrees), c.most_1_mm);
+        CHECK(path.counts().joints.blended == c.blends);
     }
 }

@@ -26,12 +26,11 @@ template <Scalar S>
 class BlendedPath final : public CurveSource<S> {
 public:
     /// @param joint_tolerance_mm  where only the curvature jumps, also in exact_path mode; 0: such joints stay
-    /// @param sharpest_1_mm  a corner whose blend would have more curvature is a stop; 0: none. For plans that take
-    /// longer
-    ///                       for a sharp bend than for a stop
-    explicit BlendedPath(int axes, S joint_tolerance_mm, S sharpest_1_mm = {}) noexcept
+    explicit BlendedPath(int axes, S joint_tolerance_mm, SharpestBlend<S> sharpest = {}) noexcept
         : axes_(axes), joint_tolerance_(scale2(joint_tolerance_mm, -chord_unit_log2)),
-          sharpest_(scale2(smaller(sharpest_1_mm, from_integer<S>(most_sharpest)), bend_log2 + chord_unit_log2)) {}
+          sharpest_{
+              scale2(smaller(sharpest.curvature_1_mm, from_integer<S>(most_sharpest)), bend_log2 + chord_unit_log2),
+              sharpest.fading} {}
 
     /// Where the first move begins. Call it once, before push(). Errors: position_out_of_range.
     Status start(const PerAxis<Position>& position) noexcept;
@@ -89,8 +88,8 @@ private:
     void leave(CurveSegment<S>& out) noexcept;
 
     int axes_;
-    S joint_tolerance_; // chord units
-    S sharpest_;        // in units of 2^-bend_log2 per chord unit
+    S joint_tolerance_;         // chord units
+    SharpestBlend<S> sharpest_; // in units of 2^-bend_log2 per chord unit
     std::array<Entry, capacity> ring_{};
     PerAxis<Position> last_{}; // end of the last move that was pushed
     PerAxis<Position> here_{}; // end of the last segment that was delivered

@@ -145,7 +145,9 @@ Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathM
         return joint;
     }
     joint.kind = JointKind::blend;
-    joint.sharpest = tolerances.sharpest;
+    const S fades = from_integer<S>(1) - tolerances.sharpest.fading * (joint.half_sine * joint.half_sine);
+    joint.sharpest =
+        fades < literal<S>(0.15) ? S{} : quotient_or_max(tolerances.sharpest.curvature_1_mm, fades * fades);
     joint.way = quotient_or_max(scale2(joint.tolerance, 2), joint.half_sine);
     if (!lines) {
         // |K1 - K0| is in units of 2^-bend_log2.

@@ -21,12 +21,21 @@ struct Joint {
     S sharpest{};  ///< largest curvature of a blend in units of 2^-20 per chord unit; 0: any
 };
 
+/// Corners that are stops because a plan would take longer for their blend: those whose blend bends more than
+/// curvature_1_mm / (1 - fading sin^2(phi/2))^2, with the angle phi between the moves; where the root is below 1/4,
+/// none.
+template <Scalar S>
+struct SharpestBlend {
+    S curvature_1_mm{}; ///< 0: no corner is a stop for that
+    S fading{};         ///< 0: the same for all angles
+};
+
 /// What a joint may be, in chord units.
 template <Scalar S>
 struct JointTolerances {
-    S corner{};   ///< 0: the path is exact
-    S tangent{};  ///< where only the curvature jumps
-    S sharpest{}; ///< see Joint
+    S corner{};                  ///< 0: the path is exact
+    S tangent{};                 ///< where only the curvature jumps
+    SharpestBlend<S> sharpest{}; ///< its curvature in units of 2^-20 per chord unit
 };
 
 /// Decides by the geometry of two moves alone, so the path does not depend on feed or override. A joint whose direction

@@ -24,9 +24,8 @@ template <Scalar S>
 class TolerancePath final : public CurveSource<S> {
 public:
     /// @param joint_tolerance_mm  where only the curvature jumps, also in exact_path mode; 0: such joints stay
-    /// @param sharpest_1_mm  a corner whose blend would have more curvature is a stop; 0: none
-    explicit TolerancePath(int axes, S joint_tolerance_mm, S sharpest_1_mm = {}) noexcept
-        : axes_(axes), chains_(axes), blended_(axes, joint_tolerance_mm, sharpest_1_mm) {}
+    explicit TolerancePath(int axes, S joint_tolerance_mm, SharpestBlend<S> sharpest = {}) noexcept
+        : axes_(axes), chains_(axes), blended_(axes, joint_tolerance_mm, sharpest) {}
 
     /// Where the first move begins. Call it once, before push(). Errors: position_out_of_range.
     Status start(const PerAxis<Position>& position) noexcept;
