@@ -53,6 +53,40 @@ TEST_CASE("PVT port, virtual: a hold at any time about the start is a hold: noth
     }
 }
 
+TEST_CASE("PVT port, virtual: a shaft that a load pushes while its stop is confirmed rests before it is confirmed",
+          "[ports]") {
+    // Two answers 20 ms apart, before the push and behind it, reported one position: it counted as standstill
+    int pushed = 0;
+    for (const std::uint32_t window_counts : {0U, 1U}) {     // without a fault, and with one of following error
+        for (const std::uint64_t hold_us : {0U, 200'000U}) { // before the start, and in motion
+            for (std::uint64_t push_us = 0; push_us < 60'000; push_us += 500) {
+                PvtPlant plant({});
+                prepare(plant);
+                const std::uint64_t from_us = plant.began_us + hold_us + (hold_us > 0 ? 250'000 : 0) + push_us;
+                constexpr std::uint64_t long_us = 3000;
+                auto& machine = plant.drives[1]->machine();
+                plant.events.emplace_back(from_us, [&] {
+                    PvtConfiguration configuration = machine.configuration();
+                    configuration.following_window = window_counts;
+                    machine.configure(configuration);
+                    machine.shaft(0).disturb(1e7);
+                });
+                plant.events.emplace_back(from_us + long_us, [&] { machine.shaft(0).disturb(0.0); });
+                INFO("window " << window_counts << ", hold at " << hold_us << ", pushed " << push_us << " us later");
+                CHECK(run(plant, motion, {.hold_us = hold_us}) != PortPhase::running);
+                const std::uint64_t halted_us = plant.clock.now_us();
+                const StopReport report = plant.port->stop_report(1);
+                CHECK(report.state == StopState::confirmed);
+                if (from_us + long_us <= report.status_us) { // else nobody can know
+                    ++pushed;
+                    check_stands_since(plant, halted_us);
+                }
+            }
+        }
+    }
+    CHECK(pushed > 100);
+}
+
 TEST_CASE("PVT port, virtual: a quick stop at any time, alone or behind a hold, stops every drive", "[ports]") {
     for (std::uint64_t quick_us = 0; quick_us < 400'000; quick_us += 7900) {
         for (const std::uint64_t hold_us : {UINT64_MAX, quick_us, quick_us > 30'000 ? quick_us - 30'000 : 0}) {
