@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // How many random runs a test makes: a few, and half of them under sanitizers, which take several times as long.
-// ./check --long runs twenty times as many, in the build by g++ with assertions (`gcc_tests`).
+// ./check --long runs five times as many, or as many as the test says, in the build by g++ with assertions
+// (`gcc_tests`).
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,7 @@ inline int rounds(int few, int many) {
 }
 
 inline int rounds(int few) {
-    return rounds(few, 20 * few);
+    return rounds(few, 5 * few);
 }
 
 } // namespace splinefeed_test
