@@ -36,6 +36,23 @@ TEST_CASE("PVT port, virtual: a whole motion, every segment once, on the path", 
     plant.port->close();
 }
 
+TEST_CASE("PVT port, virtual: drives whose clocks differ stay in step for as long as the motion lasts", "[ports]") {
+    // 200 ppm are 2 ms in ten seconds. What is in the rings at the start is not corrected, the rate of a clock is known
+    // to some 50 ppm in the first seconds, and then a segment is corrected by up to 250 ppm: 0.42 ms, most of it early
+    const SmoothMotion longer = smooth_motion(20000.0, 4, 1250, 2000);
+    PvtPlant plant({.clock_ppm = {100.0, -100.0, 0.0}});
+    plant.make();
+    plant.sample_positions();
+    REQUIRE_FALSE(plant.port->open());
+    REQUIRE_FALSE(plant.port->prepare(longer.segments.front()));
+    plant.began_us = plant.clock.now_us();
+    CHECK(run(plant, longer, {}) == PortPhase::idle);
+    CHECK(plant.port->resumes() == 0);
+    INFO(1e6 * plant.off_path_counts / longer.fastest_counts_s << " us of the largest speed");
+    CHECK(plant.off_path_counts < longer.fastest_counts_s * 700e-6);
+    plant.port->close();
+}
+
 TEST_CASE("PVT port, virtual: a hold at any time about the start is a hold: nothing moves behind it", "[ports]") {
     for (std::uint64_t hold_us = 0; hold_us < 250'000; hold_us += 2300) {
         PvtPlant plant({});
