@@ -37,7 +37,7 @@ TEMPLATE_TEST_CASE("steered with limited jerk, limits and ends are kept", "[stre
     using S = TestType;
     int steered = 0;
     Real most = 0.0L;
-    const int runs = rounds(30, 1000);
+    const int runs = rounds(30, 600);
     for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(runs); ++round) {
         Random random(seed + round);
         const int axes = random.integer(1, max_axes);

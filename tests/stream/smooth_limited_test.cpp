@@ -74,7 +74,7 @@ TEMPLATE_TEST_CASE("averaged motions that are steered keep every limit", "[strea
     using S = TestType;
     Real most = 0.0L;
     int steered = 0;
-    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(60, 2000)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(60, 1000)); ++round) {
         Random random(seed + 1000000 + round);
         const int axes = random.integer(1, max_axes);
         const MachineSettings machine = bounded_machine(random, axes);
@@ -97,7 +97,7 @@ TEMPLATE_TEST_CASE("averaged motions that are steered keep every limit", "[strea
         }
         ++steered;
     }
-    CHECK(4 * steered > rounds(60, 2000));
+    CHECK(4 * steered > rounds(60, 1000));
     CHECK(most > 0.95L);
 }
 
