@@ -51,7 +51,7 @@ repository_test(hidden_names tools/hidden_names.py)
 repository_test(harness tools/harness.sh ${sanitized}/bin/base_tests)
 
 # Also the bits of both compilers' optimised arithmetic, and that each source includes what it uses.
-repository_test(gcc_tests LONG "10 minutes" ALONE tools/preset.sh dev g++ many)
+repository_test(gcc_tests LONG "35 minutes" ALONE tools/preset.sh dev g++ many)
 repository_test(clang_tests LONG "12 minutes" ALONE tools/preset.sh clang clang++)
 repository_test(tsan_runs LONG "10 minutes" ALONE modbus/tsan_runs.sh)
 repository_test(valgrind_runs LONG "2 minutes" ALONE modbus/valgrind_runs.sh ${PROJECT_BINARY_DIR})

@@ -111,3 +111,24 @@ TEMPLATE_TEST_CASE("what a bound allows keeps both inequalities, and uses them",
     CHECK(least > 0.75L);
     CHECK(sum > 0.99L * static_cast<Real>(uses));
 }
+
+TEST_CASE("a motion from standstill whose speeds have few digits in Fixed is found", "[feed_plan][smooth]") {
+    // v^2 is some hundred times the resolution, and the chord met the limit within half a digit of what is not allowed:
+    // the same place was tried four times, and the motion crawled instead (wild round 776, window 16)
+    MachineSettings machine = machine_of(1, 1000.0, 30.0, 575.692, 2740, 787.298);
+    machine.jerk_tier = JerkTier::bounded;
+    machine.axis[0].max_jerk_mm_s3 = 30.0;
+    const auto exit_of = [&]<class S>(S /*scalar*/, double way_mm) {
+        const auto limits = MotionLimits<S>::make(machine).value();
+        const Smoothing<S> smoothing(256, limits);
+        PathDerivativeBounds<S> demand;
+        demand.axis[0] = {from_integer<S>(1), literal<S>(11.0595), literal<S>(7.06426e7), literal<S>(7.06426e7)};
+        const FilteredLimits<S> bound(demand, limits, smoothing);
+        return to_double(
+            bound.largest_exit(S{}, literal<S>(6.15139e-7), from_double<S>(way_mm), bound.max_path_acceleration()));
+    };
+    for (double way_mm = 5e-7; way_mm < 2.5e-6; way_mm *= 1.01) {
+        CAPTURE(way_mm, exit_of(0.0, way_mm));
+        CHECK(exit_of(Fixed{}, way_mm) > 0.8 * exit_of(0.0, way_mm));
+    }
+}

@@ -196,7 +196,7 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
         double worst_ms = 0.0;
         double over_ms = 0.0;
         std::int64_t after = 0;
-        for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(4)); ++round) {
+        for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(4, 80)); ++round) {
             RandomPath random(seed + 1000 * kind + round);
             Story story{.cause = kinds[kind].cause,
                         .at_ms = random.between(10.0, 2000.0),

@@ -59,8 +59,19 @@ TEST_CASE("Stop: an axis with a start pending is never confirmed, however it sta
     CHECK(one.at(400, facts).state == StopState::stopping);
     facts.start_pending = false; // called off: it counts from here
     CHECK(one.at(401, facts).state == StopState::stopping);
+    facts.status_us = 410;
+    CHECK(one.at(410, facts).state == StopState::stopping);
     facts.status_us = 421;
     CHECK(one.at(421, facts).state == StopState::confirmed);
+}
+
+TEST_CASE("Stop: two statuses far apart do not say that the axis stood between them") {
+    One one;
+    one.stop.request(StopRequest::hold, 100);
+    CHECK(one.at(200, stands(200, StopRequest::hold, 110)).state == StopState::stopping);
+    CHECK(one.at(300, stands(300, StopRequest::hold, 110)).state == StopState::stopping);
+    CHECK(one.at(310, stands(300, StopRequest::hold, 110)).state == StopState::stopping); // the same one
+    CHECK(one.at(320, stands(320, StopRequest::hold, 110)).held());
 }
 
 TEST_CASE("Stop: a hold that is not confirmed in time becomes a quick stop, then power off, then unconfirmed") {
@@ -77,6 +88,7 @@ TEST_CASE("Stop: a hold that is not confirmed in time becomes a quick stop, then
     CHECK_FALSE(one.stop.all_confirmed());
     CHECK(one.stop.to_send(0) == StopRequest::disable); // it is sent again until the axis executes it
     CHECK(one.at(1800, stands(1790, StopRequest::disable, 1780)).state == StopState::unconfirmed);
+    CHECK(one.at(1805, stands(1800, StopRequest::disable, 1780)).state == StopState::unconfirmed);
     CHECK(one.at(1810, stands(1810, StopRequest::disable, 1780)).state == StopState::confirmed);
     CHECK(one.stop.strongest_request() == StopRequest::hold);
 }
@@ -95,8 +107,10 @@ TEST_CASE("Stop: requests only grow, and a stronger one is for every axis, also 
     stop.request(StopRequest::hold, 0);
     std::vector<StopFacts> facts{stands(50, StopRequest::hold, 5), moves(50, StopRequest::hold, 5)};
     stop.update(50, facts);
-    facts[0].status_us = 80;
-    stop.update(80, facts);
+    for (const std::uint64_t now_us : {60U, 80U}) {
+        facts[0].status_us = now_us;
+        stop.update(now_us, facts);
+    }
     CHECK(stop.report(0).state == StopState::confirmed);
     CHECK_FALSE(stop.settled());
     stop.request(StopRequest::quick_stop, 90);
@@ -116,6 +130,8 @@ TEST_CASE("Stop: an axis that escalates does so alone") {
     stop.request(StopRequest::hold, 0);
     std::vector<StopFacts> facts{stands(50, StopRequest::hold, 5), moves(50, StopRequest::hold, 5)};
     stop.update(50, facts);
+    facts[0].status_us = 60;
+    stop.update(60, facts);
     facts[0].status_us = 80;
     facts[1].status_us = 1100;
     stop.update(1100, facts);
@@ -127,6 +143,7 @@ TEST_CASE("Stop: what was confirmed and moves again is no longer confirmed") {
     One one;
     one.stop.request(StopRequest::hold, 0);
     one.at(100, stands(100, StopRequest::hold, 5));
+    one.at(110, stands(110, StopRequest::hold, 5));
     CHECK(one.at(130, stands(130, StopRequest::hold, 5)).held());
     CHECK(one.at(140, moves(140, StopRequest::hold, 5)).state == StopState::stopping);
     CHECK(one.at(150, stands(150, StopRequest::hold, 5)).state == StopState::stopping);

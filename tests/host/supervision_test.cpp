@@ -52,7 +52,9 @@ public:
     }
     void quick_stop() override {
         said("quick stop");
-        port().halt();
+        if (stops) {
+            port().halt();
+        }
     }
     [[nodiscard]] std::string holds() const override { return reason; }
     [[nodiscard]] bool achieved() const override { return false; }
@@ -81,6 +83,7 @@ public:
     std::string unfinished;
     std::atomic<bool> takes{true};
     std::atomic<bool> halts{true};
+    std::atomic<bool> stops{true};
     std::atomic<hal::PortPhase> phase{hal::PortPhase::running};
 
 private:
@@ -184,6 +187,30 @@ TEST_CASE("a signal is obeyed while the planner does nothing, the second one at 
     CHECK(comes([&] { return supervision.over(); }));
     CHECK(target.told() == Told{"prepare", "segment 0", "hold", "quick stop", "finish"});
     CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "stopped; there");
+}
+
+TEST_CASE("each request is passed on once, and a third signal asks for nothing more", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    target.halts = target.stops = false;
+    Supervision supervision(target, signals);
+    REQUIRE(supervision.submit(segment(0)));
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    const auto passes = [] { // twenty looks
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    };
+    request(1);
+    passes();
+    CHECK(target.told() == Told{"prepare", "segment 0", "hold"});
+    request(2);
+    passes();
+    request(3);
+    passes();
+    CHECK(target.told() == Told{"prepare", "segment 0", "hold", "quick stop"});
+    CHECK_FALSE(supervision.over());
+    target.phase = hal::PortPhase::halted;
+    CHECK(comes([&] { return supervision.over(); }));
     CHECK(supervision.ending() == "stopped; there");
 }
 

@@ -15,6 +15,7 @@ using namespace splinefeed_test;
 namespace {
 
 constexpr std::uint64_t away_us = 1'500'000;
+constexpr std::uint64_t push_us = 3000; // of a load on a shaft
 
 /// What a run is like, by its seed.
 struct Scenario {
@@ -22,10 +23,12 @@ struct Scenario {
     PvtPlantParameters parameters;
     ModbusPortSettings settings;
     Asked asked;
-    std::string text;    ///< what goes wrong
-    bool fatal = false;  ///< it ends in fault, unless it ends before
-    bool outage = false; ///< a drive does not answer for a while
-    bool off = false;    ///< and not all stop in time, or a drive stops for itself: off the path
+    std::string text;                    ///< what goes wrong
+    bool fatal = false;                  ///< it ends in fault, unless it ends before
+    bool outage = false;                 ///< a drive does not answer for a while
+    bool off = false;                    ///< and not all stop in time, or a drive stops for itself: off the path
+    std::size_t pushed_drive = SIZE_MAX; ///< a load pushes it
+    std::uint64_t pushed_to_us = 0;      ///< until then
 
     explicit Scenario(std::uint64_t seed) : random(seed) {
         parameters.axes.clear();
@@ -108,8 +111,9 @@ struct Scenario {
                 plant.drives[i]->machine().configure(strict);
                 plant.drives[i]->machine().shaft(0).disturb(1e7);
             });
-            plant.events.emplace_back(from_us + 3000,
-                                      [&plant, i] { plant.drives[i]->machine().shaft(0).disturb(0.0); });
+            pushed_drive = i;
+            pushed_to_us = from_us + push_us;
+            plant.events.emplace_back(pushed_to_us, [&plant, i] { plant.drives[i]->machine().shaft(0).disturb(0.0); });
             off = true;
             break;
         }
@@ -150,7 +154,9 @@ void judge(PvtPlant& plant, const Scenario& scenario, const SmoothMotion& motion
         CHECK((sure || scenario.outage)); // who answers confirms
         all_held = all_held && report.held();
         all_confirmed = all_confirmed && sure;
-        confirmed.insert(confirmed.end(), static_cast<std::size_t>(scenario.parameters.axes[i]), sure);
+        // What pushes it after its last answer nobody can know.
+        const bool pushed_since = i == scenario.pushed_drive && scenario.pushed_to_us > report.status_us;
+        confirmed.insert(confirmed.end(), static_cast<std::size_t>(scenario.parameters.axes[i]), sure && !pushed_since);
     }
     ++tally.endings[all_held ? "held" : all_confirmed ? "stopped" : "unconfirmed"];
     if (all_held) {

@@ -36,6 +36,23 @@ TEST_CASE("PVT port, virtual: a whole motion, every segment once, on the path", 
     plant.port->close();
 }
 
+TEST_CASE("PVT port, virtual: drives whose clocks differ stay in step for as long as the motion lasts", "[ports]") {
+    // 200 ppm are 2 ms in ten seconds. What is in the rings at the start is not corrected, the rate of a clock is known
+    // to some 50 ppm in the first seconds, and then a segment is corrected by up to 250 ppm: 0.42 ms, most of it early
+    const SmoothMotion longer = smooth_motion(20000.0, 4, 1250, 2000);
+    PvtPlant plant({.clock_ppm = {100.0, -100.0, 0.0}});
+    plant.make();
+    plant.sample_positions();
+    REQUIRE_FALSE(plant.port->open());
+    REQUIRE_FALSE(plant.port->prepare(longer.segments.front()));
+    plant.began_us = plant.clock.now_us();
+    CHECK(run(plant, longer, {}) == PortPhase::idle);
+    CHECK(plant.port->resumes() == 0);
+    INFO(1e6 * plant.off_path_counts / longer.fastest_counts_s << " us of the largest speed");
+    CHECK(plant.off_path_counts < longer.fastest_counts_s * 700e-6);
+    plant.port->close();
+}
+
 TEST_CASE("PVT port, virtual: a hold at any time about the start is a hold: nothing moves behind it", "[ports]") {
     for (std::uint64_t hold_us = 0; hold_us < 250'000; hold_us += 2300) {
         PvtPlant plant({});
@@ -51,6 +68,40 @@ TEST_CASE("PVT port, virtual: a hold at any time about the start is a hold: noth
         CHECK(plant.off_path_counts < motion.fastest_counts_s * 0.0004);
         check_stands_since(plant, halted_us);
     }
+}
+
+TEST_CASE("PVT port, virtual: a shaft that a load pushes while its stop is confirmed rests before it is confirmed",
+          "[ports]") {
+    // Two answers 20 ms apart, before the push and behind it, reported one position: it counted as standstill
+    int pushed = 0;
+    for (const std::uint32_t window_counts : {0U, 1U}) {     // without a fault, and with one of following error
+        for (const std::uint64_t hold_us : {0U, 200'000U}) { // before the start, and in motion
+            for (std::uint64_t push_us = 0; push_us < 60'000; push_us += 500) {
+                PvtPlant plant({});
+                prepare(plant);
+                const std::uint64_t from_us = plant.began_us + hold_us + (hold_us > 0 ? 250'000 : 0) + push_us;
+                constexpr std::uint64_t long_us = 3000;
+                auto& machine = plant.drives[1]->machine();
+                plant.events.emplace_back(from_us, [&] {
+                    PvtConfiguration configuration = machine.configuration();
+                    configuration.following_window = window_counts;
+                    machine.configure(configuration);
+                    machine.shaft(0).disturb(1e7);
+                });
+                plant.events.emplace_back(from_us + long_us, [&] { machine.shaft(0).disturb(0.0); });
+                INFO("window " << window_counts << ", hold at " << hold_us << ", pushed " << push_us << " us later");
+                CHECK(run(plant, motion, {.hold_us = hold_us}) != PortPhase::running);
+                const std::uint64_t halted_us = plant.clock.now_us();
+                const StopReport report = plant.port->stop_report(1);
+                CHECK(report.state == StopState::confirmed);
+                if (from_us + long_us <= report.status_us) { // else nobody can know
+                    ++pushed;
+                    check_stands_since(plant, halted_us);
+                }
+            }
+        }
+    }
+    CHECK(pushed > 100);
 }
 
 TEST_CASE("PVT port, virtual: a quick stop at any time, alone or behind a hold, stops every drive", "[ports]") {

@@ -47,7 +47,7 @@ TEMPLATE_TEST_CASE("averaged motions along splines and polylines keep every limi
     using S = TestType;
     Real most = 0.0L;
     int runs = 0;
-    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(80)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(80)); ++round) {
         Random random(seed + round);
         const int axes = random.integer(1, max_axes);
         const MachineSettings machine = bounded_machine(random, axes);
@@ -74,7 +74,7 @@ TEMPLATE_TEST_CASE("averaged motions that are steered keep every limit", "[strea
     using S = TestType;
     Real most = 0.0L;
     int steered = 0;
-    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(60, 5000)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(60, 1000)); ++round) {
         Random random(seed + 1000000 + round);
         const int axes = random.integer(1, max_axes);
         const MachineSettings machine = bounded_machine(random, axes);
@@ -97,7 +97,7 @@ TEMPLATE_TEST_CASE("averaged motions that are steered keep every limit", "[strea
         }
         ++steered;
     }
-    CHECK(4 * steered > rounds(60, 5000));
+    CHECK(4 * steered > rounds(60, 1000));
     CHECK(most > 0.95L);
 }
 
@@ -146,7 +146,7 @@ TEMPLATE_TEST_CASE("an averaged straight move takes the time of the S-curve", "[
 TEMPLATE_TEST_CASE("averaged motions along mild bends keep every limit", "[stream][jerk][smooth]", double, Fixed) {
     // They are averaged over the time of a straight line
     Real most = 0.0L;
-    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(40)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(40)); ++round) {
         Random random(seed + 4000000 + round);
         MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
         machine.jerk_tier = JerkTier::bounded;
@@ -204,7 +204,7 @@ TEMPLATE_TEST_CASE("axes without a jerk limit beside one that takes ten seconds 
 TEMPLATE_TEST_CASE("an averaged motion does not depend on when the input comes", "[stream][jerk][smooth]", double,
                    Fixed) {
     using S = TestType;
-    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(10)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(10)); ++round) {
         Random random(seed + 2000000 + round);
         const int axes = random.integer(1, max_axes);
         const MachineSettings machine = bounded_machine(random, axes);
@@ -225,7 +225,7 @@ TEMPLATE_TEST_CASE("an averaged motion does not depend on when the input comes",
 TEMPLATE_TEST_CASE("an averaged motion that cannot wait for its input keeps every limit", "[stream][jerk][smooth]",
                    double, Fixed) {
     using S = TestType;
-    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(15)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(15)); ++round) {
         Random random(seed + 3000000 + round);
         const int axes = random.integer(1, max_axes);
         const MachineSettings machine = bounded_machine(random, axes);

@@ -41,7 +41,7 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
                    Fixed) {
     using S = TestType;
     int stops = 0;
-    for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(8)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(8)); ++round) {
         Random random(seed + round);
         const int axes = random.integer(1, max_axes);
         MachineSettings machine = random_machine(random, axes);
@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known,
     using S = TestType;
     int compared = 0;
     for (const JerkTier tier : {JerkTier::optimal, JerkTier::bounded}) {
-        for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(4)); ++round) {
+        for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(4)); ++round) {
             Random random(seed + round);
             MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
             machine.jerk_tier = tier;
@@ -142,7 +142,18 @@ TEMPLATE_TEST_CASE("a jerk-limited motion with late input travels what is known,
                 stops += s.start != s.end && ends_at_rest(s, 2) ? 1U : 0U;
             }
             CHECK(rests <= stops);
-            CHECK(run.segments.size() <= least.segments.size() + least.segments.size() / 20 + 10);
+            // The bounded planner averages a leg with mild bends over a longer time, once it knows its end
+            // (LegSmoothing). Here it does not: the leg is averaged over the time T of every other leg, and accelerates
+            // with J T.
+            MachineSettings unaware = machine;
+            const double average_s = limits.smoothing_q8 / 256.0 * limits.segment_ticks / 8e6;
+            for (AxisSettings& axis : unaware.axis) {
+                axis.max_acceleration_mm_s2 = std::min(axis.max_acceleration_mm_s2, axis.max_jerk_mm_s3 * average_s);
+            }
+            const std::size_t most = tier == JerkTier::bounded ? run_steered<S>(known, unaware, 512, {}).segments.size()
+                                                               : least.segments.size();
+            CAPTURE(most);
+            CHECK(run.segments.size() <= most + most / 20 + 10);
             ++compared;
             // And what comes while it still moves is no stop
             source.release(path.size());
@@ -242,7 +253,20 @@ TEMPLATE_TEST_CASE("what is known is travelled to its end, be it one short move"
                 REQUIRE_FALSE(run.segments.empty());
                 require_limits(run, machine);
                 CHECK(run.segments.back().end == least.segments.back().end);
-                CHECK(run.segments.size() <= least.segments.size() + least.segments.size() / 20 + 10);
+                // The bounded planner averages a leg with mild bends over a longer time, once it knows its end
+                // (LegSmoothing).
+                // Here it does not: the leg is averaged over the time T of every other leg, and accelerates with J T.
+                MachineSettings unaware = machine;
+                const double average_s = limits.smoothing_q8 / 256.0 * limits.segment_ticks / 8e6;
+                for (AxisSettings& axis : unaware.axis) {
+                    axis.max_acceleration_mm_s2 =
+                        std::min(axis.max_acceleration_mm_s2, axis.max_jerk_mm_s3 * average_s);
+                }
+                const std::size_t most = tier == JerkTier::bounded
+                                             ? run_steered<S>(known, unaware, 512, {}).segments.size()
+                                             : least.segments.size();
+                CAPTURE(most);
+                CHECK(run.segments.size() <= most + most / 20 + 10);
             }
         }
     }

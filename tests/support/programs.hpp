@@ -138,12 +138,57 @@ struct Stream {
     std::uint64_t slow_legs = 0; ///< JerkPlan::slow_legs
 };
 
-constexpr std::size_t most_segments = 400'000;
 constexpr std::size_t most_starvations = 100'000;
 
+/// Least time for a straight move: each axis at its velocity, the path at the feed. 0: the machine's feed
+inline double least_seconds(const PerAxis<double>& move_mm, double feed_mm_s, const MachineSettings& machine) {
+    double seconds = 0.0;
+    double square = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+        seconds = std::max(seconds, std::fabs(move_mm[k]) / machine.axis[k].max_velocity_mm_s);
+        square += machine.axis[k].rotary ? 0.0 : move_mm[k] * move_mm[k];
+    }
+    const double feed = feed_mm_s > 0.0 ? std::min(feed_mm_s, machine.max_feed_mm_s) : machine.max_feed_mm_s;
+    return std::max(seconds, std::sqrt(square) / feed);
+}
+
+/// The chords between the points; no curve through them is faster.
+inline double least_seconds(const Program& program, const MachineSettings& machine) {
+    double seconds = 0.0;
+    for (std::size_t i = 1; i < program.points.size(); ++i) {
+        PerAxis<double> move{};
+        for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
+            move[k] = program.points[i].mm[k] - program.points[i - 1].mm[k];
+        }
+        seconds += least_seconds(move, program.points[i].feed_mm_s, machine);
+    }
+    return seconds;
+}
+
+template <Scalar S>
+double least_seconds(const std::vector<CurveSegment<S>>& segments, const MachineSettings& machine) {
+    double seconds = 0.0;
+    for (const CurveSegment<S>& segment : segments) {
+        PerAxis<double> move{};
+        for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+            const auto& control = segment.control[k];
+            const auto last = static_cast<unsigned>(segment.degree);
+            move[k] = std::ldexp(to_double(control[last]) - to_double(control[0]), segment.unit_log2);
+        }
+        seconds += least_seconds(move, to_double(segment.block_feed_mm_s()), machine);
+    }
+    return seconds;
+}
+
+/// So many segments are no motion any more that ends: five times as long as it has to take, but at least 400,000.
+template <Scalar S>
+std::size_t most_segments(double least_s, const MotionLimits<S>& limits) {
+    return std::max(std::size_t{400'000}, static_cast<std::size_t>(5.0 * least_s * to_double(limits.segments_per_s)));
+}
+
 template <class S, class Curve>
-Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& limits, std::size_t window_size,
-                 Random* interleaving) {
+Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& limits, std::size_t most,
+                 std::size_t window_size, Random* interleaving) {
     AnyTrajectory<S> any(curve, limits, window_size);
     Trajectory<S>& trajectory = any.trajectory();
     Feeder<S, Curve> feeder(curve, program);
@@ -156,7 +201,7 @@ Stream stream_of(Curve& curve, const Program& program, const MotionLimits<S>& li
         }
         if (trajectory.next(segment) == Pull::item) {
             stream.segments.push_back(segment);
-            stream.endless = stream.segments.size() >= most_segments;
+            stream.endless = stream.segments.size() >= most;
         } else if (trajectory.state() == Pull::starved) {
             feeder.feed(interleaving != nullptr ? interleaving->integer(0, 3) : 1000);
             stream.endless =
@@ -175,12 +220,13 @@ Stream stream_of(const Program& program, const MachineSettings& machine, std::si
     const auto limits = MotionLimits<S>::make(machine).value();
     CurveOptions<S> options;
     options.axes = program.axes;
+    const std::size_t most = most_segments(least_seconds(program, machine), limits);
     if (program.polyline) {
         Polyline<S> curve(options);
-        return stream_of<S>(curve, program, limits, window_size, interleaving);
+        return stream_of<S>(curve, program, limits, most, window_size, interleaving);
     }
     G2Spline<S> curve(options);
-    return stream_of<S>(curve, program, limits, window_size, interleaving);
+    return stream_of<S>(curve, program, limits, most, window_size, interleaving);
 }
 
 /// The feed segments of Bezier segments as they stand.
@@ -188,6 +234,7 @@ template <Scalar S>
 Stream stream_of(std::vector<CurveSegment<S>> segments, const MachineSettings& machine, std::size_t window_size = 1024,
                  std::uint64_t seed = 0, int patience = 0) {
     const auto limits = MotionLimits<S>::make(machine).value();
+    const std::size_t most = most_segments(least_seconds(segments, machine), limits);
     ListSource<S> source(std::move(segments), seed, patience);
     AnyTrajectory<S> any(source, limits, window_size);
     Trajectory<S>& trajectory = any.trajectory();
@@ -196,7 +243,7 @@ Stream stream_of(std::vector<CurveSegment<S>> segments, const MachineSettings& m
     while (trajectory.state() != Pull::finished && !stream.endless) {
         if (trajectory.next(segment) == Pull::item) {
             stream.segments.push_back(segment);
-            stream.endless = stream.segments.size() >= most_segments;
+            stream.endless = stream.segments.size() >= most;
         }
     }
     stream.limited = trajectory.feed_plan().window_limited();

@@ -133,7 +133,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
         return last ? Verdict::cusp : Verdict::coarse;
     }
     m_.invert();
-    const S error = absolute(m_.middle_slope * m_.sigma[1] - m_.length);
+    const S error = m_.slope_error();
     if (!last && (error > refinement_.inverse_error * m_.length + control_noise<S> ||
                   m_.shape_error > scale2(refinement_.inverse_error, 14))) {
         return Verdict::coarse;
@@ -178,8 +178,10 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
                           : smaller(scale2(quotient_or_max(x, m_.length_mm), shift),
                                     from_integer<S>(PieceMeasure<S>::sharpest));
     };
-    // In units of 2^-12: otherwise Fixed would lose the digits of a small error over a small length.
-    const S error = m_.shape_error + scale2(absolute(m_.length - m_.low_order_length), 12) / m_.length;
+    // In units of 2^-12: otherwise Fixed would lose the digits of a small error over a small length. Each estimate is 0
+    // somewhere: the two lengths are the same where sigma is a quadratic, and that is so on a straight cubic.
+    const S estimate = larger(absolute(m_.length - m_.low_order_length), scale2(m_.slope_error(), -2));
+    const S error = m_.shape_error + scale2(estimate, 12) / m_.length;
     const S ripple = per_mm(from_integer<S>(40) * error, -12);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S>& power = out.power[k]; // the differences of the control points, without power[0]
@@ -199,9 +201,10 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     }
     const ControlRounding<S> rounded = ControlRounding<S>::of(current(), piece.level, m_.slowest, out.tangent_max);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        // The remaining error of the inverse is about c x^3 (1-x)^3 (x-1/2). With the slope e its second derivative
-        // reaches 8 e, an acceleration of 8 e v^2 / L along the tangent. Five times that is allowed for, because e is
-        // an estimate. Rounding of the control points bends the curve.
+        // The remaining error of the inverse is about c x^3 (1-x)^3 (x-1/2). With the slope e in the middle its second
+        // derivative reaches 8 e, an acceleration of 8 e v^2 / L along the tangent; 10 e is allowed for. Of the other
+        // estimates of e, which are of the right order only, it is 40 e. Rounding of the control points bends the
+        // curve.
         const S rounding = out.tangent_max[k] * ripple + per_mm(rounded.bend[k], 0);
         out.curvature_max[k] =
             smaller(PieceMeasure<S>::bound(m_.second, k) + rounding, from_integer<S>(PieceMeasure<S>::sharpest));

@@ -79,6 +79,8 @@ struct PieceMeasure {
     void measure_length(int axes, int unit_log2) noexcept;
     void invert() noexcept;
     void measure_curvature(int axes, int unit_log2) noexcept;
+    /// How far the slope of the inverse is off in the middle, times the length.
+    [[nodiscard]] S slope_error() const noexcept { return absolute(middle_slope * sigma[1] - length); }
     /// Largest |d2q/ds2| of an axis at the three points.
     [[nodiscard]] S sharpest_bend(int axes) const noexcept;
     /// The shape of one axis, without its error bound.

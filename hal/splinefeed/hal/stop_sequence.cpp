@@ -44,7 +44,10 @@ void StopSequence::assess(Axis& axis, const StopFacts& facts) const noexcept {
     const bool stands =
         axis.executed && facts.standstill && !facts.start_pending && facts.status_us >= facts.executed_us;
     axis.standstill_since_us = !stands ? 0 : axis.standstill_since_us == 0 ? facts.status_us : axis.standstill_since_us;
-    const bool settled = stands && facts.status_us >= axis.standstill_since_us + times_.settle_us;
+    axis.statuses = !stands ? 0 : axis.statuses + (facts.status_us != axis.status_us || axis.statuses == 0 ? 1U : 0U);
+    axis.status_us = facts.status_us;
+    const bool settled =
+        stands && axis.statuses >= least_statuses && facts.status_us >= axis.standstill_since_us + times_.settle_us;
     axis.report.state = settled ? StopState::confirmed : axis.executed ? StopState::stopping : StopState::moving;
 }
 
@@ -60,6 +63,7 @@ void StopSequence::escalate(Axis& axis, std::uint64_t now_us) const noexcept {
     axis.report.request = static_cast<StopRequest>(static_cast<int>(axis.report.request) + 1);
     axis.since_us = now_us;
     axis.standstill_since_us = 0;
+    axis.statuses = 0;
     axis.executed = false;
     axis.report.state = StopState::moving;
 }

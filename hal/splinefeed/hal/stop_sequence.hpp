@@ -53,7 +53,8 @@ struct StopTimes {
     std::uint64_t hold_us = 1'000'000;
     std::uint64_t quick_stop_us = 1'000'000;
     std::uint64_t disable_us = 500'000;
-    std::uint64_t settle_us = 20'000;        ///< an axis must report standstill for this long
+    /// An axis must report standstill for this long, in at least StopSequence::least_statuses statuses.
+    std::uint64_t settle_us = 20'000;
     StopRequest last = StopRequest::disable; ///< strongest request that escalation may reach
 };
 
@@ -75,6 +76,9 @@ struct StopReport {
 /// to_send() to each axis for which it is not none.
 class StopSequence {
 public:
+    /// Between two statuses a shaft may have been pushed away and come back; that it is back in three is no accident.
+    static constexpr unsigned least_statuses = 3;
+
     StopSequence(std::size_t axes, const StopTimes& times) : times_(times), axes_(axes) {}
 
     /// Clears all requests before a new motion. @pre the axes may move
@@ -100,6 +104,8 @@ private:
         StopReport report;
         std::uint64_t since_us = 0;            // instant of the request in force
         std::uint64_t standstill_since_us = 0; // first status that reports standstill; 0: it moves
+        std::uint64_t status_us = 0;           // the last one that was counted
+        unsigned statuses = 0;                 // that report standstill, in a row
         bool executed = false;                 // it has executed the request in force
     };
 

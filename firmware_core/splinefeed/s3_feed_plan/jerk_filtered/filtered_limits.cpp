@@ -60,7 +60,8 @@ S largest_allowed(S low, S high, S close, Excess&& excess, int most_steps = step
     }
     bool rose = false;
     for (int i = 0; i < most_steps && below < -close; ++i) {
-        const S x = low + (high - low) * (-below / (above - below) * literal<S>(within));
+        const S met = low + (high - low) * (-below / (above - below) * literal<S>(within));
+        const S x = met < high ? met : scale2(low + high, -1); // in Fixed it may be rounded to what is not allowed
         const S e = excess(x);
         if (e > S{}) {
             high = x;

@@ -15,7 +15,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t listen_every_us = 4'000; // while the drive moves
+constexpr std::uint64_t listen_every_us = 4'000; // while the drive moves, and until its standstill is confirmed
 constexpr std::uint64_t idle_every_us = 20'000;  // while it is at standstill
 constexpr std::uint64_t connect_every_us = 20'000;
 constexpr std::uint16_t most_refusals = 20; // of errors that a repetition does not cure
@@ -181,7 +181,8 @@ bool PvtClient::due(std::uint64_t now_us, std::uint32_t waiting) const noexcept 
         return true;
     }
     const bool moves = report_.status.state == PvtState::running || report_.status.state == PvtState::stopping;
-    return now_us - last_exchange_us_ >= (moves ? listen_every_us : idle_every_us);
+    const bool stops = held_back_.load(std::memory_order_relaxed);
+    return now_us - last_exchange_us_ >= (moves || stops ? listen_every_us : idle_every_us);
 }
 
 void PvtClient::fill(PvtBlock& block, std::uint32_t waiting) noexcept {

@@ -19,9 +19,9 @@ bool PvtStop::powerless() const noexcept {
     return report_.status.state == PvtState::fault || report_.status.state == PvtState::disabled;
 }
 
-bool PvtStop::still() const noexcept {
+bool PvtStop::still(std::uint64_t least_us) const noexcept {
     return std::all_of(standstill_.begin(), standstill_.begin() + client_->axes(),
-                       [](const Standstill& axis) { return axis.still_us() >= still_us; });
+                       [least_us](const Standstill& axis) { return axis.still_us() >= least_us; });
 }
 
 // The drive gets no more segments before the hold. If its ring is shorter than the reserve by then, it slows down
@@ -42,6 +42,9 @@ PvtStop::Hold PvtStop::hold_by(const DriveReport& answer, const PortTimes& times
 
 void PvtStop::update(const DriveReport& report, const PortTimes& times) noexcept {
     const bool is_new = report.status_us != report_.status_us;
+    if (report.status.state != report_.status.state) {
+        standstill_.fill({}); // what made it change may have moved the shaft since the last report
+    }
     report_ = report;
     for (std::size_t k = 0; is_new && k < static_cast<std::size_t>(client_->axes()); ++k) {
         standstill_[k].update(report_.status_us, report_.status.position[k]);
@@ -83,11 +86,13 @@ void PvtStop::send_once(StopRequest request, std::uint64_t hold_at_us) noexcept 
     client_->interrupt(command_, command_ == PvtCommand::begin ? report_.status.executed : hold_at);
 }
 
-// A drive without power or in fault needs no command and would refuse one. But a pending command may be `enable`.
+// The state `standing` or `held` is that of the reference: a load may have pushed the shaft since the report before. A
+// drive without power or in fault needs no command and would refuse one. But a pending command may be `enable`.
 StopFacts PvtStop::facts() const noexcept {
     const PvtState state = report_.status.state;
+    const bool stands = state == PvtState::standing || state == PvtState::held;
     StopFacts facts{.status_us = report_.status_us,
-                    .standstill = state == PvtState::standing || state == PvtState::held || (powerless() && still()),
+                    .standstill = (stands && still(1)) || (powerless() && still(still_us)),
                     .executed = executed_,
                     .executed_us = executed_us_};
     if (powerless() && !report_.command_pending) {

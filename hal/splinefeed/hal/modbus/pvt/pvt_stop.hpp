@@ -34,7 +34,8 @@ private:
     [[nodiscard]] PvtCommand command_for(StopRequest request) const noexcept;
     [[nodiscard]] Hold hold_by(const DriveReport& answer, const PortTimes& times) const noexcept;
     [[nodiscard]] bool powerless() const noexcept;
-    [[nodiscard]] bool still() const noexcept;
+    /// Whether no axis has moved for this long.
+    [[nodiscard]] bool still(std::uint64_t least_us) const noexcept;
 
     PvtClient* client_;
     DriveReport report_;
