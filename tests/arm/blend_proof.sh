@@ -44,6 +44,6 @@ at_most() {
 }
 if [[ $cpu == cortex-m4f ]]; then
     at_most corner 45000
-    at_most joint 260000
-    at_most chained_point 345000
+    at_most joint 280000
+    at_most chained_point 365000
 fi
