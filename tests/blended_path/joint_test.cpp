@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/joint.hpp"
 
-#include "support/programmed_moves.hpp"
+#include "support/moves_deviation.hpp"
 
 using namespace splinefeed;
 using namespace splinefeed_test;

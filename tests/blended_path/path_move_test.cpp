@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/path_move.hpp"
 
-#include "support/programmed_moves.hpp"
+#include "support/moves_deviation.hpp"
 #include "support/rounds.hpp"
 
 using namespace splinefeed;

@@ -4,7 +4,7 @@
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 
 #include "support/emitted.hpp"
-#include "support/programmed_moves.hpp"
+#include "support/moves_deviation.hpp"
 #include "support/programs.hpp"
 #include "support/rounds.hpp"
 

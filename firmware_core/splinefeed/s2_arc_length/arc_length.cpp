@@ -26,18 +26,6 @@ constexpr double slow_grades = 3.6;
 
 } // namespace
 
-template <Scalar S>
-bool ArcLength<S>::vanishes(const Piece<S>& piece) const noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        for (unsigned i = 1; i <= static_cast<unsigned>(current().degree); ++i) {
-            if (absolute(piece.control[k][i] - piece.control[k][0]) > nothing_) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
 // Within the braking distance of a stop (7.3 grades), or of a segment that is passed slowly, a cell is at most a grade
 // or about a third of its distance to it. (Not exactly a third: on straight lines that would be a tie, and rounding
 // would decide.)
@@ -116,7 +104,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     m_.differentiate(piece, current().degree, axes);
     const bool last = piece.level == deepest || m_.fastest < finest<S>; // then it is a cell or a cusp
     if (m_.slowest < nothing_ || m_.fastest > m_.slowest * refinement_.metric_ratio) {
-        return last || vanishes(piece) ? Verdict::cusp : Verdict::coarse;
+        return last || piece.vanishes(current().axes, current().degree, nothing_) ? Verdict::cusp : Verdict::coarse;
     }
     m_.measure_length(axes, current().unit_log2);
     if (!last && too_long(piece)) {

@@ -51,7 +51,6 @@ private:
     enum class Verdict : std::uint8_t { fine, coarse, cusp };
 
     Pull load() noexcept;
-    [[nodiscard]] bool vanishes(const Piece<S>& piece) const noexcept;
     Verdict judge(const Piece<S>& piece) noexcept;
     [[nodiscard]] bool too_long(const Piece<S>& piece) const noexcept;
     [[nodiscard]] bool leaves_open_travel(const Piece<S>& piece) const noexcept;

@@ -24,6 +24,17 @@ struct Piece {
     bool at_start = false; ///< it begins at the start of its segment
     bool at_end = false;
 
+    /// Whether no control point is farther than `nothing` from the first one, in each axis.
+    [[nodiscard]] bool vanishes(int axes, int degree, S nothing) const noexcept {
+        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            for (unsigned i = 1; i <= static_cast<unsigned>(degree); ++i) {
+                if (absolute(control[k][i] - control[k][0]) > nothing) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
     /// What the control points of an axis count from.
     [[nodiscard]] Position origin(const CurveSegment<S>& segment, unsigned axis) const noexcept {
         if constexpr (counts_from_own_start<S>) {

@@ -21,6 +21,7 @@
 #include "splinefeed/s3_feed_plan/jerk_optimal/controllable_set.hpp"
 
 #include "splinefeed/number/scalar.hpp"
+#include "splinefeed/s3_feed_plan/jerk_optimal/axis_points.hpp"
 
 namespace splinefeed {
 
@@ -29,28 +30,6 @@ namespace {
 constexpr double negligible = 1e-9; // of a coefficient, compared with the other one
 constexpr double rounding = 1e-12;  // of a bound, compared with the sum from which it comes
 constexpr double third = 1.0 / 3.0;
-
-// Derivatives of an axis as Bezier points over the cell, in the direction of travel: q' is the cubic through its values
-// and slopes at both ends; the others are its derivatives.
-struct AxisPoints {
-    double first[4];
-    double second[3];
-    double third[2];
-
-    AxisPoints(const AxisEnd& entry, const AxisEnd& exit, double direction, double length_mm,
-               double per_length) noexcept {
-        const double step = length_mm * splinefeed::third;
-        first[0] = direction * entry.first;
-        first[3] = direction * exit.first;
-        first[1] = first[0] + step * entry.second;
-        first[2] = first[3] - step * exit.second;
-        second[0] = entry.second;
-        second[1] = 3.0 * per_length * (first[2] - first[1]);
-        second[2] = exit.second;
-        third[0] = 2.0 * per_length * (second[1] - second[0]);
-        third[1] = 2.0 * per_length * (second[2] - second[1]);
-    }
-};
 
 constexpr std::size_t most_places = StatePolygon::capacity / 2;
 using Chain = std::array<SpeedState, most_places>;
