@@ -50,7 +50,7 @@ public:
         path(root, machine.settings, machine.tolerances);
         step(root, machine.step);
         axes(root, machine);
-        machine.tolerances.sharpest = sharpest_blend(machine.settings);
+        machine.tolerances.sharpest = sharpest_corner(machine.settings);
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {
             machine.tolerances.rotary[k] = machine.settings.axis[k].rotary;
         }

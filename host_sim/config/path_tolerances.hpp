@@ -2,21 +2,26 @@
 // PathTolerances: how far the path of a program may be from its lines and arcs, where the program does not say it.
 #pragma once
 
-#include "splinefeed/s1_blended_path/joint.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
 
 #include <algorithm>
 
 namespace splinefeed::host {
 
+/// Corners that are stops, as SharpestBlend of the core.
+struct SharpestCorner {
+    double curvature_1_mm = 0.0;
+    double fading = 0.0;
+};
+
 /// Keys of [path] in a machine file, in mm and degrees.
 struct PathTolerances {
-    double joint_mm = 0.001;          ///< where only the curvature jumps, for machines with a jerk limit
-    double programmed_mm = 0.01;      ///< elements that state no tolerance
-    double rapid_mm = 0.1;            ///< rapids
-    double rotary_deg = 100.0;        ///< of rotary axes, where a move's own number is larger
-    SharpestBlend<double> sharpest{}; ///< no key: of the planner
-    PerAxis<bool> rotary{};           ///< no key: of the machine
+    double joint_mm = 0.001;     ///< where only the curvature jumps, for machines with a jerk limit
+    double programmed_mm = 0.01; ///< elements that state no tolerance
+    double rapid_mm = 0.1;       ///< rapids
+    double rotary_deg = 100.0;   ///< of rotary axes, where a move's own number is larger
+    SharpestCorner sharpest{};   ///< no key: of the planner
+    PerAxis<bool> rotary{};      ///< no key: of the machine
 };
 
 /// The largest that a program or a machine file may state.
@@ -40,7 +45,7 @@ inline constexpr PathToleranceKey path_tolerance_keys[] = {
 /// lines of 1 to 40 mm). `bounded` mixes a bend with the path beside it: those that allow less than half of the feed,
 /// v^2 = A / kappa. `optimal` loses at turns below 105 degrees, where the blend allows less than
 /// (1 - 1.6 sin^2(phi/2)) A^2 / (2 J).
-[[nodiscard]] inline SharpestBlend<double> sharpest_blend(const MachineSettings& machine) {
+[[nodiscard]] inline SharpestCorner sharpest_corner(const MachineSettings& machine) {
     double jerk = 0.0;
     double acceleration = machine.axis[0].max_acceleration_mm_s2;
     for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
