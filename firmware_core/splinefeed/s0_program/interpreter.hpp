@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Interpreter: lines of G-code to moves, dwells and events.
+#pragma once
+
+#include "splinefeed/s0_program/block_interpreter.hpp"
+#include "splinefeed/s0_program/program_item.hpp"
+
+namespace splinefeed {
+
+/// Push a line, pull its items until `starved`, push the next line. What a line does is decided, and every error of it
+/// is found, by push(): next() cannot fail. Cycles and splines expand one item at a time, so memory is constant.
+///
+///     Interpreter<double> interpreter(settings, &expression);
+///     interpreter.start(machine_position);
+///     while (read_line(text)) {
+///         if (const BlockStatus status = interpreter.push(text, ++line); !status.ok()) { ... describe(status.error) }
+///         while (interpreter.next(item) == Pull::item) { ... }
+///     }
+///
+/// Moves that the program states as rapids have feed_mm_s 0. An event with `stops`, a probe and a homing move end with
+/// the machine at rest, and so does every dwell: whoever passes moves on sets stop_at_end of the move before them.
+/// All decisions are made by integers, so they are the same for every S and on every target.
+template <Scalar S>
+class Interpreter : public BlockInterpreter {
+public:
+    using BlockInterpreter::BlockInterpreter;
+
+    /// The next item of the block. `starved`: push the next line; `finished`: the program has ended (M2, M30, the
+    /// closing %), and push() does nothing more until restart(). Cost: about that of a few square roots for a move.
+    Pull next(ProgramItem<S>& out) noexcept;
+
+private:
+    void fill_line(ProgramItem<S>& out) const noexcept;
+    void fill_arc(ProgramItem<S>& out) const noexcept;
+    void fill_bezier(ProgramItem<S>& out) const noexcept;
+    [[nodiscard]] S path_feed(S length, S linear, S uvw, S rotary) const noexcept;
+};
+
+} // namespace splinefeed
