@@ -160,7 +160,7 @@ CycleStep CannedCycle::next_peck(AxisPoint& at) noexcept {
         return go(at, depth_, CycleStep::feed);
     }
     if (step == 1) {
-        return go(at, clear_, CycleStep::rapid);
+        return go(at, clearance_, CycleStep::rapid);
     }
     hole_step_ = 0;
     const Decimal above = depth_ + peck_clearance;
