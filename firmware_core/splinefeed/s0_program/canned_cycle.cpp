@@ -139,10 +139,14 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
             hole_step_ = 2;
             return CycleStep::spindle_stop;
         }
+        if (hole_step_ == 0 && code_ == 850) { // it leaves the hole by feed
+            hole_step_ = 1;
+            return go(at, clearance_, CycleStep::feed);
+        }
         --repeats_;
         level_ = clear_;
         phase_ = code_ == 860 ? Phase::restart : repeats_ > 0 ? Phase::across : Phase::finished;
-        return go(at, clear_, code_ == 850 || code_ == 890 ? CycleStep::feed : CycleStep::rapid);
+        return go(at, clear_, code_ == 890 ? CycleStep::feed : CycleStep::rapid);
     case Phase::restart:
         phase_ = repeats_ > 0 ? Phase::across : Phase::finished;
         return CycleStep::spindle_start;
