@@ -233,9 +233,15 @@ bool BlockInterpreter::next_in_cycle(ProgramStep& out) noexcept {
     AxisPoint at{};
     const CycleStep step = cycle_.next(at);
     switch (step) {
+    case CycleStep::lift:
+        plan_.move = MoveKind::rapid;
+        fill_move(out, frame_.to_machine(at));
+        return true;
     case CycleStep::rapid:
     case CycleStep::feed:
         plan_.move = step == CycleStep::rapid ? MoveKind::rapid : MoveKind::feed;
+        plan_.manner.mode = PathMode::exact_path;
+        plan_.manner.tolerance_mm = {};
         fill_move(out, frame_.to_machine(at));
         return true;
     case CycleStep::dwell:

@@ -60,6 +60,7 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
     place_ = at;
     level_ = at[n];
     first_step_ = second_step_ = {};
+    start_ = {at[static_cast<unsigned>(axes_[0])], at[static_cast<unsigned>(axes_[1])]};
     clearance_ = words.clearance;
     bottom_ = words.depth;
     const std::array<Decimal*, 2> steps{&first_step_, &second_step_};
@@ -113,7 +114,11 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
     case Phase::lift:
         phase_ = Phase::across;
         level_ = clearance_;
-        return go(at, level_, CycleStep::rapid);
+        go(at, level_, CycleStep::rapid);
+        for (unsigned k = 0; k < 2; ++k) {
+            at[static_cast<unsigned>(axes_[k])] = start_[k];
+        }
+        return CycleStep::lift;
     case Phase::across:
         place_[static_cast<unsigned>(axes_[0])] += first_step_;
         place_[static_cast<unsigned>(axes_[1])] += second_step_;

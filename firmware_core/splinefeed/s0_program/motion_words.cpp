@@ -191,8 +191,6 @@ BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
         return status;
     }
     plan_.kind = PlanKind::cycle;
-    plan_.manner.mode = PathMode::exact_path;
-    plan_.manner.tolerance_mm = {};
     const AxisPoint end = cycle_.end();
     AxisPoint bottom = end;
     bottom[static_cast<unsigned>(letters_.index(letters_of(modal_.plane).axes[2]))] = cycle_.bottom();
