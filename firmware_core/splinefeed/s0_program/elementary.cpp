@@ -27,11 +27,6 @@ std::int64_t product(std::int64_t a, std::int64_t b) noexcept {
     return detail::with_sign((wide.high << 2) | (wide.low >> 62), (a ^ b) < 0).raw;
 }
 
-// a * 2^62 / b
-std::int64_t quotient(std::int64_t a, std::int64_t b) noexcept {
-    return product_quotient(a, one_q62, detail::magnitude(b)).raw * (b < 0 ? -1 : 1);
-}
-
 // Taylor: x - x^3/3! + ..., and 1 - x^2/2! + ...; |x| <= pi/4.
 SineCosine series(std::int64_t x) noexcept {
     const std::int64_t square = product(x, x);
@@ -157,8 +152,9 @@ Decimal angle_of(Decimal x, Decimal y) noexcept {
     // atan(t) = atan(c) + atan((t - c) / (1 + t c)), c the nearest eighth
     const std::int64_t eighth = (t + one_q62 / 16) >> 59;
     const std::int64_t c = eighth << 59;
-    const std::int64_t radians =
-        arc_tangents[static_cast<std::size_t>(eighth)] + small_arc_tangent(quotient(t - c, one_q62 + product(t, c)));
+    const std::uint64_t divisor = static_cast<std::uint64_t>(one_q62) + static_cast<std::uint64_t>(product(t, c));
+    const std::int64_t radians = arc_tangents[static_cast<std::size_t>(eighth)] +
+                                 small_arc_tangent(product_quotient(t - c, one_q62, divisor).raw);
     // radians / 2^62 * 180/pi * 1e9: 2^118 = 2^62 * 2^56
     const std::int64_t q56 = product_quotient(radians, degrees_of_radian_q56, std::uint64_t{1} << 62).raw;
     Decimal degrees{product_quotient(q56, Decimal::one, std::uint64_t{1} << 56).raw};
