@@ -35,7 +35,9 @@ std::vector<std::string> program_of(int kind) {
         switch (kind) {
         case lines: std::snprintf(text, sizeof text, "X%.3f Y%.3f", x, y); break;
         case slicer: std::snprintf(text, sizeof text, "G1 X%.3f Y%.3f E%.5f", x, y, i * 0.01234); break;
-        case arcs: std::snprintf(text, sizeof text, "G%d X%d Y0 I%d J0", 2 + i % 2, i % 2 == 0 ? 10 : 0, i % 2 == 0 ? 5 : -5); break;
+        case arcs:
+            std::snprintf(text, sizeof text, "G%d X%d Y0 I%d J0", 2 + i % 2, i % 2 == 0 ? 10 : 0, i % 2 == 0 ? 5 : -5);
+            break;
         default: std::snprintf(text, sizeof text, "X[%.3f+#1*2] Y[sin[%d]*10]", x, i); break;
         }
         program.emplace_back(text);

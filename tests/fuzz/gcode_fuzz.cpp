@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Any lines, in any dialect, with and without expressions: the interpreter takes or refuses each without harm, a refused
-// line changes nothing, a block ends after a bounded number of items, moves join, and stay in the machine's range.
+// Any lines, in any dialect, with and without expressions: the interpreter takes or refuses each without harm, a
+// refused line changes nothing, a block ends after a bounded number of items, moves join, and stay in the machine's
+// range.
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 

@@ -43,15 +43,16 @@ TEST_CASE("boring", "[program][cycle]") {
     const std::string start = "event " + std::to_string(static_cast<int>(EventKind::spindle_clockwise)) + " stop 0 100";
     CHECK(run.text("G98 G85 X40 Z-3 R1") == "rapid 40 0 12\nrapid 40 0 1\nfeed 40 0 -3\nfeed 40 0 1\nrapid 40 0 12");
     CHECK(run.text("G89 X30 Z-2 R1 P0.2") == "rapid 30 0 12\nrapid 30 0 1\nfeed 30 0 -2\ndwell 0.2\nfeed 30 0 12");
-    CHECK(run.text("G86 X1 R1 Z-1 P0.1") == "rapid 1 0 12\nrapid 1 0 1\nfeed 1 0 -1\ndwell 0.1\n" + stop +
-                                                "\nrapid 1 0 12\n" + start);
+    CHECK(run.text("G86 X1 R1 Z-1 P0.1") ==
+          "rapid 1 0 12\nrapid 1 0 1\nfeed 1 0 -1\ndwell 0.1\n" + stop + "\nrapid 1 0 12\n" + start);
 }
 
 TEST_CASE("increments and repeats", "[program][cycle]") {
     GcodeRun<double> run;
     run.run("F1800 G0 X5 Y10 Z3 G91");
-    CHECK(run.text("G98 G81 X1 Z-2 R-1 L2") ==
-          "rapid 6 10 3\nrapid 6 10 2\nfeed 6 10 0\nrapid 6 10 3\nrapid 7 10 3\nrapid 7 10 2\nfeed 7 10 0\nrapid 7 10 3");
+    CHECK(
+        run.text("G98 G81 X1 Z-2 R-1 L2") ==
+        "rapid 6 10 3\nrapid 6 10 2\nfeed 6 10 0\nrapid 6 10 3\nrapid 7 10 3\nrapid 7 10 2\nfeed 7 10 0\nrapid 7 10 3");
     CHECK(run.text("X1") == "rapid 8 10 3\nrapid 8 10 2\nfeed 8 10 0\nrapid 8 10 3");
 }
 

@@ -60,7 +60,9 @@ TEST_CASE("elementary functions against long double", "[program][elementary]") {
 TEST_CASE("special angles are exact", "[program][elementary]") {
     constexpr std::int64_t one = std::int64_t{1} << 62;
     for (int turns = -3; turns <= 3; ++turns) {
-        const auto at = [&](int degrees) { return sine_cosine(Decimal::from_integer(360 * turns + degrees)); };
+        const auto at = [&](int degrees) {
+            return sine_cosine(Decimal::from_integer(360 * turns + degrees));
+        };
         CHECK(at(0).sine == 0);
         CHECK(at(0).cosine == one);
         CHECK(at(90).sine == one);

@@ -10,15 +10,17 @@ using namespace splinefeed_test;
 namespace {
 
 std::string random_line(std::mt19937_64& random) {
-    const auto pick = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
+    const auto pick = [&](unsigned n) {
+        return static_cast<unsigned>(random() % n);
+    };
     const auto value = [&] {
         char text[20];
         std::snprintf(text, sizeof text, "%.3f", static_cast<int>(pick(40001)) / 1000.0 - 20.0);
         return std::string(text);
     };
-    const char* const codes[] = {"G0",   "G1",  "G2",  "G3",  "G5",   "G81",  "G83", "G80",  "G17", "G18", "G19",
-                                 "G20",  "G21", "G90", "G91", "G92",  "G10",  "G54", "G55",  "G61", "G64", "G28",
-                                 "G5.2", "M3",  "M8",  "G4",  "G52",  "G93",  "G94", "G90.1", "M66", "G98", "G99"};
+    const char* const codes[] = {"G0",   "G1",  "G2",  "G3",  "G5",  "G81", "G83", "G80",   "G17", "G18", "G19",
+                                 "G20",  "G21", "G90", "G91", "G92", "G10", "G54", "G55",   "G61", "G64", "G28",
+                                 "G5.2", "M3",  "M8",  "G4",  "G52", "G93", "G94", "G90.1", "M66", "G98", "G99"};
     std::string line;
     if (pick(3) > 0) {
         line += codes[pick(sizeof codes / sizeof *codes)];
@@ -47,7 +49,7 @@ TEST_CASE("double, float and Fixed make the same items", "[program][scalar]") {
     }
     int moves = 0;
     for (int i = 0; i < rounds(20000); ++i) {
-        const std::string line = random_line(random);
+        const std::string line = i % 20 == 0 ? "G5.3" : i % 20 == 1 ? "G94 F100 G90 G17" : random_line(random);
         CAPTURE(line);
         in_double.items().clear();
         in_float.items().clear();
@@ -76,5 +78,5 @@ TEST_CASE("double, float and Fixed make the same items", "[program][scalar]") {
             REQUIRE(to_double(b.element.arc.sweep_rad) == Approx(a.element.arc.sweep_rad).margin(1e-9));
         }
     }
-    CHECK(moves > 100);
+    CHECK(moves > 20);
 }

@@ -13,7 +13,9 @@ TEST_CASE("to the machine and back, against double", "[program][frame]") {
     const unsigned seed = std::random_device{}();
     CAPTURE(seed);
     std::mt19937_64 random(seed);
-    const auto any = [&](int most) { return Decimal{static_cast<std::int64_t>(random() % 2000001) * most * 1000 - most * 1000000000LL}; };
+    const auto any = [&](int most) {
+        return Decimal{static_cast<std::int64_t>(random() % 2000001) * most * 1000 - most * 1000000000LL};
+    };
     const AxisLetters letters(six_axes());
     for (int i = 0; i < rounds(2000); ++i) {
         WorkFrame frame(letters);

@@ -17,6 +17,21 @@ constexpr char upper(char c) noexcept {
 
 } // namespace
 
+// Whether the block does something besides the word that is ignored.
+bool BlockReader::has_others(const Block& block) const noexcept {
+    for (int k = 0; k < settings_->axes; ++k) {
+        if (block.has(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'))) {
+            return true;
+        }
+    }
+    for (unsigned group = 0; group < code_groups; ++group) {
+        if (block.has(static_cast<CodeGroup>(group))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& control, Block& out,
                               LineKind& kind) noexcept {
     out.clear();
@@ -44,15 +59,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         return {};
     }
     const Status status = read_words(cursor, control, out);
-    std::uint32_t axes = 0;
-    for (int k = 0; k < settings_->axes; ++k) {
-        axes |= Block::bit(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'));
-    }
-    bool other_codes = out.has_any(axes);
-    for (unsigned group = 0; group < code_groups; ++group) {
-        other_codes = other_codes || out.has(static_cast<CodeGroup>(group));
-    }
-    if (ignored_code_ && !other_codes) { // its words are not another code's, whatever they are
+    if (ignored_code_ && !has_others(out)) { // its words are not another code's, whatever they are
         kind = LineKind::left_out;
         return {};
     }
@@ -72,8 +79,8 @@ Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control
         if (c == '(') {
             status = read_comment(text, out);
         } else if (c == '#') {
-            status = evaluator_ != nullptr ? evaluator_->assignment(text, control)
-                                           : Status(Error::expression_unsupported);
+            status =
+                evaluator_ != nullptr ? evaluator_->assignment(text, control) : Status(Error::expression_unsupported);
         } else if (is_letter(c)) {
             status = read_word(text, control, out);
         } else {
@@ -164,8 +171,7 @@ Status BlockReader::add_code(char letter, Decimal value, TextCursor& text, std::
         !to_integer(is_g ? Decimal{value.raw * 10} : value, code)) {
         return unknown;
     }
-    const CodeInfo info =
-        is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
+    const CodeInfo info = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
     if (info.refusal != Error::none) {
         return info.refusal;
     }

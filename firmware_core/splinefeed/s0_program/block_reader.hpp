@@ -35,6 +35,7 @@ private:
     Status read_comment(TextCursor& text, Block& out) const noexcept;
     Status read_checksum(TextCursor& text) const noexcept;
     Status add_code(char letter, Decimal value, TextCursor& text, std::size_t column, Block& out) noexcept;
+    [[nodiscard]] bool has_others(const Block& block) const noexcept;
     [[nodiscard]] bool is_ignored(char letter, Decimal value) const noexcept;
 
     const ProgramSettings* settings_;

@@ -16,7 +16,7 @@ constexpr std::int64_t one_q62 = std::int64_t{1} << 62;
 constexpr std::int64_t full_turn = 360 * Decimal::one;
 constexpr std::int64_t quarter_turn = 90 * Decimal::one;
 // pi/180 * 1e-9 * 2^62 * 2^28, and the same for the angle in a Decimal.
-constexpr std::uint64_t radian_of_unit = 21606129627797837; // Q90 per 1e-9 degrees
+constexpr std::uint64_t radian_of_unit = 21606129627797837;         // Q90 per 1e-9 degrees
 constexpr std::int64_t degrees_of_radian_q56 = 4128596020240314225; // 180/pi in Q56
 constexpr std::int64_t ln2_q62 = 3196577161300663915;
 constexpr std::int64_t root2_q62 = 6521908912666391106; // sqrt(2)
@@ -50,7 +50,15 @@ std::int64_t small_arc_tangent(std::int64_t t) noexcept {
 }
 
 // atan(k/8) in Q62
-constexpr std::array<std::int64_t, 9> arc_tangents{0, 573486189672913778, 1129764675555192497, 1654537683908620430, 2138197195906305897, 2576084652473018343, 2967625066264511049, 3315018258881210269, 3622009729038561421};
+constexpr std::array<std::int64_t, 9> arc_tangents{0,
+                                                   573486189672913778,
+                                                   1129764675555192497,
+                                                   1654537683908620430,
+                                                   2138197195906305897,
+                                                   2576084652473018343,
+                                                   2967625066264511049,
+                                                   3315018258881210269,
+                                                   3622009729038561421};
 
 // ln(m) = 2 atanh((m - 1) / (m + 1)) for m in [1/sqrt(2), sqrt(2)]
 std::int64_t mantissa_logarithm(std::int64_t m) noexcept {
@@ -95,9 +103,8 @@ Result<Decimal> exponential_q56(std::int64_t x) noexcept {
     const std::int64_t half = x < 0 ? -(ln2_q56 / 2) : ln2_q56 / 2;
     const std::int64_t power = (x + half) / ln2_q56;
     // The rest needs ln(2) to 2^-62.
-    const std::int64_t rest =
-        static_cast<std::int64_t>((static_cast<std::uint64_t>(x) << 6) -
-                                  static_cast<std::uint64_t>(power) * static_cast<std::uint64_t>(ln2_q62));
+    const std::int64_t rest = static_cast<std::int64_t>(
+        (static_cast<std::uint64_t>(x) << 6) - static_cast<std::uint64_t>(power) * static_cast<std::uint64_t>(ln2_q62));
     std::int64_t sum = one_q62;
     for (std::int64_t k = 18; k > 0; --k) {
         sum = one_q62 + product(rest, sum) / k;
