@@ -58,6 +58,9 @@ protected:
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return plan_.manner; }
     [[nodiscard]] const WorkFrame& frame() const noexcept { return frame_; }
+    [[nodiscard]] bool plan_counts(int axis) const noexcept {
+        return (settings_.rotary_axes >> static_cast<unsigned>(axis) & 1U) == 0;
+    }
     [[nodiscard]] Decimal rapid_tolerance() const noexcept { return settings_.rapid_tolerance_mm; }
     [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
 

@@ -86,7 +86,7 @@ Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control
         } else if (is_letter(c)) {
             status = read_word(text, control, out);
         } else {
-            status = Error::character_invalid;
+            status = c == '@' || c == '^' ? Error::polar_unsupported : Error::character_invalid;
         }
         if (!status.ok()) {
             return status;

@@ -254,6 +254,8 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
     PerAxis<S> second{};
     PerAxis<S> rotary{};
     PerAxis<S> extruder{};
+    PerAxis<S> counted_by_plan{}; // but x, y and z
+    PerAxis<S> left_by_plan{};
     for (int axis = 0; axis < letters().count(); ++axis) {
         const auto k = static_cast<unsigned>(axis);
         const AxisKind kind = letters().kind(axis);
@@ -265,9 +267,9 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
             continue;
         }
         others = true;
-        (kind == AxisKind::second_linear ? second
-         : kind == AxisKind::rotary      ? rotary
-                                         : extruder)[k] = length_mm<S>(step.from[k], step.to[k]);
+        const S way = length_mm<S>(step.from[k], step.to[k]);
+        (kind == AxisKind::second_linear ? second : kind == AxisKind::rotary ? rotary : extruder)[k] = way;
+        (plan_counts(axis) ? counted_by_plan : left_by_plan)[k] = way;
     }
     space = space || step.shape != MoveShape::line;
     const MoveManner& how = manner();
@@ -279,8 +281,9 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
     const S in_second = norm(second.data(), max_axes);
     const S in_rotary = norm(rotary.data(), max_axes);
     const S in_extruder = norm(extruder.data(), max_axes);
-    const std::array<S, 4> parts{in_space, in_second, in_rotary, in_extruder};
-    const S total = norm(parts.data(), 4);
+    const std::array<S, 2> parts{in_space, norm(counted_by_plan.data(), max_axes)};
+    S total = norm(parts.data(), 2);
+    total = total > S{} ? total : norm(left_by_plan.data(), max_axes);
     if (how.inverse_time) {
         return clamped(product_up_to(total, per_second, literal<S>(fastest_mm_s)));
     }
