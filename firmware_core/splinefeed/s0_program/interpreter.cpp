@@ -136,17 +136,7 @@ void Interpreter<S>::fill_arc(const ProgramStep& step, ProgramItem<S>& out) cons
     case Plane::xy: normal = {0, 0, std::int64_t{1} << sine_bits}; break;
     }
     // Axes in another order than x, y, z: the core's frame is left-handed if the order is odd.
-    std::array<int, 3> places{0, 1, 2};
-    int free = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-        places[k] = axes[k];
-    }
-    for (unsigned k = 0; k < 3; ++k) { // an axis that the machine lacks takes the place that is left
-        while (places[k] < 0 && (free == axes[0] || free == axes[1] || free == axes[2])) {
-            ++free;
-        }
-        places[k] = places[k] < 0 ? free++ : places[k];
-    }
+    const std::array<int, 3> places = letters().space_places();
     const bool odd = (places[1] - places[0] + 3) % 3 != 1;
     for (unsigned k = 0; k < 3; ++k) {
         const std::int64_t value = odd ? -normal[k] : normal[k];
