@@ -16,7 +16,7 @@
 namespace splinefeed::host {
 
 /// sub endsub call return, if elseif else endif, while endwhile, do while, repeat endrepeat, break continue, with
-/// numbers (o100) and names (o<name>), within one file. Lines without an O word are handed out for the interpreter;
+/// numbers (o100) and names (`o<name>`), within one file. Lines without an O word are handed out for the interpreter;
 /// conditions are evaluated when their line is reached, so all lines before it must have been executed.
 ///
 ///     OWordFlow flow(file, lines, parameters, expression, interpreter);

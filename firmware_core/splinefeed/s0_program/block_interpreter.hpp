@@ -13,7 +13,7 @@
 
 namespace splinefeed {
 
-/// Use it as Interpreter<S>.
+/// Use it as `Interpreter<S>`.
 class BlockInterpreter {
 public:
     /// Longest line, without its end.
