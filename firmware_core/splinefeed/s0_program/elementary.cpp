@@ -109,7 +109,7 @@ Result<Decimal> exponential_q56(std::int64_t x) noexcept {
     const std::int64_t half = x < 0 ? -(ln2_q56 / 2) : ln2_q56 / 2;
     const std::int64_t power = (x + half) / ln2_q56;
     // The rest needs ln(2) to 2^-62.
-    const std::int64_t rest = static_cast<std::int64_t>(
+    const auto rest = static_cast<std::int64_t>(
         (static_cast<std::uint64_t>(x) << 6) - static_cast<std::uint64_t>(power) * static_cast<std::uint64_t>(ln2_q62));
     std::int64_t sum = one_q62;
     for (std::int64_t k = 18; k > 0; --k) {
