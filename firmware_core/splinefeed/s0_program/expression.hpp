@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Expression: parameters, operators and functions of RS274/NGC.
+#pragma once
+
+#include "splinefeed/s0_program/word_evaluator.hpp"
+
+#include <array>
+
+namespace splinefeed {
+
+/// Evaluates [ ], + - * / ** MOD AND OR XOR EQ NE GT GE LT LE, SIN COS TAN ASIN ACOS ATAN[]/[] SQRT ABS EXP LN ROUND
+/// FIX FUP EXISTS, #1, ##1, #[...], `#<name>`, by integers alone: the same digits on every target. Angles are in
+/// degrees. Values lie within +-9.2e9 and have a resolution of 1e-9; each operation is rounded to nearest, functions
+/// are within 2e-9 of the exact value of their rounded argument, EXP and ** also within 1e-15 of themselves. EQ and NE
+/// take values that differ by less than 1e-6 as equal.
+class Expression final : public WordEvaluator {
+public:
+    static constexpr int most_assignments = 16; ///< of a block
+    static constexpr int deepest = 10;          ///< brackets within brackets
+
+    /// `table` must outlive it.
+    explicit Expression(ParameterTable& table) noexcept : table_(&table) {}
+
+    Status value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept override;
+    Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept override;
+    [[nodiscard]] bool has_assignments() const noexcept override { return count_ > 0; }
+    Status commit(BlockInterpreter& control) noexcept override;
+    void discard() noexcept override { count_ = 0; }
+
+private:
+    struct Assignment {
+        std::int32_t number = 0; // 0: by name
+        std::string_view name{}; // as the line has it
+        Decimal value{};
+    };
+
+    ParameterTable* table_;
+    std::array<Assignment, most_assignments> assignments_{};
+    int count_ = 0;
+};
+
+} // namespace splinefeed

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// ProgramEvent: what a program asks for besides motion.
+#pragma once
+
+#include "splinefeed/s0_program/decimal.hpp"
+
+#include <string_view>
+
+namespace splinefeed {
+
+/// Events happen at their place in the program: after the moves before them, before the moves after them.
+enum class EventKind : std::uint8_t {
+    message,           ///< (MSG,text): show `text` to the operator
+    print,             ///< (PRINT,text): write `text` to the standard output; #1 and `#<name>` are left to the host
+    debug,             ///< (DEBUG,text): the same, to the operator
+    spindle_speed,     ///< S: `value` in revolutions per minute
+    spindle_clockwise, ///< M3; `value`: the speed [1/min]. Motion waits until it is reached
+    spindle_counterclockwise, ///< M4
+    spindle_stop,             ///< M5
+    tool_select,              ///< T: `number`
+    tool_change,              ///< M6: `number` is the tool that T selected
+    tool_set,                 ///< M61 Q: tool `number` is in the spindle; nothing moves
+    mist_on,                  ///< M7
+    flood_on,                 ///< M8
+    coolant_off,              ///< M9
+    output_on_with_motion,    ///< M62 P: output `number`, with the start of the next move, without a stop
+    output_off_with_motion,   ///< M63 P
+    output_on,                ///< M64 P: at once
+    output_off,               ///< M65 P
+    input_wait,               ///< M66: see InputWait; call Interpreter::report_input with the result
+    overrides_on,             ///< M48: feed and spindle override
+    overrides_off,            ///< M49
+    feed_override,            ///< M50: `number` 1 on, 0 off
+    spindle_override,         ///< M51
+    adaptive_feed,            ///< M52
+    feed_hold,                ///< M53: the input for a feed hold
+    pause,                    ///< M0
+    optional_pause,           ///< M1, only where settings say so
+    pallet_pause,             ///< M60
+    program_end,              ///< M2 (`number` 2), M30 (30) or the closing % (0)
+    printer,                  ///< a heater or a fan: M104 M106 M107 M109 M140 M190 ...: `number`, its S as `value`
+    offsets_changed,          ///< G10, G28.1, G30.1, G92 ...: Interpreter::offsets() is to be stored
+};
+
+/// How M66 waits.
+enum class InputWait : std::uint8_t { now, rise, fall, high, low };
+
+struct ProgramEvent {
+    EventKind kind = EventKind::message;
+    bool stops = false;  ///< the machine must stand at the end of the moves before it
+    bool analog = false; ///< input_wait: E instead of P
+    InputWait wait = InputWait::now;
+    std::int32_t number = 0;
+    Decimal value{};         ///< input_wait: the time-out [s]
+    std::string_view text{}; ///< part of the line that was pushed: it is gone with that line
+};
+
+} // namespace splinefeed

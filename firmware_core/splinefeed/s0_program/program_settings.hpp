@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// ProgramSettings: what an interpreter has to know of the machine and of the program's dialect.
+#pragma once
+
+#include "splinefeed/base/capacity.hpp"
+#include "splinefeed/s0_program/decimal.hpp"
+
+#include <cstddef>
+#include <string_view>
+
+namespace splinefeed {
+
+/// Whose words they are. linuxcnc is RS274/NGC with LinuxCNC's additions.
+enum class Dialect : std::uint8_t {
+    linuxcnc,
+    grbl,   ///< grbl 1.1: no canned cycles, expressions, splines; $ lines are refused; $H as G28 of all axes
+    marlin, ///< printers: E, M82, M83, G28 is homing, G92 E0, heaters and fans, ';' comments, G0 takes F
+};
+
+/// The length of a tool, and where its tip is; in the axes of the machine.
+struct ToolOffset {
+    PerAxis<Decimal> offset{}; ///< [mm or degrees]
+    Decimal diameter{};
+};
+
+/// The tool table of the machine.
+class ToolTable {
+public:
+    /// False: there is no such tool.
+    [[nodiscard]] virtual bool find(std::int32_t tool, ToolOffset& out) const noexcept = 0;
+
+protected:
+    ~ToolTable() = default;
+};
+
+/// A word that the program may have without being followed: {'M', 1040} is M104, {'E', any} every E.
+struct IgnoredWord {
+    static constexpr std::int16_t any = -1;
+    char letter = 'M';
+    std::int16_t tenths = any; ///< ten times the number of the word
+};
+
+struct ProgramSettings {
+    int axes = 3;
+    /// The letter of each machine axis: X Y Z A B C U V W, or E in Dialect::marlin. A, B and C are in degrees.
+    std::array<char, static_cast<unsigned>(max_axes)> letters {
+#if SPLINEFEED_MAX_AXES >= 3
+        'X', 'Y', 'Z'
+#else
+        'X'
+#endif
+    };
+    /// Bit k: axis k is rotary for the feed plan, too (MachineSettings: rotary), which then counts the other axes
+    /// itself. Without it the plan's feed is along the path in all axes, and feeds are converted to that.
+    std::uint32_t rotary_axes = 0;
+    Dialect dialect = Dialect::linuxcnc;
+    bool block_delete = false;                        ///< lines that begin with / are left out
+    bool optional_pause = true;                       ///< M1 pauses
+    Decimal default_tolerance_mm{Decimal::one / 100}; ///< of G64 without P, and before the first of G61, G61.1, G64
+    Decimal rapid_tolerance_mm{Decimal::one / 10};    ///< between two rapids in G64
+    const IgnoredWord* ignored = nullptr;
+    std::size_t ignored_count = 0;
+    const ToolTable* tools = nullptr; ///< none: G43 and G43 H are refused
+};
+
+} // namespace splinefeed
