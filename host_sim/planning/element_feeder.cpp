@@ -1,73 +1,74 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/planning/element_feeder.hpp"
 
-#include "host_sim/base/input_error.hpp"
-
-#include <fmt/format.h>
+#include <utility>
 
 namespace splinefeed::host {
 
 template <Scalar S>
-ElementFeeder<S>::ElementFeeder(PathInput& input, std::unique_ptr<WaypointRows> rows)
-    : input_(&input), program_(input.elements()), rows_(std::move(rows)),
+ElementFeeder<S>::ElementFeeder(PathInput& input)
+    : input_(&input), program_(move_source<S>(input)),
       path_(static_cast<int>(input.axes().size()), from_double<S>(input.tolerances().joint_mm),
-            from_double<S>(input.tolerances().sharpest_1_mm)) {
-    if (program_ == nullptr) {
-        lines_.resize(remembered);
+            from_double<S>(input.tolerances().sharpest_1_mm)) {}
+
+// A move that is too short is none for the path: the machine cannot stand at its end, but at the end of the one before.
+template <Scalar S>
+bool ElementFeeder<S>::has_length(const ProgramStep<S>& step) const {
+    const auto length = BlendedPath<S>::length_of(here_, step.element, static_cast<int>(input_->axes().size()));
+    if (!length.has_value()) {
+        throw program_->refusal(step, describe(length.error()));
     }
+    return *length > S{};
 }
 
 template <Scalar S>
-void ElementFeeder<S>::refuse(Error error, std::uint64_t line) const {
-    if (program_ != nullptr && moves_ < program_->moves()) {
-        const std::uint32_t element = program_->element_of(moves_);
-        throw InputError(input_->name(), 0,
-                         fmt::format("{}: {}", element_name(element, program_->line_of(element)), describe(error)));
+void ElementFeeder<S>::push(ProgramStep<S>& step, Pushed& pushed) {
+    if (const Status status = path_.push(step.element); !status.ok()) {
+        throw program_->refusal(step, describe(status.error()));
     }
-    throw InputError(input_->name(), line, describe(error));
+    std::swap(pushed_, step);
+    pushed.move = &pushed_;
+    pushed.position = pushed_.element.to;
+    ++moves_;
 }
 
-// The start, or the next move.
+// The next step of the program; false: it has ended.
 template <Scalar S>
-bool ElementFeeder<S>::next(Pushed& pushed) {
-    pushed = {};
-    std::uint64_t line = 0;
-    if (program_ != nullptr) {
-        if (started_ && moves_ == program_->moves()) {
-            return false;
-        }
-        pushed.position = program_->start();
-        if (started_) {
-            move_ = program_->element(moves_);
-            pushed.position = move_.to;
-            const std::uint32_t element = program_->element_of(moves_);
-            rows_read_ = element + std::uint64_t{1};
-            pushed.line = program_->line_of(element);
-        }
-    } else {
-        WaypointRow row;
-        if (!rows_->next(row)) {
-            return false;
-        }
-        pushed.line = line = lines_[rows_read_++ % remembered] = row.line;
-        for (unsigned k = 0; k < input_->axes().size(); ++k) {
-            pushed.position[k] = position_from_mm(row.position[k]);
-        }
-        move_ = {};
-        move_.to = pushed.position;
-        move_.stop_at_end = row.corner == Corner::forced;
-        move_.tolerance_mm = row.tolerance_mm.value_or(input_->choice().tolerance_mm);
-        move_.feed_mm_s = row.feed_mm_s;
-        move_.max_feed_mm_s = row.max_feed_mm_s;
+bool ElementFeeder<S>::take(Pushed& pushed) {
+    if (!program_->next(step_)) {
+        return false;
     }
-    const Status status = started_ ? path_.push(element_in<S>(move_)) : path_.start(pushed.position);
-    if (!status.ok()) {
-        refuse(status.error(), line);
+    if (step_.kind != StepKind::move) {
+        if (holds_ && (step_.kind == StepKind::dwell || step_.stops)) {
+            held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+        }
+        if (holds_) {
+            holds_ = false;
+            push(held_, pushed);
+        }
+        pushed.step = &step_;
+        return true;
     }
-    pushed.start = !started_;
-    pushed.move = started_ ? &move_ : nullptr;
-    moves_ += started_ ? 1U : 0U;
-    started_ = true;
+    const bool moves = has_length(step_);
+    if (program_->knows_stops()) {
+        here_ = step_.element.to;
+        push(step_, pushed);
+        row_ = moves ? program_->row_of(moves_ - 1U) : row_;
+        return true;
+    }
+    if (!moves) {
+        if (step_.element.stop_at_end && holds_) {
+            held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+        }
+        return true;
+    }
+    here_ = step_.element.to;
+    if (holds_) {
+        push(held_, pushed);
+    }
+    std::swap(held_, step_);
+    holds_ = true;
+    row_ = program_->row_of(moves_); // of the move that waits
     return true;
 }
 
@@ -75,38 +76,59 @@ template <Scalar S>
 void ElementFeeder<S>::finish() {
     finished_ = true;
     if (const Status status = path_.finish(); !status.ok()) {
-        throw InputError(input_->name(), 0,
-                         program_ != nullptr ? "no element moves; a program needs a move" : describe(status.error()));
+        if (const std::string text = program_->without_moves(status.error()); !text.empty()) {
+            throw InputError(input_->name(), 0, text);
+        }
     }
 }
 
 template <Scalar S>
 bool ElementFeeder<S>::more(Pushed& pushed) {
+    pushed = {};
     if (finished_) {
         return false;
     }
     try {
-        if (next(pushed)) {
+        if (failure_ != nullptr) {
+            std::rethrow_exception(std::exchange(failure_, nullptr));
+        }
+        if (!started_) {
+            started_ = program_->start(here_);
+            if (!started_) {
+                finish();
+                return false;
+            }
+            if (const Status status = path_.start(here_); !status.ok()) {
+                throw program_->refusal(step_, describe(status.error()));
+            }
+            pushed.start = true;
+            pushed.position = here_;
+            return true;
+        }
+        if (take(pushed)) {
+            pushed.row = row_;
+            return true;
+        }
+        if (holds_) {
+            holds_ = false;
+            push(held_, pushed);
             return true;
         }
         finish();
         return false;
     } catch (...) {
+        if (holds_ && pushed.move == nullptr) { // the path ends with the move that waits
+            failure_ = std::current_exception();
+            holds_ = false;
+            push(held_, pushed);
+            return true;
+        }
         if (!finished_) {
             finished_ = true;
             static_cast<void>(path_.finish());
         }
         throw;
     }
-}
-
-template <Scalar S>
-std::uint64_t ElementFeeder<S>::line_of_row(std::uint64_t row) const noexcept {
-    if (program_ != nullptr) {
-        return 0;
-    }
-    const bool known = row < rows_read_ && row + remembered >= rows_read_;
-    return known ? lines_[row % remembered] : 0;
 }
 
 template class ElementFeeder<double>;

@@ -248,12 +248,13 @@ bool Motion<S>::execute(const FeedSegment& segment) {
 // Moves of a program that the path follows within a tolerance.
 template <Scalar S>
 void Motion<S>::measure(const typename CurveFeeder<S>::Pushed& pushed) {
-    if (pushed.start) {
-        deviation_.start(pushed.position);
-        exact_stop_.start(pushed.position);
-    } else if (pushed.move != nullptr) {
-        deviation_.move(*pushed.move, pushed.line);
-        exact_stop_.move(*pushed.move);
+    const auto& program = pushed.program;
+    if (program.start) {
+        deviation_.start(program.position);
+        exact_stop_.start(program.position);
+    } else if (program.move != nullptr) {
+        deviation_.move(program.move->programmed, program.move->line);
+        exact_stop_.move(program.move->programmed);
     }
 }
 
