@@ -14,10 +14,16 @@ bool ElementMoves<S>::start(PerAxis<Position>& position) {
 template <Scalar S>
 bool ElementMoves<S>::next(ProgramStep<S>& out) {
     out = {};
-    if (moves_ == program_->moves()) {
+    const bool all = moves_ == program_->moves();
+    const std::uint32_t element = all ? static_cast<std::uint32_t>(program_->elements()) : program_->element_of(moves_);
+    if (dwells_ < program_->dwells().size() && program_->dwells()[dwells_].before <= element) {
+        out.kind = StepKind::dwell;
+        out.dwell_s = program_->dwells()[dwells_++].seconds;
+        return true;
+    }
+    if (all) {
         return false;
     }
-    const std::uint32_t element = program_->element_of(moves_);
     out.line = program_->line_of(element);
     out.programmed = program_->element(moves_);
     out.element = element_in<S>(out.programmed);

@@ -31,7 +31,8 @@ public:
 private:
     const ElementProgram* program_;
     const std::string* file_;
-    std::size_t moves_ = 0; // delivered
+    std::size_t moves_ = 0;  // delivered
+    std::size_t dwells_ = 0; // delivered
     std::uint64_t rows_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/element_program.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -34,9 +35,10 @@ void ElementProgram::stop_before(std::uint32_t element) noexcept {
     }
 }
 
-void ElementProgram::add_dwell(double seconds) noexcept {
-    ++dwells_.count;
-    dwells_.seconds += seconds;
+void ElementProgram::add_dwell(std::uint32_t before, double seconds) {
+    const auto behind = std::upper_bound(dwells_.begin(), dwells_.end(), before,
+                                         [](std::uint32_t place, const Dwell& dwell) { return place < dwell.before; });
+    dwells_.insert(behind, {before, seconds});
 }
 
 PathElement<double> ElementProgram::element(std::size_t move) const noexcept {

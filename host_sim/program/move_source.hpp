@@ -3,8 +3,8 @@
 #pragma once
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/program/program_action.hpp"
 
-#include "splinefeed/s0_program/program_event.hpp"
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
 #include <chrono>
@@ -13,14 +13,6 @@
 namespace splinefeed::host {
 
 enum class StepKind : std::uint8_t { move, dwell, event };
-
-/// What a program asks for besides motion, with its own copy of the text.
-struct ProgramAction {
-    EventKind kind = EventKind::message;
-    std::int32_t number = 0;
-    double value = 0.0;
-    std::string text;
-};
 
 /// Only the members of its kind are meaningful.
 template <Scalar S>

@@ -30,13 +30,14 @@ Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& de
       input_(&input), outputs_(&outputs), target_(target),
       deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>), exact_stop_(description.settings),
       optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
-      feeder_(input), tee_(feeder_, input.name(),
-                           {.limits = &path_limits,
-                            .writer = outputs.curve(),
-                            .error = &error_,
-                            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
-                            .optimum = &optimum_,
-                            .share = &share_}),
+      steps_(limits, !arguments.quiet), feeder_(input),
+      tee_(feeder_, input.name(),
+           {.limits = &path_limits,
+            .writer = outputs.curve(),
+            .error = &error_,
+            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
+            .optimum = &optimum_,
+            .share = &share_}),
       planner_(tee_, limits, arguments.window_cells), trajectory_(planner_.trajectory()),
       machine_(description, limits.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
       events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {}
@@ -54,10 +55,16 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
         if (paused_ && feeder_.wait_for_row(Clock::duration::zero())) {
             read();
         }
-        if (pull(segment)) {
+        if (dwell(segment)) {
+            if (!execute(segment)) {
+                break;
+            }
+            steps_.stood(segment);
+        } else if (pull(segment)) {
             if (segments_ == 0 && tee_.failure()) {
                 std::rethrow_exception(tee_.failure());
             }
+            steps_.begin(segment, machine_.cycle_time_s());
             if (!execute(segment)) {
                 break;
             }
@@ -195,6 +202,19 @@ bool Motion<S>::stand() {
     return trajectory_.stand(segment) && execute(segment);
 }
 
+// Whether the program wants the machine to stand for another segment.
+template <Scalar S>
+bool Motion<S>::dwell(FeedSegment& segment) {
+    if (moves_ || steps_.empty() || !steps_.stands(machine_.position_mm(), machine_.cycle_time_s())) {
+        return false;
+    }
+    if (steps_.moved()) {
+        return trajectory_.stand(segment);
+    }
+    steps_.at_start(segment);
+    return true;
+}
+
 // Gives the curve one more waypoint, or tells it that there are none.
 template <Scalar S>
 void Motion<S>::read() {
@@ -218,9 +238,9 @@ void Motion<S>::read() {
 }
 
 template <Scalar S>
-bool Motion<S>::execute(const FeedSegment& segment) {
+bool Motion<S>::execute(FeedSegment& segment) {
+    segment.index = segments_++; // standstill before the first move is none of the trajectory's
     outputs_->segment(segment);
-    ++segments_;
     bool rest = trajectory_.activity() == Activity::running;
     bool moves = false;
     bool ends_in_motion = false;
@@ -249,6 +269,7 @@ bool Motion<S>::execute(const FeedSegment& segment) {
 template <Scalar S>
 void Motion<S>::measure(const typename CurveFeeder<S>::Pushed& pushed) {
     const auto& program = pushed.program;
+    steps_.add(program);
     if (program.start) {
         deviation_.start(program.position);
         exact_stop_.start(program.position);
@@ -298,7 +319,7 @@ ToleranceSummary Motion<S>::tolerance_summary() const {
     out.chains = counts.chains;
     out.elements = feeder_.rows() - (input_->elements() == nullptr && feeder_.rows() > 0 ? 1U : 0U);
     out.pieces = tee_.segments();
-    out.exact_stop_s = exact_stop_.seconds();
+    out.exact_stop_s = exact_stop_.seconds() + steps_.summary().dwell_s;
     return out;
 }
 
@@ -350,11 +371,12 @@ Summary Motion<S>::summary() const {
         summary.waypoint_error_mm = error_.largest_mm();
     }
     if (stopped_.empty() && operated_ == 0) { // an override may be faster than what was programmed
-        summary.optimum_time_s = optimum_.seconds();
+        summary.optimum_time_s = optimum_.seconds() + steps_.summary().dwell_s;
     }
     if (input_->within_tolerance()) {
         summary.tolerance = tolerance_summary();
     }
+    summary.program = steps_.summary();
     summary.limit_share = share_.shares();
     summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
     summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};

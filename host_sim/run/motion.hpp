@@ -8,6 +8,7 @@
 #include "host_sim/planning/planned_trajectory.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/program_steps.hpp"
 #include "host_sim/run/supervision.hpp"
 
 #include <chrono>
@@ -68,7 +69,8 @@ private:
     void operate();
     void obey_target();
     bool stand();
-    bool execute(const FeedSegment& segment);
+    [[nodiscard]] bool dwell(FeedSegment& segment);
+    bool execute(FeedSegment& segment);
     void keep_failure(const std::exception_ptr& failure);
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
     void require_tolerance();
@@ -88,6 +90,7 @@ private:
     ExactStopTime exact_stop_;
     OptimumTime optimum_;
     LimitShare share_;
+    ProgramSteps<S> steps_;
     CurveFeeder<S> feeder_;
     PathTee<S> tee_;
     PlannedTrajectory<S> planner_;

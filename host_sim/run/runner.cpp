@@ -44,15 +44,7 @@ std::uint64_t pass(PathInput& input, const PathObservers& observers) {
 
 /// Input that is valid, but whose curve is hardly what was meant.
 void warn(const PathInput& input, bool quiet) {
-    if (quiet) {
-        return;
-    }
-    if (input.elements() != nullptr && input.elements()->dwells().count > 0) {
-        const ElementProgram::Dwells& dwells = input.elements()->dwells();
-        fmt::print(stderr, "{}: warning: dwells: {}, {:.6g} s in all; the machine stops there, but does not wait\n",
-                   printable(input.name()), dwells.count, dwells.seconds);
-    }
-    if (input.segments() == nullptr) {
+    if (quiet || input.segments() == nullptr) {
         return;
     }
     for (const std::string& warning : input.segments()->warnings) {
