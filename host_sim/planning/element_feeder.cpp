@@ -13,7 +13,7 @@ ElementFeeder<S>::ElementFeeder(PathInput& input)
 
 // A move that is too short is none for the path: the machine cannot stand at its end, but at the end of the one before.
 template <Scalar S>
-bool ElementFeeder<S>::has_length(const ProgramStep<S>& step) const {
+bool ElementFeeder<S>::has_length(const SourceStep<S>& step) const {
     const auto length = BlendedPath<S>::length_of(here_, step.element, static_cast<int>(input_->axes().size()));
     if (!length.has_value()) {
         throw program_->refusal(step, describe(length.error()));
@@ -22,7 +22,7 @@ bool ElementFeeder<S>::has_length(const ProgramStep<S>& step) const {
 }
 
 template <Scalar S>
-void ElementFeeder<S>::push(ProgramStep<S>& step, Pushed& pushed) {
+void ElementFeeder<S>::push(SourceStep<S>& step, Pushed& pushed) {
     if (const Status status = path_.push(step.element); !status.ok()) {
         throw program_->refusal(step, describe(status.error()));
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/element_moves.hpp"
 
+#include "host_sim/program/element_cast.hpp"
+
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -12,7 +14,7 @@ bool ElementMoves<S>::start(PerAxis<Position>& position) {
 }
 
 template <Scalar S>
-bool ElementMoves<S>::next(ProgramStep<S>& out) {
+bool ElementMoves<S>::next(SourceStep<S>& out) {
     out = {};
     const bool all = moves_ == program_->moves();
     const std::uint32_t element = all ? static_cast<std::uint32_t>(program_->elements()) : program_->element_of(moves_);
@@ -26,7 +28,7 @@ bool ElementMoves<S>::next(ProgramStep<S>& out) {
     }
     out.line = program_->line_of(element);
     out.programmed = program_->element(moves_);
-    out.element = element_in<S>(out.programmed);
+    out.element = element_cast<S>(out.programmed);
     rows_ = element + std::uint64_t{1};
     ++moves_;
     return true;
@@ -48,7 +50,7 @@ std::string ElementMoves<S>::name_of_row(std::uint32_t row) const {
 }
 
 template <Scalar S>
-InputError ElementMoves<S>::refusal(const ProgramStep<S>& /*step*/, std::string_view text) const {
+InputError ElementMoves<S>::refusal(const SourceStep<S>& /*step*/, std::string_view text) const {
     return {*file_, 0, fmt::format("{}: {}", name_of_row(static_cast<std::uint32_t>(rows_ - 1)), text)};
 }
 

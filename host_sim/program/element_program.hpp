@@ -64,10 +64,6 @@ private:
     std::vector<Dwell> dwells_;
 };
 
-/// A move in another scalar.
-template <Scalar S>
-[[nodiscard]] PathElement<S> element_in(const PathElement<double>& element);
-
 /// "element 3", or "element 3 (line 12)" where the line of its own program is known. @param element from 0
 [[nodiscard]] std::string element_name(std::uint64_t element, std::uint32_t line);
 

@@ -16,7 +16,7 @@ enum class StepKind : std::uint8_t { move, dwell, event };
 
 /// Only the members of its kind are meaningful.
 template <Scalar S>
-struct ProgramStep {
+struct SourceStep {
     StepKind kind = StepKind::move;
     std::uint64_t line = 0; ///< of its source; 0: unknown
 
@@ -44,7 +44,7 @@ public:
     /// Where the first move begins. Call it once, before next(); false: there is nothing. May wait for the input.
     virtual bool start(PerAxis<Position>& position) = 0;
     /// The next step; false: there are no more. May wait for the input.
-    virtual bool next(ProgramStep<S>& out) = 0;
+    virtual bool next(SourceStep<S>& out) = 0;
     /// Whether start() or next() would return without waiting; waits for that up to the given time.
     [[nodiscard]] virtual bool wait(Patience /*patience*/) { return true; }
 
@@ -62,7 +62,7 @@ public:
     /// For messages that do not begin with a line.
     [[nodiscard]] virtual std::string name_of_row(std::uint32_t row) const = 0;
     /// An error of the move that was delivered last.
-    [[nodiscard]] virtual InputError refusal(const ProgramStep<S>& step, std::string_view text) const = 0;
+    [[nodiscard]] virtual InputError refusal(const SourceStep<S>& step, std::string_view text) const = 0;
     /// An error of a program that has no move; empty: it needs none.
     [[nodiscard]] virtual std::string without_moves(Error error) const { return std::string(describe(error)); }
     /// The program has left this row behind: nobody asks for it any more.

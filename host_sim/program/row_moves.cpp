@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/row_moves.hpp"
 
+#include "host_sim/program/element_cast.hpp"
+
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -27,7 +29,7 @@ bool RowMoves<S>::start(PerAxis<Position>& position) {
 }
 
 template <Scalar S>
-bool RowMoves<S>::next(ProgramStep<S>& out) {
+bool RowMoves<S>::next(SourceStep<S>& out) {
     WaypointRow row;
     out = {};
     PathElement<double>& move = out.programmed;
@@ -39,7 +41,7 @@ bool RowMoves<S>::next(ProgramStep<S>& out) {
     move.tolerance_mm = row.tolerance_mm.value_or(input_->choice().tolerance_mm);
     move.feed_mm_s = row.feed_mm_s;
     move.max_feed_mm_s = row.max_feed_mm_s;
-    out.element = element_in<S>(move);
+    out.element = element_cast<S>(move);
     return true;
 }
 
@@ -60,7 +62,7 @@ std::string RowMoves<S>::name_of_row(std::uint32_t row) const {
 }
 
 template <Scalar S>
-InputError RowMoves<S>::refusal(const ProgramStep<S>& step, std::string_view text) const {
+InputError RowMoves<S>::refusal(const SourceStep<S>& step, std::string_view text) const {
     return {input_->name(), step.line, text};
 }
 

@@ -17,7 +17,7 @@ public:
     explicit RowMoves(PathInput& input);
 
     bool start(PerAxis<Position>& position) override;
-    bool next(ProgramStep<S>& out) override;
+    bool next(SourceStep<S>& out) override;
     [[nodiscard]] bool wait(typename MoveSource<S>::Patience patience) override { return rows_->wait(patience); }
 
     [[nodiscard]] std::uint64_t rows() const noexcept override { return rows_read_; }
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override { return move + 2; }
     [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const override;
     [[nodiscard]] std::string name_of_row(std::uint32_t row) const override;
-    [[nodiscard]] InputError refusal(const ProgramStep<S>& step, std::string_view text) const override;
+    [[nodiscard]] InputError refusal(const SourceStep<S>& step, std::string_view text) const override;
 
 private:
     static constexpr std::size_t remembered = 1024; ///< number of lines that are remembered

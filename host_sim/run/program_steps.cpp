@@ -29,7 +29,7 @@ void ProgramSteps<S>::add(const typename ElementFeeder<S>::Pushed& pushed) {
     if (pushed.step == nullptr) {
         return;
     }
-    const ProgramStep<S>& step = *pushed.step;
+    const SourceStep<S>& step = *pushed.step;
     const bool dwells = step.kind == StepKind::dwell;
     if (dwells) {
         ++summary_.dwells;
