@@ -44,7 +44,9 @@ std::string joined(std::initializer_list<std::string_view> names) {
 
 void add_input(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("FILE", job.run.path.input,
-                   "waypoints (.csv), or a curve or elements (.json); - reads standard input")
+                   "G-code (.ngc, .nc, .gcode, .gco, .tap, .cnc, .g), waypoints (.csv), or a curve or elements "
+                   "(.json); - reads "
+                   "standard input")
         ->required();
     app.add_option("--format", typed.format,
                    input_formats(" or ") + ": format of the input (default: by its name; of standard input csv)");
@@ -89,7 +91,7 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
            "no corners)");
     option("--tolerance", curve.tolerance,
            "MM: of polyline, how far the path may be from the lines, 0 to 100 (default 0: exact, with a stop at each "
-           "corner); of elements that state none (default: the machine file's)");
+           "corner); of elements and of G-code that state none (default: the machine file's)");
     option("--start-tangent", curve.start_tangent,
            "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
            "derivative)");
@@ -98,6 +100,19 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
                    "fixed, float or double: number type of the computation (default fixed, as on a microcontroller); "
                    "float not with a jerk limit")
         ->group(group);
+}
+
+void add_gcode_options(CLI::App& app, Job& job) {
+    GcodeArguments& gcode = job.run.path.gcode;
+    const std::string group = "G-code";
+    app.add_option("--dialect", gcode.dialect, "linuxcnc, grbl or marlin: whose words they are (default linuxcnc)")
+        ->group(group);
+    app.add_option("--ignore", gcode.ignore, "M104,E,...: words that the program may have without being followed")
+        ->group(group);
+    app.add_flag("--block-delete", gcode.block_delete, "leave out the lines that begin with /")
+        ->group(group)
+        ->disable_flag_override();
+    app.add_flag("--optional-stop", gcode.optional_stop, "pause at M1")->group(group)->disable_flag_override();
 }
 
 void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
@@ -186,11 +201,10 @@ std::string explained(const CLI::ParseError& error) {
 
 void take_format(Job& job, const std::string& format) {
     const std::size_t dot = job.run.path.input.rfind('.');
-    const std::string suffix = job.run.path.input == "-"  ? ".csv"
+    const std::string suffix = job.run.path.input == "-"  ? "csv"
                                : dot == std::string::npos ? ""
-                                                          : job.run.path.input.substr(dot);
-    const std::string kind = format.empty() ? suffix.substr(suffix.empty() ? 0 : 1) : format;
-    if (const InputFormat* const known = input_format(kind)) {
+                                                          : job.run.path.input.substr(dot + 1);
+    if (const InputFormat* const known = format.empty() ? format_of_suffix(suffix) : input_format(format)) {
         job.run.path.format = known;
     } else if (!format.empty()) {
         throw UsageError(fmt::format("--format {}: it must be one of {}", in_quotes(format), input_formats(", ")));
@@ -260,11 +274,13 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_input(*run, job, typed);
     add_machine_options(*run, job, typed, true);
     add_curve_options(*run, job, typed);
+    add_gcode_options(*run, job);
     run->footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
     CLI::App* const plan = app.add_subcommand("plan", "Plan a path without executing it");
     add_input(*plan, job, typed);
     add_machine_options(*plan, job, typed, false);
     add_curve_options(*plan, job, typed);
+    add_gcode_options(*plan, job);
     plan->footer(std::string("Example: splinefeed plan part.csv --curve catmull-rom --summary json\n") + exit_statuses);
     CLI::App* const curve = app.add_subcommand("curve", "Print the curve through the points as Bezier segments");
     add_input(*curve, job, typed);
@@ -377,7 +393,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (job.command == Command::curve && job.run.outputs.curve.empty()) {
         job.run.outputs.curve = "-";
     }
-    if (!job.run.path.format->is_curve()) {
+    if (job.run.path.format->kind == InputKind::waypoints) {
         static_cast<void>(choose_curve(job.run.path.curve));
     }
     return job;

@@ -65,6 +65,12 @@ public:
     [[nodiscard]] std::string name_of_row(std::uint32_t row) const;
     /// The complete index of a row that was read recently.
     [[nodiscard]] std::uint64_t whole_row(std::uint32_t row) const noexcept;
+    /// The motion has come to this row: nobody asks for those before it any more.
+    void passed(std::uint32_t row) {
+        if (elements_) {
+            elements_->program().passed(whole_row(row));
+        }
+    }
     /// Memory of the curve stage.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return segments_ ? sizeof *segments_ : elements_ ? sizeof *elements_ : streamed_.bytes;

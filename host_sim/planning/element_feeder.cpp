@@ -26,6 +26,7 @@ void ElementFeeder<S>::push(SourceStep<S>& step, Pushed& pushed) {
     if (const Status status = path_.push(step.element); !status.ok()) {
         throw program_->refusal(step, describe(status.error()));
     }
+    program_->pushed(step);
     std::swap(pushed_, step);
     pushed.move = &pushed_;
     pushed.position = pushed_.element.to;
@@ -38,10 +39,13 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
     if (!program_->next(step_)) {
         return false;
     }
+    if (step_.kind == StepKind::nothing) {
+        return true;
+    }
+    if (holds_ && step_.stops) {
+        held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+    }
     if (step_.kind != StepKind::move) {
-        if (holds_ && (step_.kind == StepKind::dwell || step_.stops)) {
-            held_.element.stop_at_end = held_.programmed.stop_at_end = true;
-        }
         if (holds_) {
             holds_ = false;
             push(held_, pushed);

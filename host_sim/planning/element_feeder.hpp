@@ -29,8 +29,8 @@ public:
     struct Pushed {
         bool start = false;                 ///< it told where the first move begins
         PerAxis<Position> position{};       ///< there, or at the end of the last move
-        const SourceStep<S>* move{};       ///< it pushed this move; null: none; valid until the next call
-        const SourceStep<S>* step{};       ///< a dwell or an event behind the moves so far; null: none; valid as above
+        const SourceStep<S>* move{};        ///< it pushed this move; null: none; valid until the next call
+        const SourceStep<S>* step{};        ///< a dwell or an event behind the moves so far; null: none; valid as above
         std::optional<std::uint32_t> row{}; ///< of the last move that has a length; none: there was none
     };
     /// Takes the start or the next step, or finishes the path; false if there is none. Throws InputError; the path then
@@ -49,9 +49,9 @@ private:
     const PathInput* input_;
     std::unique_ptr<MoveSource<S>> program_;
     TolerancePath<S> path_;
-    SourceStep<S> step_;              // read last
-    SourceStep<S> held_;              // a move that waits for what comes behind it
-    SourceStep<S> pushed_;            // the move that was pushed last
+    SourceStep<S> step_;               // read last
+    SourceStep<S> held_;               // a move that waits for what comes behind it
+    SourceStep<S> pushed_;             // the move that was pushed last
     PerAxis<Position> here_{};         // where the last move so far ends, held or not
     std::optional<std::uint32_t> row_; // of the last move with a length
     std::exception_ptr failure_;       // thrown behind the moves before it

@@ -2,6 +2,7 @@
 #include "host_sim/planning/move_sources.hpp"
 
 #include "host_sim/program/element_moves.hpp"
+#include "host_sim/program/gcode/gcode_moves.hpp"
 #include "host_sim/program/row_moves.hpp"
 
 namespace splinefeed::host {
@@ -10,6 +11,9 @@ template <Scalar S>
 std::unique_ptr<MoveSource<S>> move_source(PathInput& input) {
     if (const ElementProgram* const program = input.elements()) {
         return std::make_unique<ElementMoves<S>>(*program, input.name());
+    }
+    if (const GcodeSettings* const settings = input.gcode()) {
+        return std::make_unique<GcodeMoves<S>>(*settings, input.name(), input.lines());
     }
     return std::make_unique<RowMoves<S>>(input);
 }

@@ -20,6 +20,7 @@ bool ElementMoves<S>::next(SourceStep<S>& out) {
     const std::uint32_t element = all ? static_cast<std::uint32_t>(program_->elements()) : program_->element_of(moves_);
     if (dwells_ < program_->dwells().size() && program_->dwells()[dwells_].before <= element) {
         out.kind = StepKind::dwell;
+        out.stops = true;
         out.dwell_s = program_->dwells()[dwells_++].seconds;
         return true;
     }

@@ -12,7 +12,7 @@
 
 namespace splinefeed::host {
 
-enum class StepKind : std::uint8_t { move, dwell, event };
+enum class StepKind : std::uint8_t { move, dwell, event, nothing };
 
 /// Only the members of its kind are meaningful.
 template <Scalar S>
@@ -25,7 +25,7 @@ struct SourceStep {
     bool rapid = false;
     double linear_feed_mm_s = 0.0; ///< as it was programmed; 0: unknown
 
-    bool stops = false;   ///< an event: the machine stands at the end of the moves before it
+    bool stops = false;   ///< the machine stands at the end of the moves before it
     double dwell_s = 0.0; ///< of a dwell, and how long the machine waits for an event
     ProgramAction action{};
 };
@@ -43,13 +43,15 @@ public:
 
     /// Where the first move begins. Call it once, before next(); false: there is nothing. May wait for the input.
     virtual bool start(PerAxis<Position>& position) = 0;
-    /// The next step; false: there are no more. May wait for the input.
+    /// The next step, which may be nothing; false: there are no more. May wait for the input.
     virtual bool next(SourceStep<S>& out) = 0;
     /// Whether start() or next() would return without waiting; waits for that up to the given time.
     [[nodiscard]] virtual bool wait(Patience /*patience*/) { return true; }
 
     /// Whether a move says itself that the machine has to stand at its end, before the step that needs it is known.
     [[nodiscard]] virtual bool knows_stops() const noexcept { return true; }
+    /// The path has taken a move. Not all are: some have no length.
+    virtual void pushed(const SourceStep<S>& /*step*/) {}
     /// Number of waypoints, elements or lines so far.
     [[nodiscard]] virtual std::uint64_t rows() const noexcept = 0;
     /// Of a move, from 0, as they were delivered: the index of its waypoint, element or move, modulo 2^32.
@@ -65,8 +67,8 @@ public:
     [[nodiscard]] virtual InputError refusal(const SourceStep<S>& step, std::string_view text) const = 0;
     /// An error of a program that has no move; empty: it needs none.
     [[nodiscard]] virtual std::string without_moves(Error error) const { return std::string(describe(error)); }
-    /// The program has left this row behind: nobody asks for it any more.
-    virtual void passed(std::uint32_t /*row*/) noexcept {}
+    /// The motion has come to this row: nobody asks for those before it any more.
+    virtual void passed(std::uint64_t /*row*/) noexcept {}
 };
 
 } // namespace splinefeed::host

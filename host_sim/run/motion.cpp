@@ -65,6 +65,7 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
                 std::rethrow_exception(tee_.failure());
             }
             steps_.begin(segment, machine_.cycle_time_s());
+            feeder_.passed(segment.waypoint);
             if (!execute(segment)) {
                 break;
             }
@@ -131,7 +132,9 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
         Fault whole = *fault;
         whole.waypoint = feeder_.whole_row(static_cast<std::uint32_t>(fault->waypoint));
         const auto row = static_cast<std::uint32_t>(whole.waypoint);
-        stopped_ = describe(whole, input_->elements() != nullptr ? feeder_.name_of_row(row) : std::string());
+        stopped_ =
+            describe(whole, input_->within_tolerance() && !input_->lines_within_tolerance() ? feeder_.name_of_row(row)
+                                                                                            : std::string());
     }
     if (target_ == nullptr) {
         return stopped_.empty() ? stopped_ : stopped_ + where();
@@ -317,7 +320,7 @@ ToleranceSummary Motion<S>::tolerance_summary() const {
     out.stopped = counts.joints.stopped;
     out.through = counts.joints.through;
     out.chains = counts.chains;
-    out.elements = feeder_.rows() - (input_->elements() == nullptr && feeder_.rows() > 0 ? 1U : 0U);
+    out.elements = feeder_.rows() - (input_->lines_within_tolerance() && feeder_.rows() > 0 ? 1U : 0U);
     out.pieces = tee_.segments();
     out.exact_stop_s = exact_stop_.seconds() + steps_.summary().dwell_s;
     return out;

@@ -35,7 +35,7 @@ void ProgramSteps<S>::add(const typename ElementFeeder<S>::Pushed& pushed) {
         ++summary_.dwells;
         summary_.dwell_s += step.dwell_s;
     }
-    pending_.add({step.kind, dwells || step.stops, step.dwell_s, step.line, step.action, pushed.row, place_});
+    pending_.add({step.kind, step.stops, step.dwell_s, step.line, step.action, pushed.row, place_});
 }
 
 template <Scalar S>

@@ -141,6 +141,19 @@ PathTolerances tolerances_of(const MachineDescription& machine) {
     return tolerances;
 }
 
+/// Along a diagonal of all linear axes, or of the rotary ones where there are no others: what moves with a feed may not
+/// exceed is then a limit of each move.
+double fastest_rapid_mm_s(const MachineSettings& machine) {
+    constexpr double most = 10000.0; // as a machine file may state
+    double linear_sq = 0.0;
+    double rotary_sq = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+        const double v = machine.axis[k].max_velocity_mm_s;
+        (machine.axis[k].rotary ? rotary_sq : linear_sq) += v * v;
+    }
+    return std::clamp(std::sqrt(linear_sq > 0.0 ? linear_sq : rotary_sq), machine.max_feed_mm_s, most);
+}
+
 template <Scalar S>
 int move_machine(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.
@@ -149,6 +162,10 @@ int move_machine(const RunArguments& arguments) {
         signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     }
     MachineDescription machine = arguments.machine.empty() ? default_machine() : read_machine_file(arguments.machine);
+    const double max_feed_mm_s = machine.settings.max_feed_mm_s;
+    if (arguments.path.format->is_gcode()) {
+        machine.settings.max_feed_mm_s = fastest_rapid_mm_s(machine.settings);
+    }
     auto limits = MotionLimits<S>::make(machine.settings);
     if (!limits.has_value()) {
         throw InputError(machine.file, 0, describe(limits.error()));
@@ -156,6 +173,7 @@ int move_machine(const RunArguments& arguments) {
     const auto axes = static_cast<std::size_t>(machine.settings.axes);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed,
                     {machine.axis_name.begin(), machine.axis_name.begin() + axes}, tolerances_of(machine));
+    input.limit_feed(max_feed_mm_s, limits->mixed);
     warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;
