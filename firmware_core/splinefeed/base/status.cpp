@@ -101,8 +101,8 @@ const char* describe(Error error) noexcept {
     case Error::direction_change_too_long:
         return "a change of direction takes too long for this acceleration; shorter direction_setup_us and "
                "direction_hold_us, or a lower acceleration";
+    default: return describe_program_error(error);
     }
-    return "unknown error";
 }
 
 } // namespace splinefeed

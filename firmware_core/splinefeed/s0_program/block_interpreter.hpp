@@ -2,10 +2,12 @@
 // BlockInterpreter: the part of the interpreter that does not depend on the scalar: modes, offsets, what a block means.
 #pragma once
 
-#include "splinefeed/s0_program/block_status.hpp"
-#include "splinefeed/s0_program/program_settings.hpp"
-#include "splinefeed/s0_program/word_evaluator.hpp"
-#include "splinefeed/s0_program/work_offsets.hpp"
+#include "splinefeed/s0_program/block_reader.hpp"
+#include "splinefeed/s0_program/canned_cycle.hpp"
+#include "splinefeed/s0_program/nurbs_curve.hpp"
+#include "splinefeed/s0_program/program_step.hpp"
+#include "splinefeed/s0_program/program_arc.hpp"
+#include "splinefeed/s0_program/word_use.hpp"
 
 namespace splinefeed {
 
@@ -13,32 +15,121 @@ namespace splinefeed {
 class BlockInterpreter : public SystemParameters {
 public:
     /// Longest line, without its end.
-    static constexpr std::size_t longest_line = 256;
+    static constexpr std::size_t longest_line = BlockReader::longest_line;
 
     /// @param evaluator  for # and [: an Expression; none: they are refused. What it refers to must outlive this.
     explicit BlockInterpreter(const ProgramSettings& settings, WordEvaluator* evaluator = nullptr) noexcept;
+    // Words refer to the settings of this object.
+    BlockInterpreter(const BlockInterpreter&) = delete;
+    BlockInterpreter& operator=(const BlockInterpreter&) = delete;
 
-    /// Where the machine stands, in machine coordinates. Before the first push(), and after an abort.
+    /// Where the machine stands, in machine coordinates. Before the first push(), and after an abort: then the rest of
+    /// the block is dropped.
     void start(const PerAxis<Position>& position) noexcept;
     /// For the next program: modes as at the start, offsets and position as they are.
     void restart() noexcept;
     /// The offsets of a state file.
     void restore(const WorkOffsets& offsets) noexcept;
-    [[nodiscard]] const WorkOffsets& offsets() const noexcept;
+    [[nodiscard]] const WorkOffsets& offsets() const noexcept { return frame_.offsets(); }
+    [[nodiscard]] const ModalState& modal() const noexcept { return modal_; }
 
     /// Executes a line. After an error nothing of the line has happened, and the next line may follow. The text must
-    /// live until the next push(): messages and splines refer to it. @pre next() has returned starved
+    /// live until the next push(): messages refer to it. @pre next() has returned starved, else: block_pending
     /// @param line_number  of the source, for the items
     /// Cost: about 100 ns on x86-64, 10,000 instructions on a Cortex-M4F.
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
+    /// Whether M2, M30 or the closing % has been executed.
+    [[nodiscard]] bool has_ended() const noexcept { return ended_; }
 
     /// After the machine has executed a probe move: where the contact was, and where the machine stands now. Without
     /// it the contact counts as found at the end of the move.
     void report_probe(bool contact, const PerAxis<Position>& contact_at, const PerAxis<Position>& stands_at) noexcept;
     /// After the machine has executed M66: the input's value, -1 after the time-out.
-    void report_input(Decimal value) noexcept;
+    void report_input(Decimal value) noexcept { input_ = value; }
     /// Where the last move ends, in machine coordinates.
     [[nodiscard]] PerAxis<Position> position() const noexcept;
+
+    // SystemParameters
+    [[nodiscard]] bool owns(std::int32_t number) const noexcept override;
+    [[nodiscard]] Decimal read(std::int32_t number) const noexcept override;
+    [[nodiscard]] bool can_write(std::int32_t number) const noexcept override;
+    bool write(std::int32_t number, Decimal value) noexcept override;
+    [[nodiscard]] bool read(std::string_view name, Decimal& out) const noexcept override;
+
+protected:
+    [[nodiscard]] Pull next_step(ProgramStep& out) noexcept;
+    [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
+    [[nodiscard]] const MoveManner& manner() const noexcept { return plan_.manner; }
+    [[nodiscard]] const WorkFrame& frame() const noexcept { return frame_; }
+    [[nodiscard]] Decimal rapid_tolerance() const noexcept { return settings_.rapid_tolerance_mm; }
+    [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
+
+private:
+    /// What a block may change and an error puts back.
+    struct Place {
+        AxisPoint program{}; // the master: moves do not accumulate errors of rotations
+        AxisPoint machine{};
+    };
+
+    BlockStatus execute() noexcept;
+    BlockStatus execute_words(const BlockUse& use) noexcept;
+    BlockStatus execute_percent() noexcept;
+    void plan_homing(std::uint32_t axes) noexcept;
+
+    // Offsets: offset_words.cpp.
+    BlockStatus set_tool_length() noexcept;
+    BlockStatus set_offsets() noexcept;
+    BlockStatus check_offsets(CodeGroup group) noexcept;
+    BlockStatus plan_reference_move() noexcept;
+    void frame_changed() noexcept;
+
+    // Motion: motion_words.cpp.
+    BlockStatus plan_motion(const BlockUse& use, const ModalState& before) noexcept;
+    BlockStatus plan_straight() noexcept;
+    BlockStatus plan_arc() noexcept;
+    BlockStatus plan_cycle(const ModalState& before) noexcept;
+    BlockStatus plan_spline(const ModalState& before) noexcept;
+    BlockStatus plan_nurbs(const ModalState& before) noexcept;
+    BlockStatus end_nurbs() noexcept;
+    BlockStatus require_feed(bool new_in_block) const noexcept;
+    BlockStatus find_end(AxisPoint& program, AxisPoint& machine) const noexcept;
+    BlockStatus move_to(const AxisPoint& program, const AxisPoint& machine) noexcept;
+    [[nodiscard]] BlockStatus check_reach(const AxisPoint& from, const AxisPoint& to) const noexcept;
+    [[nodiscard]] Decimal axis_value(int axis) const noexcept;
+    [[nodiscard]] bool has_axis(int axis) const noexcept { return block_.has(letters_.letter(axis)); }
+    [[nodiscard]] SpacePoint space(const AxisPoint& point) const noexcept;
+
+    // Steps: block_steps.cpp.
+    [[nodiscard]] bool next_event(ProgramStep& out) noexcept;
+    [[nodiscard]] bool next_motion(ProgramStep& out) noexcept;
+    void fill_move(ProgramStep& out, const AxisPoint& to) noexcept;
+    [[nodiscard]] bool next_in_cycle(ProgramStep& out) noexcept;
+
+    ProgramSettings settings_;
+    AxisLetters letters_;
+    BlockReader reader_;
+    WordEvaluator* evaluator_;
+    ModalState modal_;
+    WorkFrame frame_;
+    Place place_{};
+    Block block_{};
+    MotionPlan plan_{};
+    AxisPoint emitted_{}; // where the moves that next() has given end
+    CannedCycle cycle_{};
+    CycleWords cycle_words_{};
+    NurbsCurve nurbs_{};
+    BezierPlan spline_{};
+    PlanePoint spline_out_{}; // how G5 left its last end: P and Q
+    AxisPoint probe_at_{};
+    Decimal input_{};
+    std::uint32_t line_ = 0;
+    std::uint8_t stage_ = 0;      // of the block, in the order of execution
+    std::uint8_t sub_step_ = 0;   // of its motion
+    bool probe_contact_ = false;
+    bool offsets_changed_ = false;
+    bool percent_ = false; // the first line was %
+    bool any_block_ = false;
+    bool ended_ = false;
 };
 
 } // namespace splinefeed

@@ -15,7 +15,7 @@ struct Decimal {
 
     [[nodiscard]] static constexpr Decimal from_integer(std::int32_t value) noexcept { return {value * one}; }
     [[nodiscard]] constexpr Decimal operator-() const noexcept { return {-raw}; }
-    /// Sums of words never overflow: the reader limits them to +-1e9. @pre the result is within +-9.2e9
+    /// Sums of words never overflow: the reader limits them to +-1e8. @pre the result is within +-9.2e9
     friend constexpr Decimal operator+(Decimal a, Decimal b) noexcept { return {a.raw + b.raw}; }
     friend constexpr Decimal operator-(Decimal a, Decimal b) noexcept { return {a.raw - b.raw}; }
     constexpr Decimal& operator+=(Decimal other) noexcept { return *this = *this + other; }

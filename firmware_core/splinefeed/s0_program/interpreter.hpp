@@ -4,6 +4,7 @@
 
 #include "splinefeed/s0_program/block_interpreter.hpp"
 #include "splinefeed/s0_program/program_item.hpp"
+#include "splinefeed/s0_program/rational_pieces.hpp"
 
 namespace splinefeed {
 
@@ -17,9 +18,10 @@ namespace splinefeed {
 ///         while (interpreter.next(item) == Pull::item) { ... }
 ///     }
 ///
-/// Moves that the program states as rapids have feed_mm_s 0. An event with `stops`, a probe and a homing move end with
-/// the machine at rest, and so does every dwell: whoever passes moves on sets stop_at_end of the move before them.
+/// Moves that the program states as rapids have feed_mm_s 0. Items with stops_before need the machine at rest: whoever
+/// passes moves on sets stop_at_end of the move before them. Moves without length occur; TolerancePath drops them.
 /// All decisions are made by integers, so they are the same for every S and on every target.
+/// Memory: 2 KB with three axes, 3 KB with six.
 template <Scalar S>
 class Interpreter : public BlockInterpreter {
 public:
@@ -30,10 +32,20 @@ public:
     Pull next(ProgramItem<S>& out) noexcept;
 
 private:
-    void fill_line(ProgramItem<S>& out) const noexcept;
-    void fill_arc(ProgramItem<S>& out) const noexcept;
-    void fill_bezier(ProgramItem<S>& out) const noexcept;
-    [[nodiscard]] S path_feed(S length, S linear, S uvw, S rotary) const noexcept;
+    void fill_manner(MoveKind move, ProgramItem<S>& out) const noexcept;
+    void fill_move(const ProgramStep& step, ProgramItem<S>& out) const noexcept;
+    void fill_arc(const ProgramStep& step, ProgramItem<S>& out) const noexcept;
+    void fill_bezier(const ProgramStep& step, ProgramItem<S>& out) const noexcept;
+    void fill_piece(ProgramItem<S>& out) noexcept;
+    [[nodiscard]] S path_feed(const ProgramStep& step) const noexcept;
+    [[nodiscard]] S space_length(const ProgramStep& step) const noexcept;
+
+    RationalPieces<S> pieces_{};
+    bool in_pieces_ = false;    // next() goes on with pieces_
+    bool pieces_begun_ = false; // the next piece is not the first
+    S pieces_feed_{};
+    AxisPoint pieces_to_{};
+    PerAxis<Position> piece_end_{};
 };
 
 } // namespace splinefeed

@@ -15,7 +15,8 @@ public:
     [[nodiscard]] virtual bool read(std::int32_t number, Decimal& out) const noexcept = 0;
     /// False: there is no room for it.
     virtual bool write(std::int32_t number, Decimal value) noexcept = 0;
-    /// #<name>, in lower case and without spaces; a leading _ makes it global. False: it has no value.
+    /// #<name>, as it is written: names differ neither by case nor by spaces. A leading _ makes it global. False: it
+    /// has no value.
     [[nodiscard]] virtual bool read(std::string_view name, Decimal& out) const noexcept = 0;
     virtual bool write(std::string_view name, Decimal value) noexcept = 0;
 
@@ -30,6 +31,7 @@ public:
     /// Whether the number is one of them; the ParameterTable is not asked for those.
     [[nodiscard]] virtual bool owns(std::int32_t number) const noexcept = 0;
     [[nodiscard]] virtual Decimal read(std::int32_t number) const noexcept = 0;
+    [[nodiscard]] virtual bool can_write(std::int32_t number) const noexcept = 0;
     /// False: it cannot be written.
     virtual bool write(std::int32_t number, Decimal value) noexcept = 0;
     /// False: it is none of the control's names.

@@ -27,7 +27,8 @@ struct ProbeCondition {
 template <Scalar S>
 struct ProgramItem {
     ItemKind kind = ItemKind::move;
-    std::uint32_t line = 0; ///< of the source, as push() was told
+    std::uint32_t line = 0;    ///< of the source, as push() was told
+    bool stops_before = false; ///< the machine must stand at the end of the move before this item
 
     MoveKind move = MoveKind::feed;
     bool inverse_time = false; ///< G93: `feed` is 1/min

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// AxisLetters: which axis of the machine a letter of the program means.
+#pragma once
+
+#include "splinefeed/s0_program/program_settings.hpp"
+
+namespace splinefeed {
+
+/// How the feed of a move counts an axis: x, y, z before u, v, w before a, b, c; the extruder only where it is alone.
+enum class AxisKind : std::uint8_t { linear, second_linear, rotary, extruder };
+
+class AxisLetters {
+public:
+    explicit constexpr AxisLetters(const ProgramSettings& settings) noexcept : count_(settings.axes) {
+        for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+            letters_[k] = static_cast<int>(k) < count_ ? static_cast<char>(settings.letters[k] - 'A' + 'a') : '\0';
+        }
+    }
+
+    [[nodiscard]] constexpr int count() const noexcept { return count_; }
+    /// In lower case, 0 to count() - 1.
+    [[nodiscard]] constexpr char letter(int axis) const noexcept { return letters_[static_cast<unsigned>(axis)]; }
+    /// -1: the machine does not have it. @param letter  in lower case
+    [[nodiscard]] constexpr int index(char letter) const noexcept {
+        for (int k = 0; k < count_; ++k) {
+            if (letters_[static_cast<unsigned>(k)] == letter) {
+                return k;
+            }
+        }
+        return -1;
+    }
+    [[nodiscard]] constexpr AxisKind kind(int axis) const noexcept {
+        const char c = letter(axis);
+        return c == 'e'               ? AxisKind::extruder
+               : c <= 'c'             ? AxisKind::rotary
+               : c >= 'u' && c <= 'w' ? AxisKind::second_linear
+                                      : AxisKind::linear;
+    }
+
+private:
+    int count_ = 0;
+    std::array<char, static_cast<unsigned>(max_axes)> letters_{};
+};
+
+} // namespace splinefeed

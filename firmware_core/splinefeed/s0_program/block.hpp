@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Block: the words of one line.
+#pragma once
+
+#include "splinefeed/s0_program/block_status.hpp"
+#include "splinefeed/s0_program/code_table.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace splinefeed {
+
+/// What a comment asks for.
+enum class CommentKind : std::uint8_t { none, message, print, debug };
+
+/// Words by letter, G and M words by group. Letters are 'a' to 'z'.
+class Block {
+public:
+    static constexpr std::int16_t no_code = -1;
+
+    void clear() noexcept {
+        present_ = 0;
+        codes_.fill(no_code);
+        comment_ = CommentKind::none;
+    }
+
+    void set(char letter, Decimal value, std::size_t column) noexcept {
+        present_ |= bit(letter);
+        values_[index(letter)] = value;
+        columns_[index(letter)] = static_cast<std::uint16_t>(column);
+    }
+    [[nodiscard]] bool has(char letter) const noexcept { return (present_ & bit(letter)) != 0; }
+    /// Whether it has one of the letters.
+    [[nodiscard]] bool has_any(std::uint32_t letters) const noexcept { return (present_ & letters) != 0; }
+    [[nodiscard]] std::uint32_t letters() const noexcept { return present_; }
+    /// The value of a word; 0 if the block does not have it.
+    [[nodiscard]] Decimal value(char letter) const noexcept {
+        return has(letter) ? values_[index(letter)] : Decimal{};
+    }
+
+    void set_code(CodeGroup group, std::int32_t code, std::size_t column) noexcept {
+        codes_[static_cast<unsigned>(group)] = static_cast<std::int16_t>(code);
+        code_columns_[static_cast<unsigned>(group)] = static_cast<std::uint16_t>(column);
+    }
+    /// Ten times the number of a G word, the number of an M word; no_code.
+    [[nodiscard]] std::int16_t code(CodeGroup group) const noexcept { return codes_[static_cast<unsigned>(group)]; }
+    [[nodiscard]] bool has(CodeGroup group) const noexcept { return code(group) != no_code; }
+
+    void set_comment(CommentKind kind, std::string_view text) noexcept {
+        comment_ = kind;
+        text_ = text;
+    }
+    [[nodiscard]] CommentKind comment() const noexcept { return comment_; }
+    /// Of the comment, or of M117.
+    [[nodiscard]] std::string_view text() const noexcept { return text_; }
+
+    /// An error at a word of the block.
+    [[nodiscard]] BlockStatus at(Error error, char letter) const noexcept {
+        return {error, has(letter) ? columns_[index(letter)] : std::uint16_t{0}, 0};
+    }
+    [[nodiscard]] BlockStatus at(Error error, CodeGroup group) const noexcept {
+        return {error, has(group) ? code_columns_[static_cast<unsigned>(group)] : std::uint16_t{0}, 0};
+    }
+
+    [[nodiscard]] static constexpr std::uint32_t bit(char letter) noexcept { return 1U << index(letter); }
+    /// Of several letters.
+    [[nodiscard]] static constexpr std::uint32_t bits(std::string_view letters) noexcept {
+        std::uint32_t all = 0;
+        for (const char letter : letters) {
+            all |= bit(letter);
+        }
+        return all;
+    }
+
+private:
+    [[nodiscard]] static constexpr unsigned index(char letter) noexcept {
+        return static_cast<unsigned>(letter - 'a') % 26U;
+    }
+
+    std::uint32_t present_ = 0;
+    CommentKind comment_ = CommentKind::none;
+    std::array<Decimal, 26> values_{};
+    std::array<std::uint16_t, 26> columns_{};
+    std::array<std::int16_t, code_groups> codes_{};
+    std::array<std::uint16_t, code_groups> code_columns_{};
+    std::string_view text_{};
+};
+
+} // namespace splinefeed

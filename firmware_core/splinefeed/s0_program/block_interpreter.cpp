@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s0_program/block_interpreter.hpp"
+
+#include "splinefeed/s0_program/decimal_text.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr std::uint8_t all_done = 255;
+
+// What is wrong is a word: its letters and digits.
+std::uint16_t word_length(std::string_view text, std::uint16_t column) noexcept {
+    const auto is_part = [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == ' '; };
+    std::size_t end = column;
+    while (column > 0 && end < text.size() && is_part(text[end])) {
+        ++end;
+    }
+    while (end > column && text[end - 1] == ' ') {
+        --end;
+    }
+    return static_cast<std::uint16_t>(column > 0 ? end + 1 - column : 0);
+}
+
+} // namespace
+
+BlockInterpreter::BlockInterpreter(const ProgramSettings& settings, WordEvaluator* evaluator) noexcept
+    : settings_(settings), letters_(settings_), reader_(settings_, evaluator), evaluator_(evaluator),
+      modal_(ModalState::at_start(settings_)), frame_(letters_), stage_(all_done) {
+    block_.clear();
+}
+
+void BlockInterpreter::start(const PerAxis<Position>& position) noexcept {
+    for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
+        place_.machine[k] = to_decimal(position[k]);
+    }
+    emitted_ = place_.machine;
+    frame_changed();
+    nurbs_.abandon();
+    plan_ = {};
+    stage_ = all_done;
+}
+
+void BlockInterpreter::restart() noexcept {
+    modal_ = ModalState::at_start(settings_);
+    cycle_words_ = {};
+    nurbs_.abandon();
+    plan_ = {};
+    stage_ = all_done;
+    percent_ = any_block_ = ended_ = false;
+    emitted_ = place_.machine;
+    if (evaluator_ != nullptr) {
+        evaluator_->discard();
+    }
+}
+
+void BlockInterpreter::restore(const WorkOffsets& offsets) noexcept {
+    frame_.offsets() = offsets;
+    frame_changed();
+}
+
+// The machine stands where it stood; only its coordinates in the program change.
+void BlockInterpreter::frame_changed() noexcept {
+    frame_.update();
+    place_.program = frame_.to_program(place_.machine);
+}
+
+PerAxis<Position> BlockInterpreter::position() const noexcept {
+    PerAxis<Position> out{};
+    for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
+        out[k] = to_position(place_.machine[k]);
+    }
+    return out;
+}
+
+void BlockInterpreter::report_probe(bool contact, const PerAxis<Position>& contact_at,
+                                    const PerAxis<Position>& stands_at) noexcept {
+    for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
+        probe_at_[k] = to_decimal(contact_at[k]);
+        place_.machine[k] = to_decimal(stands_at[k]);
+    }
+    probe_at_ = frame_.to_program(probe_at_);
+    probe_contact_ = contact;
+    emitted_ = place_.machine;
+    frame_changed();
+}
+
+BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_number) noexcept {
+    if (ended_) {
+        return {};
+    }
+    if (stage_ != all_done) {
+        return {Error::block_pending, 0, 0};
+    }
+    LineKind kind = LineKind::block;
+    BlockStatus status = reader_.read(text, *this, block_, kind);
+    line_ = line_number;
+    plan_ = {};
+    sub_step_ = 0;
+    offsets_changed_ = false;
+    if (status.ok() && kind == LineKind::percent) {
+        status = execute_percent();
+    } else if (status.ok() && kind == LineKind::homing) {
+        plan_homing(0);
+        stage_ = 0;
+    } else if (status.ok() && kind == LineKind::block) {
+        status = execute();
+    }
+    if (!status.ok()) {
+        status.length = status.length > 0 ? status.length : word_length(text, status.column);
+        block_.clear();
+        plan_ = {};
+        stage_ = all_done;
+    }
+    if (evaluator_ != nullptr) {
+        evaluator_->discard();
+    }
+    return status;
+}
+
+BlockStatus BlockInterpreter::execute_percent() noexcept {
+    if (!any_block_ && !percent_) {
+        percent_ = true;
+        return {};
+    }
+    if (nurbs_.is_open()) {
+        return {Error::nurbs_not_ended, 1, 1};
+    }
+    block_.clear();
+    ended_ = true;
+    stage_ = 0;
+    return {};
+}
+
+BlockStatus BlockInterpreter::execute() noexcept {
+    any_block_ = true;
+    BlockUse use;
+    if (const BlockStatus status = find_use(block_, modal_, letters_, settings_.dialect, use); !status.ok()) {
+        return status;
+    }
+    const ModalState modal = modal_;
+    const Place place = place_;
+    const CycleWords cycle_words = cycle_words_;
+    const bool nurbs_open = nurbs_.is_open();
+    BlockStatus status;
+    const bool changes_frame = block_.has(CodeGroup::non_modal) || block_.has(CodeGroup::tool_length) ||
+                               block_.has(CodeGroup::work_system) || block_.has(CodeGroup::stop) ||
+                               block_.has(CodeGroup::tool_change) || evaluator_ != nullptr;
+    const auto run = [&] {
+        status = execute_words(use);
+        if (status.ok() && evaluator_ != nullptr) {
+            const Status written = evaluator_->commit(*this);
+            status = written.ok() ? BlockStatus{} : BlockStatus{written.error(), 0, 0};
+        }
+    };
+    if (changes_frame) {
+        const WorkFrame frame = frame_;
+        run();
+        if (!status.ok()) {
+            frame_ = frame;
+        }
+    } else {
+        run();
+    }
+    if (!status.ok()) {
+        modal_ = modal;
+        place_ = place;
+        cycle_words_ = cycle_words;
+        if (!nurbs_open) {
+            nurbs_.abandon();
+        }
+        ended_ = false;
+        return status;
+    }
+    stage_ = 0;
+    return {};
+}
+
+BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
+    const ModalState before = modal_;
+    if (nurbs_.is_open()) { // only control points until G5.3
+        const bool ends = block_.code(CodeGroup::non_modal) == 53;
+        for (unsigned group = 0; group < code_groups; ++group) {
+            const auto code = static_cast<CodeGroup>(group);
+            const bool belongs = code == CodeGroup::motion ? block_.code(code) == 52
+                                                           : code == CodeGroup::non_modal && ends;
+            if (block_.has(code) && !belongs) {
+                return block_.at(Error::nurbs_not_ended, code);
+            }
+        }
+    }
+    if (const BlockStatus status = modal_.apply(block_, settings_); !status.ok()) {
+        return status;
+    }
+    if (block_.has(CodeGroup::tool_change)) {
+        WorkOffsets& offsets = frame_.offsets();
+        std::int32_t tool = modal_.selected_tool;
+        if (block_.code(CodeGroup::tool_change) == 61) {
+            static_cast<void>(to_integer(block_.value('q'), tool));
+        }
+        offsets_changed_ = offsets_changed_ || offsets.tool_number != tool;
+        offsets.tool_number = tool;
+    }
+    if (const BlockStatus status = set_tool_length(); !status.ok()) {
+        return status;
+    }
+    if (const std::int16_t code = block_.code(CodeGroup::work_system); code != Block::no_code) {
+        const int system = code <= 590 ? (code - 540) / 10 : 5 + (code - 590);
+        offsets_changed_ = offsets_changed_ || frame_.offsets().active != system;
+        frame_.offsets().active = system;
+        frame_changed();
+    }
+    if (const BlockStatus status = set_offsets(); !status.ok()) {
+        return status;
+    }
+    if (const BlockStatus status = plan_motion(use, before); !status.ok()) {
+        return status;
+    }
+    if (const std::int16_t code = block_.code(CodeGroup::stop); code == 2 || code == 30) {
+        ended_ = true;
+        modal_.end_program(settings_);
+        frame_.offsets().active = 0;
+        frame_changed();
+    }
+    return {};
+}
+
+} // namespace splinefeed

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s0_program/block_reader.hpp"
+
+#include "splinefeed/s0_program/decimal_text.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr bool is_letter(char c) noexcept {
+    return c >= 'a' && c <= 'z';
+}
+
+constexpr char upper(char c) noexcept {
+    return static_cast<char>(c - 'a' + 'A');
+}
+
+} // namespace
+
+BlockStatus BlockReader::read(std::string_view text, const SystemParameters& system, Block& out,
+                              LineKind& kind) noexcept {
+    out.clear();
+    kind = LineKind::block;
+    ignored_code_ = false;
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
+        text.remove_suffix(1);
+    }
+    if (text.size() > longest_line) {
+        return {Error::line_too_long, longest_line + 1, 0};
+    }
+    TextCursor cursor(text);
+    if (cursor.take('%')) {
+        kind = LineKind::percent;
+        return cursor.at_end() ? BlockStatus{} : BlockStatus{Error::character_invalid, cursor.column(), 1};
+    }
+    if (settings_->dialect == Dialect::grbl && cursor.peek() == '$') {
+        const std::uint16_t column = cursor.column();
+        kind = LineKind::homing;
+        const bool homing = cursor.take("$h") && cursor.at_end();
+        return homing ? BlockStatus{} : BlockStatus{Error::grbl_command_unsupported, column, 0};
+    }
+    if (cursor.take('/') && settings_->block_delete) {
+        kind = LineKind::left_out;
+        return {};
+    }
+    const Status status = read_words(cursor, system, out);
+    std::uint32_t axes = 0;
+    for (int k = 0; k < settings_->axes; ++k) {
+        axes |= Block::bit(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'));
+    }
+    bool other_codes = out.has_any(axes);
+    for (unsigned group = 0; group < code_groups; ++group) {
+        other_codes = other_codes || out.has(static_cast<CodeGroup>(group));
+    }
+    if (ignored_code_ && !other_codes) { // its words are not another code's, whatever they are
+        kind = LineKind::left_out;
+        return {};
+    }
+    return status.ok() ? BlockStatus{} : BlockStatus{status.error(), cursor.column(), 0};
+}
+
+Status BlockReader::read_words(TextCursor& text, const SystemParameters& system, Block& out) noexcept {
+    while (!text.at_end()) {
+        const char c = text.peek();
+        if (c == ';') {
+            return {};
+        }
+        if (c == '*' && settings_->dialect == Dialect::marlin) {
+            return read_checksum(text);
+        }
+        Status status;
+        if (c == '(') {
+            status = read_comment(text, out);
+        } else if (c == '#') {
+            status = evaluator_ != nullptr ? evaluator_->assignment(text, system)
+                                           : Status(Error::expression_unsupported);
+        } else if (is_letter(c)) {
+            status = read_word(text, system, out);
+        } else {
+            status = Error::character_invalid;
+        }
+        if (!status.ok()) {
+            return status;
+        }
+        if (out.code(CodeGroup::printer) == 117) {
+            std::size_t end = text.text().find(';', text.at());
+            end = end == std::string_view::npos ? text.text().size() : end;
+            out.set_comment(CommentKind::none, text.text().substr(text.at(), end - text.at()));
+            return {};
+        }
+    }
+    return {};
+}
+
+Status BlockReader::read_word(TextCursor& text, const SystemParameters& system, Block& out) noexcept {
+    const std::size_t column = text.column();
+    const char letter = text.peek();
+    if (letter == 'o') {
+        return Error::o_word;
+    }
+    const TextCursor word = text;
+    text.step();
+    Decimal value;
+    if (const Status status = read_value(text, system, value); !status.ok()) {
+        return status;
+    }
+    if (letter == 'n') {
+        return {};
+    }
+    if (letter == 'g' || letter == 'm') {
+        const Status status = add_code(letter, value, text, column, out);
+        if (!status.ok()) {
+            text = word; // the word is wrong, not what follows it
+        }
+        return status;
+    }
+    if (is_ignored(upper(letter), value)) {
+        return {};
+    }
+    if (out.has(letter)) {
+        text = word;
+        return Error::word_repeated;
+    }
+    out.set(letter, value, column);
+    return {};
+}
+
+Status BlockReader::read_value(TextCursor& text, const SystemParameters& system, Decimal& out) noexcept {
+    const char c = text.peek();
+    const bool sign = c == '-' || c == '+';
+    const char first = sign ? text.peek_second() : c;
+    if (first != '#' && first != '[' && !is_letter(first)) {
+        return read_decimal(text, out);
+    }
+    if (evaluator_ == nullptr) {
+        return is_letter(first) ? Error::number_invalid : Error::expression_unsupported;
+    }
+    if (sign) {
+        text.step();
+    }
+    const TextCursor start = text;
+    Status status = evaluator_->value(text, system, out);
+    if (status.ok() && (out.raw > largest_number * Decimal::one || out.raw < -largest_number * Decimal::one)) {
+        text = start;
+        status = Error::number_out_of_range;
+    }
+    out = c == '-' ? -out : out;
+    return status;
+}
+
+Status BlockReader::add_code(char letter, Decimal value, TextCursor& text, std::size_t column, Block& out) noexcept {
+    if (is_ignored(upper(letter), value)) {
+        ignored_code_ = true;
+        return {};
+    }
+    std::int32_t code = 0;
+    const bool is_g = letter == 'g';
+    const Error unknown = is_g ? Error::g_code_unknown : Error::m_code_unknown;
+    if (value.raw < 0 || value > Decimal::from_integer(1000) ||
+        !to_integer(is_g ? Decimal{value.raw * 10} : value, code)) {
+        return unknown;
+    }
+    const CodeInfo info =
+        is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
+    if (info.refusal != Error::none) {
+        return info.refusal;
+    }
+    if (info.group == CodeGroup::none) {
+        return unknown;
+    }
+    if (out.has(info.group)) {
+        return Error::modal_group_conflict;
+    }
+    out.set_code(info.group, code, column);
+    static_cast<void>(text);
+    return {};
+}
+
+Status BlockReader::read_comment(TextCursor& text, Block& out) const noexcept {
+    const std::string_view line = text.text();
+    const std::size_t begin = text.at() + 1;
+    std::size_t end = begin;
+    while (end < line.size() && line[end] != ')') {
+        if (line[end] == '(') {
+            text.go_to(end);
+            return Error::comment_nested;
+        }
+        ++end;
+    }
+    if (end == line.size()) {
+        return Error::comment_not_closed;
+    }
+    TextCursor inside(line.substr(begin, end - begin));
+    CommentKind kind = CommentKind::none;
+    if (inside.take("msg,")) {
+        kind = CommentKind::message;
+    } else if (inside.take("print,")) {
+        kind = CommentKind::print;
+    } else if (inside.take("debug,")) {
+        kind = CommentKind::debug;
+    }
+    if (kind != CommentKind::none) { // as in LinuxCNC, the last one of a line counts
+        out.set_comment(kind, line.substr(begin + inside.at(), end - begin - inside.at()));
+    }
+    text.go_to(end + 1);
+    return {};
+}
+
+// "*71": the exclusive or of all characters before it.
+Status BlockReader::read_checksum(TextCursor& text) const noexcept {
+    unsigned sum = 0;
+    for (const char c : text.text().substr(0, text.at())) {
+        sum ^= static_cast<unsigned char>(c);
+    }
+    const TextCursor start = text;
+    text.step();
+    Decimal stated;
+    std::int32_t number = 0;
+    const Status status = read_decimal(text, stated);
+    if (!status.ok() || !to_integer(stated, number) || number != static_cast<std::int32_t>(sum)) {
+        text = start;
+        return Error::checksum_wrong;
+    }
+    return text.at_end() || text.peek() == ';' ? Status{} : Status(Error::character_invalid);
+}
+
+bool BlockReader::is_ignored(char letter, Decimal value) const noexcept {
+    for (std::size_t i = 0; i < settings_->ignored_count; ++i) {
+        const IgnoredWord& word = settings_->ignored[i];
+        if (word.letter == letter &&
+            (word.tenths == IgnoredWord::any || value.raw == word.tenths * (Decimal::one / 10))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace splinefeed

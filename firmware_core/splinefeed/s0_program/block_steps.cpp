@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// BlockInterpreter: the items of an executed block, in the order of execution.
+#include "splinefeed/s0_program/block_interpreter.hpp"
+
+#include "splinefeed/s0_program/decimal_text.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+enum Stage : std::uint8_t {
+    comment,
+    speed,
+    tool_select,
+    input_output,
+    tool_change,
+    spindle,
+    coolant,
+    override_mode,
+    printer,
+    dwell,
+    offsets_changed,
+    motion,
+    stop,
+    all_done = 255,
+};
+
+std::int32_t integer_of(const Block& block, char letter) noexcept {
+    std::int32_t number = 0;
+    static_cast<void>(to_integer(block.value(letter), number));
+    return number;
+}
+
+void fill_input_output(const Block& block, ProgramEvent& event) noexcept {
+    switch (block.code(CodeGroup::input_output)) {
+    case 62: event.kind = EventKind::output_on_with_motion; break;
+    case 63: event.kind = EventKind::output_off_with_motion; break;
+    case 64: event.kind = EventKind::output_on; break;
+    case 65: event.kind = EventKind::output_off; break;
+    default:
+        event.kind = EventKind::input_wait;
+        event.stops = true;
+        event.analog = block.has('e');
+        event.wait = static_cast<InputWait>(integer_of(block, 'l'));
+        event.value = block.value('q');
+        event.number = integer_of(block, event.analog ? 'e' : 'p');
+        return;
+    }
+    event.number = integer_of(block, 'p');
+}
+
+void fill_override(const Block& block, ProgramEvent& event) noexcept {
+    switch (block.code(CodeGroup::override_mode)) {
+    case 48: event.kind = EventKind::overrides_on; return;
+    case 49: event.kind = EventKind::overrides_off; return;
+    case 50: event.kind = EventKind::feed_override; break;
+    case 51: event.kind = EventKind::spindle_override; break;
+    case 52: event.kind = EventKind::adaptive_feed; break;
+    default: event.kind = EventKind::feed_hold; break;
+    }
+    event.number = !block.has('p') || block.value('p').raw != 0 ? 1 : 0;
+}
+
+// Those that wait for a temperature or for the motion stop the machine.
+void fill_printer(const Block& block, ProgramEvent& event) noexcept {
+    event.kind = EventKind::printer;
+    event.number = block.code(CodeGroup::printer);
+    event.stops = event.number == 109 || event.number == 190 || event.number == 191 || event.number == 400 ||
+                  event.number == 84 || event.number == 18;
+    event.value = block.value(block.has('s') ? 's' : 'r');
+    event.text = block.text();
+}
+
+} // namespace
+
+// The event of the present stage; false: it has none.
+bool BlockInterpreter::next_event(ProgramStep& out) noexcept {
+    ProgramEvent& event = out.event;
+    switch (stage_) {
+    case comment:
+        event.kind = block_.comment() == CommentKind::print   ? EventKind::print
+                     : block_.comment() == CommentKind::debug ? EventKind::debug
+                                                              : EventKind::message;
+        event.text = block_.text();
+        return block_.comment() != CommentKind::none;
+    case speed:
+        event.kind = EventKind::spindle_speed;
+        event.stops = true;
+        event.value = modal_.speed;
+        return block_.has('s') && !block_.has(CodeGroup::printer) &&
+               !(settings_.dialect == Dialect::marlin && block_.code(CodeGroup::non_modal) == 40);
+    case tool_select:
+        event.kind = EventKind::tool_select;
+        event.number = modal_.selected_tool;
+        return block_.has('t') && !block_.has(CodeGroup::printer);
+    case input_output: fill_input_output(block_, event); return block_.has(CodeGroup::input_output);
+    case tool_change:
+        event.kind = block_.code(CodeGroup::tool_change) == 6 ? EventKind::tool_change : EventKind::tool_set;
+        event.stops = true;
+        event.number = frame_.offsets().tool_number;
+        return block_.has(CodeGroup::tool_change);
+    case spindle: {
+        const std::int16_t code = block_.code(CodeGroup::spindle);
+        event.kind = code == 3   ? EventKind::spindle_clockwise
+                     : code == 4 ? EventKind::spindle_counterclockwise
+                                 : EventKind::spindle_stop;
+        event.stops = true;
+        event.value = code == 5 ? Decimal{} : modal_.speed;
+        return code != Block::no_code;
+    }
+    case coolant: {
+        const std::int16_t code = block_.code(CodeGroup::coolant);
+        event.kind = code == 7   ? EventKind::mist_on
+                     : code == 8 ? EventKind::flood_on
+                                 : EventKind::coolant_off;
+        event.stops = true;
+        return code != Block::no_code;
+    }
+    case override_mode: fill_override(block_, event); return block_.has(CodeGroup::override_mode);
+    case printer:
+        fill_printer(block_, event);
+        return block_.has(CodeGroup::printer) && event.number != 82 && event.number != 83;
+    case offsets_changed: event.kind = EventKind::offsets_changed; return offsets_changed_;
+    case stop: {
+        const std::int16_t code = block_.code(CodeGroup::stop);
+        event.stops = true;
+        event.number = code == Block::no_code ? 0 : code;
+        event.kind = ended_      ? EventKind::program_end
+                     : code == 0 ? EventKind::pause
+                     : code == 1 ? EventKind::optional_pause
+                                 : EventKind::pallet_pause;
+        return ended_ || (code != Block::no_code && (code != 1 || settings_.optional_pause));
+    }
+    default: return false;
+    }
+}
+
+Pull BlockInterpreter::next_step(ProgramStep& out) noexcept {
+    for (; stage_ <= stop; ++stage_) {
+        if (stage_ == motion) {
+            if (next_motion(out)) {
+                return Pull::item;
+            }
+            continue;
+        }
+        if (stage_ == dwell) {
+            if (block_.code(CodeGroup::non_modal) != 40) {
+                continue;
+            }
+            const bool marlin = settings_.dialect == Dialect::marlin;
+            out.kind = ItemKind::dwell;
+            out.stops_before = true;
+            out.dwell_s = block_.value('p');
+            if (marlin) { // P in milliseconds, S in seconds
+                out.dwell_s = block_.has('s') ? block_.value('s') : Decimal{out.dwell_s.raw / 1000};
+            }
+            ++stage_;
+            return Pull::item;
+        }
+        out.event = {};
+        if (next_event(out)) {
+            out.kind = ItemKind::event;
+            out.stops_before = out.event.stops;
+            ++stage_;
+            return Pull::item;
+        }
+    }
+    stage_ = all_done;
+    block_.clear();
+    return ended_ ? Pull::finished : Pull::starved;
+}
+
+void BlockInterpreter::fill_move(ProgramStep& out, const AxisPoint& to) noexcept {
+    out.kind = ItemKind::move;
+    out.move = plan_.move;
+    out.shape = MoveShape::line;
+    out.probe = plan_.probe;
+    out.home_axes = plan_.home_axes;
+    out.stops_before = plan_.stops_before && sub_step_ == 0;
+    out.stop_at_end = plan_.stop_at_end;
+    out.from = emitted_;
+    out.to = to;
+    emitted_ = to;
+    ++sub_step_;
+}
+
+bool BlockInterpreter::next_motion(ProgramStep& out) noexcept {
+    switch (plan_.kind) {
+    case PlanKind::none: return false;
+    case PlanKind::line_by_way:
+        if (sub_step_ == 0) {
+            fill_move(out, plan_.way);
+        } else {
+            fill_move(out, plan_.to);
+            plan_.kind = PlanKind::none;
+        }
+        return true;
+    case PlanKind::line:
+        fill_move(out, plan_.to);
+        plan_.kind = PlanKind::none;
+        return true;
+    case PlanKind::arc:
+        fill_move(out, plan_.to);
+        out.shape = MoveShape::arc;
+        out.arc = plan_.arc;
+        plan_.kind = PlanKind::none;
+        return true;
+    case PlanKind::bezier:
+        fill_move(out, plan_.to);
+        out.shape = MoveShape::bezier;
+        out.bezier = spline_;
+        plan_.kind = PlanKind::none;
+        return true;
+    case PlanKind::nurbs: {
+        if (!nurbs_.next(out.bezier)) {
+            return false;
+        }
+        AxisPoint to = emitted_;
+        for (unsigned k = 0; k < 2; ++k) {
+            to[static_cast<unsigned>(letters_.index("xy"[k]))] =
+                out.bezier.points[static_cast<unsigned>(out.bezier.degree)][k];
+        }
+        fill_move(out, to);
+        out.shape = MoveShape::bezier;
+        return true;
+    }
+    case PlanKind::cycle: break;
+    }
+    return next_in_cycle(out);
+}
+
+bool BlockInterpreter::next_in_cycle(ProgramStep& out) noexcept {
+    AxisPoint at{};
+    const CycleStep step = cycle_.next(at);
+    switch (step) {
+    case CycleStep::rapid:
+    case CycleStep::feed:
+        plan_.move = step == CycleStep::rapid ? MoveKind::rapid : MoveKind::feed;
+        fill_move(out, frame_.to_machine(at));
+        return true;
+    case CycleStep::dwell:
+        out.kind = ItemKind::dwell;
+        out.stops_before = true;
+        out.dwell_s = cycle_.dwell_s();
+        return true;
+    case CycleStep::spindle_stop:
+    case CycleStep::spindle_start:
+        out.kind = ItemKind::event;
+        out.stops_before = true;
+        out.event = {};
+        out.event.stops = true;
+        out.event.value = modal_.speed;
+        out.event.kind = step == CycleStep::spindle_stop                 ? EventKind::spindle_stop
+                         : modal_.spindle == SpindleState::clockwise ? EventKind::spindle_clockwise
+                                                                     : EventKind::spindle_counterclockwise;
+        return true;
+    case CycleStep::finished: break;
+    }
+    plan_.kind = PlanKind::none;
+    return false;
+}
+
+} // namespace splinefeed

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s0_program/canned_cycle.hpp"
+
+#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/program_arc.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr Decimal peck_clearance{254 * (Decimal::one / 1000)}; // 0.01 inch above the last peck
+constexpr std::int32_t most_repeats = 100000;
+constexpr std::int64_t most_pecks = 100000;
+constexpr Decimal longest_row = Decimal::from_integer(1 << 20);
+
+} // namespace
+
+BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, const ModalState& before,
+                               const AxisLetters& letters, const AxisPoint& at, CycleWords& words) noexcept {
+    const PlaneLetters plane = letters_of(modal.plane);
+    const char normal = plane.axes[2];
+    for (unsigned k = 0; k < 3; ++k) {
+        axes_[k] = static_cast<std::int8_t>(letters.index(plane.axes[k]));
+        if (axes_[k] < 0) {
+            return block.at(Error::axis_missing, CodeGroup::motion);
+        }
+    }
+    code_ = modal.motion;
+    const bool fresh = before.motion != code_;
+    if (fresh && !block.has(normal)) {
+        return block.at(Error::cycle_depth_missing, CodeGroup::motion);
+    }
+    if (fresh && !block.has('r')) {
+        return block.at(Error::cycle_radius_missing, CodeGroup::motion);
+    }
+    const bool dwells = code_ == 820 || code_ == 860 || code_ == 890;
+    const bool pecks = code_ == 730 || code_ == 830;
+    if (dwells && ((fresh && !block.has('p')) || block.value('p').raw < 0)) {
+        return block.at(Error::cycle_dwell_missing, CodeGroup::motion);
+    }
+    if (pecks && ((fresh && !block.has('q')) || (block.has('q') && modal.in_mm(block.value('q')).raw < 1000))) {
+        return block.at(Error::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
+    }
+    repeats_ = 1;
+    if (block.has('l') && (!to_integer(block.value('l'), repeats_) || repeats_ < 1 || repeats_ > most_repeats)) {
+        return block.at(Error::cycle_repeats_invalid, 'l');
+    }
+    if (code_ == 860 && modal.spindle == SpindleState::stopped) {
+        return block.at(Error::cycle_spindle_stopped, CodeGroup::motion);
+    }
+    words.depth = block.has(normal) ? modal.in_mm(block.value(normal)) : words.depth;
+    words.clearance = block.has('r') ? modal.in_mm(block.value('r')) : words.clearance;
+    words.dwell_s = dwells && block.has('p') ? block.value('p') : words.dwell_s;
+    words.peck = block.has('q') ? modal.in_mm(block.value('q')) : words.peck;
+    const auto n = static_cast<unsigned>(axes_[2]);
+    if (!words.begun) {
+        words.initial = at[n];
+        words.begun = true;
+    }
+    place_ = at;
+    level_ = at[n];
+    first_step_ = second_step_ = {};
+    clearance_ = words.clearance;
+    bottom_ = words.depth;
+    const std::array<Decimal*, 2> steps{&first_step_, &second_step_};
+    for (unsigned k = 0; k < 2; ++k) {
+        const char letter = plane.axes[k];
+        if (block.has(letter)) {
+            (modal.incremental ? *steps[k] : place_[static_cast<unsigned>(axes_[k])]) =
+                modal.in_mm(block.value(letter));
+        }
+    }
+    if (modal.incremental) {
+        clearance_ += words.initial;
+        bottom_ += clearance_;
+    }
+    if (clearance_ < bottom_) {
+        return block.at(Error::cycle_below_depth, block.has('r') ? 'r' : normal);
+    }
+    for (const Decimal step : {first_step_, second_step_}) {
+        if (detail::magnitude(step.raw) > static_cast<std::uint64_t>(longest_row.raw / repeats_)) {
+            return block.at(Error::move_too_long, block.has('l') ? 'l' : plane.axes[0]);
+        }
+    }
+    if (pecks && (clearance_ - bottom_).raw / words.peck.raw > most_pecks) {
+        return block.at(Error::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
+    }
+    phase_ = words.initial < clearance_ ? Phase::lift : Phase::across;
+    clear_ = modal.retract_to_r || words.initial < clearance_ ? clearance_ : words.initial;
+    dwell_s_ = words.dwell_s;
+    peck_ = words.peck;
+    return {};
+}
+
+AxisPoint CannedCycle::end() const noexcept {
+    AxisPoint at = place_;
+    for (unsigned k = 0; k < 2; ++k) {
+        const Decimal step = k == 0 ? first_step_ : second_step_;
+        at[static_cast<unsigned>(axes_[k])].raw += step.raw * repeats_;
+    }
+    at[static_cast<unsigned>(axes_[2])] = clear_;
+    return at;
+}
+
+CycleStep CannedCycle::go(AxisPoint& at, Decimal level, CycleStep how) const noexcept {
+    at = place_;
+    at[static_cast<unsigned>(axes_[2])] = level;
+    return how;
+}
+
+CycleStep CannedCycle::next(AxisPoint& at) noexcept {
+    switch (phase_) {
+    case Phase::lift:
+        phase_ = Phase::across;
+        level_ = clearance_;
+        return go(at, level_, CycleStep::rapid);
+    case Phase::across:
+        place_[static_cast<unsigned>(axes_[0])] += first_step_;
+        place_[static_cast<unsigned>(axes_[1])] += second_step_;
+        level_ = level_ < clear_ ? clear_ : level_;
+        phase_ = level_ == clearance_ ? Phase::hole : Phase::to_clearance;
+        hole_step_ = 0;
+        depth_ = clearance_ - peck_;
+        return go(at, level_, CycleStep::rapid);
+    case Phase::to_clearance: phase_ = Phase::hole; return go(at, clearance_, CycleStep::rapid);
+    case Phase::hole:
+        if ((code_ == 730 || code_ == 830) && depth_ > bottom_) {
+            return next_peck(at);
+        }
+        phase_ = Phase::retract;
+        hole_step_ = 0;
+        return go(at, bottom_, CycleStep::feed);
+    case Phase::retract:
+        if (hole_step_ == 0 && (code_ == 820 || code_ == 860 || code_ == 890)) {
+            hole_step_ = 1;
+            return CycleStep::dwell;
+        }
+        if (hole_step_ == 1 && code_ == 860) {
+            hole_step_ = 2;
+            return CycleStep::spindle_stop;
+        }
+        --repeats_;
+        level_ = clear_;
+        phase_ = code_ == 860 ? Phase::restart : repeats_ > 0 ? Phase::across : Phase::finished;
+        return go(at, clear_, code_ == 850 || code_ == 890 ? CycleStep::feed : CycleStep::rapid);
+    case Phase::restart:
+        phase_ = repeats_ > 0 ? Phase::across : Phase::finished;
+        return CycleStep::spindle_start;
+    case Phase::finished: break;
+    }
+    return CycleStep::finished;
+}
+
+// Down by a peck, up to break or to clear the chip, and back to just above it.
+CycleStep CannedCycle::next_peck(AxisPoint& at) noexcept {
+    const std::uint8_t step = hole_step_;
+    hole_step_ = static_cast<std::uint8_t>(step + 1U);
+    if (step == 0) {
+        hole_step_ = code_ == 730 ? 2 : 1; // G73 only breaks it
+        return go(at, depth_, CycleStep::feed);
+    }
+    if (step == 1) {
+        return go(at, clear_, CycleStep::rapid);
+    }
+    hole_step_ = 0;
+    const Decimal above = depth_ + peck_clearance;
+    depth_ -= peck_;
+    return go(at, above, CycleStep::rapid);
+}
+
+} // namespace splinefeed

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// code_table: the G and M words of the interpreter, and those that it refuses by name.
+#pragma once
+
+#include "splinefeed/s0_program/program_settings.hpp"
+
+#include "splinefeed/base/status.hpp"
+
+namespace splinefeed {
+
+/// Words of one group exclude each other in a block.
+enum class CodeGroup : std::uint8_t {
+    // G
+    non_modal,       ///< G4 G10 G28 G28.1 G30 G30.1 G52 G53 G92 to G92.3, G5.3
+    motion,          ///< G0 to G3, G5, G5.1, G5.2, G38.2 to G38.5, G73, G80 to G89
+    plane,           ///< G17 G18 G19
+    distance,        ///< G90 G91
+    centre_distance, ///< G90.1 G91.1
+    feed_mode,       ///< G93 G94
+    units,           ///< G20 G21
+    cutter_radius,   ///< G40
+    tool_length,     ///< G43 G43.1 G49
+    retract,         ///< G98 G99
+    work_system,     ///< G54 to G59.3
+    path_mode,       ///< G61 G61.1 G64
+    spindle_mode,    ///< G97
+    lathe_diameter,  ///< G8
+    // M
+    stop,          ///< M0 M1 M2 M30 M60
+    input_output,  ///< M62 to M66
+    tool_change,   ///< M6 M61
+    spindle,       ///< M3 M4 M5
+    coolant,       ///< M7 M8 M9
+    override_mode, ///< M48 to M53
+    printer,       ///< M82 M83 M104 ... of Dialect::marlin
+    none,
+};
+inline constexpr unsigned code_groups = static_cast<unsigned>(CodeGroup::none);
+
+struct CodeInfo {
+    CodeGroup group = CodeGroup::none;
+    Error refusal = Error::none; ///< why the word is not followed
+};
+
+/// @param tenths  ten times the number: 382 for G38.2
+[[nodiscard]] CodeInfo find_g_code(std::int32_t tenths, Dialect dialect) noexcept;
+[[nodiscard]] CodeInfo find_m_code(std::int32_t number, Dialect dialect) noexcept;
+
+} // namespace splinefeed

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+//
+// Operators of one level associate to the left, from the strongest: **, then * / MOD, then + -, then comparisons, then
+// AND OR XOR; the language of the RS274/NGC report with LinuxCNC's comparisons.
+#include "splinefeed/s0_program/expression.hpp"
+
+#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/elementary.hpp"
+#include "splinefeed/s0_program/operation.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+/// Reads values; holds what they refer to.
+class Parser {
+public:
+    Parser(TextCursor& text, const SystemParameters& system, const ParameterTable& table) noexcept
+        : text_(text), system_(system), table_(table) {}
+
+    /// A value: a number, #..., [...] or a function, with a sign or without.
+    Status value(Decimal& out, int depth) noexcept {
+        if (depth > Expression::deepest) {
+            return Error::expression_too_deep;
+        }
+        const char c = text_.peek();
+        if (c == '[') {
+            text_.step();
+            return bracketed(out, depth);
+        }
+        if (c == '#') {
+            return parameter(out, depth);
+        }
+        if (c >= 'a' && c <= 'z') {
+            return function(out, depth);
+        }
+        if (c == '-' || c == '+') {
+            const char next = text_.peek_second();
+            if (next == '#' || next == '[' || (next >= 'a' && next <= 'z')) {
+                text_.step();
+                const Status status = value(out, depth + 1);
+                out = c == '-' ? -out : out;
+                return status;
+            }
+        }
+        return read_decimal(text_, out);
+    }
+
+    /// #1, ##1, #[...]: the number of the parameter; #<name>: 0 and the name as it is written.
+    Status parameter_name(std::int32_t& number, std::string_view& name, int depth) noexcept {
+        number = 0;
+        text_.step(); // the #
+        if (text_.peek() == '<') {
+            const std::size_t begin = text_.at() + 1;
+            const std::size_t end = text_.text().find('>', begin);
+            if (end == std::string_view::npos || end == begin) {
+                return Error::parameter_name_invalid;
+            }
+            name = text_.text().substr(begin, end - begin);
+            text_.go_to(end + 1);
+            return {};
+        }
+        Decimal value_of;
+        const TextCursor start = text_;
+        if (const Status status = value(value_of, depth + 1); !status.ok()) {
+            return status;
+        }
+        if (!to_integer(value_of, number) || number < 1 || number > most_parameters) {
+            text_ = start;
+            return Error::parameter_out_of_range;
+        }
+        return {};
+    }
+
+private:
+    static constexpr std::int32_t most_parameters = 5602;
+
+    Status bracketed(Decimal& out, int depth) noexcept {
+        if (const Status status = level(out, 1, depth); !status.ok()) {
+            return status;
+        }
+        return text_.take(']') ? Status{} : Status(text_.at_end() ? Error::bracket_missing : Error::operator_unknown);
+    }
+
+    // A value, and what operators of this level and stronger ones make of it.
+    Status level(Decimal& out, int lowest, int depth) noexcept {
+        Status status = value(out, depth + 1);
+        while (status.ok()) {
+            TextCursor ahead = text_;
+            const OperatorRow* found = take_operator(ahead);
+            if (found == nullptr || found->level < lowest) {
+                return status;
+            }
+            const TextCursor start = text_;
+            text_ = ahead;
+            Decimal right;
+            status = level(right, found->level + 1, depth);
+            if (status.ok()) {
+                status = apply(found->name, out, right, out);
+                if (!status.ok()) {
+                    text_ = start;
+                }
+            }
+        }
+        return status;
+    }
+
+    Status parameter(Decimal& out, int depth) noexcept {
+        const TextCursor start = text_;
+        std::int32_t number = 0;
+        std::string_view name;
+        if (const Status status = parameter_name(number, name, depth); !status.ok()) {
+            return status;
+        }
+        if (number > 0) {
+            if (system_.owns(number)) {
+                out = system_.read(number);
+            } else if (!table_.read(number, out)) {
+                out = {};
+            }
+            return {};
+        }
+        if (!system_.read(name, out) && !table_.read(name, out)) {
+            text_ = start;
+            return Error::parameter_unset;
+        }
+        return {};
+    }
+
+    Status function(Decimal& out, int depth) noexcept {
+        const TextCursor start = text_;
+        const FunctionRow* row = take_function(text_);
+        if (row == nullptr) {
+            return Error::function_unknown;
+        }
+        if (!text_.take('[')) {
+            return Error::bracket_missing;
+        }
+        if (row->name == Function::exists) {
+            return exists(out, depth);
+        }
+        Decimal argument;
+        Status status = bracketed(argument, depth + 1);
+        if (!status.ok()) {
+            return status;
+        }
+        if (row->name == Function::atan) {
+            Decimal other;
+            if (!text_.take('/') || !text_.take('[')) {
+                return Error::atan_needs_two;
+            }
+            status = bracketed(other, depth + 1);
+            out = angle_of(other, argument);
+            return status;
+        }
+        status = apply(row->name, argument, out);
+        if (!status.ok()) {
+            text_ = start;
+        }
+        return status;
+    }
+
+    Status exists(Decimal& out, int depth) noexcept {
+        if (text_.peek() != '#') {
+            return Error::parameter_name_invalid;
+        }
+        std::int32_t number = 0;
+        std::string_view name;
+        if (const Status status = parameter_name(number, name, depth); !status.ok()) {
+            return status;
+        }
+        Decimal unused;
+        out = truth(number > 0 ? system_.owns(number) || table_.read(number, unused)
+                               : system_.read(name, unused) || table_.read(name, unused));
+        return text_.take(']') ? Status{} : Status(Error::bracket_missing);
+    }
+
+    TextCursor& text_;
+    const SystemParameters& system_;
+    const ParameterTable& table_;
+};
+
+} // namespace
+
+Status Expression::value(TextCursor& text, const SystemParameters& system, Decimal& out) noexcept {
+    return Parser(text, system, *table_).value(out, 0);
+}
+
+Status Expression::assignment(TextCursor& text, const SystemParameters& system) noexcept {
+    const TextCursor start = text;
+    if (count_ == most_assignments) {
+        return Error::too_many_assignments;
+    }
+    Assignment& next = assignments_[static_cast<unsigned>(count_)];
+    Parser parser(text, system, *table_);
+    if (const Status status = parser.parameter_name(next.number, next.name, 0); !status.ok()) {
+        return status;
+    }
+    if (!text.take('=')) {
+        return Error::assignment_invalid;
+    }
+    if (const Status status = parser.value(next.value, 0); !status.ok()) {
+        return status;
+    }
+    Decimal unused;
+    if (next.number > 0 ? system.owns(next.number) && !system.can_write(next.number)
+                        : system.read(next.name, unused)) {
+        text = start;
+        return Error::parameter_read_only;
+    }
+    ++count_;
+    return {};
+}
+
+Status Expression::commit(SystemParameters& system) noexcept {
+    Status status;
+    for (int i = 0; i < count_ && status.ok(); ++i) {
+        const Assignment& of = assignments_[static_cast<unsigned>(i)];
+        const bool written = of.number > 0
+                                 ? (system.owns(of.number) ? system.write(of.number, of.value)
+                                                           : table_->write(of.number, of.value))
+                                 : table_->write(of.name, of.value);
+        status = written ? Status{} : Status(Error::parameter_storage_full);
+    }
+    count_ = 0;
+    return status;
+}
+
+} // namespace splinefeed

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s0_program/modal_state.hpp"
+
+#include "splinefeed/s0_program/decimal_text.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr std::int64_t least_feed = 60 * Decimal::one / 1000; // 0.001 mm/s in mm/min
+
+} // namespace
+
+ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
+    ModalState state;
+    state.motion = settings.dialect == Dialect::linuxcnc ? no_motion : std::int16_t{0};
+    state.tolerance_mm = state.chain_tolerance_mm = settings.default_tolerance_mm;
+    return state;
+}
+
+void ModalState::end_program(const ProgramSettings& settings) noexcept {
+    plane = Plane::xy;
+    incremental = false;
+    inverse_time = false;
+    feed = {};
+    motion = settings.dialect == Dialect::grbl ? std::int16_t{0} : std::int16_t{10};
+    spindle = SpindleState::stopped;
+}
+
+BlockStatus ModalState::apply(const Block& block, const ProgramSettings& settings) noexcept {
+    // The order is that of execution: F is in the units of the blocks before, all lengths in those of this one.
+    if (const std::int16_t mode = block.code(CodeGroup::feed_mode); mode != Block::no_code) {
+        const bool inverse = mode == 930;
+        feed = inverse == inverse_time ? feed : Decimal{};
+        inverse_time = inverse;
+    }
+    if (const BlockStatus status = apply_feed(block); !status.ok()) {
+        return status;
+    }
+    if (block.has('s') && !block.has(CodeGroup::printer)) {
+        if (block.value('s').raw < 0) {
+            return block.at(Error::speed_negative, 's');
+        }
+        speed = block.value('s');
+    }
+    if (block.has('t') && (!to_integer(block.value('t'), selected_tool) || selected_tool < 0)) {
+        return block.at(Error::tool_unknown, 't');
+    }
+    if (const std::int16_t code = block.code(CodeGroup::spindle); code != Block::no_code) {
+        spindle = code == 3   ? SpindleState::clockwise
+                  : code == 4 ? SpindleState::counterclockwise
+                              : SpindleState::stopped;
+    }
+    if (const std::int16_t code = block.code(CodeGroup::plane); code != Block::no_code) {
+        plane = code == 170 ? Plane::xy : code == 180 ? Plane::zx : Plane::yz;
+    }
+    if (const std::int16_t code = block.code(CodeGroup::units); code != Block::no_code) {
+        inches = code == 200;
+    }
+    if (const std::int16_t code = block.code(CodeGroup::distance); code != Block::no_code) {
+        incremental = code == 910;
+        extruder_incremental = incremental;
+    }
+    if (const std::int16_t code = block.code(CodeGroup::printer); code == 82 || code == 83) {
+        extruder_incremental = code == 83;
+    }
+    if (const std::int16_t code = block.code(CodeGroup::centre_distance); code != Block::no_code) {
+        centre_absolute = code == 901;
+    }
+    if (const std::int16_t code = block.code(CodeGroup::retract); code != Block::no_code) {
+        retract_to_r = code == 990;
+    }
+    return apply_path_mode(block, settings);
+}
+
+BlockStatus ModalState::apply_feed(const Block& block) noexcept {
+    if (!block.has('f') || block.has(CodeGroup::printer)) {
+        return {};
+    }
+    const Decimal value = inverse_time ? block.value('f') : in_mm(block.value('f'));
+    if (value.raw < 0) {
+        return block.at(Error::feed_negative, 'f');
+    }
+    if (!inverse_time && value.raw > 0 && value.raw < least_feed) {
+        return block.at(Error::feed_out_of_range, 'f');
+    }
+    feed = value;
+    return {};
+}
+
+BlockStatus ModalState::apply_path_mode(const Block& block, const ProgramSettings& settings) noexcept {
+    const std::int16_t code = block.code(CodeGroup::path_mode);
+    if (code == Block::no_code) {
+        return {};
+    }
+    constexpr Decimal most = Decimal::from_integer(100);
+    tolerance_mm = block.has('p') ? in_mm(block.value('p')) : settings.default_tolerance_mm;
+    chain_tolerance_mm = block.has('q') ? in_mm(block.value('q')) : tolerance_mm;
+    for (const char letter : {'p', 'q'}) {
+        if (code == 640 && block.has(letter) && (block.value(letter).raw < 0 || in_mm(block.value(letter)) > most)) {
+            return block.at(Error::tolerance_out_of_range, letter);
+        }
+    }
+    path_mode = code == 611                                ? PathMode::exact_stop
+                : code == 610 || tolerance_mm.raw == 0 ? PathMode::exact_path
+                                                           : PathMode::continuous;
+    return {};
+}
+
+} // namespace splinefeed

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// ModalState: what stays in effect from block to block.
+#pragma once
+
+#include "splinefeed/s0_program/block.hpp"
+
+#include "splinefeed/s1_blended_path/path_element.hpp"
+
+namespace splinefeed {
+
+enum class SpindleState : std::uint8_t { stopped, clockwise, counterclockwise };
+
+/// Plane by its normal: x (G19), y (G18), z (G17).
+enum class Plane : std::uint8_t { yz, zx, xy };
+
+struct ModalState {
+    static constexpr std::int16_t no_motion = 800; ///< G80
+
+    std::int16_t motion = no_motion; ///< ten times the G word
+    Plane plane = Plane::xy;
+    bool inches = false;
+    bool incremental = false;
+    bool extruder_incremental = false; ///< M83
+    bool centre_absolute = false;      ///< G90.1
+    bool inverse_time = false;         ///< G93
+    bool retract_to_r = false;         ///< G99
+    PathMode path_mode = PathMode::continuous;
+    SpindleState spindle = SpindleState::stopped;
+    std::int32_t selected_tool = 0;
+    Decimal tolerance_mm{};
+    Decimal chain_tolerance_mm{};
+    Decimal feed{};  ///< mm/min or degrees/min; 0: none yet
+    Decimal speed{}; ///< 1/min
+
+    /// Before the first block.
+    [[nodiscard]] static ModalState at_start(const ProgramSettings& settings) noexcept;
+    /// What M2 and M30 leave.
+    void end_program(const ProgramSettings& settings) noexcept;
+    /// A length or a feed of the program in mm.
+    [[nodiscard]] Decimal in_mm(Decimal value) const noexcept {
+        return inches ? Decimal{product_quotient(value.raw, 254, 10).raw} : value;
+    }
+    /// Takes over the modes of a block: all but offsets and motion. Errors as BlockInterpreter::push.
+    BlockStatus apply(const Block& block, const ProgramSettings& settings) noexcept;
+
+private:
+    BlockStatus apply_feed(const Block& block) noexcept;
+    BlockStatus apply_path_mode(const Block& block, const ProgramSettings& settings) noexcept;
+};
+
+} // namespace splinefeed

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// MotionPlan: the motion of a block, in machine coordinates and without a scalar.
+#pragma once
+
+#include "splinefeed/s0_program/modal_state.hpp"
+#include "splinefeed/s0_program/program_item.hpp"
+#include "splinefeed/s0_program/work_frame.hpp"
+
+namespace splinefeed {
+
+/// x, y and z, in this order, of the program.
+using SpacePoint = std::array<Decimal, 3>;
+
+enum class PlanKind : std::uint8_t { none, line, line_by_way, arc, bezier, cycle, nurbs };
+
+/// An arc; its axis is a direction of the program's frame.
+struct ArcPlan {
+    SpacePoint centre{}; ///< in machine coordinates
+    Plane plane = Plane::xy;
+    Decimal sweep_deg{}; ///< negative: clockwise
+};
+
+struct BezierPlan {
+    static constexpr int most_points = 6;
+    int degree = 3;
+    bool rational = false;
+    std::array<SpacePoint, most_points> points{}; ///< in machine coordinates; the first is the start
+    std::array<Decimal, most_points> weights{};   ///< if rational; the largest is 1
+};
+
+/// How moves are made; the same for all of a block.
+struct MoveManner {
+    PathMode mode = PathMode::continuous;
+    bool inverse_time = false;
+    Decimal tolerance_mm{};
+    Decimal chain_tolerance_mm{};
+    Decimal feed{};
+};
+
+struct MotionPlan {
+    PlanKind kind = PlanKind::none;
+    MoveKind move = MoveKind::feed;
+    ProbeCondition probe{};
+    bool stops_before = false; ///< the move before it ends at rest
+    bool stop_at_end = false;
+    std::uint32_t home_axes = 0;
+    MoveManner manner{};
+    AxisPoint way{}; ///< of line_by_way: where the first line ends
+    AxisPoint to{};
+    ArcPlan arc{};
+};
+
+} // namespace splinefeed

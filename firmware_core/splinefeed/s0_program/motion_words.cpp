@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// BlockInterpreter: the motion of a block.
+#include "splinefeed/s0_program/block_interpreter.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr Decimal farthest = Decimal::from_integer(1 << 20);
+constexpr Decimal longest = Decimal::from_integer(65536);
+
+bool is_feed_motion(std::int16_t motion) noexcept {
+    return motion != 0 && motion != ModalState::no_motion;
+}
+
+} // namespace
+
+SpacePoint BlockInterpreter::space(const AxisPoint& point) const noexcept {
+    SpacePoint out{};
+    for (unsigned k = 0; k < 3; ++k) {
+        const int axis = letters_.index("xyz"[k]);
+        out[k] = axis >= 0 ? point[static_cast<unsigned>(axis)] : Decimal{};
+    }
+    return out;
+}
+
+Decimal BlockInterpreter::axis_value(int axis) const noexcept {
+    const Decimal value = block_.value(letters_.letter(axis));
+    return letters_.kind(axis) == AxisKind::rotary ? value : modal_.in_mm(value);
+}
+
+// Where the words of the block lead to.
+BlockStatus BlockInterpreter::find_end(AxisPoint& program, AxisPoint& machine) const noexcept {
+    program = place_.program;
+    if (block_.code(CodeGroup::non_modal) == 530) { // G53: the words are machine coordinates
+        machine = place_.machine;
+        for (int k = 0; k < letters_.count(); ++k) {
+            if (has_axis(k)) {
+                machine[static_cast<unsigned>(k)] = axis_value(k);
+            }
+        }
+        program = frame_.to_program(machine);
+        return {};
+    }
+    for (int k = 0; k < letters_.count(); ++k) {
+        if (has_axis(k)) {
+            const bool incremental =
+                letters_.kind(k) == AxisKind::extruder ? modal_.extruder_incremental : modal_.incremental;
+            Decimal& to = program[static_cast<unsigned>(k)];
+            to = incremental ? to + axis_value(k) : axis_value(k);
+        }
+    }
+    machine = frame_.to_machine(program);
+    return {};
+}
+
+BlockStatus BlockInterpreter::check_reach(const AxisPoint& from, const AxisPoint& to) const noexcept {
+    for (int k = 0; k < letters_.count(); ++k) {
+        const auto n = static_cast<unsigned>(k);
+        const Decimal way = to[n] - from[n];
+        const bool far = to[n] > farthest || to[n] < -farthest;
+        if (far || way > longest || way < -longest) {
+            const Error error = far ? Error::position_out_of_range : Error::move_too_long;
+            return has_axis(k) ? block_.at(error, letters_.letter(k)) : BlockStatus{error, 0, 0};
+        }
+    }
+    return {};
+}
+
+BlockStatus BlockInterpreter::move_to(const AxisPoint& program, const AxisPoint& machine) noexcept {
+    if (const BlockStatus status = check_reach(place_.machine, machine); !status.ok()) {
+        return status;
+    }
+    plan_.to = machine;
+    place_ = {program, machine};
+    return {};
+}
+
+BlockStatus BlockInterpreter::require_feed(bool new_in_block) const noexcept {
+    if (modal_.inverse_time && new_in_block && !block_.has('f')) {
+        return block_.at(Error::inverse_feed_missing, CodeGroup::motion);
+    }
+    return modal_.feed.raw > 0 ? BlockStatus{} : block_.at(Error::feed_missing, CodeGroup::motion);
+}
+
+BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState& before) noexcept {
+    const std::int16_t modeless = block_.code(CodeGroup::non_modal);
+    plan_.manner = {modal_.path_mode, modal_.inverse_time, modal_.tolerance_mm, modal_.chain_tolerance_mm, modal_.feed};
+    if (modeless == 53) {
+        return end_nurbs();
+    }
+    if (modeless == 280 || modeless == 300) {
+        return plan_reference_move();
+    }
+    if (block_.code(CodeGroup::motion) == ModalState::no_motion) {
+        modal_.motion = ModalState::no_motion;
+        cycle_words_.begun = false;
+    }
+    if (use.axes != AxisUse::motion) {
+        return {};
+    }
+    modal_.motion = use.motion;
+    const bool is_cycle = use.motion == 730 || (use.motion > 800 && use.motion <= 890);
+    cycle_words_.begun = cycle_words_.begun && is_cycle;
+    if (is_cycle && modal_.inverse_time) {
+        return block_.at(Error::inverse_feed_cycle, CodeGroup::motion);
+    }
+    const bool rapid = settings_.dialect == Dialect::marlin ? modal_.feed.raw == 0 && use.motion == 0 : use.motion == 0;
+    if (is_feed_motion(use.motion) && !rapid) {
+        if (const BlockStatus status = require_feed(true); !status.ok()) {
+            return status;
+        }
+    }
+    plan_.move = rapid ? MoveKind::rapid : MoveKind::feed;
+    plan_.stops_before = modeless == 530;
+    switch (use.motion) {
+    case 20:
+    case 30: return plan_arc();
+    case 50:
+    case 51: return plan_spline(before);
+    case 52: return plan_nurbs(before);
+    default: return is_cycle ? plan_cycle(before) : plan_straight();
+    }
+}
+
+BlockStatus BlockInterpreter::plan_straight() noexcept {
+    AxisPoint program;
+    AxisPoint machine;
+    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
+        return status;
+    }
+    plan_.kind = PlanKind::line;
+    if (modal_.motion >= 382 && modal_.motion <= 385) {
+        if (modal_.inverse_time) {
+            return block_.at(Error::probe_inverse_time, CodeGroup::motion);
+        }
+        if (machine == place_.machine) {
+            return block_.at(Error::probe_too_short, CodeGroup::motion);
+        }
+        plan_.move = MoveKind::probe;
+        plan_.probe = {modal_.motion >= 384, (modal_.motion & 1) == 0};
+        plan_.stops_before = true;
+        plan_.stop_at_end = true;
+        probe_at_ = program; // unless report_probe says otherwise
+        probe_contact_ = true;
+    }
+    return move_to(program, machine);
+}
+
+BlockStatus BlockInterpreter::plan_arc() noexcept {
+    const PlaneLetters plane = letters_of(modal_.plane);
+    const int first = letters_.index(plane.axes[0]);
+    const int second = letters_.index(plane.axes[1]);
+    const int x = letters_.index('x');
+    const int y = letters_.index('y');
+    const int z = letters_.index('z');
+    if (first < 0 || second < 0 || x > 2 || y > 2 || z > 2) {
+        return block_.at(Error::arc_axes_unsuited, CodeGroup::motion);
+    }
+    if (!has_axis(first) && !has_axis(second) && block_.has('r')) {
+        return block_.at(Error::arc_end_is_start, 'r');
+    }
+    AxisPoint program;
+    AxisPoint machine;
+    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
+        return status;
+    }
+    const auto i = static_cast<unsigned>(first);
+    const auto j = static_cast<unsigned>(second);
+    ArcGeometry arc;
+    const BlockStatus status = find_arc(block_, modal_, {place_.program[i], place_.program[j]}, {program[i], program[j]}, arc);
+    if (!status.ok()) {
+        return status;
+    }
+    AxisPoint centre = place_.program;
+    centre[i] = arc.centre.first;
+    centre[j] = arc.centre.second;
+    plan_.kind = PlanKind::arc;
+    plan_.arc = {space(frame_.to_machine(centre)), modal_.plane, arc.sweep_deg};
+    for (const Decimal value : plan_.arc.centre) {
+        if (value > farthest || value < -farthest) {
+            return block_.at(Error::position_out_of_range, CodeGroup::motion);
+        }
+    }
+    return move_to(program, machine);
+}
+
+BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
+    const AxisPoint at = place_.program;
+    if (const BlockStatus status = cycle_.begin(block_, modal_, before, letters_, at, cycle_words_); !status.ok()) {
+        return status;
+    }
+    plan_.kind = PlanKind::cycle;
+    plan_.manner.mode = PathMode::exact_path;
+    plan_.manner.tolerance_mm = {};
+    const AxisPoint end = cycle_.end();
+    AxisPoint bottom = end;
+    bottom[static_cast<unsigned>(letters_.index(letters_of(modal_.plane).axes[2]))] = cycle_.bottom();
+    if (const BlockStatus status = check_reach(place_.machine, frame_.to_machine(bottom)); !status.ok()) {
+        return status;
+    }
+    return move_to(end, frame_.to_machine(end));
+}
+
+} // namespace splinefeed

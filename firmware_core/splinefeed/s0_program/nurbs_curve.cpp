@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// Knots of n points and degree d: d + 1 times 0, then 1, 2, ..., n - d - 1, then d + 1 times n - d. Bezier point i of the
+// piece over [a, a + 1] is the blossom at d - i times a and i times a + 1; by de Boor's recursion each step is a mean of
+// two points with weights that are ratios of integers up to d.
+#include "splinefeed/s0_program/nurbs_curve.hpp"
+
+namespace splinefeed {
+
+void NurbsCurve::begin(int order, const SpacePoint& start, Decimal weight) noexcept {
+    degree_ = order - 1;
+    count_ = 0;
+    piece_ = 0;
+    open_ = true;
+    finished_ = false;
+    lightest_ = heaviest_ = weight;
+    add(start, weight);
+}
+
+void NurbsCurve::add(const SpacePoint& point, Decimal weight) noexcept {
+    points_[static_cast<unsigned>(count_ % window)] = {point, weight};
+    lightest_ = weight < lightest_ ? weight : lightest_;
+    heaviest_ = weight > heaviest_ ? weight : heaviest_;
+    ++count_;
+}
+
+bool NurbsCurve::finish() noexcept {
+    finished_ = count_ > degree_;
+    return finished_;
+}
+
+std::int32_t NurbsCurve::knot(std::int32_t index) const noexcept {
+    const std::int32_t last = finished_ ? count_ - degree_ : index; // before the end is known it is far away
+    const std::int32_t inner = index - degree_;
+    return inner < 0 ? 0 : inner > last ? last : inner;
+}
+
+bool NurbsCurve::next(BezierPlan& out) noexcept {
+    const std::int32_t known = finished_ ? count_ - degree_ : count_ - 2 * degree_ + 1;
+    if (!open_ || piece_ >= known) {
+        open_ = open_ && !finished_;
+        return false;
+    }
+    const int d = degree_;
+    // The control points of the piece; homogeneous where weights differ: numbers are below 2^20 mm and weights 1.
+    std::int64_t heaviest = 0;
+    bool equal = true;
+    for (int i = 0; i <= d; ++i) {
+        const std::int64_t weight = at(piece_ + i).weight.raw;
+        heaviest = weight > heaviest ? weight : heaviest;
+        equal = equal && weight == at(piece_).weight.raw;
+    }
+    const SpacePoint& origin = at(piece_).place;
+    for (int i = 0; i <= d; ++i) {
+        std::array<std::int64_t, 4 * (most_order + 0)> work{};
+        for (int j = 0; j <= d; ++j) {
+            const Point& point = at(piece_ + j);
+            const std::int64_t weight =
+                equal ? Decimal::one
+                      : product_quotient(point.weight.raw, Decimal::one, static_cast<std::uint64_t>(heaviest)).raw;
+            for (unsigned k = 0; k < 3; ++k) {
+                const std::int64_t offset = (point.place[k] - origin[k]).raw;
+                work[static_cast<unsigned>(4 * j) + k] =
+                    equal ? offset : product_quotient(offset, weight, static_cast<std::uint64_t>(Decimal::one)).raw;
+            }
+            work[static_cast<unsigned>(4 * j) + 3] = weight;
+        }
+        for (int r = 1; r <= d; ++r) {
+            const std::int32_t t = piece_ + (r > d - i ? 1 : 0);
+            for (int j = d; j >= r; --j) {
+                const std::int32_t low = knot(piece_ + j);
+                const std::int32_t high = knot(piece_ + j + d + 1 - r);
+                for (unsigned k = 0; k < 4; ++k) {
+                    std::int64_t& to = work[static_cast<unsigned>(4 * j) + k];
+                    const std::int64_t from = work[static_cast<unsigned>(4 * (j - 1)) + k];
+                    to = from + product_quotient(to - from, t - low, static_cast<std::uint64_t>(high - low)).raw;
+                }
+            }
+        }
+        const unsigned result = static_cast<unsigned>(4 * d);
+        const std::int64_t weight = work[result + 3];
+        for (unsigned k = 0; k < 3; ++k) {
+            const std::int64_t offset =
+                equal ? work[result + k]
+                      : product_quotient(work[result + k], Decimal::one, static_cast<std::uint64_t>(weight)).raw;
+            out.points[static_cast<unsigned>(i)][k] = origin[k] + Decimal{offset};
+        }
+        out.weights[static_cast<unsigned>(i)] = {weight};
+    }
+    out.degree = d;
+    out.rational = !equal;
+    ++piece_;
+    return true;
+}
+
+} // namespace splinefeed

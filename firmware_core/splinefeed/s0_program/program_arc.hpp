@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// program_arc: the centre and the angle of G2 and G3.
+#pragma once
+
+#include "splinefeed/s0_program/modal_state.hpp"
+
+namespace splinefeed {
+
+/// A point of the arc's plane: its first and its second axis, by the right-hand rule (X Y, Z X, Y Z).
+struct PlanePoint {
+    Decimal first{};
+    Decimal second{};
+};
+
+struct ArcGeometry {
+    PlanePoint centre{};
+    Decimal sweep_deg{}; ///< negative: clockwise
+};
+
+/// The letters of a plane's axes and centre offsets: first, second, normal; then I, J, K in the same order.
+struct PlaneLetters {
+    std::array<char, 3> axes;
+    std::array<char, 3> offsets;
+};
+[[nodiscard]] PlaneLetters letters_of(Plane plane) noexcept;
+
+/// From the words of a block, in program coordinates in mm. The centre of an arc whose radii at both ends differ by
+/// more than a 32nd is moved onto the perpendicular bisector: the core's arcs cannot follow such a spiral, and the
+/// centre of so small an arc moves by less than its rounding.
+/// Errors: the Error::arc_... of a wrong centre, radius or number of turns.
+BlockStatus find_arc(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
+                     ArcGeometry& out) noexcept;
+
+} // namespace splinefeed

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// ProgramStep: an item of a program without a scalar.
+#pragma once
+
+#include "splinefeed/s0_program/motion_plan.hpp"
+
+namespace splinefeed {
+
+/// What Interpreter<S> makes a ProgramItem<S> of. Places are in machine coordinates.
+struct ProgramStep {
+    ItemKind kind = ItemKind::move;
+    MoveKind move = MoveKind::feed;
+    MoveShape shape = MoveShape::line;
+    ProbeCondition probe{};
+    bool stops_before = false;
+    bool stop_at_end = false;
+    std::uint32_t home_axes = 0;
+    AxisPoint from{};
+    AxisPoint to{};
+    ArcPlan arc{};
+    BezierPlan bezier{};
+    Decimal dwell_s{};
+    ProgramEvent event{};
+};
+
+} // namespace splinefeed

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// BlockInterpreter: G5, G5.1, G5.2 and G5.3.
+#include "splinefeed/s0_program/block_interpreter.hpp"
+
+#include "splinefeed/s0_program/decimal_text.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr std::uint32_t other_axes = Block::bits("zabcuvw");
+constexpr Decimal longest_spline = Decimal::from_integer(65536);
+constexpr Decimal heaviest = Decimal::from_integer(1000000);
+
+} // namespace
+
+// The inner control points are offsets in the plane from the start (I, J) and from the end (P, Q).
+BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
+    const int x = letters_.index('x');
+    const int y = letters_.index('y');
+    if (modal_.plane != Plane::xy || x < 0 || y < 0) {
+        return block_.at(Error::spline_plane, CodeGroup::motion);
+    }
+    if (block_.has_any(other_axes)) {
+        return block_.at(Error::spline_axis_word, CodeGroup::motion);
+    }
+    const bool cubic = modal_.motion == 50;
+    const bool goes_on = cubic && before.motion == 50;
+    const bool has_start = block_.has('i') && block_.has('j');
+    if (block_.has('i') != block_.has('j') || (!has_start && !goes_on)) {
+        return block_.at(Error::spline_offset_missing, CodeGroup::motion);
+    }
+    if (cubic && !(block_.has('p') && block_.has('q'))) {
+        return block_.at(Error::spline_end_missing, CodeGroup::motion);
+    }
+    const PlanePoint start = has_start ? PlanePoint{modal_.in_mm(block_.value('i')), modal_.in_mm(block_.value('j'))}
+                                       : PlanePoint{-spline_out_.first, -spline_out_.second};
+    if (!cubic && start.first.raw == 0 && start.second.raw == 0) {
+        return block_.at(Error::spline_offset_missing, 'i');
+    }
+    AxisPoint program;
+    AxisPoint machine;
+    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
+        return status;
+    }
+    const auto i = static_cast<unsigned>(x);
+    const auto j = static_cast<unsigned>(y);
+    const auto at = [&](const AxisPoint& base, PlanePoint offset) {
+        AxisPoint point = base;
+        point[i] += offset.first;
+        point[j] += offset.second;
+        return space(frame_.to_machine(point));
+    };
+    spline_.rational = false;
+    spline_.degree = cubic ? 3 : 2;
+    spline_.points[0] = space(place_.machine);
+    spline_.points[1] = at(place_.program, start);
+    if (cubic) {
+        spline_out_ = {modal_.in_mm(block_.value('p')), modal_.in_mm(block_.value('q'))};
+        spline_.points[2] = at(program, spline_out_);
+    }
+    spline_.points[static_cast<unsigned>(spline_.degree)] = space(machine);
+    plan_.kind = PlanKind::bezier;
+    for (unsigned n = 1; n < static_cast<unsigned>(spline_.degree); ++n) {
+        for (unsigned k = 0; k < 3; ++k) {
+            const Decimal way = spline_.points[n][k] - spline_.points[0][k];
+            if (way > longest_spline || way < -longest_spline) {
+                return block_.at(Error::move_too_long, CodeGroup::motion);
+            }
+        }
+    }
+    return move_to(program, machine);
+}
+
+BlockStatus BlockInterpreter::plan_nurbs(const ModalState& before) noexcept {
+    static_cast<void>(before);
+    const int x = letters_.index('x');
+    const int y = letters_.index('y');
+    if (modal_.plane != Plane::xy || x < 0 || y < 0) {
+        return block_.at(Error::spline_plane, CodeGroup::motion);
+    }
+    if (block_.has_any(other_axes)) {
+        return block_.at(Error::spline_axis_word, CodeGroup::motion);
+    }
+    const bool fresh = !nurbs_.is_open();
+    const bool has_point = block_.has('x') && block_.has('y');
+    if (block_.has('x') != block_.has('y') || (!has_point && !fresh)) {
+        return block_.at(Error::nurbs_word, CodeGroup::motion);
+    }
+    const Decimal weight = block_.has('p') ? block_.value('p') : Decimal{Decimal::one};
+    if (weight.raw < Decimal::one / 1000000 || weight > heaviest || (!fresh && !nurbs_.accepts(weight))) {
+        return block_.at(Error::nurbs_weight_invalid, 'p');
+    }
+    std::int32_t order = fresh ? NurbsCurve::least_order : nurbs_.order();
+    if (block_.has('l') &&
+        (!to_integer(block_.value('l'), order) || order < NurbsCurve::least_order || order > NurbsCurve::most_order ||
+         (!fresh && order != nurbs_.order()))) {
+        return block_.at(Error::nurbs_order_invalid, 'l');
+    }
+    if (fresh) {
+        nurbs_.begin(order, space(place_.machine), has_point ? Decimal{Decimal::one} : weight);
+    }
+    plan_.kind = PlanKind::nurbs;
+    plan_.to = place_.machine;
+    if (!has_point) {
+        return {};
+    }
+    // As in LinuxCNC, G91 counts from the start of the curve: the program stands there until G5.3.
+    AxisPoint program;
+    AxisPoint machine;
+    if (const BlockStatus status = find_end(program, machine); !status.ok()) {
+        return status;
+    }
+    if (const BlockStatus status = check_reach(place_.machine, machine); !status.ok()) {
+        return status;
+    }
+    if (!nurbs_.accepts(weight)) {
+        return block_.at(Error::nurbs_weight_invalid, 'p');
+    }
+    nurbs_.add(space(machine), weight);
+    return {};
+}
+
+BlockStatus BlockInterpreter::end_nurbs() noexcept {
+    if (!nurbs_.is_open()) {
+        return block_.at(Error::nurbs_not_begun, CodeGroup::non_modal);
+    }
+    if (block_.has(CodeGroup::motion) || block_.has_any(Block::bits("xyzabcuvwlp"))) {
+        return block_.at(Error::nurbs_word, CodeGroup::non_modal);
+    }
+    if (!nurbs_.finish()) {
+        return block_.at(Error::nurbs_too_few_points, CodeGroup::non_modal);
+    }
+    const SpacePoint last = nurbs_.last();
+    AxisPoint machine = place_.machine;
+    machine[static_cast<unsigned>(letters_.index('x'))] = last[0];
+    machine[static_cast<unsigned>(letters_.index('y'))] = last[1];
+    plan_.kind = PlanKind::nurbs;
+    modal_.motion = ModalState::no_motion;
+    place_ = {frame_.to_program(machine), machine};
+    plan_.to = machine;
+    return {};
+}
+
+} // namespace splinefeed

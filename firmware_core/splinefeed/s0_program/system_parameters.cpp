@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// BlockInterpreter: the parameters of the control. Axes are numbered X Y Z A B C U V W. Lengths are in mm, but those that
+// follow the program (#5061, #5420) in its units.
+#include "splinefeed/s0_program/block_interpreter.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr std::string_view axis_order = "xyzabcuvw";
+constexpr std::int32_t system_step = 20;
+
+/// A number that stands for a value of one axis, or for something else of its block.
+struct Number {
+    std::int32_t block = 0; // its first number
+    std::int32_t index = 0; // from 0
+};
+
+constexpr std::int32_t probe_block = 5061;
+constexpr std::int32_t g28_block = 5161;
+constexpr std::int32_t g30_block = 5181;
+constexpr std::int32_t g92_block = 5210;
+constexpr std::int32_t system_block = 5220;
+constexpr std::int32_t input_number = 5399;
+constexpr std::int32_t tool_block = 5400;
+constexpr std::int32_t position_block = 5420;
+
+Number number_of(std::int32_t number) noexcept {
+    struct Range {
+        std::int32_t first;
+        std::int32_t last;
+    };
+    constexpr Range ranges[] = {{probe_block, 5070}, {g28_block, 5169},       {g30_block, 5189},
+                                {g92_block, 5219},   {system_block, 5390},    {input_number, input_number},
+                                {tool_block, 5413},  {position_block, 5428}};
+    for (const Range& range : ranges) {
+        if (number >= range.first && number <= range.last) {
+            return {range.first, number - range.first};
+        }
+    }
+    return {};
+}
+
+Decimal whole(std::int32_t value) noexcept {
+    return Decimal::from_integer(value);
+}
+
+} // namespace
+
+bool BlockInterpreter::owns(std::int32_t number) const noexcept {
+    return number_of(number).block != 0;
+}
+
+bool BlockInterpreter::can_write(std::int32_t number) const noexcept {
+    const Number place = number_of(number);
+    if (place.block == g28_block || place.block == g30_block) {
+        return true;
+    }
+    return place.block == system_block && place.index > 0 && (place.index - 1) % system_step < 10;
+}
+
+Decimal BlockInterpreter::read(std::int32_t number) const noexcept {
+    const Number place = number_of(number);
+    const WorkOffsets& offsets = frame_.offsets();
+    const auto of_axis = [&](const AxisPoint& point, std::int32_t index) -> Decimal {
+        const int axis = index >= 0 && index < 9 ? letters_.index(axis_order[static_cast<unsigned>(index)]) : -1;
+        return axis >= 0 ? point[static_cast<unsigned>(axis)] : Decimal{};
+    };
+    const auto in_units = [&](Decimal value, std::int32_t index) {
+        const bool length = index < 3 || index > 5;
+        return modal_.inches && length ? Decimal{product_quotient(value.raw, 10, 254).raw} : value;
+    };
+    switch (place.block) {
+    case probe_block:
+        return place.index == 9 ? whole(probe_contact_ ? 1 : 0)
+                                : in_units(of_axis(probe_at_, place.index), place.index);
+    case g28_block: return of_axis(offsets.g28, place.index);
+    case g30_block: return of_axis(offsets.g30, place.index);
+    case g92_block: return place.index == 0 ? whole(offsets.g92_applies ? 1 : 0) : of_axis(offsets.g92, place.index - 1);
+    case system_block: {
+        if (place.index == 0) {
+            return whole(offsets.active + 1);
+        }
+        const WorkSystem& system = offsets.systems[static_cast<unsigned>((place.index - 1) / system_step) % work_systems];
+        const std::int32_t index = (place.index - 1) % system_step;
+        return index == 9 ? system.rotation_deg : of_axis(system.origin, index);
+    }
+    case input_number: return input_;
+    case tool_block:
+        return place.index == 0 ? whole(offsets.tool_number)
+                                : in_units(of_axis(offsets.tool, place.index - 1), place.index - 1);
+    case position_block: return in_units(of_axis(place_.program, place.index), place.index);
+    default: return {};
+    }
+}
+
+bool BlockInterpreter::write(std::int32_t number, Decimal value) noexcept {
+    constexpr Decimal most = Decimal::from_integer(1 << 20);
+    if (!can_write(number) || value > most || value < -most) {
+        return false;
+    }
+    const Number place = number_of(number);
+    WorkOffsets& offsets = frame_.offsets();
+    const auto set_axis = [&](AxisPoint& point, std::int32_t index) {
+        const int axis = letters_.index(axis_order[static_cast<unsigned>(index)]);
+        if (axis >= 0) {
+            point[static_cast<unsigned>(axis)] = value;
+        }
+    };
+    if (place.block != system_block) {
+        set_axis(place.block == g28_block ? offsets.g28 : offsets.g30, place.index);
+    } else {
+        WorkSystem& system = offsets.systems[static_cast<unsigned>((place.index - 1) / system_step) % work_systems];
+        const std::int32_t index = (place.index - 1) % system_step;
+        if (index == 9) {
+            system.rotation_deg = value;
+        } else {
+            set_axis(system.origin, index);
+        }
+        frame_changed();
+    }
+    offsets_changed_ = true;
+    return true;
+}
+
+bool BlockInterpreter::read(std::string_view name, Decimal& out) const noexcept {
+    struct Flag {
+        std::string_view name;
+        bool value;
+    };
+    TextCursor text(name);
+    if (!text.take('_')) {
+        return false;
+    }
+    const TextCursor begin = text;
+    const auto is = [&](std::string_view word) {
+        text = begin;
+        return text.take(word) && text.at_end();
+    };
+    const Flag flags[] = {{"metric", !modal_.inches},          {"imperial", modal_.inches},
+                          {"absolute", !modal_.incremental},   {"incremental", modal_.incremental},
+                          {"inverse_time", modal_.inverse_time}, {"units_per_minute", !modal_.inverse_time},
+                          {"spindle_on", modal_.spindle != SpindleState::stopped},
+                          {"spindle_cw", modal_.spindle == SpindleState::clockwise}};
+    for (const Flag& flag : flags) {
+        if (is(flag.name)) {
+            out = whole(flag.value ? 1 : 0);
+            return true;
+        }
+    }
+    for (std::int32_t k = 0; k < 9; ++k) {
+        if (is(axis_order.substr(static_cast<std::size_t>(k), 1))) {
+            out = read(position_block + k);
+            return true;
+        }
+    }
+    if (is("feed")) {
+        out = modal_.inches ? Decimal{product_quotient(modal_.feed.raw, 10, 254).raw} : modal_.feed;
+    } else if (is("rpm")) {
+        out = modal_.speed;
+    } else if (is("line")) {
+        out = whole(static_cast<std::int32_t>(line_));
+    } else if (is("coord_system")) {
+        const std::int32_t active = frame_.offsets().active;
+        out = whole(active < 6 ? 540 + 10 * active : 585 + active);
+    } else if (is("motion_mode")) {
+        out = whole(modal_.motion);
+    } else if (is("plane")) {
+        out = whole(modal_.plane == Plane::xy ? 170 : modal_.plane == Plane::zx ? 180 : 190);
+    } else if (is("current_tool")) {
+        out = whole(frame_.offsets().tool_number);
+    } else if (is("selected_tool")) {
+        out = whole(modal_.selected_tool);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+} // namespace splinefeed

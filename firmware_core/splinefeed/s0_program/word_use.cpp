@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s0_program/word_use.hpp"
+
+#include "splinefeed/s0_program/decimal_text.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+constexpr std::uint32_t axis_bits = Block::bits("xyzabcuvw");
+constexpr std::uint32_t no_cycle_bits = Block::bits("abcuvwe");
+
+bool is_cycle(std::int16_t motion) noexcept {
+    return motion == 730 || (motion > 800 && motion <= 890);
+}
+
+bool is_arc(std::int16_t motion) noexcept {
+    return motion == 20 || motion == 30;
+}
+
+// The letters that the codes of the block take beside axes, F, S, T and N.
+std::uint32_t letters_used(const Block& block, std::int16_t motion) noexcept {
+    std::uint32_t used = Block::bits("fst");
+    const std::int16_t modeless = block.code(CodeGroup::non_modal);
+    const std::int16_t input_output = block.code(CodeGroup::input_output);
+    if (is_arc(motion)) {
+        used |= Block::bits("ijkpr");
+    } else if (motion == 50) {
+        used |= Block::bits("ijpq");
+    } else if (motion == 51) {
+        used |= Block::bits("ij");
+    } else if (motion == 52) {
+        used |= Block::bits("lp");
+    } else if (is_cycle(motion)) {
+        used |= Block::bits("lr");
+        used |= motion == 730 || motion == 830 ? Block::bits("q") : 0;
+        used |= motion == 820 || motion == 860 || motion == 890 ? Block::bits("p") : 0;
+    }
+    used |= modeless == 40 ? Block::bits("p") : modeless == 100 ? Block::bits("lpr") : 0;
+    used |= block.code(CodeGroup::path_mode) == 640 ? Block::bits("pq") : 0;
+    used |= block.code(CodeGroup::tool_length) == 430 ? Block::bits("h") : 0;
+    used |= block.code(CodeGroup::override_mode) >= 50 ? Block::bits("p") : 0;
+    used |= block.code(CodeGroup::tool_change) == 61 ? Block::bits("q") : 0;
+    if (input_output != Block::no_code) {
+        used |= input_output == 66 ? Block::bits("elpq") : Block::bits("p");
+    }
+    return used;
+}
+
+BlockStatus check_axes(const Block& block, const AxisLetters& letters, Dialect dialect) noexcept {
+    for (const char letter : {'x', 'y', 'z', 'a', 'b', 'c', 'u', 'v', 'w', 'e'}) {
+        const bool axis = letter != 'e' || dialect == Dialect::marlin;
+        if (axis && block.has(letter) && letters.index(letter) < 0) {
+            return block.at(Error::axis_missing, letter);
+        }
+    }
+    return {};
+}
+
+BlockStatus require_count(const Block& block, char letter, std::int32_t most, Error missing) noexcept {
+    std::int32_t number = 0;
+    if (!block.has(letter)) {
+        return {missing, 0, 0};
+    }
+    if (!to_integer(block.value(letter), number)) {
+        return block.at(Error::integer_needed, letter);
+    }
+    return number < 0 || number > most ? block.at(Error::count_out_of_range, letter) : BlockStatus{};
+}
+
+BlockStatus check_input(const Block& block) noexcept {
+    const bool analog = block.has('e');
+    std::int32_t wait = 0;
+    if (analog == block.has('p') || (block.has('l') && !to_integer(block.value('l'), wait)) || wait < 0 || wait > 4 ||
+        (analog && wait != 0) || block.value('q').raw < 0 || (wait > 0 && block.value('q').raw == 0)) {
+        return block.at(Error::input_word_invalid, CodeGroup::input_output);
+    }
+    return require_count(block, analog ? 'e' : 'p', 63, Error::input_word_invalid);
+}
+
+// Words that a code cannot do without.
+BlockStatus check_needs(const Block& block, Dialect dialect) noexcept {
+    constexpr std::int32_t most_outputs = 63;
+    constexpr std::int32_t most_tools = 99999;
+    const bool marlin = dialect == Dialect::marlin;
+    if (block.code(CodeGroup::non_modal) == 40) {
+        const bool has_time = block.has('p') || (marlin && block.has('s'));
+        if (!has_time || block.value('p').raw < 0 || (marlin && block.value('s').raw < 0)) {
+            return block.at(Error::dwell_invalid, CodeGroup::non_modal);
+        }
+    }
+    if (block.code(CodeGroup::non_modal) == 100) {
+        std::int32_t what = 0;
+        std::int32_t system = 0;
+        if (!to_integer(block.value('l'), what) || (what != 2 && what != 20) || !block.has('p') ||
+            !to_integer(block.value('p'), system) || system < 0 || system > 9 || (what == 20 && block.has('r'))) {
+            return block.at(Error::g10_invalid, CodeGroup::non_modal);
+        }
+    }
+    if (const std::int16_t code = block.code(CodeGroup::input_output); code != Block::no_code) {
+        const BlockStatus status =
+            code == 66 ? check_input(block) : require_count(block, 'p', most_outputs, Error::count_out_of_range);
+        if (!status.ok()) {
+            return status.column > 0 ? status : block.at(status.error, CodeGroup::input_output);
+        }
+    }
+    if (block.code(CodeGroup::tool_change) == 61) {
+        return require_count(block, 'q', most_tools, Error::tool_unknown);
+    }
+    return {};
+}
+
+BlockStatus find_axis_use(const Block& block, const ModalState& modal, bool axes, BlockUse& out) noexcept {
+    const std::int16_t motion = block.code(CodeGroup::motion);
+    const std::int16_t modeless = block.code(CodeGroup::non_modal);
+    const bool tool_offset = block.code(CodeGroup::tool_length) == 431;
+    const bool offsets =
+        tool_offset || modeless == 100 || modeless == 280 || modeless == 300 || modeless == 520 || modeless == 920;
+    if (offsets) {
+        if (motion != Block::no_code && motion != ModalState::no_motion) {
+            return block.at(Error::axis_words_twice, CodeGroup::motion);
+        }
+        if (tool_offset && modeless != Block::no_code && axes) {
+            return block.at(Error::axis_words_twice, CodeGroup::non_modal);
+        }
+        if (!axes && (modeless == 520 || modeless == 920 || tool_offset)) {
+            return block.at(Error::g92_axes_missing, tool_offset ? CodeGroup::tool_length : CodeGroup::non_modal);
+        }
+        out.axes = AxisUse::offsets;
+        return {};
+    }
+    if (motion == ModalState::no_motion) {
+        return axes ? block.at(Error::axis_word_unused, CodeGroup::motion) : BlockStatus{};
+    }
+    if (motion != Block::no_code) {
+        const bool free = motion <= 30 || motion == 52;
+        if (!axes && !free) {
+            return block.at(Error::axis_words_missing, CodeGroup::motion);
+        }
+        out.motion = motion;
+    } else if (axes) {
+        out.motion = modal.motion;
+        if (modal.motion == ModalState::no_motion) {
+            return {Error::axis_word_unused, 0, 0};
+        }
+    } else if (is_arc(modal.motion) && block.has_any(Block::bits("ijk"))) {
+        out.motion = modal.motion; // a whole turn by I and J alone
+    } else if (modal.motion == 52 && block.has('p')) {
+        out.motion = modal.motion;
+    }
+    out.axes = out.motion == ModalState::no_motion ? AxisUse::none : AxisUse::motion;
+    return {};
+}
+
+} // namespace
+
+BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLetters& letters, Dialect dialect,
+                     BlockUse& out) noexcept {
+    if (block.has(CodeGroup::printer)) { // its words are its own
+        for (unsigned group = 0; group < static_cast<unsigned>(CodeGroup::printer); ++group) {
+            if (block.has(static_cast<CodeGroup>(group))) {
+                return block.at(Error::modal_group_conflict, static_cast<CodeGroup>(group));
+            }
+        }
+        return {};
+    }
+    if (const BlockStatus status = check_axes(block, letters, dialect); !status.ok()) {
+        return status;
+    }
+    const bool marlin = dialect == Dialect::marlin;
+    const std::uint32_t axes = axis_bits | (marlin ? Block::bit('e') : 0);
+    if (const BlockStatus status = find_axis_use(block, modal, block.has_any(axes), out); !status.ok()) {
+        return status;
+    }
+    if (block.code(CodeGroup::non_modal) == 530) {
+        const bool incremental = block.has(CodeGroup::distance) ? block.code(CodeGroup::distance) == 910
+                                                                : modal.incremental;
+        if ((out.motion != 0 && out.motion != 10) || incremental) {
+            return block.at(Error::g53_unsuited, CodeGroup::non_modal);
+        }
+    }
+    if (is_cycle(out.motion) && block.has_any(no_cycle_bits)) {
+        return block.at(Error::cycle_axis_word, CodeGroup::motion);
+    }
+    const std::uint32_t unused = block.letters() & ~(axes | letters_used(block, out.motion));
+    for (char letter = 'a'; letter <= 'z' && unused != 0; ++letter) {
+        if ((unused & Block::bit(letter)) != 0) {
+            return block.at(Error::word_unused, letter);
+        }
+    }
+    return check_needs(block, dialect);
+}
+
+} // namespace splinefeed
