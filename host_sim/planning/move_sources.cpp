@@ -13,7 +13,7 @@ std::unique_ptr<MoveSource<S>> move_source(PathInput& input) {
         return std::make_unique<ElementMoves<S>>(*program, input.name());
     }
     if (const GcodeSettings* const settings = input.gcode()) {
-        return std::make_unique<GcodeMoves<S>>(*settings, input.name(), input.lines());
+        return gcode_moves<S>(*settings, input.name(), input.lines());
     }
     return std::make_unique<RowMoves<S>>(input);
 }

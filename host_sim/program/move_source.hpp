@@ -5,6 +5,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/program/program_action.hpp"
 
+#include "splinefeed/base/status.hpp"
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
 #include <chrono>
