@@ -27,7 +27,7 @@ public:
     void set(char letter, Decimal value, std::size_t column) noexcept {
         present_ |= bit(letter);
         values_[index(letter)] = value;
-        columns_[index(letter)] = static_cast<std::uint16_t>(column);
+        columns_[index(letter)] = static_cast<std::uint8_t>(column - 1);
     }
     [[nodiscard]] bool has(char letter) const noexcept { return (present_ & bit(letter)) != 0; }
     /// Whether it has one of the letters.
@@ -40,7 +40,7 @@ public:
 
     void set_code(CodeGroup group, std::int32_t code, std::size_t column) noexcept {
         codes_[static_cast<unsigned>(group)] = static_cast<std::int16_t>(code);
-        code_columns_[static_cast<unsigned>(group)] = static_cast<std::uint16_t>(column);
+        code_columns_[static_cast<unsigned>(group)] = static_cast<std::uint8_t>(column - 1);
     }
     /// Ten times the number of a G word, the number of an M word; no_code.
     [[nodiscard]] std::int16_t code(CodeGroup group) const noexcept { return codes_[static_cast<unsigned>(group)]; }
@@ -56,10 +56,10 @@ public:
 
     /// An error at a word of the block.
     [[nodiscard]] BlockStatus at(Error error, char letter) const noexcept {
-        return {error, has(letter) ? columns_[index(letter)] : std::uint16_t{0}, 0};
+        return {error, 0, static_cast<std::uint16_t>(has(letter) ? columns_[index(letter)] + 1 : 0)};
     }
     [[nodiscard]] BlockStatus at(Error error, CodeGroup group) const noexcept {
-        return {error, has(group) ? code_columns_[static_cast<unsigned>(group)] : std::uint16_t{0}, 0};
+        return {error, 0, static_cast<std::uint16_t>(has(group) ? code_columns_[static_cast<unsigned>(group)] + 1 : 0)};
     }
 
     [[nodiscard]] static constexpr std::uint32_t bit(char letter) noexcept { return 1U << index(letter); }
@@ -80,9 +80,9 @@ private:
     std::uint32_t present_ = 0;
     CommentKind comment_ = CommentKind::none;
     std::array<Decimal, 26> values_{};
-    std::array<std::uint16_t, 26> columns_{};
+    std::array<std::uint8_t, 26> columns_{}; // from 0
     std::array<std::int16_t, code_groups> codes_{};
-    std::array<std::uint16_t, code_groups> code_columns_{};
+    std::array<std::uint8_t, code_groups> code_columns_{};
     std::string_view text_{};
 };
 

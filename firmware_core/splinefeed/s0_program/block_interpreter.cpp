@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint8_t all_done = 255;
 
 // What is wrong is a word: its letters and digits.
-std::uint16_t word_length(std::string_view text, std::uint16_t column) noexcept {
+std::uint8_t word_length(std::string_view text, std::uint16_t column) noexcept {
     const auto is_part = [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == ' '; };
     std::size_t end = column;
     while (column > 0 && end < text.size() && is_part(text[end])) {
@@ -19,7 +19,7 @@ std::uint16_t word_length(std::string_view text, std::uint16_t column) noexcept 
     while (end > column && text[end - 1] == ' ') {
         --end;
     }
-    return static_cast<std::uint16_t>(column > 0 ? end + 1 - column : 0);
+    return static_cast<std::uint8_t>(column > 0 ? end + 1 - column : 0);
 }
 
 } // namespace
@@ -107,7 +107,7 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         status = execute();
     }
     if (!status.ok()) {
-        status.length = status.length > 0 ? status.length : word_length(text, status.column);
+        status.length = word_length(text, status.column);
         block_.clear();
         plan_ = {};
         stage_ = all_done;

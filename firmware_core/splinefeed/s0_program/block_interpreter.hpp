@@ -9,10 +9,12 @@
 #include "splinefeed/s0_program/program_arc.hpp"
 #include "splinefeed/s0_program/word_use.hpp"
 
+#include <variant>
+
 namespace splinefeed {
 
 /// Use it as Interpreter<S>.
-class BlockInterpreter : public SystemParameters {
+class BlockInterpreter {
 public:
     /// Longest line, without its end.
     static constexpr std::size_t longest_line = BlockReader::longest_line;
@@ -49,13 +51,6 @@ public:
     /// Where the last move ends, in machine coordinates.
     [[nodiscard]] PerAxis<Position> position() const noexcept;
 
-    // SystemParameters
-    [[nodiscard]] bool owns(std::int32_t number) const noexcept override;
-    [[nodiscard]] Decimal read(std::int32_t number) const noexcept override;
-    [[nodiscard]] bool can_write(std::int32_t number) const noexcept override;
-    bool write(std::int32_t number, Decimal value) noexcept override;
-    [[nodiscard]] bool read(std::string_view name, Decimal& out) const noexcept override;
-
 protected:
     [[nodiscard]] Pull next_step(ProgramStep& out) noexcept;
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
@@ -65,6 +60,8 @@ protected:
     [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
 
 private:
+    friend class SystemParameters;
+
     /// What a block may change and an error puts back.
     struct Place {
         AxisPoint program{}; // the master: moves do not accumulate errors of rotations
@@ -115,10 +112,9 @@ private:
     Block block_{};
     MotionPlan plan_{};
     AxisPoint emitted_{}; // where the moves that next() has given end
-    CannedCycle cycle_{};
     CycleWords cycle_words_{};
     NurbsCurve nurbs_{};
-    BezierPlan spline_{};
+    std::variant<CannedCycle, BezierPlan> series_{}; // of plan_: a cycle, or a spline
     PlanePoint spline_out_{}; // how G5 left its last end: P and Q
     AxisPoint probe_at_{};
     Decimal input_{};

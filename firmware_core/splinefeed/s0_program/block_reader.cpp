@@ -17,7 +17,7 @@ constexpr char upper(char c) noexcept {
 
 } // namespace
 
-BlockStatus BlockReader::read(std::string_view text, const SystemParameters& system, Block& out,
+BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& control, Block& out,
                               LineKind& kind) noexcept {
     out.clear();
     kind = LineKind::block;
@@ -26,24 +26,24 @@ BlockStatus BlockReader::read(std::string_view text, const SystemParameters& sys
         text.remove_suffix(1);
     }
     if (text.size() > longest_line) {
-        return {Error::line_too_long, longest_line + 1, 0};
+        return {Error::line_too_long, 0, longest_line + 1};
     }
     TextCursor cursor(text);
     if (cursor.take('%')) {
         kind = LineKind::percent;
-        return cursor.at_end() ? BlockStatus{} : BlockStatus{Error::character_invalid, cursor.column(), 1};
+        return cursor.at_end() ? BlockStatus{} : BlockStatus{Error::character_invalid, 1, cursor.column()};
     }
     if (settings_->dialect == Dialect::grbl && cursor.peek() == '$') {
         const std::uint16_t column = cursor.column();
         kind = LineKind::homing;
         const bool homing = cursor.take("$h") && cursor.at_end();
-        return homing ? BlockStatus{} : BlockStatus{Error::grbl_command_unsupported, column, 0};
+        return homing ? BlockStatus{} : BlockStatus{Error::grbl_command_unsupported, 0, column};
     }
     if (cursor.take('/') && settings_->block_delete) {
         kind = LineKind::left_out;
         return {};
     }
-    const Status status = read_words(cursor, system, out);
+    const Status status = read_words(cursor, control, out);
     std::uint32_t axes = 0;
     for (int k = 0; k < settings_->axes; ++k) {
         axes |= Block::bit(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'));
@@ -56,10 +56,10 @@ BlockStatus BlockReader::read(std::string_view text, const SystemParameters& sys
         kind = LineKind::left_out;
         return {};
     }
-    return status.ok() ? BlockStatus{} : BlockStatus{status.error(), cursor.column(), 0};
+    return status.ok() ? BlockStatus{} : BlockStatus{status.error(), 0, cursor.column()};
 }
 
-Status BlockReader::read_words(TextCursor& text, const SystemParameters& system, Block& out) noexcept {
+Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
     while (!text.at_end()) {
         const char c = text.peek();
         if (c == ';') {
@@ -72,10 +72,10 @@ Status BlockReader::read_words(TextCursor& text, const SystemParameters& system,
         if (c == '(') {
             status = read_comment(text, out);
         } else if (c == '#') {
-            status = evaluator_ != nullptr ? evaluator_->assignment(text, system)
+            status = evaluator_ != nullptr ? evaluator_->assignment(text, control)
                                            : Status(Error::expression_unsupported);
         } else if (is_letter(c)) {
-            status = read_word(text, system, out);
+            status = read_word(text, control, out);
         } else {
             status = Error::character_invalid;
         }
@@ -92,7 +92,7 @@ Status BlockReader::read_words(TextCursor& text, const SystemParameters& system,
     return {};
 }
 
-Status BlockReader::read_word(TextCursor& text, const SystemParameters& system, Block& out) noexcept {
+Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
     const std::size_t column = text.column();
     const char letter = text.peek();
     if (letter == 'o') {
@@ -101,7 +101,7 @@ Status BlockReader::read_word(TextCursor& text, const SystemParameters& system, 
     const TextCursor word = text;
     text.step();
     Decimal value;
-    if (const Status status = read_value(text, system, value); !status.ok()) {
+    if (const Status status = read_value(text, control, value); !status.ok()) {
         return status;
     }
     if (letter == 'n') {
@@ -125,7 +125,7 @@ Status BlockReader::read_word(TextCursor& text, const SystemParameters& system, 
     return {};
 }
 
-Status BlockReader::read_value(TextCursor& text, const SystemParameters& system, Decimal& out) noexcept {
+Status BlockReader::read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
     const char c = text.peek();
     const bool sign = c == '-' || c == '+';
     const char first = sign ? text.peek_second() : c;
@@ -139,7 +139,7 @@ Status BlockReader::read_value(TextCursor& text, const SystemParameters& system,
         text.step();
     }
     const TextCursor start = text;
-    Status status = evaluator_->value(text, system, out);
+    Status status = evaluator_->value(text, control, out);
     if (status.ok() && (out.raw > largest_number * Decimal::one || out.raw < -largest_number * Decimal::one)) {
         text = start;
         status = Error::number_out_of_range;

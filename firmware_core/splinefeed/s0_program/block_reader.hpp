@@ -26,12 +26,12 @@ public:
         : settings_(&settings), evaluator_(evaluator) {}
 
     /// @param text  without the end of the line, or with it
-    BlockStatus read(std::string_view text, const SystemParameters& system, Block& out, LineKind& kind) noexcept;
+    BlockStatus read(std::string_view text, const BlockInterpreter& control, Block& out, LineKind& kind) noexcept;
 
 private:
-    Status read_words(TextCursor& text, const SystemParameters& system, Block& out) noexcept;
-    Status read_word(TextCursor& text, const SystemParameters& system, Block& out) noexcept;
-    Status read_value(TextCursor& text, const SystemParameters& system, Decimal& out) noexcept;
+    Status read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
+    Status read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
+    Status read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept;
     Status read_comment(TextCursor& text, Block& out) const noexcept;
     Status read_checksum(TextCursor& text) const noexcept;
     Status add_code(char letter, Decimal value, TextCursor& text, std::size_t column, Block& out) noexcept;

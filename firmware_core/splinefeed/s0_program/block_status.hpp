@@ -10,8 +10,8 @@ namespace splinefeed {
 /// the word that it is about.
 struct [[nodiscard]] BlockStatus {
     Error error = Error::none;
+    std::uint8_t length = 0;  ///< characters of the word that is wrong, e.g. 3 for G41; 0: unknown
     std::uint16_t column = 0; ///< of the first character that is wrong, from 1; 0: the block as a whole
-    std::uint16_t length = 0; ///< characters of the word that is wrong, e.g. 3 for G41; 0: unknown
 
     [[nodiscard]] constexpr bool ok() const noexcept { return error == Error::none; }
 };

@@ -208,7 +208,9 @@ bool BlockInterpreter::next_motion(ProgramStep& out) noexcept {
     case PlanKind::bezier:
         fill_move(out, plan_.to);
         out.shape = MoveShape::bezier;
-        out.bezier = spline_;
+        if (const BezierPlan* spline = std::get_if<BezierPlan>(&series_); spline != nullptr) {
+            out.bezier = *spline;
+        }
         plan_.kind = PlanKind::none;
         return true;
     case PlanKind::nurbs: {
@@ -231,17 +233,24 @@ bool BlockInterpreter::next_motion(ProgramStep& out) noexcept {
 
 bool BlockInterpreter::next_in_cycle(ProgramStep& out) noexcept {
     AxisPoint at{};
-    const CycleStep step = cycle_.next(at);
+    CannedCycle* cycle = std::get_if<CannedCycle>(&series_);
+    const CycleStep step = cycle != nullptr ? cycle->next(at) : CycleStep::finished;
     switch (step) {
+    case CycleStep::lift:
+        plan_.move = MoveKind::rapid;
+        fill_move(out, frame_.to_machine(at));
+        return true;
     case CycleStep::rapid:
     case CycleStep::feed:
         plan_.move = step == CycleStep::rapid ? MoveKind::rapid : MoveKind::feed;
+        plan_.manner.mode = PathMode::exact_path;
+        plan_.manner.tolerance_mm = {};
         fill_move(out, frame_.to_machine(at));
         return true;
     case CycleStep::dwell:
         out.kind = ItemKind::dwell;
         out.stops_before = true;
-        out.dwell_s = cycle_.dwell_s();
+        out.dwell_s = cycle->dwell_s();
         return true;
     case CycleStep::spindle_stop:
     case CycleStep::spindle_start:

@@ -60,6 +60,7 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
     place_ = at;
     level_ = at[n];
     first_step_ = second_step_ = {};
+    start_ = {at[static_cast<unsigned>(axes_[0])], at[static_cast<unsigned>(axes_[1])]};
     clearance_ = words.clearance;
     bottom_ = words.depth;
     const std::array<Decimal*, 2> steps{&first_step_, &second_step_};
@@ -113,7 +114,11 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
     case Phase::lift:
         phase_ = Phase::across;
         level_ = clearance_;
-        return go(at, level_, CycleStep::rapid);
+        go(at, level_, CycleStep::rapid);
+        for (unsigned k = 0; k < 2; ++k) {
+            at[static_cast<unsigned>(axes_[k])] = start_[k];
+        }
+        return CycleStep::lift;
     case Phase::across:
         place_[static_cast<unsigned>(axes_[0])] += first_step_;
         place_[static_cast<unsigned>(axes_[1])] += second_step_;
@@ -139,10 +144,14 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
             hole_step_ = 2;
             return CycleStep::spindle_stop;
         }
+        if (hole_step_ == 0 && code_ == 850) { // it leaves the hole by feed
+            hole_step_ = 1;
+            return go(at, clearance_, CycleStep::feed);
+        }
         --repeats_;
         level_ = clear_;
         phase_ = code_ == 860 ? Phase::restart : repeats_ > 0 ? Phase::across : Phase::finished;
-        return go(at, clear_, code_ == 850 || code_ == 890 ? CycleStep::feed : CycleStep::rapid);
+        return go(at, clear_, code_ == 890 ? CycleStep::feed : CycleStep::rapid);
     case Phase::restart:
         phase_ = repeats_ > 0 ? Phase::across : Phase::finished;
         return CycleStep::spindle_start;
@@ -160,7 +169,7 @@ CycleStep CannedCycle::next_peck(AxisPoint& at) noexcept {
         return go(at, depth_, CycleStep::feed);
     }
     if (step == 1) {
-        return go(at, clear_, CycleStep::rapid);
+        return go(at, clearance_, CycleStep::rapid);
     }
     hole_step_ = 0;
     const Decimal above = depth_ + peck_clearance;

@@ -7,8 +7,8 @@
 
 namespace splinefeed {
 
-/// What a cycle does next.
-enum class CycleStep : std::uint8_t { rapid, feed, dwell, spindle_stop, spindle_start, finished };
+/// What a cycle does next. A lift is a rapid before the cycle proper: it is blended as other moves are.
+enum class CycleStep : std::uint8_t { lift, rapid, feed, dwell, spindle_stop, spindle_start, finished };
 
 /// Words that stay in effect while the motion word does. In mm; Z and R as programmed, so increments under G91.
 struct CycleWords {
@@ -48,6 +48,7 @@ private:
     std::int32_t repeats_ = 0;
     std::array<std::int8_t, 3> axes_{}; // first, second, normal
     AxisPoint place_{};                 // across
+    std::array<Decimal, 2> start_{};    // where it was before
     Decimal first_step_{};
     Decimal second_step_{};
     Decimal level_{}; // where the normal axis stands

@@ -2,7 +2,8 @@
 #include "splinefeed/s0_program/code_table.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
+#include <iterator>
 
 namespace splinefeed {
 
@@ -23,7 +24,7 @@ struct Row {
 using enum CodeGroup;
 
 // By tenths.
-constexpr std::array g_rows{
+constexpr Row g_rows[] = {
     Row{0, 30, motion, Error::none, in_both},
     Row{40, 40, non_modal, Error::none, in_both},
     Row{50, 51, motion, Error::none, in_marlin},
@@ -84,7 +85,7 @@ constexpr std::array g_rows{
     Row{990, 990, retract},
 };
 
-constexpr std::array m_rows{
+constexpr Row m_rows[] = {
     Row{0, 2, stop, Error::none, in_both},
     Row{3, 5, spindle, Error::none, in_both},
     Row{6, 6, tool_change, Error::none, in_marlin},
@@ -102,16 +103,10 @@ constexpr std::array m_rows{
 };
 
 // Of printers; others are refused as unknown.
-constexpr std::array printer_codes{std::int16_t{17},  std::int16_t{18},  std::int16_t{73},  std::int16_t{82},
-                                   std::int16_t{83},  std::int16_t{84},  std::int16_t{104}, std::int16_t{105},
-                                   std::int16_t{106}, std::int16_t{107}, std::int16_t{109}, std::int16_t{110},
-                                   std::int16_t{115}, std::int16_t{117}, std::int16_t{140}, std::int16_t{141},
-                                   std::int16_t{190}, std::int16_t{191}, std::int16_t{201}, std::int16_t{203},
-                                   std::int16_t{204}, std::int16_t{205}, std::int16_t{220}, std::int16_t{221},
-                                   std::int16_t{300}, std::int16_t{400}, std::int16_t{900}};
+constexpr std::int16_t printer_codes[] = {17, 18, 73, 82, 83, 84, 104, 105, 106, 107, 109, 110, 115, 117, 140, 141, 190, 191, 201, 203, 204, 205, 220, 221, 300, 400, 900};
 
 template <std::size_t n>
-CodeInfo find(const std::array<Row, n>& rows, std::int32_t code, std::int32_t step, Dialect dialect) noexcept {
+CodeInfo find(const Row (&rows)[n], std::int32_t code, std::int32_t step, Dialect dialect) noexcept {
     for (const Row& row : rows) {
         if (code < row.code) {
             break;
@@ -142,7 +137,7 @@ CodeInfo find_g_code(std::int32_t tenths, Dialect dialect) noexcept {
 
 CodeInfo find_m_code(std::int32_t number, Dialect dialect) noexcept {
     if (dialect == Dialect::marlin &&
-        std::find(printer_codes.begin(), printer_codes.end(), number) != printer_codes.end()) {
+        std::find(std::begin(printer_codes), std::end(printer_codes), number) != std::end(printer_codes)) {
         return {printer, Error::none};
     }
     return find(m_rows, number, 1, dialect);

@@ -7,6 +7,7 @@
 #include "splinefeed/s0_program/decimal_text.hpp"
 #include "splinefeed/s0_program/elementary.hpp"
 #include "splinefeed/s0_program/operation.hpp"
+#include "splinefeed/s0_program/system_parameters.hpp"
 
 namespace splinefeed {
 
@@ -15,8 +16,8 @@ namespace {
 /// Reads values; holds what they refer to.
 class Parser {
 public:
-    Parser(TextCursor& text, const SystemParameters& system, const ParameterTable& table) noexcept
-        : text_(text), system_(system), table_(table) {}
+    Parser(TextCursor& text, const BlockInterpreter& control, const ParameterTable& table) noexcept
+        : text_(text), system_(control), table_(table) {}
 
     /// A value: a number, #..., [...] or a function, with a sign or without.
     Status value(Decimal& out, int depth) noexcept {
@@ -176,23 +177,23 @@ private:
     }
 
     TextCursor& text_;
-    const SystemParameters& system_;
+    SystemParameters system_;
     const ParameterTable& table_;
 };
 
 } // namespace
 
-Status Expression::value(TextCursor& text, const SystemParameters& system, Decimal& out) noexcept {
-    return Parser(text, system, *table_).value(out, 0);
+Status Expression::value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
+    return Parser(text, control, *table_).value(out, 0);
 }
 
-Status Expression::assignment(TextCursor& text, const SystemParameters& system) noexcept {
+Status Expression::assignment(TextCursor& text, const BlockInterpreter& control) noexcept {
     const TextCursor start = text;
     if (count_ == most_assignments) {
         return Error::too_many_assignments;
     }
     Assignment& next = assignments_[static_cast<unsigned>(count_)];
-    Parser parser(text, system, *table_);
+    Parser parser(text, control, *table_);
     if (const Status status = parser.parameter_name(next.number, next.name, 0); !status.ok()) {
         return status;
     }
@@ -203,8 +204,8 @@ Status Expression::assignment(TextCursor& text, const SystemParameters& system) 
         return status;
     }
     Decimal unused;
-    if (next.number > 0 ? system.owns(next.number) && !system.can_write(next.number)
-                        : system.read(next.name, unused)) {
+    if (next.number > 0 ? SystemParameters::owns(next.number) && !SystemParameters::can_write(next.number)
+                        : SystemParameters(control).read(next.name, unused)) {
         text = start;
         return Error::parameter_read_only;
     }
@@ -212,12 +213,12 @@ Status Expression::assignment(TextCursor& text, const SystemParameters& system) 
     return {};
 }
 
-Status Expression::commit(SystemParameters& system) noexcept {
+Status Expression::commit(BlockInterpreter& control) noexcept {
     Status status;
     for (int i = 0; i < count_ && status.ok(); ++i) {
         const Assignment& of = assignments_[static_cast<unsigned>(i)];
         const bool written = of.number > 0
-                                 ? (system.owns(of.number) ? system.write(of.number, of.value)
+                                 ? (SystemParameters::owns(of.number) ? SystemParameters::write(control, of.number, of.value)
                                                            : table_->write(of.number, of.value))
                                  : table_->write(of.name, of.value);
         status = written ? Status{} : Status(Error::parameter_storage_full);

@@ -21,9 +21,9 @@ public:
     /// `table` must outlive it.
     explicit Expression(ParameterTable& table) noexcept : table_(&table) {}
 
-    Status value(TextCursor& text, const SystemParameters& system, Decimal& out) noexcept override;
-    Status assignment(TextCursor& text, const SystemParameters& system) noexcept override;
-    Status commit(SystemParameters& system) noexcept override;
+    Status value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept override;
+    Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept override;
+    Status commit(BlockInterpreter& control) noexcept override;
     void discard() noexcept override { count_ = 0; }
 
 private:

@@ -48,4 +48,9 @@ private:
     PerAxis<Position> piece_end_{};
 };
 
+// The core is compiled without run-time type information: its virtual tables stay there.
+extern template class Interpreter<double>;
+extern template class Interpreter<float>;
+extern template class Interpreter<Fixed>;
+
 } // namespace splinefeed

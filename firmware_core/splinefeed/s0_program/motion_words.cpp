@@ -187,15 +187,14 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
 
 BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {
     const AxisPoint at = place_.program;
-    if (const BlockStatus status = cycle_.begin(block_, modal_, before, letters_, at, cycle_words_); !status.ok()) {
+    CannedCycle& cycle = series_.emplace<CannedCycle>();
+    if (const BlockStatus status = cycle.begin(block_, modal_, before, letters_, at, cycle_words_); !status.ok()) {
         return status;
     }
     plan_.kind = PlanKind::cycle;
-    plan_.manner.mode = PathMode::exact_path;
-    plan_.manner.tolerance_mm = {};
-    const AxisPoint end = cycle_.end();
+    const AxisPoint end = cycle.end();
     AxisPoint bottom = end;
-    bottom[static_cast<unsigned>(letters_.index(letters_of(modal_.plane).axes[2]))] = cycle_.bottom();
+    bottom[static_cast<unsigned>(letters_.index(letters_of(modal_.plane).axes[2]))] = cycle.bottom();
     if (const BlockStatus status = check_reach(place_.machine, frame_.to_machine(bottom)); !status.ok()) {
         return status;
     }

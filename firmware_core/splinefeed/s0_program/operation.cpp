@@ -3,7 +3,6 @@
 
 #include "splinefeed/s0_program/elementary.hpp"
 
-#include <array>
 
 namespace splinefeed {
 
@@ -11,7 +10,7 @@ namespace {
 
 constexpr Decimal equal_within{1000}; // 1e-6
 
-constexpr std::array operators{
+constexpr OperatorRow operators[] = {
     OperatorRow{"**", Operator::power, 5},      OperatorRow{"*", Operator::times, 4},
     OperatorRow{"/", Operator::divided, 4},     OperatorRow{"mod", Operator::modulo, 4},
     OperatorRow{"+", Operator::plus, 3},        OperatorRow{"-", Operator::minus, 3},
@@ -22,7 +21,7 @@ constexpr std::array operators{
     OperatorRow{"xor", Operator::logic_xor, 1},
 };
 
-constexpr std::array functions{
+constexpr FunctionRow functions[] = {
     FunctionRow{"sin", Function::sine},   FunctionRow{"cos", Function::cosine}, FunctionRow{"tan", Function::tangent},
     FunctionRow{"asin", Function::asin},  FunctionRow{"acos", Function::acos},  FunctionRow{"atan", Function::atan},
     FunctionRow{"sqrt", Function::root},  FunctionRow{"abs", Function::abs},    FunctionRow{"exp", Function::exp},

@@ -51,19 +51,19 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
         point[j] += offset.second;
         return space(frame_.to_machine(point));
     };
-    spline_.rational = false;
-    spline_.degree = cubic ? 3 : 2;
-    spline_.points[0] = space(place_.machine);
-    spline_.points[1] = at(place_.program, start);
+    BezierPlan& spline = series_.emplace<BezierPlan>();
+    spline.degree = cubic ? 3 : 2;
+    spline.points[0] = space(place_.machine);
+    spline.points[1] = at(place_.program, start);
     if (cubic) {
         spline_out_ = {modal_.in_mm(block_.value('p')), modal_.in_mm(block_.value('q'))};
-        spline_.points[2] = at(program, spline_out_);
+        spline.points[2] = at(program, spline_out_);
     }
-    spline_.points[static_cast<unsigned>(spline_.degree)] = space(machine);
+    spline.points[static_cast<unsigned>(spline.degree)] = space(machine);
     plan_.kind = PlanKind::bezier;
-    for (unsigned n = 1; n < static_cast<unsigned>(spline_.degree); ++n) {
+    for (unsigned n = 1; n < static_cast<unsigned>(spline.degree); ++n) {
         for (unsigned k = 0; k < 3; ++k) {
-            const Decimal way = spline_.points[n][k] - spline_.points[0][k];
+            const Decimal way = spline.points[n][k] - spline.points[0][k];
             if (way > longest_spline || way < -longest_spline) {
                 return block_.at(Error::move_too_long, CodeGroup::motion);
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// BlockInterpreter: the parameters of the control. Axes are numbered X Y Z A B C U V W. Lengths are in mm, but those that
+// Axes are numbered X Y Z A B C U V W. Lengths are in mm, but those that
 // follow the program (#5061, #5420) in its units.
-#include "splinefeed/s0_program/block_interpreter.hpp"
+#include "splinefeed/s0_program/system_parameters.hpp"
 
 namespace splinefeed {
 
@@ -47,11 +47,11 @@ Decimal whole(std::int32_t value) noexcept {
 
 } // namespace
 
-bool BlockInterpreter::owns(std::int32_t number) const noexcept {
+bool SystemParameters::owns(std::int32_t number) noexcept {
     return number_of(number).block != 0;
 }
 
-bool BlockInterpreter::can_write(std::int32_t number) const noexcept {
+bool SystemParameters::can_write(std::int32_t number) noexcept {
     const Number place = number_of(number);
     if (place.block == g28_block || place.block == g30_block) {
         return true;
@@ -59,21 +59,24 @@ bool BlockInterpreter::can_write(std::int32_t number) const noexcept {
     return place.block == system_block && place.index > 0 && (place.index - 1) % system_step < 10;
 }
 
-Decimal BlockInterpreter::read(std::int32_t number) const noexcept {
+Decimal SystemParameters::of_axis(const AxisPoint& point, std::int32_t index) const noexcept {
+    const int axis =
+        index >= 0 && index < 9 ? interpreter_->letters_.index(axis_order[static_cast<unsigned>(index)]) : -1;
+    return axis >= 0 ? point[static_cast<unsigned>(axis)] : Decimal{};
+}
+
+Decimal SystemParameters::in_units(Decimal value, std::int32_t index) const noexcept {
+    const bool length = index < 3 || index > 5;
+    return interpreter_->modal_.inches && length ? Decimal{product_quotient(value.raw, 10, 254).raw} : value;
+}
+
+Decimal SystemParameters::read(std::int32_t number) const noexcept {
     const Number place = number_of(number);
-    const WorkOffsets& offsets = frame_.offsets();
-    const auto of_axis = [&](const AxisPoint& point, std::int32_t index) -> Decimal {
-        const int axis = index >= 0 && index < 9 ? letters_.index(axis_order[static_cast<unsigned>(index)]) : -1;
-        return axis >= 0 ? point[static_cast<unsigned>(axis)] : Decimal{};
-    };
-    const auto in_units = [&](Decimal value, std::int32_t index) {
-        const bool length = index < 3 || index > 5;
-        return modal_.inches && length ? Decimal{product_quotient(value.raw, 10, 254).raw} : value;
-    };
+    const WorkOffsets& offsets = interpreter_->frame_.offsets();
     switch (place.block) {
     case probe_block:
-        return place.index == 9 ? whole(probe_contact_ ? 1 : 0)
-                                : in_units(of_axis(probe_at_, place.index), place.index);
+        return place.index == 9 ? whole(interpreter_->probe_contact_ ? 1 : 0)
+                                : in_units(of_axis(interpreter_->probe_at_, place.index), place.index);
     case g28_block: return of_axis(offsets.g28, place.index);
     case g30_block: return of_axis(offsets.g30, place.index);
     case g92_block: return place.index == 0 ? whole(offsets.g92_applies ? 1 : 0) : of_axis(offsets.g92, place.index - 1);
@@ -85,24 +88,24 @@ Decimal BlockInterpreter::read(std::int32_t number) const noexcept {
         const std::int32_t index = (place.index - 1) % system_step;
         return index == 9 ? system.rotation_deg : of_axis(system.origin, index);
     }
-    case input_number: return input_;
+    case input_number: return interpreter_->input_;
     case tool_block:
         return place.index == 0 ? whole(offsets.tool_number)
                                 : in_units(of_axis(offsets.tool, place.index - 1), place.index - 1);
-    case position_block: return in_units(of_axis(place_.program, place.index), place.index);
+    case position_block: return in_units(of_axis(interpreter_->place_.program, place.index), place.index);
     default: return {};
     }
 }
 
-bool BlockInterpreter::write(std::int32_t number, Decimal value) noexcept {
+bool SystemParameters::write(BlockInterpreter& interpreter, std::int32_t number, Decimal value) noexcept {
     constexpr Decimal most = Decimal::from_integer(1 << 20);
     if (!can_write(number) || value > most || value < -most) {
         return false;
     }
     const Number place = number_of(number);
-    WorkOffsets& offsets = frame_.offsets();
+    WorkOffsets& offsets = interpreter.frame_.offsets();
     const auto set_axis = [&](AxisPoint& point, std::int32_t index) {
-        const int axis = letters_.index(axis_order[static_cast<unsigned>(index)]);
+        const int axis = interpreter.letters_.index(axis_order[static_cast<unsigned>(index)]);
         if (axis >= 0) {
             point[static_cast<unsigned>(axis)] = value;
         }
@@ -117,13 +120,13 @@ bool BlockInterpreter::write(std::int32_t number, Decimal value) noexcept {
         } else {
             set_axis(system.origin, index);
         }
-        frame_changed();
+        interpreter.frame_changed();
     }
-    offsets_changed_ = true;
+    interpreter.offsets_changed_ = true;
     return true;
 }
 
-bool BlockInterpreter::read(std::string_view name, Decimal& out) const noexcept {
+bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept {
     struct Flag {
         std::string_view name;
         bool value;
@@ -137,11 +140,11 @@ bool BlockInterpreter::read(std::string_view name, Decimal& out) const noexcept 
         text = begin;
         return text.take(word) && text.at_end();
     };
-    const Flag flags[] = {{"metric", !modal_.inches},          {"imperial", modal_.inches},
-                          {"absolute", !modal_.incremental},   {"incremental", modal_.incremental},
-                          {"inverse_time", modal_.inverse_time}, {"units_per_minute", !modal_.inverse_time},
-                          {"spindle_on", modal_.spindle != SpindleState::stopped},
-                          {"spindle_cw", modal_.spindle == SpindleState::clockwise}};
+    const Flag flags[] = {{"metric", !interpreter_->modal_.inches},          {"imperial", interpreter_->modal_.inches},
+                          {"absolute", !interpreter_->modal_.incremental},   {"incremental", interpreter_->modal_.incremental},
+                          {"inverse_time", interpreter_->modal_.inverse_time}, {"units_per_minute", !interpreter_->modal_.inverse_time},
+                          {"spindle_on", interpreter_->modal_.spindle != SpindleState::stopped},
+                          {"spindle_cw", interpreter_->modal_.spindle == SpindleState::clockwise}};
     for (const Flag& flag : flags) {
         if (is(flag.name)) {
             out = whole(flag.value ? 1 : 0);
@@ -155,22 +158,22 @@ bool BlockInterpreter::read(std::string_view name, Decimal& out) const noexcept 
         }
     }
     if (is("feed")) {
-        out = modal_.inches ? Decimal{product_quotient(modal_.feed.raw, 10, 254).raw} : modal_.feed;
+        out = interpreter_->modal_.inches ? Decimal{product_quotient(interpreter_->modal_.feed.raw, 10, 254).raw} : interpreter_->modal_.feed;
     } else if (is("rpm")) {
-        out = modal_.speed;
+        out = interpreter_->modal_.speed;
     } else if (is("line")) {
-        out = whole(static_cast<std::int32_t>(line_));
+        out = whole(static_cast<std::int32_t>(interpreter_->line_));
     } else if (is("coord_system")) {
-        const std::int32_t active = frame_.offsets().active;
+        const std::int32_t active = interpreter_->frame_.offsets().active;
         out = whole(active < 6 ? 540 + 10 * active : 585 + active);
     } else if (is("motion_mode")) {
-        out = whole(modal_.motion);
+        out = whole(interpreter_->modal_.motion);
     } else if (is("plane")) {
-        out = whole(modal_.plane == Plane::xy ? 170 : modal_.plane == Plane::zx ? 180 : 190);
+        out = whole(interpreter_->modal_.plane == Plane::xy ? 170 : interpreter_->modal_.plane == Plane::zx ? 180 : 190);
     } else if (is("current_tool")) {
-        out = whole(frame_.offsets().tool_number);
+        out = whole(interpreter_->frame_.offsets().tool_number);
     } else if (is("selected_tool")) {
-        out = whole(modal_.selected_tool);
+        out = whole(interpreter_->modal_.selected_tool);
     } else {
         return false;
     }
