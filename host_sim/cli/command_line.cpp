@@ -138,6 +138,9 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
         app.add_option(kind.option, job.run.outputs.of_segments[i], kind.help)->group(group);
     }
     app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments")->group(group);
+    app.add_option("--elements", job.run.outputs.elements,
+                   "E.json: the programmed path as elements; of G-code and elements")
+        ->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
     app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error")
         ->group(group)
@@ -241,6 +244,7 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
         files.emplace_back(segment_output_kinds()[i].option, &job.run.outputs.of_segments[i]);
     }
     files.emplace_back("--curve-out", &job.run.outputs.curve);
+    files.emplace_back("--elements", &job.run.outputs.elements);
     const char* on_stdout = nullptr;
     std::error_code ignored;
     for (std::size_t i = 0; i < files.size(); ++i) {

@@ -65,7 +65,7 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
                 std::rethrow_exception(tee_.failure());
             }
             steps_.begin(segment, machine_.cycle_time_s());
-            feeder_.passed(segment.waypoint);
+            pass(segment.waypoint);
             if (!execute(segment)) {
                 break;
             }
@@ -218,6 +218,20 @@ bool Motion<S>::dwell(FeedSegment& segment) {
     return true;
 }
 
+// The motion comes to a row: what is known of those before it can be forgotten.
+template <Scalar S>
+void Motion<S>::pass(std::uint32_t row) {
+    if (row == row_) {
+        return;
+    }
+    row_ = row;
+    feeder_.passed(row);
+    line_ = input_->gcode() != nullptr ? feeder_.line_of_row(row) : 0;
+    if (outputs_->trace() != nullptr) {
+        outputs_->trace()->set_line(line_);
+    }
+}
+
 // Gives the curve one more waypoint, or tells it that there are none.
 template <Scalar S>
 void Motion<S>::read() {
@@ -273,12 +287,33 @@ template <Scalar S>
 void Motion<S>::measure(const typename CurveFeeder<S>::Pushed& pushed) {
     const auto& program = pushed.program;
     steps_.add(program);
+    if (ElementWriter* const writer = outputs_->elements()) {
+        write(program, *writer);
+    }
     if (program.start) {
         deviation_.start(program.position);
         exact_stop_.start(program.position);
     } else if (program.move != nullptr) {
         deviation_.move(program.move->programmed, program.move->line);
         exact_stop_.move(program.move->programmed);
+    }
+}
+
+template <Scalar S>
+void Motion<S>::write(const typename ElementFeeder<S>::Pushed& pushed, ElementWriter& writer) {
+    if (pushed.start) {
+        writer.start(pushed.position);
+    }
+    if (const SourceStep<S>* const move = pushed.move) {
+        const double feed = move->rapid ? 0.0 : move->programmed.feed_mm_s;
+        writer.move({&move->programmed, move->rapid, feed, move->line});
+    }
+    if (const SourceStep<S>* const step = pushed.step) {
+        if (step->kind == StepKind::dwell) {
+            writer.dwell(step->dwell_s, step->line);
+        } else {
+            writer.event(step->action, step->line);
+        }
     }
 }
 
@@ -380,6 +415,7 @@ Summary Motion<S>::summary() const {
         summary.tolerance = tolerance_summary();
     }
     summary.program = steps_.summary();
+    summary.program.line = line_;
     summary.limit_share = share_.shares();
     summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
     summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};

@@ -73,6 +73,8 @@ private:
     bool execute(FeedSegment& segment);
     void keep_failure(const std::exception_ptr& failure);
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
+    void pass(std::uint32_t row);
+    void write(const typename ElementFeeder<S>::Pushed& pushed, ElementWriter& writer);
     void require_tolerance();
     [[nodiscard]] std::string excess() const;
     [[nodiscard]] ToleranceSummary tolerance_summary() const;
@@ -99,7 +101,9 @@ private:
     std::vector<OperatorEvent> events_;
     std::size_t operated_ = 0; // events that have acted so far
     Clock::duration planning_{};
-    std::string stopped_; // why the run stopped before its end
+    std::string stopped_;              // why the run stopped before its end
+    std::optional<std::uint32_t> row_; // of the last segment
+    std::uint64_t line_ = 0;           // of that row; 0: unknown
     std::uint64_t segments_ = 0;
     std::uint64_t rests_ = 0; // number of instants at which all axes stood still
     bool read_all_ = false;

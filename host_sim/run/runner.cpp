@@ -188,7 +188,7 @@ int move_machine(const RunArguments& arguments) {
         target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
         supervision.emplace(*target, *signals);
     }
-    Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine);
+    Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
     Motion<S> motion(arguments.motion, machine, *limits, input, path_limits, outputs,
                      supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
