@@ -37,8 +37,8 @@ MODES = (("P 0.01", 0.01), ("P 0.05", 0.05), ("G61", None))
 PRINTER = re.compile(r"^\s*(M10[4-9]|M140|M190|M8[2-4]|M117|G28|M20[1-5]|M73|M115|T\d)\b", re.I)
 
 
-def machine_text(axes, jerk):
-    text = "sample_period_us = 1000\n\n[path]\nmax_feed_mm_s = 100\n"
+def machine_text(axes, jerk, period):
+    text = f"sample_period_us = {period}\n\n[path]\nmax_feed_mm_s = 100\n"
     for axis in axes:
         text += f'\n[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n'
         text += f"max_jerk_mm_s3 = {jerk}\n" if jerk else ""
@@ -68,6 +68,7 @@ def main():
     parser.add_argument("--judge", type=pathlib.Path)
     parser.add_argument("--jerk", type=float, help="mm/s^3 of each axis")
     parser.add_argument("--scalar", default="fixed")
+    parser.add_argument("--period", type=int, default=1000, help="sample_period_us")
     parser.add_argument("--only", nargs="*")
     options = parser.parse_args()
     tool = options.build / "bin" / "splinefeed"
@@ -84,7 +85,7 @@ def main():
             text = (options.folder / name).read_text(errors="replace")
             text = without_printer(text) if name.endswith(".gcode") else text
             axes = "xyza" if re.search(r"^[^(;]*\bA[-+.\d]", text, re.M) else "xyz"
-            (at / "machine.toml").write_text(machine_text(axes, options.jerk))
+            (at / "machine.toml").write_text(machine_text(axes, options.jerk, options.period))
             cells = []
             for k, (_, tolerance) in enumerate(MODES):
                 (at / "program.ngc").write_text(in_mode(text, tolerance))
@@ -122,6 +123,9 @@ def judge(options, at, name, tolerance):
     problems = []
     if found["path_error_feed_mm"] > programmed + 0.001:
         problems.append(f"{found['path_error_feed_mm']:.5f} mm from the path at line {found['path_error_line']}")
+    for key in ("corner_error_mm", "coverage_mm"):
+        if found[key] > max(programmed, 0.1) + 0.001: # a corner of rapids has 0.1
+            problems.append(f"{key} {found[key]:.5f}")
     if found["stops.missed"]:
         problems.append(f"stops missed: {found['stops.missed_lines']}")
     if found["dwell.shortest"] < 0.999:
