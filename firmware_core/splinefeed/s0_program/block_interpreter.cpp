@@ -12,14 +12,19 @@ constexpr std::uint8_t all_done = 255;
 // What is wrong is a word: its letters and digits.
 std::uint8_t word_length(std::string_view text, std::uint16_t column) noexcept {
     const auto is_part = [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == ' '; };
+    if (column == 0 || column > text.size()) {
+        return 0;
+    }
+    const char first = text[column - 1U];
+    const bool is_letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
     std::size_t end = column;
-    while (column > 0 && end < text.size() && is_part(text[end])) {
+    while (is_letter && end < text.size() && is_part(text[end])) {
         ++end;
     }
     while (end > column && text[end - 1] == ' ') {
         --end;
     }
-    return static_cast<std::uint8_t>(column > 0 ? end + 1 - column : 0);
+    return static_cast<std::uint8_t>(end + 1 - column);
 }
 
 } // namespace

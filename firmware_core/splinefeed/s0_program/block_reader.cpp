@@ -101,7 +101,11 @@ Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control,
     const TextCursor word = text;
     text.step();
     Decimal value;
+    const char first = text.peek();
     if (const Status status = read_value(text, control, value); !status.ok()) {
+        if (first != '#' && first != '[' && !is_letter(first)) {
+            text = word; // a plain number: the word is wrong; else the place within the expression is
+        }
         return status;
     }
     if (letter == 'n') {

@@ -217,6 +217,15 @@ Result<Decimal> power(Decimal base, Decimal exponent) noexcept {
     if (base.raw < 0 && exponent.raw % Decimal::one != 0) {
         return Error::power_invalid;
     }
+    constexpr std::int64_t most_products = 63;
+    if (base.raw % Decimal::one == 0 && exponent.raw % Decimal::one == 0 && exponent.raw > 0 &&
+        exponent.raw <= most_products * Decimal::one) { // whole powers of whole numbers are exact
+        detail::Checked product{Decimal::one, true};
+        for (std::int64_t i = 0; i < exponent.raw / Decimal::one && product.fits; ++i) {
+            product = product_quotient(product.raw, base.raw, static_cast<std::uint64_t>(Decimal::one));
+        }
+        return product.fits ? Result<Decimal>(Decimal{product.raw}) : Result<Decimal>(Error::result_out_of_range);
+    }
     const detail::Checked q56 = product_quotient(logarithm_q56(detail::magnitude(base.raw)), exponent.raw,
                                                  static_cast<std::uint64_t>(Decimal::one));
     if (!q56.fits) {

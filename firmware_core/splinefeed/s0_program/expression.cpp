@@ -76,8 +76,9 @@ public:
 private:
     static constexpr std::int32_t most_parameters = 5602;
 
+    // Behind a [, up to its ].
     Status bracketed(Decimal& out, int depth) noexcept {
-        if (const Status status = level(out, 1, depth); !status.ok()) {
+        if (const Status status = level(out, 1, depth + 1); !status.ok()) {
             return status;
         }
         return text_.take(']') ? Status{} : Status(text_.at_end() ? Error::bracket_missing : Error::operator_unknown);
@@ -85,7 +86,7 @@ private:
 
     // A value, and what operators of this level and stronger ones make of it.
     Status level(Decimal& out, int lowest, int depth) noexcept {
-        Status status = value(out, depth + 1);
+        Status status = value(out, depth);
         while (status.ok()) {
             TextCursor ahead = text_;
             const OperatorRow* found = take_operator(ahead);
@@ -141,7 +142,7 @@ private:
             return exists(out, depth);
         }
         Decimal argument;
-        Status status = bracketed(argument, depth + 1);
+        Status status = bracketed(argument, depth);
         if (!status.ok()) {
             return status;
         }
@@ -150,7 +151,7 @@ private:
             if (!text_.take('/') || !text_.take('[')) {
                 return Error::atan_needs_two;
             }
-            status = bracketed(other, depth + 1);
+            status = bracketed(other, depth);
             out = angle_of(other, argument);
             return status;
         }

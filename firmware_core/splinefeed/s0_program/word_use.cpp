@@ -140,6 +140,9 @@ BlockStatus find_axis_use(const Block& block, const ModalState& modal, bool axes
         out.motion = motion;
     } else if (axes) {
         out.motion = modal.motion;
+        if (modal.motion == ModalState::no_motion && modeless == 530) {
+            return block.at(Error::g53_unsuited, CodeGroup::non_modal);
+        }
         if (modal.motion == ModalState::no_motion) {
             return {Error::axis_word_unused, 0, 0};
         }

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Every wrong use of a word is refused, at the word, and nothing of its block happens.
+#include "support/gcode.hpp"
+
+using namespace splinefeed_test;
+
+namespace {
+
+struct Case {
+    const char* line;
+    Error error;
+    int column; // 0: the block
+};
+
+} // namespace
+
+TEST_CASE("what does not belong together is refused", "[program][refusals]") {
+    const Case cases[] = {
+        {"X1", Error::axis_word_unused, 0},
+        {"G80 X1", Error::axis_word_unused, 1},
+        {"G4 X1", Error::axis_word_unused, 0},
+        {"M2 X1", Error::axis_word_unused, 0},
+        {"G1 X1 U2", Error::axis_missing, 7},
+        {"G1 G92 X1", Error::axis_words_twice, 1},
+        {"G28 G1 X1", Error::axis_words_twice, 5},
+        {"G1 G43.1 Z1", Error::axis_words_twice, 1},
+        {"G38.2 F10", Error::axis_words_missing, 1},
+        {"G81 R1", Error::axis_words_missing, 1},
+        {"G92", Error::g92_axes_missing, 1},
+        {"G52", Error::g92_axes_missing, 1},
+        {"G43.1", Error::g92_axes_missing, 1},
+        {"G1 X1 K2", Error::word_unused, 7},
+        {"G1 X1 P2", Error::word_unused, 7},
+        {"G61 P1", Error::word_unused, 5},
+        {"G1 X1 D3", Error::word_unused, 7},
+        {"G1 X1 H3", Error::word_unused, 7},
+        {"G81 X1 Z-1 R1 P2", Error::word_unused, 15},
+        {"G1 X1 L2", Error::word_unused, 7},
+        {"G4", Error::dwell_invalid, 1},
+        {"G4 P-1", Error::dwell_invalid, 1},
+        {"G1 X1", Error::feed_missing, 1},
+        {"G1 X1 F0", Error::feed_missing, 1},
+        {"F-3", Error::feed_negative, 1},
+        {"F0.001", Error::feed_out_of_range, 1},
+        {"S-5", Error::speed_negative, 1},
+        {"T-1", Error::tool_unknown, 1},
+        {"T1.5", Error::tool_unknown, 1},
+        {"G43 H33", Error::tool_unknown, 5},
+        {"M61", Error::tool_unknown, 0},
+        {"G64 P-1", Error::tolerance_out_of_range, 5},
+        {"G64 P101", Error::tolerance_out_of_range, 5},
+        {"G53 X1", Error::g53_unsuited, 1},
+        {"G0 G91 G53 X1", Error::g53_unsuited, 8},
+        {"G10 L3 P1 X1", Error::g10_invalid, 1},
+        {"G10 L2 X1", Error::g10_invalid, 1},
+        {"G10 L2 P10 X1", Error::g10_invalid, 1},
+        {"G10 L20 P1 R3", Error::g10_invalid, 1},
+        {"G10 L2 P1 X2000000", Error::position_out_of_range, 1},
+        {"G0 X1100000", Error::position_out_of_range, 4},
+        {"G0 X70000", Error::move_too_long, 4},
+        {"G0 X99999999", Error::position_out_of_range, 4},
+        {"M62", Error::count_out_of_range, 1},
+        {"M64 P64", Error::count_out_of_range, 5},
+        {"M65 P0.5", Error::integer_needed, 5},
+        {"M66", Error::input_word_invalid, 1},
+        {"M66 P1 E1", Error::input_word_invalid, 1},
+        {"M66 P1 L1", Error::input_word_invalid, 1},
+        {"M66 E1 L1 Q1", Error::input_word_invalid, 1},
+        {"G2 X1 Y1 F100", Error::arc_centre_missing, 1},
+        {"G2 X1 R1 I1 F100", Error::arc_centre_and_radius, 7},
+        {"G2 X1 I1 K1 F100", Error::arc_offset_unused, 10},
+        {"G90.1 G2 X1 I1 F100", Error::arc_centre_missing, 13},
+        {"G2 X1 I0 J0 F100", Error::arc_radius_zero, 7},
+        {"G2 X1 I1 F100", Error::arc_radius_zero, 7},
+        {"G2 X1 I3 F100", Error::arc_radius_mismatch, 7},
+        {"G3 X1 Y1 R0.1 F100", Error::arc_radius_too_small, 10},
+        {"G2 R1 F100", Error::arc_end_is_start, 4},
+        {"G2 X0 Y0 R1 F100", Error::arc_end_is_start, 10},
+        {"G2 X2 I1 P2.5 F100", Error::arc_turns_invalid, 10},
+        {"G2 X2 I1 P0 F100", Error::arc_turns_invalid, 10},
+        {"G81 X1 R1 F100", Error::cycle_depth_missing, 1},
+        {"G81 X1 Z-1 F100", Error::cycle_radius_missing, 1},
+        {"G81 X1 Z1 R0 F100", Error::cycle_below_depth, 11},
+        {"G83 X1 Z-1 R1 F100", Error::cycle_peck_invalid, 12},
+        {"G73 X1 Z-1 R1 Q0 F100", Error::cycle_peck_invalid, 15},
+        {"G83 X1 Z-1 R1 Q0.00001 F100", Error::cycle_peck_invalid, 15},
+        {"G82 X1 Z-1 R1 F100", Error::cycle_dwell_missing, 1},
+        {"G81 X1 Z-1 R1 L0 F100", Error::cycle_repeats_invalid, 15},
+        {"G81 X1 Z-1 R1 L2.5 F100", Error::cycle_repeats_invalid, 15},
+        {"G81 X1 A1 Z-1 R1 F100", Error::cycle_axis_word, 1},
+        {"G86 X1 Z-1 R1 P1 F100", Error::cycle_spindle_stopped, 1},
+        {"G93 G81 X1 Z-1 R1 F100", Error::inverse_feed_cycle, 5},
+        {"G93 G1 X1", Error::inverse_feed_missing, 5},
+        {"G93 G38.2 X1 F3", Error::probe_inverse_time, 5},
+        {"G18 G5 X1 Y1 I1 J1 P1 Q1 F100", Error::spline_plane, 5},
+        {"G5 X1 Y1 Z1 I1 J1 P1 Q1 F100", Error::spline_axis_word, 1},
+        {"G5 X1 Y1 P1 Q1 F100", Error::spline_offset_missing, 1},
+        {"G5 X1 Y1 I1 P1 Q1 F100", Error::spline_offset_missing, 1},
+        {"G5 X1 Y1 I1 J1 P1 F100", Error::spline_end_missing, 1},
+        {"G5.1 X1 Y1 I0 J0 F100", Error::spline_offset_missing, 12},
+        {"G5.2 X1 F100", Error::nurbs_word, 1},
+        {"G5.2 X1 Y1 P0 F100", Error::nurbs_weight_invalid, 12},
+        {"G5.2 X1 Y1 P100 F100", Error::nurbs_weight_invalid, 12},
+        {"G5.2 X1 Y1 L7 F100", Error::nurbs_order_invalid, 12},
+        {"G5.3", Error::nurbs_not_begun, 1},
+        {"G17.1", Error::plane_unsupported, 1},
+        {"G33 Z1 K1", Error::thread_unsupported, 1},
+        {"G76 Z1", Error::thread_unsupported, 1},
+        {"G7", Error::lathe_unsupported, 1},
+        {"G71", Error::lathe_unsupported, 1},
+        {"G84 Z1", Error::tapping_unsupported, 1},
+        {"G87 Z1", Error::boring_unsupported, 1},
+        {"G95", Error::feed_per_revolution_unsupported, 1},
+        {"G96 S3", Error::surface_speed_unsupported, 1},
+        {"G43.2 H1", Error::tool_offset_sum_unsupported, 1},
+        {"M19", Error::spindle_orientation_unsupported, 1},
+        {"M67 E1 Q2", Error::analog_output_unsupported, 1},
+        {"M70", Error::modal_state_unsupported, 1},
+        {"M98", Error::subprogram_unsupported, 1},
+        {"M101", Error::user_code_unsupported, 1},
+    };
+    for (const Case& of : cases) {
+        GcodeRun<double> run;
+        run.run("G0 X0");
+        run.run("G80");
+        const WorkOffsets offsets = run.interpreter().offsets();
+        const PerAxis<Position> position = run.interpreter().position();
+        const BlockStatus status = run.push(of.line);
+        CAPTURE(of.line, describe(status.error));
+        CHECK(status.error == of.error);
+        CHECK(static_cast<int>(status.column) == of.column);
+        CHECK(run.interpreter().offsets() == offsets);
+        CHECK(run.interpreter().position() == position);
+        CHECK(run.interpreter().modal().feed.raw == 0);
+        CHECK(run.last("G0 X1") == "rapid 1 0 0"); // and the program can go on
+    }
+}
+
+TEST_CASE("a NURBS takes nothing else until it is ended", "[program][refusals]") {
+    GcodeRun<double> run;
+    run.run("F100 G5.2 X1 Y1");
+    CHECK(run.push("G1 X2").error == Error::nurbs_not_ended);
+    CHECK(run.push("M2").error == Error::nurbs_not_ended);
+    CHECK(run.push("G5.3").error == Error::nurbs_too_few_points);
+    CHECK(run.push("X3").error == Error::nurbs_word);
+    CHECK(run.push("X3 Y3 L4").error == Error::nurbs_order_invalid);
+    CHECK(run.push("X3 Y3 P65").error == Error::nurbs_weight_invalid);
+    CHECK(run.push("X3 Y3").ok());
+    CHECK(run.last("G5.3") == "feed bezier 3 3 0 degree 2");
+}
+
+TEST_CASE("every error has a sentence of its own", "[program][refusals]") {
+    for (int error = 0; error <= static_cast<int>(Error::block_pending); ++error) {
+        const std::string sentence = describe(static_cast<Error>(error));
+        CAPTURE(error, sentence);
+        CHECK(sentence != "unknown error");
+        CHECK(sentence.size() > 7);
+    }
+}
