@@ -21,7 +21,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
                               LineKind& kind) noexcept {
     out.clear();
     kind = LineKind::block;
-    ignored_code_ = false;
+    ignored_code_ = ignored_axis_ = false;
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
         text.remove_suffix(1);
     }
@@ -47,6 +47,11 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
     std::uint32_t axes = 0;
     for (int k = 0; k < settings_->axes; ++k) {
         axes |= Block::bit(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'));
+    }
+    const bool only_ignored = ignored_axis_ && !out.has_any(axes);
+    if (only_ignored && out.code(CodeGroup::non_modal) == 920) { // G92 E0 of a printer, where E is left out
+        kind = LineKind::left_out;
+        return {};
     }
     bool other_codes = out.has_any(axes);
     for (unsigned group = 0; group < code_groups; ++group) {
@@ -119,6 +124,7 @@ Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control,
         return status;
     }
     if (is_ignored(upper(letter), value)) {
+        ignored_axis_ = true;
         return {};
     }
     if (out.has(letter)) {

@@ -40,6 +40,7 @@ private:
     const ProgramSettings* settings_;
     WordEvaluator* evaluator_;
     bool ignored_code_ = false; // the block has a G or M word that is left out
+    bool ignored_axis_ = false; // the block has another one
 };
 
 } // namespace splinefeed
