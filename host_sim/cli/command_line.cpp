@@ -31,6 +31,7 @@ struct Typed {
     std::string format;
     std::string summary;
     std::string window = "1024";
+    bool json = false; ///< of check
 };
 
 std::string joined(std::initializer_list<std::string_view> names) {
@@ -286,6 +287,19 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_curve_options(*plan, job, typed);
     add_gcode_options(*plan, job);
     plan->footer(std::string("Example: splinefeed plan part.csv --curve catmull-rom --summary json\n") + exit_statuses);
+    CLI::App* const check =
+        app.add_subcommand("check", "Say what is wrong with a program in G-code, and how long it takes");
+    add_input(*check, job, typed);
+    check->add_option("-m,--machine", typed.machine,
+                      "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
+    check->add_option("--tolerance", job.run.path.curve.tolerance,
+                      "MM: of G64 without P, 0 to 100 (default: the machine file's)");
+    add_gcode_options(*check, job);
+    check->add_option("--scalar", typed.scalar,
+                      "fixed, float or double: number type of the computation (default fixed)");
+    check->add_flag("--json", typed.json, "print one JSON object")->disable_flag_override();
+    check->footer("Example: splinefeed check part.ngc -m three_axis.toml\n"
+                  "Exit status: 0 nothing is wrong; 1 the program has problems; 2 it cannot be read, or bad usage.");
     CLI::App* const curve = app.add_subcommand("curve", "Print the curve through the points as Bezier segments");
     add_input(*curve, job, typed);
     add_curve_options(*curve, job, typed);
@@ -311,7 +325,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_link_options(*link, job.link);
     link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
                  exit_statuses);
-    for (CLI::App* const command : {run, plan, curve, surface, drive, link}) {
+    for (CLI::App* const command : {run, plan, check, curve, surface, drive, link}) {
         for (CLI::Option* const option : command->get_options()) {
             option->type_name(""); // the descriptions say what a value may be
         }
@@ -323,7 +337,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
 } // namespace
 
 std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
-    constexpr std::array<std::string_view, 6> commands{"run", "plan", "curve", "surface", "drive", "link"};
+    constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curve", "surface", "drive", "link"};
     Job job;
     Typed typed;
     CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
@@ -379,9 +393,10 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (typed.machine && job.run.machine.empty()) {
         throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
     }
-    job.command = command.get_name() == "run"    ? Command::run
-                  : command.get_name() == "plan" ? Command::plan
-                                                 : Command::curve;
+    job.command = command.get_name() == "run"     ? Command::run
+                  : command.get_name() == "plan"  ? Command::plan
+                  : command.get_name() == "check" ? Command::check
+                                                  : Command::curve;
     job.run.motion.enforce = job.command == Command::run;
     check_target(job.run.target);
     if ((job.run.options.home || job.run.options.probe) && job.run.target == "sim") {
@@ -393,7 +408,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));
     take_window(job, typed.window);
-    take_outputs(job, command, typed.summary);
+    take_outputs(job, command, typed.json ? "json" : typed.summary);
     if (job.command == Command::curve && job.run.outputs.curve.empty()) {
         job.run.outputs.curve = "-";
     }

@@ -24,13 +24,15 @@ struct GcodeSettings {
     std::vector<IgnoredWord> ignored;
     bool block_delete = false;
     bool optional_stop = false;
-    bool simulated = true;           ///< a simulated machine has a spindle, coolant, and everything else
-    double tolerance_mm = 0.01;      ///< of G64 without P
-    double rapid_tolerance_mm = 0.1; ///< between rapids
-    double max_feed_mm_s = 0.0;      ///< of moves with a feed, along the linear axes; 0: none
-    bool mixed = false;              ///< the machine has linear and rotary axes
-    std::vector<std::string> axes;   ///< names: x, y, z, a, b, c
-    PerAxis<Position> start{};       ///< where the machine stands, in its own coordinates
+    bool simulated = true;                        ///< a simulated machine has a spindle, coolant, and everything else
+    double tolerance_mm = 0.01;                   ///< of G64 without P
+    double rapid_tolerance_mm = 0.1;              ///< between rapids
+    double max_feed_mm_s = 0.0;                   ///< of moves with a feed, along the linear axes; 0: none
+    bool mixed = false;                           ///< the machine has linear and rotary axes
+    std::vector<std::string> axes;                ///< names: x, y, z, a, b, c
+    std::vector<std::string>* problems = nullptr; ///< gets what is wrong with lines, which are left out; null: the
+                                                  ///< first one ends the program
+    PerAxis<Position> start{};                    ///< where the machine stands, in its own coordinates
 };
 
 /// The names of --dialect.

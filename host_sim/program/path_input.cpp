@@ -182,6 +182,12 @@ void PathInput::limit_feed(double max_feed_mm_s, bool mixed) noexcept {
     }
 }
 
+void PathInput::collect_problems(std::vector<std::string>* problems) noexcept {
+    if (gcode_) {
+        gcode_->problems = problems;
+    }
+}
+
 std::unique_ptr<SourceLines> PathInput::lines() {
     auto lines = std::make_unique<LineReader>(path_, name_);
     return read_ahead_ ? std::unique_ptr<SourceLines>(std::make_unique<LineQueue>(std::move(lines))) : std::move(lines);

@@ -61,6 +61,8 @@ public:
     /// Of a program in G-code: the largest feed of its moves that are no rapids. @param mixed  the machine has linear
     /// and rotary axes
     void limit_feed(double max_feed_mm_s, bool mixed) noexcept;
+    /// Of a program in G-code: wrong lines are left out, and told to `problems` (null: they end the program).
+    void collect_problems(std::vector<std::string>* problems) noexcept;
     /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.
     [[nodiscard]] bool lines_within_tolerance() const noexcept { return lines_within_tolerance_; }
     /// Whether the path follows moves within a tolerance: one of the three above.

@@ -27,7 +27,7 @@ Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& de
                   const MotionLimits<S>& limits, PathInput& input, const PathLimits& path_limits, Outputs& outputs,
                   Supervision* target)
     : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), limits_(&limits),
-      input_(&input), outputs_(&outputs), target_(target),
+      input_(&input), outputs_(&outputs), report_(arguments.report), target_(target),
       deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>), exact_stop_(description.settings),
       optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
       steps_(limits, !arguments.quiet), feeder_(input),
@@ -59,6 +59,9 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
             if (!execute(segment)) {
                 break;
             }
+            if (report_ != nullptr) {
+                report_->stood(steps_.line(), segment.duration_ticks / (ticks_per_us * 1e6));
+            }
             steps_.stood(segment);
         } else if (pull(segment)) {
             if (segments_ == 0 && tee_.failure()) {
@@ -68,6 +71,9 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
             pass(segment.waypoint);
             if (!execute(segment)) {
                 break;
+            }
+            if (report_ != nullptr) {
+                report_->moved(segment.waypoint, segment.duration_ticks / (ticks_per_us * 1e6), share_.bound());
             }
             progress.update(feeder_.rows(), machine_.cycle_time_s());
         } else if (trajectory_.state() == Pull::held) {
@@ -287,6 +293,9 @@ template <Scalar S>
 void Motion<S>::measure(const typename CurveFeeder<S>::Pushed& pushed) {
     const auto& program = pushed.program;
     steps_.add(program);
+    if (report_ != nullptr) {
+        tell(program, *report_);
+    }
     if (ElementWriter* const writer = outputs_->elements()) {
         write(program, *writer);
     }
@@ -314,6 +323,20 @@ void Motion<S>::write(const typename ElementFeeder<S>::Pushed& pushed, ElementWr
         } else {
             writer.event(step->action, step->line);
         }
+    }
+}
+
+template <Scalar S>
+void Motion<S>::tell(const typename ElementFeeder<S>::Pushed& pushed, ProgramReport& report) {
+    if (pushed.start) {
+        report.start(pushed.position);
+    }
+    if (pushed.move != nullptr) {
+        report.move(pushed.move->programmed, pushed.move->rapid, pushed.move->line);
+    }
+    const EventKind kind = pushed.step != nullptr ? pushed.step->action.kind : EventKind::message;
+    if (pushed.step != nullptr && (kind == EventKind::tool_change || kind == EventKind::tool_set)) {
+        report.tool(pushed.step->action.number);
     }
 }
 

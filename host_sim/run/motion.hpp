@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/analysis/exact_stop_time.hpp"
+#include "host_sim/analysis/program_report.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/planning/planned_trajectory.hpp"
@@ -27,6 +28,7 @@ struct MotionArguments {
     std::string events;              ///< file of an operator's actions; empty: none
     bool enforce = true;             ///< the simulated machine stops if a limit is broken
     bool quiet = false;              ///< writes nothing on standard error
+    ProgramReport* report = nullptr; ///< gets the moves of a program and their times; null: nobody does
 };
 
 /// One run. A waypoint is read only when the planner has no segment left.
@@ -75,6 +77,7 @@ private:
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
     void pass(std::uint32_t row);
     void write(const typename ElementFeeder<S>::Pushed& pushed, ElementWriter& writer);
+    void tell(const typename ElementFeeder<S>::Pushed& pushed, ProgramReport& report);
     void require_tolerance();
     [[nodiscard]] std::string excess() const;
     [[nodiscard]] ToleranceSummary tolerance_summary() const;
@@ -86,6 +89,7 @@ private:
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
+    ProgramReport* report_;
     Supervision* target_; // null: only the simulated machine
     WaypointError error_;
     PathDeviation deviation_;

@@ -36,6 +36,8 @@ public:
     /// @param position_mm  of the axes
     [[nodiscard]] const PendingStep* reached(std::optional<std::uint32_t> row, const PerAxis<double>& position_mm,
                                              int axes) const noexcept;
+    /// @pre not empty
+    [[nodiscard]] const PendingStep& first() const noexcept { return steps_.front(); }
     /// Removes the first step. @pre not empty
     PendingStep take();
 

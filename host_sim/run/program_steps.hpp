@@ -30,6 +30,8 @@ public:
     /// The machine stands at `position_mm`: steps that are due happen. Returns whether it has to stand for one more
     /// segment.
     [[nodiscard]] bool stands(const PerAxis<double>& position_mm, double time_s);
+    /// Line of the step for which the machine stands; 0: unknown. @pre stands() was true
+    [[nodiscard]] std::uint64_t line() const noexcept { return pending_.first().line; }
     /// It stood for this segment. @pre stands() was true
     void stood(const FeedSegment& segment);
     /// Standstill where the program begins, for a machine that has not moved yet. @pre stands() was true

@@ -4,11 +4,11 @@
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/config/machine_file.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/supervision.hpp"
 #include "host_sim/target/run_target.hpp"
 #include "host_sim/targets/target_table.hpp"
@@ -132,28 +132,6 @@ Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& tar
     return limits;
 }
 
-/// Without a jerk limit a jump of the curvature costs nothing: exact paths stay as they are.
-PathTolerances tolerances_of(const MachineDescription& machine) {
-    PathTolerances tolerances = machine.tolerances;
-    if (!(axis_totals(machine.settings).smoothest > 0.0)) {
-        tolerances.joint_mm = 0.0;
-    }
-    return tolerances;
-}
-
-/// Along a diagonal of all linear axes, or of the rotary ones where there are no others: what moves with a feed may not
-/// exceed is then a limit of each move.
-double fastest_rapid_mm_s(const MachineSettings& machine) {
-    constexpr double most = 10000.0; // as a machine file may state
-    double linear_sq = 0.0;
-    double rotary_sq = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
-        const double v = machine.axis[k].max_velocity_mm_s;
-        (machine.axis[k].rotary ? rotary_sq : linear_sq) += v * v;
-    }
-    return std::clamp(std::sqrt(linear_sq > 0.0 ? linear_sq : rotary_sq), machine.max_feed_mm_s, most);
-}
-
 template <Scalar S>
 int move_machine(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.
@@ -161,19 +139,14 @@ int move_machine(const RunArguments& arguments) {
     if (arguments.target != "sim") {
         signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     }
-    MachineDescription machine = arguments.machine.empty() ? default_machine() : read_machine_file(arguments.machine);
-    const double max_feed_mm_s = machine.settings.max_feed_mm_s;
-    if (arguments.path.format->is_gcode()) {
-        machine.settings.max_feed_mm_s = fastest_rapid_mm_s(machine.settings);
-    }
+    RunMachine of(arguments.machine, *arguments.path.format);
+    MachineDescription& machine = of.machine;
     auto limits = MotionLimits<S>::make(machine.settings);
     if (!limits.has_value()) {
         throw InputError(machine.file, 0, describe(limits.error()));
     }
-    const auto axes = static_cast<std::size_t>(machine.settings.axes);
-    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed,
-                    {machine.axis_name.begin(), machine.axis_name.begin() + axes}, tolerances_of(machine));
-    input.limit_feed(max_feed_mm_s, limits->mixed);
+    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
+    input.limit_feed(of.max_feed_mm_s, limits->mixed);
     warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;

@@ -137,10 +137,15 @@ void GcodeMoves<S>::read_line() {
     }
     const std::string_view text = without_comment(line_.text, Interpreter<S>::longest_line);
     const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
-    if (!status.ok()) {
-        throw InputError(file_, line_.number, std::uint64_t{status.column},
-                         in_the_line(status) + describe(status.error));
+    if (status.ok()) {
+        return;
     }
+    const InputError error(file_, line_.number, std::uint64_t{status.column},
+                           in_the_line(status) + describe(status.error));
+    if (settings_->problems == nullptr) {
+        throw error;
+    }
+    settings_->problems->emplace_back(error.what());
 }
 
 // One line at a time: whoever waits for a pipe wants to know after each.
