@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything of the core that a program needs to turn a stream of waypoints or moves into feed segments, and feed
+// Everything of the core that a program needs to turn a stream of waypoints, moves or G-code into feed segments, and feed
 // segments into steps. It does not include the curves that need all points at once (splines/), nor surfaces.
 #pragma once
 
@@ -11,6 +11,10 @@
 #include "splinefeed/s1_curve/g2_spline.hpp"
 #include "splinefeed/s1_curve/polyline.hpp"
 #include "splinefeed/s1_curve/smoothed_curve.hpp"
+
+// G-code to lines, arcs and events.
+#include "splinefeed/s0_program/expression.hpp"
+#include "splinefeed/s0_program/interpreter.hpp"
 
 // Lines and arcs to curves within a tolerance.
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"

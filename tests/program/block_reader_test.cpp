@@ -23,8 +23,9 @@ std::string said(Error error, int column, int length) {
 
 TEST_CASE("words in any case and spacing, with comments", "[program][reader]") {
     for (const char* const line :
-         {"G1X1.5Y-2Z.5", "g 1 x 1 . 5 y - 2 z . 5", "N10 G01 Z0.5 Y-2 X1.5", "\tG1 X1.5 (a comment) Y-2 Z+0.5 ; and more",
-          "G1 X1.5 Y-2 Z.5\r\n", "X[3/2] G1 (Y7) Y-[1+1] Zsin[30]", "/G1 X1.5 Y-2 Z.5", "N99999999 G1 X1.5 Y-2 Z.5"}) {
+         {"G1X1.5Y-2Z.5", "g 1 x 1 . 5 y - 2 z . 5", "N10 G01 Z0.5 Y-2 X1.5",
+          "\tG1 X1.5 (a comment) Y-2 Z+0.5 ; and more", "G1 X1.5 Y-2 Z.5\r\n", "X[3/2] G1 (Y7) Y-[1+1] Zsin[30]",
+          "/G1 X1.5 Y-2 Z.5", "N99999999 G1 X1.5 Y-2 Z.5"}) {
         GcodeRun<double> run;
         run.run("F100");
         CAPTURE(line);
@@ -47,12 +48,12 @@ TEST_CASE("messages", "[program][reader]") {
 
 TEST_CASE("% begins and ends a program", "[program][reader]") {
     GcodeRun<double> run;
-    CHECK(run.text("%\nG0 X1\n%\nG0 X500") == "rapid 1 0 0\nevent " +
-              std::to_string(static_cast<int>(EventKind::program_end)) + " stop 0 0");
+    CHECK(run.text("%\nG0 X1\n%\nG0 X500") ==
+          "rapid 1 0 0\nevent " + std::to_string(static_cast<int>(EventKind::program_end)) + " stop 0 0");
     CHECK(run.interpreter().has_ended());
     run.interpreter().restart();
-    CHECK(run.text("G0 X2\nM2\nX3") == "rapid 2 0 0\nevent " +
-              std::to_string(static_cast<int>(EventKind::program_end)) + " stop 2 0");
+    CHECK(run.text("G0 X2\nM2\nX3") ==
+          "rapid 2 0 0\nevent " + std::to_string(static_cast<int>(EventKind::program_end)) + " stop 2 0");
 }
 
 TEST_CASE("block delete", "[program][reader]") {
@@ -78,8 +79,8 @@ TEST_CASE("wrong text is refused at its place", "[program][reader]") {
     CHECK(refused("M12") == said(Error::m_code_unknown, 1, 3));
     CHECK(refused("X1 G41 D3") == said(Error::cutter_radius_unsupported, 4, 3));
     CHECK(refused("G1 X1e3") == said(Error::word_unused, 6, 2));
-    CHECK(refused("G1 X" + std::string(300, '1')) == said(Error::line_too_long, 257, 1));
-    CHECK(refused("G1 X" + std::string(200, '1')) == said(Error::number_out_of_range, 4, 201));
+    CHECK(refused(std::string("G1 X").append(300, '1')) == said(Error::line_too_long, 257, 1));
+    CHECK(refused(std::string("G1 X").append(200, '1')) == said(Error::number_out_of_range, 4, 201));
     CHECK(refused("o100 sub") == said(Error::o_word, 1, 4));
     CHECK(refused("G1 X1 % 2") == said(Error::character_invalid, 7, 1));
     CHECK(refused("% 2", six_axes(), "G0") == said(Error::character_invalid, 3, 1));

@@ -6,6 +6,7 @@
 #include "support/rounds.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <random>
 #include <string>
 
@@ -35,8 +36,8 @@ TEST_CASE("numbers are read exactly", "[program][decimal]") {
     CHECK(read("0.00000000049").raw == 0); // and only the tenth
     CHECK(read("-0.9999999995").raw == -1'000'000'000);
     CHECK(read("100000000").raw == 100'000'000 * Decimal::one);
-    CHECK(read(std::string(300, '0') + "7").raw == 7 * Decimal::one);
-    CHECK(read("0." + std::string(300, '3')).raw == 333'333'333);
+    CHECK(read(std::string(300, '0').append(1, '7')).raw == 7 * Decimal::one);
+    CHECK(read(std::string("0.").append(300, '3')).raw == 333'333'333);
     read("", Error::number_invalid);
     read("-", Error::number_invalid);
     read(".", Error::number_invalid);
@@ -51,12 +52,13 @@ TEST_CASE("every decimal of nine digits is read as itself", "[program][decimal]"
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     for (int i = 0; i < rounds(20000); ++i) {
-        const auto raw = static_cast<std::int64_t>(random() % (200'000'000ULL * 1'000'000'000ULL)) -
-                         100'000'000LL * 1'000'000'000LL;
+        const auto raw =
+            static_cast<std::int64_t>(random() % (200'000'000ULL * 1'000'000'000ULL)) - 100'000'000LL * 1'000'000'000LL;
         const auto size = static_cast<std::uint64_t>(raw < 0 ? -raw : raw);
-        std::string part = std::to_string(size % 1'000'000'000U);
-        part.insert(0, 9 - part.size(), '0');
-        const std::string text = (raw < 0 ? "-" : "") + std::to_string(size / 1'000'000'000U) + "." + part;
+        char text[40];
+        std::snprintf(text, sizeof text, "%s%llu.%09llu", raw < 0 ? "-" : "",
+                      static_cast<unsigned long long>(size / 1'000'000'000U),
+                      static_cast<unsigned long long>(size % 1'000'000'000U));
         REQUIRE(read(text).raw == raw);
     }
 }

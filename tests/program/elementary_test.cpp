@@ -48,7 +48,7 @@ TEST_CASE("elementary functions against long double", "[program][elementary]") {
         const Decimal power_of{static_cast<std::int64_t>(random() % 50'000'000'000U) - 27'000'000'000};
         const Real exact = std::exp(real(power_of));
         const Result<Decimal> exponent = exponential(power_of);
-        REQUIRE(exponent.has_value() == (exact < 9.2e9L));
+        REQUIRE(exponent.has_value() == (exact < 9223372036.854L));
         if (exponent.has_value()) {
             REQUIRE(std::fabs(real(*exponent) - exact) < 0.6e-9L + exact * 1e-15L);
         }
@@ -60,7 +60,9 @@ TEST_CASE("elementary functions against long double", "[program][elementary]") {
 TEST_CASE("special angles are exact", "[program][elementary]") {
     constexpr std::int64_t one = std::int64_t{1} << 62;
     for (int turns = -3; turns <= 3; ++turns) {
-        const auto at = [&](int degrees) { return sine_cosine(Decimal::from_integer(360 * turns + degrees)); };
+        const auto at = [&](int degrees) {
+            return sine_cosine(Decimal::from_integer(360 * turns + degrees));
+        };
         CHECK(at(0).sine == 0);
         CHECK(at(0).cosine == one);
         CHECK(at(90).sine == one);

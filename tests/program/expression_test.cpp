@@ -30,7 +30,9 @@ struct Tree {
 };
 
 Tree random_tree(std::mt19937_64& random, int depth) {
-    const auto pick = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
+    const auto pick = [&](unsigned n) {
+        return static_cast<unsigned>(random() % n);
+    };
     if (depth == 0 || pick(5) == 0) {
         const auto thousandths = static_cast<int>(pick(20000)) - 10000;
         char text[32];
@@ -42,8 +44,9 @@ Tree random_tree(std::mt19937_64& random, int depth) {
     switch (pick(10)) {
     case 0: return {"[" + a.text + "+" + b.text + "]", a.value + b.value, a.error + b.error};
     case 1: return {"[" + a.text + " - " + b.text + "]", a.value - b.value, a.error + b.error};
-    case 2: return {"[" + a.text + "*" + b.text + "]", a.value * b.value,
-                    1e-9 + std::fabs(a.value) * b.error + std::fabs(b.value) * a.error};
+    case 2:
+        return {"[" + a.text + "*" + b.text + "]", a.value * b.value,
+                1e-9 + std::fabs(a.value) * b.error + std::fabs(b.value) * a.error};
     case 3:
         if (std::fabs(a.value - b.value) <= a.error + b.error) {
             return b;
@@ -140,7 +143,7 @@ TEST_CASE("wrong expressions are refused where they are wrong", "[program][expre
     value_of(run, "[100000*100000]", Error::result_out_of_range, 8);
     value_of(run, "[-2 ** 0.5]", Error::power_invalid);
     value_of(run, std::string(40, '['), Error::expression_too_deep);
-    value_of(run, std::string(200, '#') + "1", Error::expression_too_deep);
+    value_of(run, std::string(200, '#').append(1, '1'), Error::expression_too_deep);
     value_of(run, "", Error::number_invalid);
 }
 

@@ -34,7 +34,9 @@ TEST_CASE("inches are exact, increments do not drift", "[program][interpreter]")
 
 TEST_CASE("the feed counts x, y and z, else rotary axes", "[program][interpreter]") {
     GcodeRun<double> run;
-    const auto feed = [&](const char* line) { return run.run(line).back().element.feed_mm_s; };
+    const auto feed = [&](const char* line) {
+        return run.run(line).back().element.feed_mm_s;
+    };
     run.run("F600 G1 X0");
     CHECK(feed("X3 Y4") == Approx(10.0));
     CHECK(feed("A30") == Approx(10.0));
@@ -48,7 +50,9 @@ TEST_CASE("the feed counts x, y and z, else rotary axes", "[program][interpreter
 
 TEST_CASE("path modes", "[program][interpreter]") {
     GcodeRun<double> run;
-    const auto move = [&](const char* line) { return run.run(line).back(); };
+    const auto move = [&](const char* line) {
+        return run.run(line).back();
+    };
     run.run("F600 G1 X0");
     CHECK(move("X1").element.mode == PathMode::continuous);
     CHECK(move("X2").element.tolerance_mm == Approx(0.01)); // the machine's

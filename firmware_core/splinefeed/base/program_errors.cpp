@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sentences for errors of programs in G-code. Apart from the others, so that firmware without G-code leaves them out.
+// The sentences for errors of programs in G-code; `describe` asks for them.
 #include "splinefeed/base/status.hpp"
 
 #include <initializer_list>
@@ -13,13 +13,12 @@ const char* describe_refusal(Error error) noexcept {
     case Error::cutter_radius_unsupported:
         return "cutter radius compensation is not supported; let the CAM offset the path, and leave G41 and G42 out";
     case Error::thread_unsupported:
-        return "motion in step with the spindle (G33, G76) is not supported; cut threads by helical arcs, G2 or G3 with Z";
+        return "motion in step with the spindle (G33, G76) is not supported; cut threads by helical arcs, G2 or G3 "
+               "with Z";
     case Error::lathe_unsupported:
         return "lathe words (G7, G70 to G72) are not supported; program radii, and each pass as moves";
-    case Error::tapping_unsupported:
-        return "tapping (G74, G84) is not supported; the spindle does not follow the feed";
-    case Error::boring_unsupported:
-        return "G87 and G88 are not supported; use G85, G86 or G89, or moves of their own";
+    case Error::tapping_unsupported: return "tapping (G74, G84) is not supported; the spindle does not follow the feed";
+    case Error::boring_unsupported: return "G87 and G88 are not supported; use G85, G86 or G89, or moves of their own";
     case Error::feed_per_revolution_unsupported:
         return "feed per revolution is not supported; use G94, units per minute, or G93, inverse time";
     case Error::surface_speed_unsupported: return "constant surface speed is not supported; use G97 and S in rpm";
@@ -116,7 +115,8 @@ const char* describe_words(Error error) noexcept {
     case Error::probe_too_short: return "a probe move needs an end that is not where the machine stands";
     case Error::probe_inverse_time: return "a probe move needs G94";
     case Error::input_word_invalid:
-        return "M66 takes P or E for the input, 0 to 63; L0 to L4 for the wait, L0 with E; and Q above 0 s for L1 to L4";
+        return "M66 takes P or E for the input, 0 to 63; L0 to L4 for the wait, L0 with E; and Q above 0 s for L1 to "
+               "L4";
     case Error::program_ended: return "the program has ended";
     case Error::block_pending: return "the items of the block before have not been taken";
     default: return nullptr;

@@ -14,6 +14,7 @@ public:
     explicit constexpr AxisLetters(const ProgramSettings& settings) noexcept : count_(settings.axes) {
         for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
             letters_[k] = static_cast<int>(k) < count_ ? static_cast<char>(settings.letters[k] - 'A' + 'a') : '\0';
+            bits_ |= static_cast<int>(k) < count_ ? 1U << (static_cast<unsigned>(letters_[k] - 'a') % 32U) : 0U;
         }
     }
 
@@ -29,6 +30,8 @@ public:
         }
         return -1;
     }
+    /// Bit n for the n-th letter of the alphabet, of all axes.
+    [[nodiscard]] constexpr std::uint32_t bits() const noexcept { return bits_; }
     [[nodiscard]] constexpr AxisKind kind(int axis) const noexcept {
         const char c = letter(axis);
         return c == 'e'               ? AxisKind::extruder
@@ -39,6 +42,7 @@ public:
 
 private:
     int count_ = 0;
+    std::uint32_t bits_ = 0;
     std::array<char, static_cast<unsigned>(max_axes)> letters_{};
 };
 

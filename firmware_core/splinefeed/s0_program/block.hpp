@@ -34,9 +34,7 @@ public:
     [[nodiscard]] bool has_any(std::uint32_t letters) const noexcept { return (present_ & letters) != 0; }
     [[nodiscard]] std::uint32_t letters() const noexcept { return present_; }
     /// The value of a word; 0 if the block does not have it.
-    [[nodiscard]] Decimal value(char letter) const noexcept {
-        return has(letter) ? values_[index(letter)] : Decimal{};
-    }
+    [[nodiscard]] Decimal value(char letter) const noexcept { return has(letter) ? values_[index(letter)] : Decimal{}; }
 
     void set_code(CodeGroup group, std::int32_t code, std::size_t column) noexcept {
         codes_[static_cast<unsigned>(group)] = static_cast<std::int16_t>(code);

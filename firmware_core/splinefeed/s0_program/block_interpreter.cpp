@@ -7,11 +7,11 @@ namespace splinefeed {
 
 namespace {
 
-constexpr std::uint8_t all_done = 255;
-
 // What is wrong is a word: its letters and digits.
 std::uint8_t word_length(std::string_view text, std::uint16_t column) noexcept {
-    const auto is_part = [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == ' '; };
+    const auto is_part = [](char c) {
+        return (c >= '0' && c <= '9') || c == '.' || c == ' ';
+    };
     if (column == 0 || column > text.size()) {
         return 0;
     }
@@ -150,10 +150,11 @@ BlockStatus BlockInterpreter::execute() noexcept {
     BlockStatus status;
     const bool changes_frame = block_.has(CodeGroup::non_modal) || block_.has(CodeGroup::tool_length) ||
                                block_.has(CodeGroup::work_system) || block_.has(CodeGroup::stop) ||
-                               block_.has(CodeGroup::tool_change) || evaluator_ != nullptr;
+                               block_.has(CodeGroup::tool_change) ||
+                               (evaluator_ != nullptr && evaluator_->has_assignments());
     const auto run = [&] {
         status = execute_words(use);
-        if (status.ok() && evaluator_ != nullptr) {
+        if (status.ok() && evaluator_ != nullptr && evaluator_->has_assignments()) {
             const Status written = evaluator_->commit(*this);
             status = written.ok() ? BlockStatus{} : BlockStatus{written.error(), 0, 0};
         }
@@ -187,8 +188,8 @@ BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
         const bool ends = block_.code(CodeGroup::non_modal) == 53;
         for (unsigned group = 0; group < code_groups; ++group) {
             const auto code = static_cast<CodeGroup>(group);
-            const bool belongs = code == CodeGroup::motion ? block_.code(code) == 52
-                                                           : code == CodeGroup::non_modal && ends;
+            const bool belongs =
+                code == CodeGroup::motion ? block_.code(code) == 52 : code == CodeGroup::non_modal && ends;
             if (block_.has(code) && !belongs) {
                 return block_.at(Error::nurbs_not_ended, code);
             }

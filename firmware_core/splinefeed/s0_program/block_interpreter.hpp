@@ -5,8 +5,8 @@
 #include "splinefeed/s0_program/block_reader.hpp"
 #include "splinefeed/s0_program/canned_cycle.hpp"
 #include "splinefeed/s0_program/nurbs_curve.hpp"
-#include "splinefeed/s0_program/program_step.hpp"
 #include "splinefeed/s0_program/program_arc.hpp"
+#include "splinefeed/s0_program/program_step.hpp"
 #include "splinefeed/s0_program/word_use.hpp"
 
 #include <variant>
@@ -52,6 +52,8 @@ public:
     [[nodiscard]] PerAxis<Position> position() const noexcept;
 
 protected:
+    /// Whether the block has steps left, or may have.
+    [[nodiscard]] bool has_steps() const noexcept { return stage_ != all_done; }
     [[nodiscard]] Pull next_step(ProgramStep& out) noexcept;
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return plan_.manner; }
@@ -61,6 +63,8 @@ protected:
 
 private:
     friend class SystemParameters;
+
+    static constexpr std::uint8_t all_done = 255; // a stage behind the last
 
     /// What a block may change and an error puts back.
     struct Place {
@@ -115,12 +119,12 @@ private:
     CycleWords cycle_words_{};
     NurbsCurve nurbs_{};
     std::variant<CannedCycle, BezierPlan> series_{}; // of plan_: a cycle, or a spline
-    PlanePoint spline_out_{}; // how G5 left its last end: P and Q
+    PlanePoint spline_out_{};                        // how G5 left its last end: P and Q
     AxisPoint probe_at_{};
     Decimal input_{};
     std::uint32_t line_ = 0;
-    std::uint8_t stage_ = 0;      // of the block, in the order of execution
-    std::uint8_t sub_step_ = 0;   // of its motion
+    std::uint8_t stage_ = 0;    // of the block, in the order of execution
+    std::uint8_t sub_step_ = 0; // of its motion
     bool probe_contact_ = false;
     bool offsets_changed_ = false;
     bool percent_ = false; // the first line was %

@@ -17,11 +17,33 @@ constexpr char upper(char c) noexcept {
 
 } // namespace
 
+bool BlockReader::has_axes(const Block& block) const noexcept {
+    for (int k = 0; k < settings_->axes; ++k) {
+        if (block.has(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Whether the block does something besides the word that is ignored.
+bool BlockReader::has_others(const Block& block) const noexcept {
+    if (has_axes(block)) {
+        return true;
+    }
+    for (unsigned group = 0; group < code_groups; ++group) {
+        if (block.has(static_cast<CodeGroup>(group))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& control, Block& out,
                               LineKind& kind) noexcept {
     out.clear();
     kind = LineKind::block;
-    ignored_code_ = ignored_axis_ = false;
+    ignored_code_ = ignored_word_ = false;
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
         text.remove_suffix(1);
     }
@@ -44,20 +66,11 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         return {};
     }
     const Status status = read_words(cursor, control, out);
-    std::uint32_t axes = 0;
-    for (int k = 0; k < settings_->axes; ++k) {
-        axes |= Block::bit(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'));
-    }
-    const bool only_ignored = ignored_axis_ && !out.has_any(axes);
-    if (only_ignored && out.code(CodeGroup::non_modal) == 920) { // G92 E0 of a printer, where E is left out
+    if (ignored_word_ && !has_axes(out) && out.code(CodeGroup::non_modal) == 920) { // a printer's G92 E0 without E
         kind = LineKind::left_out;
         return {};
     }
-    bool other_codes = out.has_any(axes);
-    for (unsigned group = 0; group < code_groups; ++group) {
-        other_codes = other_codes || out.has(static_cast<CodeGroup>(group));
-    }
-    if (ignored_code_ && !other_codes) { // its words are not another code's, whatever they are
+    if (ignored_code_ && !has_others(out)) { // its words are not another code's, whatever they are
         kind = LineKind::left_out;
         return {};
     }
@@ -77,8 +90,8 @@ Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control
         if (c == '(') {
             status = read_comment(text, out);
         } else if (c == '#') {
-            status = evaluator_ != nullptr ? evaluator_->assignment(text, control)
-                                           : Status(Error::expression_unsupported);
+            status =
+                evaluator_ != nullptr ? evaluator_->assignment(text, control) : Status(Error::expression_unsupported);
         } else if (is_letter(c)) {
             status = read_word(text, control, out);
         } else {
@@ -124,7 +137,7 @@ Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control,
         return status;
     }
     if (is_ignored(upper(letter), value)) {
-        ignored_axis_ = true;
+        ignored_word_ = true;
         return {};
     }
     if (out.has(letter)) {
@@ -170,8 +183,7 @@ Status BlockReader::add_code(char letter, Decimal value, TextCursor& text, std::
         !to_integer(is_g ? Decimal{value.raw * 10} : value, code)) {
         return unknown;
     }
-    const CodeInfo info =
-        is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
+    const CodeInfo info = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
     if (info.refusal != Error::none) {
         return info.refusal;
     }

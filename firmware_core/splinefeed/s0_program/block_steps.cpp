@@ -22,7 +22,6 @@ enum Stage : std::uint8_t {
     offsets_changed,
     motion,
     stop,
-    all_done = 255,
 };
 
 std::int32_t integer_of(const Block& block, char letter) noexcept {
@@ -110,9 +109,7 @@ bool BlockInterpreter::next_event(ProgramStep& out) noexcept {
     }
     case coolant: {
         const std::int16_t code = block_.code(CodeGroup::coolant);
-        event.kind = code == 7   ? EventKind::mist_on
-                     : code == 8 ? EventKind::flood_on
-                                 : EventKind::coolant_off;
+        event.kind = code == 7 ? EventKind::mist_on : code == 8 ? EventKind::flood_on : EventKind::coolant_off;
         event.stops = true;
         return code != Block::no_code;
     }
@@ -139,6 +136,9 @@ Pull BlockInterpreter::next_step(ProgramStep& out) noexcept {
     for (; stage_ <= stop; ++stage_) {
         if (stage_ == motion) {
             if (next_motion(out)) {
+                if (plan_.kind == PlanKind::none && !ended_ && !block_.has(CodeGroup::stop)) {
+                    stage_ = all_done; // the next call need not look
+                }
                 return Pull::item;
             }
             continue;
@@ -259,7 +259,7 @@ bool BlockInterpreter::next_in_cycle(ProgramStep& out) noexcept {
         out.event = {};
         out.event.stops = true;
         out.event.value = modal_.speed;
-        out.event.kind = step == CycleStep::spindle_stop                 ? EventKind::spindle_stop
+        out.event.kind = step == CycleStep::spindle_stop             ? EventKind::spindle_stop
                          : modal_.spindle == SpindleState::clockwise ? EventKind::spindle_clockwise
                                                                      : EventKind::spindle_counterclockwise;
         return true;

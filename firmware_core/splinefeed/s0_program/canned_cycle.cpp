@@ -152,9 +152,7 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
         level_ = clear_;
         phase_ = code_ == 860 ? Phase::restart : repeats_ > 0 ? Phase::across : Phase::finished;
         return go(at, clear_, code_ == 890 ? CycleStep::feed : CycleStep::rapid);
-    case Phase::restart:
-        phase_ = repeats_ > 0 ? Phase::across : Phase::finished;
-        return CycleStep::spindle_start;
+    case Phase::restart: phase_ = repeats_ > 0 ? Phase::across : Phase::finished; return CycleStep::spindle_start;
     case Phase::finished: break;
     }
     return CycleStep::finished;

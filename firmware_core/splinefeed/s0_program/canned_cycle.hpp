@@ -16,8 +16,8 @@ struct CycleWords {
     Decimal clearance{}; ///< R
     Decimal dwell_s{};
     Decimal peck{};
-    bool begun = false;   ///< one cycle of the series has been made
-    Decimal initial{};    ///< where the axis stood before the first one
+    bool begun = false; ///< one cycle of the series has been made
+    Decimal initial{};  ///< where the axis stood before the first one
 };
 
 /// The moves are those of the RS274/NGC report with LinuxCNC's levels: a first rapid to R if the series began below it,

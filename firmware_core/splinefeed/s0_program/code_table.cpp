@@ -103,7 +103,8 @@ constexpr Row m_rows[] = {
 };
 
 // Of printers; others are refused as unknown.
-constexpr std::int16_t printer_codes[] = {17, 18, 73, 82, 83, 84, 104, 105, 106, 107, 109, 110, 115, 117, 140, 141, 190, 191, 201, 203, 204, 205, 220, 221, 300, 400, 900};
+constexpr std::int16_t printer_codes[] = {17,  18,  73,  82,  83,  84,  104, 105, 106, 107, 109, 110, 115, 117,
+                                          140, 141, 190, 191, 201, 203, 204, 205, 220, 221, 300, 400, 900};
 
 template <std::size_t n>
 CodeInfo find(const Row (&rows)[n], std::int32_t code, std::int32_t step, Dialect dialect) noexcept {

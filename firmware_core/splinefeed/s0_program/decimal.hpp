@@ -36,8 +36,8 @@ struct Decimal {
 /// value / divisor as a number of S, by integers: rounded to 2^-32, then to S. @pre the result is below 2^31
 template <Scalar S>
 [[nodiscard]] S to_scalar(Decimal value, std::uint32_t divisor = 1) noexcept {
-    const detail::Checked q32 = product_quotient(value.raw, std::int64_t{1} << 32,
-                                                 static_cast<std::uint64_t>(Decimal::one) * divisor);
+    const detail::Checked q32 =
+        product_quotient(value.raw, std::int64_t{1} << 32, static_cast<std::uint64_t>(Decimal::one) * divisor);
     if constexpr (std::same_as<S, Fixed>) {
         return Fixed::from_raw(q32.raw);
     } else {

@@ -16,29 +16,30 @@ Status read_decimal(TextCursor& text, Decimal& out) noexcept {
     if (!negative) {
         text.take('+');
     }
-    std::int64_t whole = 0;
+    std::uint32_t whole = 0; // 32 bits are enough, and quicker on a chip
     bool digits = false;
     while (is_digit(text.peek())) {
         if (whole <= largest_number) { // beyond that it stays too large
-            whole = 10 * whole + (text.peek() - '0');
+            whole = 10 * whole + static_cast<std::uint32_t>(text.peek() - '0');
         }
         digits = true;
         text.step();
     }
-    std::int64_t part = 0;
+    std::uint32_t part = 0;
     if (text.take('.')) {
-        std::int64_t place = Decimal::one;
-        while (is_digit(text.peek())) {
-            const int digit = text.peek() - '0';
-            if (place > 1) {
-                place /= 10;
-                part += place * digit;
-            } else if (place == 1) { // the tenth decimal rounds
-                place = 0;
-                part += digit >= 5 ? 1 : 0;
+        int places = 0;
+        for (; is_digit(text.peek()); text.step()) {
+            const auto digit = static_cast<std::uint32_t>(text.peek() - '0');
+            if (places < Decimal::digits) {
+                part = 10 * part + digit;
+            } else if (places == Decimal::digits) { // the tenth decimal rounds
+                part += digit >= 5 ? 1U : 0U;
             }
+            ++places;
             digits = true;
-            text.step();
+        }
+        for (; places < Decimal::digits; ++places) {
+            part *= 10;
         }
     }
     if (!digits) {

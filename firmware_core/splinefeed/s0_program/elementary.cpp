@@ -16,7 +16,7 @@ constexpr std::int64_t one_q62 = std::int64_t{1} << 62;
 constexpr std::int64_t full_turn = 360 * Decimal::one;
 constexpr std::int64_t quarter_turn = 90 * Decimal::one;
 // pi/180 * 1e-9 * 2^62 * 2^28, and the same for the angle in a Decimal.
-constexpr std::uint64_t radian_of_unit = 21606129627797837; // Q90 per 1e-9 degrees
+constexpr std::uint64_t radian_of_unit = 21606129627797837;         // Q90 per 1e-9 degrees
 constexpr std::int64_t degrees_of_radian_q56 = 4128596020240314225; // 180/pi in Q56
 constexpr std::int64_t ln2_q62 = 3196577161300663915;
 constexpr std::int64_t root2_q62 = 6521908912666391106; // sqrt(2)
@@ -25,11 +25,6 @@ constexpr std::int64_t root2_q62 = 6521908912666391106; // sqrt(2)
 std::int64_t product(std::int64_t a, std::int64_t b) noexcept {
     const Wide wide = add(multiply(detail::magnitude(a), detail::magnitude(b)), Wide{0U, std::uint64_t{1} << 61});
     return detail::with_sign((wide.high << 2) | (wide.low >> 62), (a ^ b) < 0).raw;
-}
-
-// a * 2^62 / b
-std::int64_t quotient(std::int64_t a, std::int64_t b) noexcept {
-    return product_quotient(a, one_q62, detail::magnitude(b)).raw * (b < 0 ? -1 : 1);
 }
 
 // Taylor: x - x^3/3! + ..., and 1 - x^2/2! + ...; |x| <= pi/4.
@@ -55,7 +50,15 @@ std::int64_t small_arc_tangent(std::int64_t t) noexcept {
 }
 
 // atan(k/8) in Q62
-constexpr std::array<std::int64_t, 9> arc_tangents{0, 573486189672913778, 1129764675555192497, 1654537683908620430, 2138197195906305897, 2576084652473018343, 2967625066264511049, 3315018258881210269, 3622009729038561421};
+constexpr std::array<std::int64_t, 9> arc_tangents{0,
+                                                   573486189672913778,
+                                                   1129764675555192497,
+                                                   1654537683908620430,
+                                                   2138197195906305897,
+                                                   2576084652473018343,
+                                                   2967625066264511049,
+                                                   3315018258881210269,
+                                                   3622009729038561421};
 
 // ln(m) = 2 atanh((m - 1) / (m + 1)) for m in [1/sqrt(2), sqrt(2)]
 std::int64_t mantissa_logarithm(std::int64_t m) noexcept {
@@ -100,9 +103,8 @@ Result<Decimal> exponential_q56(std::int64_t x) noexcept {
     const std::int64_t half = x < 0 ? -(ln2_q56 / 2) : ln2_q56 / 2;
     const std::int64_t power = (x + half) / ln2_q56;
     // The rest needs ln(2) to 2^-62.
-    const std::int64_t rest =
-        static_cast<std::int64_t>((static_cast<std::uint64_t>(x) << 6) -
-                                  static_cast<std::uint64_t>(power) * static_cast<std::uint64_t>(ln2_q62));
+    const std::int64_t rest = static_cast<std::int64_t>(
+        (static_cast<std::uint64_t>(x) << 6) - static_cast<std::uint64_t>(power) * static_cast<std::uint64_t>(ln2_q62));
     std::int64_t sum = one_q62;
     for (std::int64_t k = 18; k > 0; --k) {
         sum = one_q62 + product(rest, sum) / k;
@@ -157,8 +159,9 @@ Decimal angle_of(Decimal x, Decimal y) noexcept {
     // atan(t) = atan(c) + atan((t - c) / (1 + t c)), c the nearest eighth
     const std::int64_t eighth = (t + one_q62 / 16) >> 59;
     const std::int64_t c = eighth << 59;
-    const std::int64_t radians =
-        arc_tangents[static_cast<std::size_t>(eighth)] + small_arc_tangent(quotient(t - c, one_q62 + product(t, c)));
+    const std::uint64_t divisor = static_cast<std::uint64_t>(one_q62) + static_cast<std::uint64_t>(product(t, c));
+    const std::int64_t radians = arc_tangents[static_cast<std::size_t>(eighth)] +
+                                 small_arc_tangent(product_quotient(t - c, one_q62, divisor).raw);
     // radians / 2^62 * 180/pi * 1e9: 2^118 = 2^62 * 2^56
     const std::int64_t q56 = product_quotient(radians, degrees_of_radian_q56, std::uint64_t{1} << 62).raw;
     Decimal degrees{product_quotient(q56, Decimal::one, std::uint64_t{1} << 56).raw};

@@ -218,10 +218,10 @@ Status Expression::commit(BlockInterpreter& control) noexcept {
     Status status;
     for (int i = 0; i < count_ && status.ok(); ++i) {
         const Assignment& of = assignments_[static_cast<unsigned>(i)];
-        const bool written = of.number > 0
-                                 ? (SystemParameters::owns(of.number) ? SystemParameters::write(control, of.number, of.value)
-                                                           : table_->write(of.number, of.value))
-                                 : table_->write(of.name, of.value);
+        const bool written =
+            of.number > 0 ? (SystemParameters::owns(of.number) ? SystemParameters::write(control, of.number, of.value)
+                                                               : table_->write(of.number, of.value))
+                          : table_->write(of.name, of.value);
         status = written ? Status{} : Status(Error::parameter_storage_full);
     }
     count_ = 0;

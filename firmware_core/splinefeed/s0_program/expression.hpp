@@ -23,13 +23,14 @@ public:
 
     Status value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept override;
     Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept override;
+    [[nodiscard]] bool has_assignments() const noexcept override { return count_ > 0; }
     Status commit(BlockInterpreter& control) noexcept override;
     void discard() noexcept override { count_ = 0; }
 
 private:
     struct Assignment {
-        std::int32_t number = 0;     // 0: by name
-        std::string_view name{};     // as the line has it
+        std::int32_t number = 0; // 0: by name
+        std::string_view name{}; // as the line has it
         Decimal value{};
     };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The feed of a move is along x, y, z, as in LinuxCNC: along u, v, w where those do not move, along a, b, c (in degrees)
-// where neither does. The core's feed is along the path in all axes, so that a move takes the same time it is
+// The feed of a move is along x, y, z, as in LinuxCNC: along u, v, w where those do not move, along a, b, c (in
+// degrees) where neither does. The core's feed is along the path in all axes, so that a move takes the same time it is
 //     F * (length in all axes) / (length that F counts).
 #include "splinefeed/s0_program/interpreter.hpp"
 
@@ -44,6 +44,9 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
     if (in_pieces_) {
         fill_piece(out);
         return Pull::item;
+    }
+    if (!has_steps()) {
+        return has_ended() ? Pull::finished : Pull::starved;
     }
     ProgramStep step;
     const Pull pull = next_step(step);
@@ -199,7 +202,8 @@ void Interpreter<S>::fill_piece(ProgramItem<S>& out) noexcept {
         for (unsigned i = 0; i < 6; ++i) {
             element.bezier.points[n][i] = points[k][i];
         }
-        piece_end_[n] = in_pieces_ ? displaced(piece_end_[n], points[k][5], chord_unit_log2) : to_position(pieces_to_[n]);
+        piece_end_[n] =
+            in_pieces_ ? displaced(piece_end_[n], points[k][5], chord_unit_log2) : to_position(pieces_to_[n]);
     }
     element.to = piece_end_;
 }

@@ -101,9 +101,9 @@ BlockStatus ModalState::apply_path_mode(const Block& block, const ProgramSetting
             return block.at(Error::tolerance_out_of_range, letter);
         }
     }
-    path_mode = code == 611                                ? PathMode::exact_stop
+    path_mode = code == 611                            ? PathMode::exact_stop
                 : code == 610 || tolerance_mm.raw == 0 ? PathMode::exact_path
-                                                           : PathMode::continuous;
+                                                       : PathMode::continuous;
     return {};
 }
 

@@ -168,7 +168,8 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     const auto i = static_cast<unsigned>(first);
     const auto j = static_cast<unsigned>(second);
     ArcGeometry arc;
-    const BlockStatus status = find_arc(block_, modal_, {place_.program[i], place_.program[j]}, {program[i], program[j]}, arc);
+    const BlockStatus status =
+        find_arc(block_, modal_, {place_.program[i], place_.program[j]}, {program[i], program[j]}, arc);
     if (!status.ok()) {
         return status;
     }

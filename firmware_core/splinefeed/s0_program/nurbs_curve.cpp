@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Knots of n points and degree d: d + 1 times 0, then 1, 2, ..., n - d - 1, then d + 1 times n - d. Bezier point i of the
-// piece over [a, a + 1] is the blossom at d - i times a and i times a + 1; by de Boor's recursion each step is a mean of
-// two points with weights that are ratios of integers up to d.
+// Knots of n points and degree d: d + 1 times 0, then 1, 2, ..., n - d - 1, then d + 1 times n - d. Bezier point i of
+// the piece over [a, a + 1] is the blossom at d - i times a and i times a + 1; by de Boor's recursion each step is a
+// mean of two points with weights that are ratios of integers up to d.
 #include "splinefeed/s0_program/nurbs_curve.hpp"
 
 namespace splinefeed {

@@ -71,8 +71,7 @@ BlockStatus BlockInterpreter::set_offsets() noexcept {
         for (int k = 0; k < letters_.count(); ++k) {
             if (has_axis(k)) {
                 const auto n = static_cast<unsigned>(k);
-                offsets.g92[n] =
-                    code == 520 ? axis_value(k) : place_.program[n] + frame_.g92(k) - axis_value(k);
+                offsets.g92[n] = code == 520 ? axis_value(k) : place_.program[n] + frame_.g92(k) - axis_value(k);
             }
         }
         break;

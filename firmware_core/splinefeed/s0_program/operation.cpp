@@ -3,7 +3,6 @@
 
 #include "splinefeed/s0_program/elementary.hpp"
 
-
 namespace splinefeed {
 
 namespace {
@@ -22,11 +21,11 @@ constexpr OperatorRow operators[] = {
 };
 
 constexpr FunctionRow functions[] = {
-    FunctionRow{"sin", Function::sine},   FunctionRow{"cos", Function::cosine}, FunctionRow{"tan", Function::tangent},
-    FunctionRow{"asin", Function::asin},  FunctionRow{"acos", Function::acos},  FunctionRow{"atan", Function::atan},
-    FunctionRow{"sqrt", Function::root},  FunctionRow{"abs", Function::abs},    FunctionRow{"exp", Function::exp},
-    FunctionRow{"ln", Function::ln},      FunctionRow{"round", Function::round}, FunctionRow{"fix", Function::fix},
-    FunctionRow{"fup", Function::fup},    FunctionRow{"exists", Function::exists},
+    FunctionRow{"sin", Function::sine},  FunctionRow{"cos", Function::cosine},    FunctionRow{"tan", Function::tangent},
+    FunctionRow{"asin", Function::asin}, FunctionRow{"acos", Function::acos},     FunctionRow{"atan", Function::atan},
+    FunctionRow{"sqrt", Function::root}, FunctionRow{"abs", Function::abs},       FunctionRow{"exp", Function::exp},
+    FunctionRow{"ln", Function::ln},     FunctionRow{"round", Function::round},   FunctionRow{"fix", Function::fix},
+    FunctionRow{"fup", Function::fup},   FunctionRow{"exists", Function::exists},
 };
 
 Status checked(detail::Checked result, Decimal& out) noexcept {
@@ -127,7 +126,8 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
         }
         // sqrt(1 - x^2) in units of 1e-9, from the exact square
         const std::uint64_t size = detail::magnitude(x.raw);
-        const std::uint64_t square = static_cast<std::uint64_t>(Decimal::one) * static_cast<std::uint64_t>(Decimal::one);
+        const std::uint64_t square =
+            static_cast<std::uint64_t>(Decimal::one) * static_cast<std::uint64_t>(Decimal::one);
         // both scaled by 2^30: the root keeps its digits near +-1
         const Wide rest = shift_left(Wide{0U, square - size * size}, 60);
         const Decimal other{static_cast<std::int64_t>(square_root_rounded(rest))};
@@ -157,8 +157,7 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
         out = logarithm(x);
         return {};
     case Function::round: {
-        const detail::Checked sum =
-            detail::checked_sum(x.raw, x.raw < 0 ? -(Decimal::one / 2) : Decimal::one / 2);
+        const detail::Checked sum = detail::checked_sum(x.raw, x.raw < 0 ? -(Decimal::one / 2) : Decimal::one / 2);
         out.raw = sum.raw / Decimal::one * Decimal::one;
         return {};
     }

@@ -10,7 +10,22 @@
 namespace splinefeed {
 
 enum class Operator : std::uint8_t {
-    none, power, times, divided, modulo, plus, minus, eq, ne, gt, ge, lt, le, logic_and, logic_or, logic_xor
+    none,
+    power,
+    times,
+    divided,
+    modulo,
+    plus,
+    minus,
+    eq,
+    ne,
+    gt,
+    ge,
+    lt,
+    le,
+    logic_and,
+    logic_or,
+    logic_xor
 };
 
 /// An operator with its level: 1 binds least, 5 (**) most.
@@ -20,7 +35,22 @@ struct OperatorRow {
     int level;
 };
 
-enum class Function : std::uint8_t { sine, cosine, tangent, asin, acos, atan, root, abs, exp, ln, round, fix, fup, exists };
+enum class Function : std::uint8_t {
+    sine,
+    cosine,
+    tangent,
+    asin,
+    acos,
+    atan,
+    root,
+    abs,
+    exp,
+    ln,
+    round,
+    fix,
+    fup,
+    exists
+};
 
 struct FunctionRow {
     std::string_view text;

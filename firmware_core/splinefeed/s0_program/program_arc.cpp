@@ -10,9 +10,9 @@ namespace splinefeed {
 
 namespace {
 
-constexpr Decimal most_mismatch{Decimal::one / 2};         // mm
-constexpr Decimal free_mismatch{Decimal::one / 200};       // 0.005 mm
-constexpr std::int64_t relative_mismatch = 1000;           // 0.1 % of the radius
+constexpr Decimal most_mismatch{Decimal::one / 2};          // mm
+constexpr Decimal free_mismatch{Decimal::one / 200};        // 0.005 mm
+constexpr std::int64_t relative_mismatch = 1000;            // 0.1 % of the radius
 constexpr Decimal least_radius{2 * (Decimal::one / 10000)}; // 0.2 um, above what a move keeps
 constexpr std::int64_t core_mismatch = 32;
 constexpr std::int64_t full_turn = 360 * Decimal::one;
@@ -36,8 +36,8 @@ Decimal distance(PlanePoint a, PlanePoint b) noexcept {
     return hypotenuse(b.first - a.first, b.second - a.second);
 }
 
-BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to, bool clockwise,
-                             PlanePoint& out) noexcept {
+BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
+                             bool clockwise, PlanePoint& out) noexcept {
     const Decimal radius = modal.in_mm(block.value('r'));
     const Decimal chord = distance(from, to);
     if (chord.raw == 0) {

@@ -10,11 +10,11 @@ namespace splinefeed {
 
 /// Events happen at their place in the program: after the moves before them, before the moves after them.
 enum class EventKind : std::uint8_t {
-    message,                  ///< (MSG,text): show `text` to the operator
-    print,                    ///< (PRINT,text): write `text` to the standard output; #1 and #<name> are left to the host
-    debug,                    ///< (DEBUG,text): the same, to the operator
-    spindle_speed,            ///< S: `value` in revolutions per minute
-    spindle_clockwise,        ///< M3; `value`: the speed [1/min]. Motion waits until it is reached
+    message,           ///< (MSG,text): show `text` to the operator
+    print,             ///< (PRINT,text): write `text` to the standard output; #1 and #<name> are left to the host
+    debug,             ///< (DEBUG,text): the same, to the operator
+    spindle_speed,     ///< S: `value` in revolutions per minute
+    spindle_clockwise, ///< M3; `value`: the speed [1/min]. Motion waits until it is reached
     spindle_counterclockwise, ///< M4
     spindle_stop,             ///< M5
     tool_select,              ///< T: `number`
@@ -47,12 +47,12 @@ enum class InputWait : std::uint8_t { now, rise, fall, high, low };
 
 struct ProgramEvent {
     EventKind kind = EventKind::message;
-    bool stops = false;           ///< the machine must stand at the end of the moves before it
-    bool analog = false;          ///< input_wait: E instead of P
+    bool stops = false;  ///< the machine must stand at the end of the moves before it
+    bool analog = false; ///< input_wait: E instead of P
     InputWait wait = InputWait::now;
     std::int32_t number = 0;
-    Decimal value{};              ///< input_wait: the time-out [s]
-    std::string_view text{};      ///< part of the line that was pushed: it is gone with that line
+    Decimal value{};         ///< input_wait: the time-out [s]
+    std::string_view text{}; ///< part of the line that was pushed: it is gone with that line
 };
 
 } // namespace splinefeed

@@ -14,7 +14,7 @@ enum class MoveKind : std::uint8_t {
     feed,
     rapid, ///< a straight line at the limits of the axes; feed_mm_s is 0
     probe, ///< G38.n; call Interpreter::report_probe with the result
-    home,  ///< Marlin's and grbl's homing: a rapid to the stored position in the simulation, a homing cycle on a machine
+    home, ///< Marlin's and grbl's homing: a rapid to the stored position in the simulation, a homing cycle on a machine
 };
 
 /// How a probe move ends; G38.2 to G38.5.

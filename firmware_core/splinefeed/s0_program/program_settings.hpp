@@ -43,7 +43,7 @@ struct IgnoredWord {
 struct ProgramSettings {
     int axes = 3;
     /// The letter of each machine axis: X Y Z A B C U V W, or E in Dialect::marlin. A, B and C are in degrees.
-    std::array<char, static_cast<unsigned>(max_axes)> letters{
+    std::array<char, static_cast<unsigned>(max_axes)> letters {
 #if SPLINEFEED_MAX_AXES >= 3
         'X', 'Y', 'Z'
 #else
@@ -51,8 +51,8 @@ struct ProgramSettings {
 #endif
     };
     Dialect dialect = Dialect::linuxcnc;
-    bool block_delete = false;    ///< lines that begin with / are left out
-    bool optional_pause = true;   ///< M1 pauses
+    bool block_delete = false;                        ///< lines that begin with / are left out
+    bool optional_pause = true;                       ///< M1 pauses
     Decimal default_tolerance_mm{Decimal::one / 100}; ///< of G64 without P, and before the first of G61, G61.1, G64
     Decimal rapid_tolerance_mm{Decimal::one / 10};    ///< between two rapids in G64
     const IgnoredWord* ignored = nullptr;

@@ -82,8 +82,8 @@ bool RationalPieces<S>::fits(const State& from, const State& to, S u, S width,
         b[4] = way - fifth * to.first[k];
         b[3] = scale2(b[4], 1) - way + twentieth * to.second[k];
     }
-    // 1e-6 mm in chord units is 0.004.
-    const S bound = scale2(std::same_as<S, float> ? literal<S>(4.0) : literal<S>(0.003), chord_unit_log2 - unit_log2_);
+    // 1e-6 mm in chord units is 0.004; between the places the error is larger.
+    const S bound = scale2(std::same_as<S, float> ? literal<S>(4.0) : literal<S>(0.001), chord_unit_log2 - unit_log2_);
     for (const S t : {literal<S>(0.5), literal<S>(0.25), literal<S>(0.75)}) {
         const State exact = state(u + t * width);
         std::array<S, 3> apart{};

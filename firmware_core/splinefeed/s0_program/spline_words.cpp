@@ -92,9 +92,8 @@ BlockStatus BlockInterpreter::plan_nurbs(const ModalState& before) noexcept {
         return block_.at(Error::nurbs_weight_invalid, 'p');
     }
     std::int32_t order = fresh ? NurbsCurve::least_order : nurbs_.order();
-    if (block_.has('l') &&
-        (!to_integer(block_.value('l'), order) || order < NurbsCurve::least_order || order > NurbsCurve::most_order ||
-         (!fresh && order != nurbs_.order()))) {
+    if (block_.has('l') && (!to_integer(block_.value('l'), order) || order < NurbsCurve::least_order ||
+                            order > NurbsCurve::most_order || (!fresh && order != nurbs_.order()))) {
         return block_.at(Error::nurbs_order_invalid, 'l');
     }
     if (fresh) {

@@ -30,8 +30,8 @@ Number number_of(std::int32_t number) noexcept {
         std::int32_t first;
         std::int32_t last;
     };
-    constexpr Range ranges[] = {{probe_block, 5070}, {g28_block, 5169},       {g30_block, 5189},
-                                {g92_block, 5219},   {system_block, 5390},    {input_number, input_number},
+    constexpr Range ranges[] = {{probe_block, 5070}, {g28_block, 5169},     {g30_block, 5189},
+                                {g92_block, 5219},   {system_block, 5390},  {input_number, input_number},
                                 {tool_block, 5413},  {position_block, 5428}};
     for (const Range& range : ranges) {
         if (number >= range.first && number <= range.last) {
@@ -79,12 +79,14 @@ Decimal SystemParameters::read(std::int32_t number) const noexcept {
                                 : in_units(of_axis(interpreter_->probe_at_, place.index), place.index);
     case g28_block: return of_axis(offsets.g28, place.index);
     case g30_block: return of_axis(offsets.g30, place.index);
-    case g92_block: return place.index == 0 ? whole(offsets.g92_applies ? 1 : 0) : of_axis(offsets.g92, place.index - 1);
+    case g92_block:
+        return place.index == 0 ? whole(offsets.g92_applies ? 1 : 0) : of_axis(offsets.g92, place.index - 1);
     case system_block: {
         if (place.index == 0) {
             return whole(offsets.active + 1);
         }
-        const WorkSystem& system = offsets.systems[static_cast<unsigned>((place.index - 1) / system_step) % work_systems];
+        const WorkSystem& system =
+            offsets.systems[static_cast<unsigned>((place.index - 1) / system_step) % work_systems];
         const std::int32_t index = (place.index - 1) % system_step;
         return index == 9 ? system.rotation_deg : of_axis(system.origin, index);
     }
@@ -140,9 +142,12 @@ bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept 
         text = begin;
         return text.take(word) && text.at_end();
     };
-    const Flag flags[] = {{"metric", !interpreter_->modal_.inches},          {"imperial", interpreter_->modal_.inches},
-                          {"absolute", !interpreter_->modal_.incremental},   {"incremental", interpreter_->modal_.incremental},
-                          {"inverse_time", interpreter_->modal_.inverse_time}, {"units_per_minute", !interpreter_->modal_.inverse_time},
+    const Flag flags[] = {{"metric", !interpreter_->modal_.inches},
+                          {"imperial", interpreter_->modal_.inches},
+                          {"absolute", !interpreter_->modal_.incremental},
+                          {"incremental", interpreter_->modal_.incremental},
+                          {"inverse_time", interpreter_->modal_.inverse_time},
+                          {"units_per_minute", !interpreter_->modal_.inverse_time},
                           {"spindle_on", interpreter_->modal_.spindle != SpindleState::stopped},
                           {"spindle_cw", interpreter_->modal_.spindle == SpindleState::clockwise}};
     for (const Flag& flag : flags) {
@@ -158,7 +163,8 @@ bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept 
         }
     }
     if (is("feed")) {
-        out = interpreter_->modal_.inches ? Decimal{product_quotient(interpreter_->modal_.feed.raw, 10, 254).raw} : interpreter_->modal_.feed;
+        out = interpreter_->modal_.inches ? Decimal{product_quotient(interpreter_->modal_.feed.raw, 10, 254).raw}
+                                          : interpreter_->modal_.feed;
     } else if (is("rpm")) {
         out = interpreter_->modal_.speed;
     } else if (is("line")) {
@@ -169,7 +175,9 @@ bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept 
     } else if (is("motion_mode")) {
         out = whole(interpreter_->modal_.motion);
     } else if (is("plane")) {
-        out = whole(interpreter_->modal_.plane == Plane::xy ? 170 : interpreter_->modal_.plane == Plane::zx ? 180 : 190);
+        out = whole(interpreter_->modal_.plane == Plane::xy   ? 170
+                    : interpreter_->modal_.plane == Plane::zx ? 180
+                                                              : 190);
     } else if (is("current_tool")) {
         out = whole(interpreter_->frame_.offsets().tool_number);
     } else if (is("selected_tool")) {

@@ -11,7 +11,8 @@ namespace splinefeed {
 
 class BlockInterpreter;
 
-/// `control` is the interpreter, whose own parameters a value may name. Expression is the one of this library; a chip leaves it out and saves its code.
+/// `control` is the interpreter, whose own parameters a value may name. Expression is the one of this library; a chip
+/// leaves it out and saves its code.
 class WordEvaluator {
 public:
     /// A value that begins with #, [ or the name of a function. After an error the cursor is at the character that is
@@ -19,6 +20,8 @@ public:
     virtual Status value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept = 0;
     /// "#1 = value", from the #. It is kept until commit(): values in a block are those before the block.
     virtual Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept = 0;
+    /// Whether commit() has something to do.
+    [[nodiscard]] virtual bool has_assignments() const noexcept = 0;
     /// Gives the parameters of the block their values.
     virtual Status commit(BlockInterpreter& control) noexcept = 0;
     /// Forgets the assignments of a block that is not executed.

@@ -48,9 +48,10 @@ std::uint32_t letters_used(const Block& block, std::int16_t motion) noexcept {
 }
 
 BlockStatus check_axes(const Block& block, const AxisLetters& letters, Dialect dialect) noexcept {
-    for (const char letter : {'x', 'y', 'z', 'a', 'b', 'c', 'u', 'v', 'w', 'e'}) {
-        const bool axis = letter != 'e' || dialect == Dialect::marlin;
-        if (axis && block.has(letter) && letters.index(letter) < 0) {
+    const std::uint32_t axes = axis_bits | (dialect == Dialect::marlin ? Block::bit('e') : 0);
+    const std::uint32_t missing = block.letters() & axes & ~letters.bits();
+    for (char letter = 'a'; letter <= 'z' && missing != 0; ++letter) {
+        if ((missing & Block::bit(letter)) != 0) {
             return block.at(Error::axis_missing, letter);
         }
     }
@@ -176,8 +177,8 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
         return status;
     }
     if (block.code(CodeGroup::non_modal) == 530) {
-        const bool incremental = block.has(CodeGroup::distance) ? block.code(CodeGroup::distance) == 910
-                                                                : modal.incremental;
+        const bool incremental =
+            block.has(CodeGroup::distance) ? block.code(CodeGroup::distance) == 910 : modal.incremental;
         if ((out.motion != 0 && out.motion != 10) || incremental) {
             return block.at(Error::g53_unsuited, CodeGroup::non_modal);
         }

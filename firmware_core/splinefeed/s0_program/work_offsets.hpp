@@ -19,11 +19,11 @@ struct WorkSystem {
 /// In the axes of the machine, mm and degrees, whatever units the program has.
 struct WorkOffsets {
     std::array<WorkSystem, work_systems> systems{};
-    int active = 0;             ///< 0: G54
-    PerAxis<Decimal> g92{};     ///< G92 and G52, in the rotated system
-    bool g92_applies = false;   ///< false after G92.1 and G92.2
-    PerAxis<Decimal> tool{};    ///< G43, G43.1
-    PerAxis<Decimal> g28{};     ///< stored positions, in machine coordinates
+    int active = 0;           ///< 0: G54
+    PerAxis<Decimal> g92{};   ///< G92 and G52, in the rotated system
+    bool g92_applies = false; ///< false after G92.1 and G92.2
+    PerAxis<Decimal> tool{};  ///< G43, G43.1
+    PerAxis<Decimal> g28{};   ///< stored positions, in machine coordinates
     PerAxis<Decimal> g30{};
     std::int32_t tool_number = 0; ///< in the spindle
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Any lines, in any dialect, with and without expressions: the interpreter takes or refuses each without harm, a
+// refused line changes nothing, a block ends after a bounded number of items, moves join, and stay in the machine's
+// range.
+#include "splinefeed/s0_program/expression.hpp"
+#include "splinefeed/s0_program/interpreter.hpp"
+
+#include "fuzz/bytes.hpp"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+using namespace splinefeed;
+
+namespace {
+
+class Table final : public ParameterTable {
+public:
+    [[nodiscard]] bool read(std::int32_t number, Decimal& out) const noexcept override {
+        const bool known = number >= 1 && number <= 30;
+        out = known ? values_[static_cast<unsigned>(number - 1)] : Decimal{};
+        return known;
+    }
+    bool write(std::int32_t number, Decimal value) noexcept override {
+        if (number < 1 || number > 30) {
+            return false;
+        }
+        values_[static_cast<unsigned>(number - 1)] = value;
+        return true;
+    }
+    [[nodiscard]] bool read(std::string_view name, Decimal& out) const noexcept override {
+        return read(static_cast<std::int32_t>(name.size()), out);
+    }
+    bool write(std::string_view name, Decimal value) noexcept override {
+        return write(static_cast<std::int32_t>(name.size()), value);
+    }
+
+private:
+    std::array<Decimal, 30> values_{};
+};
+
+class Tools final : public ToolTable {
+public:
+    [[nodiscard]] bool find(std::int32_t tool, ToolOffset& out) const noexcept override {
+        out = {};
+        out.offset[0] = Decimal::from_integer(tool);
+        return tool < 100;
+    }
+};
+
+[[noreturn]] void fail(const char* what, const std::string& line) {
+    std::fprintf(stderr, "%s: %s\n", what, line.c_str());
+    std::abort();
+}
+
+template <Scalar S>
+void run(std::string_view text, const ProgramSettings& settings, bool evaluates) {
+    constexpr int most_items = 400'000; // of pecks and repeats; more would only take time
+    Table table;
+    Expression expression(table);
+    Interpreter<S> interpreter(settings, evaluates ? &expression : nullptr);
+    interpreter.start({});
+    ProgramItem<S> item;
+    PerAxis<Position> at = interpreter.position();
+    std::uint32_t number = 0;
+    int items = 0;
+    while (!text.empty() && items < most_items) {
+        const std::size_t end = text.find('\n');
+        const std::string line(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        const WorkOffsets offsets = interpreter.offsets();
+        const BlockStatus status = interpreter.push(line, ++number);
+        if (!status.ok()) {
+            if (status.column > line.size() + 1 || describe(status.error) == std::string("unknown error")) {
+                fail("a place or an error that is none", line);
+            }
+            if (!(interpreter.offsets() == offsets) || interpreter.position() != at) {
+                fail("a refused line changed something", line);
+            }
+            continue;
+        }
+        Pull pull = Pull::item;
+        while ((pull = interpreter.next(item)) == Pull::item && ++items < most_items) {
+            if (item.kind != ItemKind::move) {
+                continue;
+            }
+            for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+                if (std::abs(item.element.to[k].raw) > std::int64_t{1} << 60 ||
+                    std::abs(item.element.to[k].raw - at[k].raw) > std::int64_t{65537} << 40) {
+                    fail("a move out of range", line);
+                }
+            }
+            if (!(item.element.feed_mm_s >= S{})) {
+                fail("a feed below 0", line);
+            }
+            at = item.element.to;
+        }
+        const bool in_nurbs = interpreter.modal().motion == 52;
+        if (pull != Pull::item && !in_nurbs && at != interpreter.position()) {
+            fail("the moves end elsewhere", line);
+        }
+        at = in_nurbs && pull != Pull::item ? at : interpreter.position();
+        if (in_nurbs) {
+            at = interpreter.position(); // of the program: it stands at the curve's start
+        }
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    splinefeed_test::Bytes bytes{data, size};
+    const unsigned choice = bytes.take();
+    const Tools tools;
+    ProgramSettings settings;
+    settings.axes = 4;
+    settings.letters = {'X', 'Y', 'Z', 'A'};
+    settings.dialect = static_cast<Dialect>(choice % 3);
+    settings.letters[3] = settings.dialect == Dialect::marlin ? 'E' : 'A';
+    settings.block_delete = (choice & 4U) != 0;
+    settings.tools = (choice & 8U) != 0 ? &tools : nullptr;
+    const std::string text(reinterpret_cast<const char*>(bytes.data), bytes.left);
+    const bool evaluates = (choice & 16U) == 0;
+    if ((choice & 32U) != 0) {
+        run<Fixed>(text, settings, evaluates);
+    } else {
+        run<double>(text, settings, evaluates);
+    }
+    return 0;
+}
