@@ -4,6 +4,7 @@
 #include "host_sim/program/element_cast.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
+#include "host_sim/program/gcode/program_flow.hpp"
 
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
@@ -97,6 +98,7 @@ private:
     ParameterMemory parameters_;
     Expression expression_{parameters_};
     Interpreter<S> interpreter_;
+    ProgramFlow flow_;
     SourceLine line_;
     ProgramItem<S> item_;
     PerAxis<Position> here_{}; // where the last move so far ends
@@ -107,7 +109,8 @@ private:
 template <Scalar S>
 GcodeMoves<S>::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines)
     : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)),
-      interpreter_(program_settings(settings), &expression_) {}
+      interpreter_(program_settings(settings), &expression_),
+      flow_(*lines_, file_, expression_, interpreter_, parameters_) {}
 
 template <Scalar S>
 bool GcodeMoves<S>::start(PerAxis<Position>& position) {
@@ -118,7 +121,7 @@ bool GcodeMoves<S>::start(PerAxis<Position>& position) {
 
 template <Scalar S>
 bool GcodeMoves<S>::wait(typename MoveSource<S>::Patience patience) {
-    return pending_ || interpreter_.has_ended() || lines_->wait(patience);
+    return pending_ || flow_.in_memory() || interpreter_.has_ended() || lines_->wait(patience);
 }
 
 template <Scalar S>
@@ -153,8 +156,13 @@ template <Scalar S>
 bool GcodeMoves<S>::next(SourceStep<S>& out) {
     out.kind = StepKind::nothing;
     if (!pending_) {
-        if (interpreter_.has_ended() || !lines_->next(line_)) {
+        if (interpreter_.has_ended()) {
             return false;
+        }
+        switch (flow_.next(line_)) {
+        case ProgramFlow::Step::end: return false;
+        case ProgramFlow::Step::nothing: return true;
+        case ProgramFlow::Step::line: break;
         }
         read_line();
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/parameter_memory.hpp"
 
+#include <algorithm>
+
 namespace splinefeed::host {
 
 namespace {
@@ -14,6 +16,10 @@ std::string normalized(std::string_view name) {
         }
     }
     return out;
+}
+
+bool is_global(std::string_view key) {
+    return !key.empty() && key.front() == '_';
 }
 
 } // namespace
@@ -36,8 +42,10 @@ bool ParameterMemory::write(std::int32_t number, Decimal value) noexcept {
 
 bool ParameterMemory::read(std::string_view name, Decimal& out) const noexcept {
     try {
-        const auto found = named_.find(normalized(name));
-        if (found == named_.end()) {
+        const std::string key = normalized(name);
+        const Names& names = is_global(key) ? global_ : named_;
+        const auto found = names.find(key);
+        if (found == names.end()) {
             return false;
         }
         out = found->second;
@@ -50,11 +58,12 @@ bool ParameterMemory::read(std::string_view name, Decimal& out) const noexcept {
 bool ParameterMemory::write(std::string_view name, Decimal value) noexcept {
     try {
         std::string key = normalized(name);
-        const auto found = named_.find(key);
-        if (found != named_.end()) {
+        Names& names = is_global(key) ? global_ : named_;
+        const auto found = names.find(key);
+        if (found != names.end()) {
             found->second = value;
-        } else if (named_.size() < most_names) {
-            named_.emplace(std::move(key), value);
+        } else if (names.size() < most_names) {
+            names.emplace(std::move(key), value);
         } else {
             return false;
         }
@@ -62,6 +71,23 @@ bool ParameterMemory::write(std::string_view name, Decimal value) noexcept {
     } catch (...) {
         return false;
     }
+}
+
+void ParameterMemory::enter(const std::vector<Decimal>& arguments) {
+    const auto begin = numbered_.begin() + 1;
+    const auto end = begin + local_numbers;
+    callers_.push_back({{begin, end}, std::move(named_)});
+    named_.clear();
+    std::fill(begin, end, Value{{}, true});
+    for (std::size_t i = 0; i < std::min(arguments.size(), local_numbers); ++i) {
+        numbered_[i + 1] = {arguments[i], true};
+    }
+}
+
+void ParameterMemory::leave() {
+    std::copy(callers_.back().numbered.begin(), callers_.back().numbered.end(), numbered_.begin() + 1);
+    named_ = std::move(callers_.back().named);
+    callers_.pop_back();
 }
 
 } // namespace splinefeed::host

@@ -22,14 +22,29 @@ public:
     [[nodiscard]] bool read(std::string_view name, Decimal& out) const noexcept override;
     bool write(std::string_view name, Decimal value) noexcept override;
 
+    /// A call begins: #1 to #30 are its arguments, and names without a leading _ are its own.
+    void enter(const std::vector<Decimal>& arguments);
+    /// It ends: they are again what they were. @pre enter() was called
+    void leave();
+
 private:
+    static constexpr std::size_t local_numbers = 30;
+
     struct Value {
         Decimal value{};
         bool set = false;
     };
 
+    using Names = std::map<std::string, Decimal, std::less<>>;
+    struct Saved {
+        std::vector<Value> numbered;
+        Names named;
+    };
+
     std::vector<Value> numbered_;
-    std::map<std::string, Decimal, std::less<>> named_;
+    Names global_; // those with a leading _
+    Names named_;
+    std::vector<Saved> callers_;
 };
 
 } // namespace splinefeed::host
