@@ -51,7 +51,8 @@ private:
         for (unsigned k = 0; k < static_cast<unsigned>(machine_->settings.axes); ++k) {
             const auto& travel = machine_->travel[k];
             if (travel && (box.low[k] < travel->low || box.high[k] > travel->high)) {
-                const bool below = box.low[k] < travel->low;
+                const double end = to_mm(step.programmed.to[k]);
+                const bool below = box.low[k] < travel->low && !(end > travel->high);
                 problems_.push_back(
                     fmt::format("{}:{}: axis {} goes to {:.4f} mm, {} the end of its travel at {:.4f} mm", *file_,
                                 step.line, machine_->axis_name[k], below ? box.low[k] : box.high[k],

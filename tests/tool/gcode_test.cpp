@@ -147,3 +147,43 @@ TEST_CASE("The tolerance of --tolerance is that of a program that states none") 
         CHECK(deviation > 0.5 * tolerance);
     }
 }
+
+TEST_CASE("Subprograms, conditions and loops run as they are written") {
+    const Tool tool;
+    const auto ends_of = [&](const std::string& program) {
+        tool.write("part.ngc", program);
+        const Call call = tool("run part.ngc --quiet --summary json --elements e.json");
+        CAPTURE(call.error);
+        REQUIRE(call.status == 0);
+        std::string ends;
+        const json document = json::parse(tool.read("e.json"));
+        for (const auto& element : document["elements"]) {
+            ends += std::to_string(element["to"][0].get<int>()) + " ";
+        }
+        return ends;
+    };
+    CHECK(ends_of("F600\no1 repeat [3]\nG91 G1 X10\no1 endrepeat\nG90 X0\n") == "10 20 30 0 ");
+    CHECK(ends_of("F600\n#1=0\no1 while [#1 LT 3]\n#1=[#1+1]\nG1 X[#1*10]\no1 endwhile\nX0\n") == "10 20 30 0 ");
+    CHECK(ends_of("F600\n#1=0\no1 do\n#1=[#1+1]\nG1 X[#1]\no1 while [#1 LT 3]\nX0\n") == "1 2 3 0 ");
+    CHECK(ends_of("F600\n#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 elseif [#1 GT 4]\no1 break\n"
+                  "o2 else\nG1 X[#1]\no2 endif\no1 endwhile\nX9\n") == "1 3 4 9 ");
+    CHECK(ends_of("o<hole> sub\n#<x>=[#1+#2]\nG1 X#<x> F600\no10 if [#1 LE 0]\no<hole> return [7]\no10 endif\n"
+                  "o<hole> call [#1-1] [#2]\nX[#1*100]\no<hole> endsub\n#1=5\no<hole> call [2] [20]\n"
+                  "G1 X[#1*1000] F600\n") == "22 21 20 100 200 5000 ");
+    CHECK(ends_of("o1 sub\nG1 X1 F600\no1 endsub\no2 sub\nG1 X2 F600\no2 endsub\n#5=2\no#5 call\no[#5-1] call\n") ==
+          "2 1 ");
+    CHECK(ends_of("o1 repeat [2]\no2 repeat [2]\nG91 G1 X1 F600\no2 endrepeat\no1 endrepeat\n") == "1 2 3 4 ");
+}
+
+TEST_CASE("Wrong O words are refused with their line, and a program that never ends, ends") {
+    const Tool tool;
+    CHECK(error_of(tool, "o1 call\n").find("part.ngc:1:2: there is no subprogram o1") == 0);
+    CHECK(error_of(tool, "o1 while [1]\nG1 X1 F100\n").find("part.ngc:1:1: o1 has no end") == 0);
+    CHECK(error_of(tool, "o1 endwhile\n").find("part.ngc:1:2: o1 has no begin") == 0);
+    CHECK(error_of(tool, "o1 loop\n").find("part.ngc:1:4: an O word has a number or a <name>") == 0);
+    CHECK(error_of(tool, "o1 if 1\no1 endif\n").find("part.ngc:1:7: a condition stands in brackets") == 0);
+    CHECK(error_of(tool, "o1 sub\no1 call\no1 endsub\no1 call\n").find("nested more than 30 deep") !=
+          std::string::npos);
+    CHECK(error_of(tool, "o1 while [1]\no1 endwhile\n").find("does it ever end?") != std::string::npos);
+    CHECK(error_of(tool, "o1 repeat [2]\nG1 X1 G33\no1 endrepeat\n").find("part.ngc:2:7: ") == 0);
+}

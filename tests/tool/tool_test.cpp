@@ -200,7 +200,7 @@ TEST_CASE("Every wrong command line gets one line and status 2, and nothing is w
         std::string part;
     };
     const std::vector<Case> cases{
-        {"", "run, plan, curve"},
+        {"", "run, plan, check, curve"},
         {"rnu p.csv", "did you mean 'run'"},
         {"--quite", "--help"},
         {"run", "no input"},

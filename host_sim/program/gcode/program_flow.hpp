@@ -30,7 +30,7 @@ public:
     };
 
     /// Everything must outlive it.
-    ProgramFlow(SourceLines& lines, std::string file, WordEvaluator& evaluator, const SystemParameters& system,
+    ProgramFlow(SourceLines& lines, std::string file, WordEvaluator& evaluator, const BlockInterpreter& system,
                 ParameterMemory& parameters)
         : lines_(&lines), file_(std::move(file)), evaluator_(&evaluator), system_(&system), parameters_(&parameters) {}
 
@@ -75,7 +75,7 @@ private:
     SourceLines* lines_;
     std::string file_;
     WordEvaluator* evaluator_;
-    const SystemParameters* system_;
+    const BlockInterpreter* system_;
     ParameterMemory* parameters_;
     std::map<std::string, std::shared_ptr<const Code>> subs_;
     std::vector<Frame> frames_;
