@@ -32,7 +32,8 @@ endfunction()
 foreach(cpu m0 m3 m4f)
     repository_test(arm_link_${cpu} ALONE arm/link_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
     repository_test(arm_pulse_${cpu} arm/pulse_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
-    set_tests_properties(arm_pulse_${cpu} PROPERTIES DEPENDS arm_link_${cpu}) # one build
+    repository_test(arm_gcode_${cpu} arm/gcode_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
+    set_tests_properties(arm_pulse_${cpu} arm_gcode_${cpu} PROPERTIES DEPENDS arm_link_${cpu}) # one build
 endforeach()
 repository_test(tidy ALONE tools/tidy.sh)
 repository_test(gpio_vm_runs gpio/vm/runs.sh ${PROJECT_BINARY_DIR})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything of the core that a program needs to turn a stream of waypoints, moves or G-code into feed segments, and feed
-// segments into steps. It does not include the curves that need all points at once (splines/), nor surfaces.
+// Everything of the core that a program needs to turn a stream of waypoints, moves or G-code into feed segments, and
+// feed segments into steps. It does not include the curves that need all points at once (splines/), nor surfaces.
 #pragma once
 
 // Waypoints to curves.

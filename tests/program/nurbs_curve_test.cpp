@@ -115,8 +115,9 @@ TEST_CASE("random NURBS are the pieces that they become", "[program][nurbs]") {
         const bool rational = random() % 2 == 0;
         std::vector<Control> points{{0, 0, 1}};
         for (int i = 1; i < count; ++i) {
-            points.push_back({six_decimals(20 * unit(random)), six_decimals(20 * unit(random)),
-                              rational ? six_decimals(1.5 + unit(random)) : 1.0});
+            points.push_back({static_cast<Real>(six_decimals(20 * unit(random))),
+                              static_cast<Real>(six_decimals(20 * unit(random))),
+                              rational ? static_cast<Real>(six_decimals(1.5 + unit(random))) : 1.0L});
         }
         CAPTURE(order, count, rational);
         GcodeRun<double> run;

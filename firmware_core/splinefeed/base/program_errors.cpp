@@ -33,7 +33,6 @@ const char* describe_refusal(Error error) noexcept {
     case Error::firmware_retraction_unsupported:
         return "retraction by the firmware is not supported; let the slicer write E moves";
     case Error::bed_levelling_unsupported: return "bed levelling is not supported; --ignore G29 leaves it out";
-    case Error::printer_factor_unsupported: return "factors of feed and flow are not supported other than S100";
     case Error::grbl_command_unsupported: return "of grbl's $ commands there is $H only";
     case Error::o_word: return "O words need the file; they are read by the host, and not within a block";
     case Error::expression_unsupported: return "parameters and expressions are not built in here; use plain numbers";
@@ -94,8 +93,6 @@ const char* describe_words(Error error) noexcept {
     case Error::speed_negative: return "S must not be negative; the direction is that of M3 or M4";
     case Error::tool_unknown: return "a tool is a whole number from 0, and G43 needs one that is in the tool table";
     case Error::tool_table_missing: return "there is no tool table; use G43.1, or give a table";
-    case Error::tolerance_negative: return "a tolerance is at least 0";
-    case Error::homing_axis_value: return "homing takes axis letters without values";
     case Error::g53_unsuited: return "G53 needs G0 or G1 in effect, and G90";
     case Error::g10_invalid:
         return "G10 takes L2 or L20 with P0 to P9 for the system (0: the one in effect), and R with L2 only";
@@ -117,7 +114,6 @@ const char* describe_words(Error error) noexcept {
     case Error::input_word_invalid:
         return "M66 takes P or E for the input, 0 to 63; L0 to L4 for the wait, L0 with E; and Q above 0 s for L1 to "
                "L4";
-    case Error::program_ended: return "the program has ended";
     case Error::block_pending: return "the items of the block before have not been taken";
     default: return nullptr;
     }
@@ -129,7 +125,6 @@ const char* describe_shapes(Error error) noexcept {
         return "an arc needs its centre, by the two of I, J, K that lie in its plane, or R; under G90.1 both";
     case Error::arc_centre_and_radius: return "an arc has a centre (I, J, K) or a radius R, not both";
     case Error::arc_offset_unused: return "this letter is across the arc's plane; G17 takes I J, G18 I K, G19 J K";
-    case Error::arc_ends_missing: return "the end of the arc is missing";
     case Error::arc_radius_zero: return "the centre lies on an end of the arc, within 0.2 um";
     case Error::arc_radius_too_small: return "R is too small: at least half of the way from the start to the end";
     case Error::arc_radius_mismatch:
@@ -137,7 +132,6 @@ const char* describe_shapes(Error error) noexcept {
     case Error::arc_end_is_start: return "by R an arc cannot end where it starts; give the centre of a whole circle";
     case Error::arc_turns_invalid: return "P, the number of turns, is a whole number from 1 to 10000";
     case Error::arc_axes_unsuited: return "arcs need their two axes, X, Y and Z as the first of the machine's axes";
-    case Error::arc_mirrored: return "the order of the machine's axes mirrors arcs";
     case Error::cycle_depth_missing: return "the cycle needs its depth: Z, or the axis across the plane";
     case Error::cycle_radius_missing: return "the cycle needs R, the level where the feed begins";
     case Error::cycle_below_depth: return "R must not be below the depth";

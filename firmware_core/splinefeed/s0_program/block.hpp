@@ -62,7 +62,7 @@ public:
 
     [[nodiscard]] static constexpr std::uint32_t bit(char letter) noexcept { return 1U << index(letter); }
     /// Of several letters.
-    [[nodiscard]] static constexpr std::uint32_t bits(std::string_view letters) noexcept {
+    [[nodiscard]] static consteval std::uint32_t bits(std::string_view letters) noexcept {
         std::uint32_t all = 0;
         for (const char letter : letters) {
             all |= bit(letter);

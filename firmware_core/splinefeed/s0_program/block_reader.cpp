@@ -5,6 +5,8 @@
 
 namespace splinefeed {
 
+using namespace std::string_view_literals; // without strlen
+
 namespace {
 
 constexpr bool is_letter(char c) noexcept {
@@ -58,7 +60,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
     if (settings_->dialect == Dialect::grbl && cursor.peek() == '$') {
         const std::uint16_t column = cursor.column();
         kind = LineKind::homing;
-        const bool homing = cursor.take("$h") && cursor.at_end();
+        const bool homing = cursor.take("$h"sv) && cursor.at_end();
         return homing ? BlockStatus{} : BlockStatus{Error::grbl_command_unsupported, 0, column};
     }
     if (cursor.take('/') && settings_->block_delete) {
@@ -101,9 +103,7 @@ Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control
             return status;
         }
         if (out.code(CodeGroup::printer) == 117) {
-            std::size_t end = text.text().find(';', text.at());
-            end = end == std::string_view::npos ? text.text().size() : end;
-            out.set_comment(CommentKind::none, text.text().substr(text.at(), end - text.at()));
+            out.set_comment(CommentKind::none, text.part(text.at(), text.find(';', text.at())));
             return {};
         }
     }
@@ -212,17 +212,17 @@ Status BlockReader::read_comment(TextCursor& text, Block& out) const noexcept {
     if (end == line.size()) {
         return Error::comment_not_closed;
     }
-    TextCursor inside(line.substr(begin, end - begin));
+    TextCursor inside(text.part(begin, end));
     CommentKind kind = CommentKind::none;
-    if (inside.take("msg,")) {
+    if (inside.take("msg,"sv)) {
         kind = CommentKind::message;
-    } else if (inside.take("print,")) {
+    } else if (inside.take("print,"sv)) {
         kind = CommentKind::print;
-    } else if (inside.take("debug,")) {
+    } else if (inside.take("debug,"sv)) {
         kind = CommentKind::debug;
     }
     if (kind != CommentKind::none) { // as in LinuxCNC, the last one of a line counts
-        out.set_comment(kind, line.substr(begin + inside.at(), end - begin - inside.at()));
+        out.set_comment(kind, text.part(begin + inside.at(), end));
     }
     text.go_to(end + 1);
     return {};
@@ -231,7 +231,7 @@ Status BlockReader::read_comment(TextCursor& text, Block& out) const noexcept {
 // "*71": the exclusive or of all characters before it.
 Status BlockReader::read_checksum(TextCursor& text) const noexcept {
     unsigned sum = 0;
-    for (const char c : text.text().substr(0, text.at())) {
+    for (const char c : text.part(0, text.at())) {
         sum ^= static_cast<unsigned char>(c);
     }
     const TextCursor start = text;

@@ -53,11 +53,11 @@ public:
         text_.step(); // the #
         if (text_.peek() == '<') {
             const std::size_t begin = text_.at() + 1;
-            const std::size_t end = text_.text().find('>', begin);
-            if (end == std::string_view::npos || end == begin) {
+            const std::size_t end = text_.find('>', begin);
+            if (end == text_.text().size() || end == begin) {
                 return Error::parameter_name_invalid;
             }
-            name = text_.text().substr(begin, end - begin);
+            name = text_.part(begin, end);
             text_.go_to(end + 1);
             return {};
         }

@@ -5,6 +5,8 @@
 
 namespace splinefeed {
 
+using namespace std::string_view_literals; // without strlen
+
 namespace {
 
 constexpr std::string_view axis_order = "xyzabcuvw";
@@ -142,14 +144,14 @@ bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept 
         text = begin;
         return text.take(word) && text.at_end();
     };
-    const Flag flags[] = {{"metric", !interpreter_->modal_.inches},
-                          {"imperial", interpreter_->modal_.inches},
-                          {"absolute", !interpreter_->modal_.incremental},
-                          {"incremental", interpreter_->modal_.incremental},
-                          {"inverse_time", interpreter_->modal_.inverse_time},
-                          {"units_per_minute", !interpreter_->modal_.inverse_time},
-                          {"spindle_on", interpreter_->modal_.spindle != SpindleState::stopped},
-                          {"spindle_cw", interpreter_->modal_.spindle == SpindleState::clockwise}};
+    const Flag flags[] = {{"metric"sv, !interpreter_->modal_.inches},
+                          {"imperial"sv, interpreter_->modal_.inches},
+                          {"absolute"sv, !interpreter_->modal_.incremental},
+                          {"incremental"sv, interpreter_->modal_.incremental},
+                          {"inverse_time"sv, interpreter_->modal_.inverse_time},
+                          {"units_per_minute"sv, !interpreter_->modal_.inverse_time},
+                          {"spindle_on"sv, interpreter_->modal_.spindle != SpindleState::stopped},
+                          {"spindle_cw"sv, interpreter_->modal_.spindle == SpindleState::clockwise}};
     for (const Flag& flag : flags) {
         if (is(flag.name)) {
             out = whole(flag.value ? 1 : 0);
@@ -157,30 +159,30 @@ bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept 
         }
     }
     for (std::int32_t k = 0; k < 9; ++k) {
-        if (is(axis_order.substr(static_cast<std::size_t>(k), 1))) {
+        if (is({axis_order.data() + k, 1})) {
             out = read(position_block + k);
             return true;
         }
     }
-    if (is("feed")) {
+    if (is("feed"sv)) {
         out = interpreter_->modal_.inches ? Decimal{product_quotient(interpreter_->modal_.feed.raw, 10, 254).raw}
                                           : interpreter_->modal_.feed;
-    } else if (is("rpm")) {
+    } else if (is("rpm"sv)) {
         out = interpreter_->modal_.speed;
-    } else if (is("line")) {
+    } else if (is("line"sv)) {
         out = whole(static_cast<std::int32_t>(interpreter_->line_));
-    } else if (is("coord_system")) {
+    } else if (is("coord_system"sv)) {
         const std::int32_t active = interpreter_->frame_.offsets().active;
         out = whole(active < 6 ? 540 + 10 * active : 585 + active);
-    } else if (is("motion_mode")) {
+    } else if (is("motion_mode"sv)) {
         out = whole(interpreter_->modal_.motion);
-    } else if (is("plane")) {
+    } else if (is("plane"sv)) {
         out = whole(interpreter_->modal_.plane == Plane::xy   ? 170
                     : interpreter_->modal_.plane == Plane::zx ? 180
                                                               : 190);
-    } else if (is("current_tool")) {
+    } else if (is("current_tool"sv)) {
         out = whole(interpreter_->frame_.offsets().tool_number);
-    } else if (is("selected_tool")) {
+    } else if (is("selected_tool"sv)) {
         out = whole(interpreter_->modal_.selected_tool);
     } else {
         return false;

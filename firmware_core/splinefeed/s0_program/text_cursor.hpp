@@ -48,6 +48,17 @@ public:
     [[nodiscard]] constexpr std::uint16_t column() const noexcept { return static_cast<std::uint16_t>(at_ + 1); }
     [[nodiscard]] constexpr std::string_view text() const noexcept { return text_; }
     [[nodiscard]] constexpr std::size_t at() const noexcept { return at_; }
+    /// A part of the line, without the checks of std::string_view::substr, which throws. @pre begin <= end <= its size
+    [[nodiscard]] constexpr std::string_view part(std::size_t begin, std::size_t end) const noexcept {
+        return {text_.data() + begin, end - begin};
+    }
+    /// Where the character is next, from `from` on; the end of the line if nowhere.
+    [[nodiscard]] constexpr std::size_t find(char c, std::size_t from) const noexcept {
+        while (from < text_.size() && text_[from] != c) {
+            ++from;
+        }
+        return from;
+    }
     constexpr void go_to(std::size_t at) noexcept {
         at_ = at;
         skip();

@@ -44,7 +44,7 @@ AxisPoint WorkFrame::to_program(const AxisPoint& machine, int system) const noex
         point[k] -= of.origin[k] + offsets_.tool[k];
     }
     if (of.rotation_deg.raw != 0 && x_ >= 0 && y_ >= 0) {
-        turn(point, sine_cosine(of.rotation_deg), true);
+        turn(point, system == offsets_.active && turned_ ? turn_ : sine_cosine(of.rotation_deg), true);
     }
     for (int k = 0; k < axes_; ++k) {
         point[static_cast<unsigned>(k)] -= g92(k);
