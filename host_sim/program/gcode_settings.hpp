@@ -4,6 +4,7 @@
 
 #include "splinefeed/number/position.hpp"
 #include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s0_program/work_offsets.hpp"
 
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct GcodeSettings {
     std::vector<std::string> axes;                ///< names: x, y, z, a, b, c
     std::vector<std::string>* problems = nullptr; ///< gets what is wrong with lines, which are left out; null: the
                                                   ///< first one ends the program
+    std::optional<WorkOffsets> offsets{};         ///< of a state file
     PerAxis<Position> start{};                    ///< where the machine stands, in its own coordinates
 };
 

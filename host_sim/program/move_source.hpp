@@ -8,7 +8,10 @@
 #include "splinefeed/base/status.hpp"
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
+#include "splinefeed/s0_program/work_offsets.hpp"
+
 #include <chrono>
+#include <memory>
 #include <string>
 
 namespace splinefeed::host {
@@ -29,6 +32,7 @@ struct SourceStep {
     bool stops = false;   ///< the machine stands at the end of the moves before it
     double dwell_s = 0.0; ///< of a dwell, and how long the machine waits for an event
     ProgramAction action{};
+    std::shared_ptr<const WorkOffsets> offsets{}; ///< of an event that changes them: what they are then
 };
 
 /// Every method that reads throws InputError.

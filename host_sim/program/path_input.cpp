@@ -182,6 +182,15 @@ void PathInput::limit_feed(double max_feed_mm_s, bool mixed) noexcept {
     }
 }
 
+void PathInput::begin_at(const MachineState& state) {
+    if (gcode_) {
+        gcode_->offsets = state.offsets;
+        for (unsigned k = 0; k < axes_.size(); ++k) {
+            gcode_->start[k] = position_from_mm(state.position_mm[k]);
+        }
+    }
+}
+
 void PathInput::collect_problems(std::vector<std::string>* problems) noexcept {
     if (gcode_) {
         gcode_->problems = problems;

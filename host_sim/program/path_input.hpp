@@ -4,6 +4,7 @@
 
 #include "host_sim/base/scalar_kind.hpp"
 #include "host_sim/config/path_tolerances.hpp"
+#include "host_sim/config/state_file.hpp"
 #include "host_sim/curve/curve_arguments.hpp"
 #include "host_sim/curve/curve_file.hpp"
 #include "host_sim/program/element_program.hpp"
@@ -61,6 +62,8 @@ public:
     /// Of a program in G-code: the largest feed of its moves that are no rapids. @param mixed  the machine has linear
     /// and rotary axes
     void limit_feed(double max_feed_mm_s, bool mixed) noexcept;
+    /// Of a program in G-code: where the machine stands, and its offsets.
+    void begin_at(const MachineState& state);
     /// Of a program in G-code: wrong lines are left out, and told to `problems` (null: they end the program).
     void collect_problems(std::vector<std::string>* problems) noexcept;
     /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.

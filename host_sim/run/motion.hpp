@@ -9,6 +9,7 @@
 #include "host_sim/planning/planned_trajectory.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/program_observer.hpp"
 #include "host_sim/run/program_steps.hpp"
 #include "host_sim/run/supervision.hpp"
 
@@ -28,6 +29,8 @@ struct MotionArguments {
     std::string events;              ///< file of an operator's actions; empty: none
     bool enforce = true;             ///< the simulated machine stops if a limit is broken
     bool quiet = false;              ///< writes nothing on standard error
+    std::string state;               ///< file that keeps offsets and position; empty: none
+    MachineState begins;             ///< as the run begins
     ProgramReport* report = nullptr; ///< gets the moves of a program and their times; null: nobody does
 };
 
@@ -76,8 +79,7 @@ private:
     void keep_failure(const std::exception_ptr& failure);
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
     void pass(std::uint32_t row);
-    void write(const typename ElementFeeder<S>::Pushed& pushed, ElementWriter& writer);
-    void tell(const typename ElementFeeder<S>::Pushed& pushed, ProgramReport& report);
+    void keep_state();
     void require_tolerance();
     [[nodiscard]] std::string excess() const;
     [[nodiscard]] ToleranceSummary tolerance_summary() const;
@@ -89,6 +91,8 @@ private:
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
+    std::string state_; // file; empty: none
+    MachineState kept_; // what it has
     ProgramReport* report_;
     Supervision* target_; // null: only the simulated machine
     WaypointError error_;
@@ -97,6 +101,7 @@ private:
     OptimumTime optimum_;
     LimitShare share_;
     ProgramSteps<S> steps_;
+    ProgramObserver<S> program_;
     CurveFeeder<S> feeder_;
     PathTee<S> tee_;
     PlannedTrajectory<S> planner_;

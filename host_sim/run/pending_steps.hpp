@@ -16,6 +16,7 @@ struct PendingStep {
     double dwell_s = 0.0;
     std::uint64_t line = 0;
     ProgramAction action{};
+    std::shared_ptr<const WorkOffsets> offsets{}; ///< what the event makes of them; null: nothing
     std::optional<std::uint32_t> row{}; ///< of the last move before it, as segments name it; none: before every move
     PerAxis<Position> place{};          ///< where that move ends
 };

@@ -35,7 +35,7 @@ void ProgramSteps<S>::add(const typename ElementFeeder<S>::Pushed& pushed) {
         ++summary_.dwells;
         summary_.dwell_s += step.dwell_s;
     }
-    pending_.add({step.kind, step.stops, step.dwell_s, step.line, step.action, pushed.row, place_});
+    pending_.add({step.kind, step.stops, step.dwell_s, step.line, step.action, step.offsets, pushed.row, place_});
 }
 
 template <Scalar S>
@@ -46,6 +46,10 @@ void ProgramSteps<S>::happen(double time_s) {
         return;
     }
     const ProgramAction& action = step.action;
+    if (step.offsets != nullptr) {
+        offsets_ = step.offsets;
+        offsets_changed_ = true;
+    }
     if (summary_.events++ < ProgramSummary::most_events) {
         summary_.first_events.push_back(
             {time_s, step.line, action_name(action.kind), action.number, action.value, action.text});

@@ -9,6 +9,8 @@
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
+#include <utility>
+
 namespace splinefeed::host {
 
 /// A dwell is standstill, segment by segment, so it takes the machine's time on every target. Events happen at the
@@ -38,6 +40,11 @@ public:
     void at_start(FeedSegment& segment) const noexcept;
     [[nodiscard]] bool moved() const noexcept { return row_.has_value(); }
 
+    /// The offsets as the motion has come to them; null: the program has not changed them.
+    [[nodiscard]] const WorkOffsets* offsets() const noexcept { return offsets_.get(); }
+    /// Whether they changed since the last call.
+    [[nodiscard]] bool take_change() noexcept { return std::exchange(offsets_changed_, false); }
+
     [[nodiscard]] const ProgramSummary& summary() const noexcept { return summary_; }
 
 private:
@@ -46,7 +53,9 @@ private:
     const MotionLimits<S>* limits_;
     PendingSteps pending_;
     PerAxis<Position> start_{};
-    PerAxis<Position> place_{};        // where the last move that was read ends
+    PerAxis<Position> place_{}; // where the last move that was read ends
+    std::shared_ptr<const WorkOffsets> offsets_;
+    bool offsets_changed_ = false;
     std::optional<std::uint32_t> row_; // of the last segment
     std::uint64_t left_ticks_ = 0;     // of a dwell that has begun
     double began_s_ = 0.0;             // when it began

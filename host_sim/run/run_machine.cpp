@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/run/run_machine.hpp"
 
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/number_text.hpp"
 #include "host_sim/config/machine_file.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace splinefeed::host {
 
@@ -36,6 +39,25 @@ RunMachine::RunMachine(const std::string& file, const InputFormat& format)
     if (!(axis_totals(machine.settings).smoothest > 0.0)) {
         tolerances.joint_mm = 0.0;
     }
+}
+
+MachineState RunMachine::state(const std::string& state, const std::string& position) const {
+    MachineState out = (state.empty() ? std::nullopt : read_state_file(state, axes)).value_or(MachineState{});
+    if (position.empty()) {
+        return out;
+    }
+    std::string_view rest = position;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        const std::size_t comma = rest.find(',');
+        const bool last = k + 1 == axes.size();
+        if (read_number(rest.substr(0, comma), out.position_mm[k]) != NumberText::number ||
+            (comma == std::string_view::npos) != last) {
+            throw UsageError(fmt::format("--position {}: it must be a number for each axis, {}", in_quotes(position),
+                                         fmt::join(axes, ",")));
+        }
+        rest.remove_prefix(last ? rest.size() : comma + 1);
+    }
+    return out;
 }
 
 } // namespace splinefeed::host

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
+#include "host_sim/config/state_file.hpp"
 #include "host_sim/program/input_format.hpp"
 
 #include <string>
@@ -16,6 +17,10 @@ struct RunMachine {
     /// Reads the file. Throws InputError.
     /// @param file  empty: the default machine
     RunMachine(const std::string& file, const InputFormat& format);
+
+    /// Where the machine stands, and its offsets. Throws InputError and UsageError.
+    /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says
+    [[nodiscard]] MachineState state(const std::string& state, const std::string& position) const;
 
     MachineDescription machine;
     double max_feed_mm_s = 0.0; ///< as the file states it

@@ -147,6 +147,13 @@ int move_machine(const RunArguments& arguments) {
     }
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
     input.limit_feed(of.max_feed_mm_s, limits->mixed);
+    if (input.gcode() == nullptr && !(arguments.state.empty() && arguments.position.empty())) {
+        throw UsageError("--state and --position are for programs in G-code; other inputs begin at their first point");
+    }
+    MotionArguments motion_arguments = arguments.motion;
+    motion_arguments.state = arguments.motion.enforce ? arguments.state : std::string(); // plan changes nothing
+    motion_arguments.begins = of.state(arguments.state, arguments.position);
+    input.begin_at(motion_arguments.begins);
     warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;
@@ -162,7 +169,7 @@ int move_machine(const RunArguments& arguments) {
         supervision.emplace(*target, *signals);
     }
     Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
-    Motion<S> motion(arguments.motion, machine, *limits, input, path_limits, outputs,
+    Motion<S> motion(motion_arguments, machine, *limits, input, path_limits, outputs,
                      supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();

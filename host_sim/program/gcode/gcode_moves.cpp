@@ -115,6 +115,9 @@ GcodeMoves<S>::GcodeMoves(const GcodeSettings& settings, std::string file, std::
 template <Scalar S>
 bool GcodeMoves<S>::start(PerAxis<Position>& position) {
     position = here_ = settings_->start;
+    if (settings_->offsets) {
+        interpreter_.restore(*settings_->offsets);
+    }
     interpreter_.start(here_);
     return true;
 }
@@ -233,6 +236,8 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     out.action.number = event.number;
     out.action.value = number(event.value);
     out.action.text.assign(event.text);
+    out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
+                                                           : nullptr;
     if (event.kind == EventKind::input_wait) { // inputs of the simulated machine are low, and stay so
         const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
         out.dwell_s = met ? 0.0 : number(event.value);
