@@ -34,6 +34,7 @@ void LimitShare::segment(const FeedSegment& segment) {
     const double duration_s = segment.duration_ticks / (ticks_per_us * 1e6);
     const std::uint64_t ticks = segment.duration_ticks;
     bool bound = false;
+    bound_ = {};
     const auto count = [&](std::uint64_t& share, double value, double limit) {
         const bool binds = limit > 0.0 && value >= binding * limit;
         share += binds ? ticks : 0U;
@@ -54,23 +55,25 @@ void LimitShare::segment(const FeedSegment& segment) {
         const double acceleration = (m1 - m0) * per_s / duration_s;
         const double jerk = (6.0 * (m0 + m1) - 12.0 * distance) * per_s / (duration_s * duration_s);
         const AxisSettings& limits = machine_.axis[k];
-        count(axis.velocity, std::fabs(velocity), limits.max_velocity_mm_s);
-        count(axis.acceleration, std::fabs(acceleration),
-              velocity * acceleration < 0.0 ? limits.braking_mm_s2() : limits.max_acceleration_mm_s2);
-        count(axis.jerk, std::fabs(jerk), limits.max_jerk_mm_s3);
+        bound_.velocity |= count(axis.velocity, std::fabs(velocity), limits.max_velocity_mm_s);
+        bound_.acceleration |=
+            count(axis.acceleration, std::fabs(acceleration),
+                  velocity * acceleration < 0.0 ? limits.braking_mm_s2() : limits.max_acceleration_mm_s2);
+        bound_.acceleration |= count(axis.jerk, std::fabs(jerk), limits.max_jerk_mm_s3);
         speed_sq += velocity * velocity;
         linear_sq += limits.rotary ? 0.0 : velocity * velocity;
         acceleration_sq += acceleration * acceleration;
         power += velocity * acceleration;
     }
     const double feed = feeds_.empty() ? machine_.max_feed_mm_s : feeds_.front().mm_s;
-    if (count(feed_, std::sqrt(linear_sq > 0.0 ? linear_sq : speed_sq), feed) && feed < machine_.max_feed_mm_s) {
+    bound_.feed = count(feed_, std::sqrt(linear_sq > 0.0 ? linear_sq : speed_sq), feed);
+    if (bound_.feed && feed < machine_.max_feed_mm_s) {
         programmed_ += ticks;
     }
     const double across_sq = speed_sq > 0.0 ? acceleration_sq - power * power / speed_sq : 0.0;
     const double across = std::sqrt(std::max(across_sq, 0.0));
-    count(centripetal_, across, machine_.centripetal_mm_s2);
-    count(chord_, across, chord_mm_s2_);
+    bound_.acceleration |= count(centripetal_, across, machine_.centripetal_mm_s2);
+    bound_.acceleration |= count(chord_, across, chord_mm_s2_);
     none_ += bound ? 0U : ticks;
     total_ += ticks;
 }

@@ -30,6 +30,13 @@ struct LimitShares {
     double none = 0.0;
 };
 
+/// Which kinds of limits bound a segment.
+struct BoundLimits {
+    bool feed = false;
+    bool velocity = false;     ///< of an axis
+    bool acceleration = false; ///< or jerk, or what turning allows
+};
+
 /// A limit binds where at least 95 % of it is used: a plan that stays a few percent below a limit is still bound by it.
 /// Measured in the middle of each segment, with the duration of that segment: the resolution is a segment (at most a
 /// sample period). Speed along the path and curvature are taken over all axes, as in the plan. Memory: the waypoints
@@ -46,6 +53,8 @@ public:
 
     void segment(const FeedSegment& segment);
 
+    /// Of the last segment.
+    [[nodiscard]] const BoundLimits& bound() const noexcept { return bound_; }
     [[nodiscard]] LimitShares shares() const;
 
 private:
@@ -65,6 +74,7 @@ private:
     double chord_mm_s2_; // largest kappa v^2 that the chord error allows
     PerAxis<Axis> axis_{};
     std::deque<Feed> feeds_;
+    BoundLimits bound_{};
     std::uint64_t feed_ = 0;
     std::uint64_t programmed_ = 0;
     std::uint64_t centripetal_ = 0;

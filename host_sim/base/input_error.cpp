@@ -34,4 +34,8 @@ InputError::InputError(std::string_view file, std::uint64_t line, std::string_vi
                                    : line == 0  ? fmt::format("{}: {}", file, text)
                                                 : fmt::format("{}:{}: {}", file, line, text))) {}
 
+InputError::InputError(std::string_view file, std::uint64_t line, std::uint64_t column, std::string_view text)
+    : std::runtime_error(printable(column == 0 ? fmt::format("{}:{}: {}", file, line, text)
+                                               : fmt::format("{}:{}:{}: {}", file, line, column, text))) {}
+
 } // namespace splinefeed::host

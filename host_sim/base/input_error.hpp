@@ -19,6 +19,8 @@ namespace splinefeed::host {
 /// "FILE:LINE: what is wrong, what would be right". Without a line (0) or a file (empty) that part is left out.
 struct InputError : std::runtime_error {
     InputError(std::string_view file, std::uint64_t line, std::string_view text);
+    /// "FILE:LINE:COLUMN: ..."; a column of 0 is left out.
+    InputError(std::string_view file, std::uint64_t line, std::uint64_t column, std::string_view text);
 };
 
 /// What is wrong with the command line, and what would be right.

@@ -5,6 +5,7 @@
 #include <array>
 #include <streambuf>
 #include <string>
+#include <string_view>
 
 namespace splinefeed::host {
 
@@ -17,6 +18,13 @@ public:
     InputStream(const InputStream&) = delete;
     InputStream& operator=(const InputStream&) = delete;
     ~InputStream() override;
+
+    /// What has arrived and was not read yet.
+    [[nodiscard]] std::string_view arrived() const noexcept {
+        return {gptr(), static_cast<std::size_t>(egptr() - gptr())};
+    }
+    /// Leaves out the next bytes. @pre at most arrived().size()
+    void skip(std::size_t bytes) noexcept { gbump(static_cast<int>(bytes)); }
 
     /// For any thread: a read that waits, and every later read, returns end of file.
     void stop() const noexcept;

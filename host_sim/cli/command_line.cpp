@@ -4,6 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
+#include "host_sim/cli/command_options.hpp"
 #include "host_sim/targets/target_table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -24,15 +25,6 @@ constexpr const char* exit_statuses =
     "Exit status: 0 done; 1 the machine did not finish (the message says where it stands), or a drive cannot be used; "
     "2 bad input or usage (the message is one line).";
 
-/// What was typed, before it is checked.
-struct Typed {
-    std::optional<std::string> machine;
-    std::optional<std::string> scalar;
-    std::string format;
-    std::string summary;
-    std::string window = "1024";
-};
-
 std::string joined(std::initializer_list<std::string_view> names) {
     return listed({names.begin(), names.size()});
 }
@@ -40,93 +32,6 @@ std::string joined(std::initializer_list<std::string_view> names) {
 [[noreturn]] void refuse_value(std::string_view option, std::string_view value,
                                std::initializer_list<std::string_view> known) {
     throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(value), joined(known)));
-}
-
-void add_input(CLI::App& app, Job& job, Typed& typed) {
-    app.add_option("FILE", job.run.path.input,
-                   "waypoints (.csv), or a curve or elements (.json); - reads standard input")
-        ->required();
-    app.add_option("--format", typed.format,
-                   input_formats(" or ") + ": format of the input (default: by its name; of standard input csv)");
-}
-
-void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
-    CurveArguments& curve = job.run.path.curve;
-    const std::string group = "Curve";
-    const auto option = [&app, &group](const char* name, std::optional<std::string>& value, const char* text) {
-        app.add_option(name, value, text)->group(group);
-    };
-    option("--curve", curve.method,
-           (listed(curve_names()) + " (default g2); docs/explanation/curves.md compares them").c_str());
-    app.add_flag("--closed", curve.closed, "return to the first waypoint, smoothly")
-        ->group(group)
-        ->disable_flag_override();
-    app.add_flag("--smooth", curve.smooth,
-                 "join the segments of a curve whose curvature jumps (catmull-rom and others) with G2: quintics")
-        ->group(group)
-        ->disable_flag_override();
-    option("--parameterization", curve.parameterization,
-           "uniform, chordal or centripetal (default: catmull-rom centripetal, else chordal)");
-    option("--degree", curve.degree,
-           "of bspline, 2 or 3, bspline-interpolation, 1 to 9, beta-chain, 2 to 9 (default 3)");
-    option("--knots", curve.knots, "of bspline-interpolation: uniform or averaged (default averaged)");
-    option("--tension", curve.tension,
-           "of catmull-rom, 0 to 10 (default 0.5); factor of catmull-rom-modified, 0 to 2, constant 0 to 65536 mm "
-           "(default 1)");
-    option("--factor", curve.factor,
-           "of catmull-rom-modified: chord, the tension times each chord, or constant, the tension in mm (default "
-           "chord)");
-    option("--beta1", curve.beta1, "bias of g2-bezier (default: the ratio of the chords) and beta-chain (default 1)");
-    option("--beta2", curve.beta2, "tension of g2-bezier, not below 0, and beta-chain (default 0)");
-    option("--lambda", curve.lambda, "of ferguson: ratio of the tangents at each point, 1/16 to 16 (default 1)");
-    option(
-        "--mu", curve.mu,
-        "of ferguson: tension, -65536 to 65536, or auto, the nearest to 0 that keeps the solve stable (default auto)");
-    option("--curvature-sign", curve.curvature_sign,
-           "of ferguson: 1, -1 (flips the curvature at every point) or auto (-1 at inflections; default 1)");
-    option("--corner-angle", curve.corner_angle,
-           "a turn sharper than this, in degrees, is a corner: the machine stops there (default 60; bspline 180, "
-           "no corners)");
-    option("--tolerance", curve.tolerance,
-           "MM: of polyline, how far the path may be from the lines, 0 to 100 (default 0: exact, with a stop at each "
-           "corner); of elements that state none (default: the machine file's)");
-    option("--start-tangent", curve.start_tangent,
-           "X,Y,Z: direction at the start, in units of the first chord (ferguson, bspline-interpolation: the "
-           "derivative)");
-    option("--end-tangent", curve.end_tangent, "X,Y,Z: the same at the end");
-    app.add_option("--scalar", typed.scalar,
-                   "fixed, float or double: number type of the computation (default fixed, as on a microcontroller); "
-                   "float not with a jerk limit")
-        ->group(group);
-}
-
-void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
-    app.add_option("-m,--machine", typed.machine, "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
-    if (executes) {
-        app.add_option("--target", job.run.target,
-                       "sim: the simulated machine in this process (default); " + target_help());
-        app.add_flag("--home", job.run.options.home, "find the references of the axes before the program begins")
-            ->disable_flag_override();
-        app.add_flag("--probe", job.run.options.probe,
-                     "end the run where the probe touches (gpio://); exit status 1 if it never does")
-            ->disable_flag_override();
-    }
-    app.add_option(
-        "--window", typed.window,
-        "look-ahead of the feed plan in cells, 16 to 1000000 (default 1024); a jerk-limited plan uses a quarter");
-    app.add_option("--events", job.run.motion.events,
-                   "E.csv: what an operator does during the run, rows t,hold|resume|abort or t,override,0 to 2");
-    const std::string group = "Outputs (- is standard output)";
-    app.add_option("--trace", job.run.outputs.trace, "T.csv: positions and speed at every sample period")->group(group);
-    for (std::size_t i = 0; i < segment_output_kinds().size(); ++i) {
-        const SegmentOutputKind& kind = segment_output_kinds()[i];
-        app.add_option(kind.option, job.run.outputs.of_segments[i], kind.help)->group(group);
-    }
-    app.add_option("--curve-out", job.run.outputs.curve, "C.json: the curve as Bezier segments")->group(group);
-    app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
-    app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error")
-        ->group(group)
-        ->disable_flag_override();
 }
 
 /// The options of an app by their long names, as they are typed.
@@ -186,11 +91,10 @@ std::string explained(const CLI::ParseError& error) {
 
 void take_format(Job& job, const std::string& format) {
     const std::size_t dot = job.run.path.input.rfind('.');
-    const std::string suffix = job.run.path.input == "-"  ? ".csv"
+    const std::string suffix = job.run.path.input == "-"  ? "csv"
                                : dot == std::string::npos ? ""
-                                                          : job.run.path.input.substr(dot);
-    const std::string kind = format.empty() ? suffix.substr(suffix.empty() ? 0 : 1) : format;
-    if (const InputFormat* const known = input_format(kind)) {
+                                                          : job.run.path.input.substr(dot + 1);
+    if (const InputFormat* const known = format.empty() ? format_of_suffix(suffix) : input_format(format)) {
         job.run.path.format = known;
     } else if (!format.empty()) {
         throw UsageError(fmt::format("--format {}: it must be one of {}", in_quotes(format), input_formats(", ")));
@@ -227,6 +131,7 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
         files.emplace_back(segment_output_kinds()[i].option, &job.run.outputs.of_segments[i]);
     }
     files.emplace_back("--curve-out", &job.run.outputs.curve);
+    files.emplace_back("--elements", &job.run.outputs.elements);
     const char* on_stdout = nullptr;
     std::error_code ignored;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -260,12 +165,27 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_input(*run, job, typed);
     add_machine_options(*run, job, typed, true);
     add_curve_options(*run, job, typed);
+    add_gcode_options(*run, job);
     run->footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
     CLI::App* const plan = app.add_subcommand("plan", "Plan a path without executing it");
     add_input(*plan, job, typed);
     add_machine_options(*plan, job, typed, false);
     add_curve_options(*plan, job, typed);
+    add_gcode_options(*plan, job);
     plan->footer(std::string("Example: splinefeed plan part.csv --curve catmull-rom --summary json\n") + exit_statuses);
+    CLI::App* const check =
+        app.add_subcommand("check", "Say what is wrong with a program in G-code, and how long it takes");
+    add_input(*check, job, typed);
+    check->add_option("-m,--machine", typed.machine,
+                      "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
+    check->add_option("--tolerance", job.run.path.curve.tolerance,
+                      "MM: of G64 without P, 0 to 100 (default: the machine file's)");
+    add_gcode_options(*check, job);
+    check->add_option("--scalar", typed.scalar,
+                      "fixed, float or double: number type of the computation (default fixed)");
+    check->add_flag("--json", typed.json, "print one JSON object")->disable_flag_override();
+    check->footer("Example: splinefeed check part.ngc -m three_axis.toml\n"
+                  "Exit status: 0 nothing is wrong; 1 the program has problems; 2 it cannot be read, or bad usage.");
     CLI::App* const curve = app.add_subcommand("curve", "Print the curve through the points as Bezier segments");
     add_input(*curve, job, typed);
     add_curve_options(*curve, job, typed);
@@ -291,7 +211,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     add_link_options(*link, job.link);
     link->footer(std::string("Example: splinefeed link --target modbus-tcp://192.168.0.10:502?unit=1\n") +
                  exit_statuses);
-    for (CLI::App* const command : {run, plan, curve, surface, drive, link}) {
+    for (CLI::App* const command : {run, plan, check, curve, surface, drive, link}) {
         for (CLI::Option* const option : command->get_options()) {
             option->type_name(""); // the descriptions say what a value may be
         }
@@ -303,7 +223,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
 } // namespace
 
 std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
-    constexpr std::array<std::string_view, 6> commands{"run", "plan", "curve", "surface", "drive", "link"};
+    constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curve", "surface", "drive", "link"};
     Job job;
     Typed typed;
     CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
@@ -359,9 +279,10 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     if (typed.machine && job.run.machine.empty()) {
         throw UsageError("--machine needs the name of a .toml file; without the option there is a default machine");
     }
-    job.command = command.get_name() == "run"    ? Command::run
-                  : command.get_name() == "plan" ? Command::plan
-                                                 : Command::curve;
+    job.command = command.get_name() == "run"     ? Command::run
+                  : command.get_name() == "plan"  ? Command::plan
+                  : command.get_name() == "check" ? Command::check
+                                                  : Command::curve;
     job.run.motion.enforce = job.command == Command::run;
     check_target(job.run.target);
     if ((job.run.options.home || job.run.options.probe) && job.run.target == "sim") {
@@ -373,11 +294,11 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));
     take_window(job, typed.window);
-    take_outputs(job, command, typed.summary);
+    take_outputs(job, command, typed.json ? "json" : typed.summary);
     if (job.command == Command::curve && job.run.outputs.curve.empty()) {
         job.run.outputs.curve = "-";
     }
-    if (!job.run.path.format->is_curve()) {
+    if (job.run.path.format->kind == InputKind::waypoints) {
         static_cast<void>(choose_curve(job.run.path.curve));
     }
     return job;

@@ -9,7 +9,7 @@
 
 namespace splinefeed::host {
 
-enum class Command { run, plan, curve, surface, drive, link };
+enum class Command { run, plan, check, curve, surface, drive, link };
 
 struct Job {
     Command command = Command::run;

@@ -36,13 +36,17 @@ Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed)
     }
 }
 
-Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed, const MachineDescription& machine)
+Outputs::Outputs(const OutputNames& names, std::string_view method, bool closed, const MachineDescription& machine,
+                 bool has_lines)
     : Outputs(names, method, closed) {
     if (names.prints_summary) {
         FileClaims::writes("-");
     }
     if (!names.trace.empty()) {
-        trace_.emplace(trace_file_.emplace(names.trace), machine);
+        trace_.emplace(trace_file_.emplace(names.trace), machine, has_lines);
+    }
+    if (!names.elements.empty()) {
+        elements_.emplace(elements_file_.emplace(names.elements), machine);
     }
     for (std::size_t i = 0; i < segment_kinds.size(); ++i) {
         if (!names.of_segments[i].empty()) {
@@ -66,7 +70,10 @@ void Outputs::commit(const nlohmann::ordered_json* results) {
     for (const auto& output : of_segments_) {
         output->finish();
     }
-    for (std::optional<OutputFile>* file : {&curve_file_, &trace_file_}) {
+    if (elements_) {
+        elements_->finish();
+    }
+    for (std::optional<OutputFile>* file : {&curve_file_, &elements_file_, &trace_file_}) {
         if (*file) {
             (*file)->commit();
         }

@@ -4,6 +4,7 @@
 
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/output/curve_writer.hpp"
+#include "host_sim/output/element_writer.hpp"
 #include "host_sim/output/segment_output.hpp"
 #include "host_sim/output/trace_writer.hpp"
 
@@ -32,6 +33,7 @@ struct SegmentOutputKind {
 struct OutputNames {
     std::string trace;
     std::string curve;
+    std::string elements;
     std::vector<std::string> of_segments = std::vector<std::string>(segment_output_kinds().size()); ///< of each kind
     bool prints_summary = true; ///< on standard output
 };
@@ -42,9 +44,12 @@ public:
     /// Opens only the curve. Throws OutputError, as every method does.
     Outputs(const OutputNames& names, std::string_view method, bool closed);
     /// Opens every output that has a name.
-    Outputs(const OutputNames& names, std::string_view method, bool closed, const MachineDescription& machine);
+    /// @param has_lines  the input is a program with lines: the trace names them
+    Outputs(const OutputNames& names, std::string_view method, bool closed, const MachineDescription& machine,
+            bool has_lines = false);
 
     [[nodiscard]] TraceWriter* trace() noexcept { return trace_ ? &*trace_ : nullptr; }
+    [[nodiscard]] ElementWriter* elements() noexcept { return elements_ ? &*elements_ : nullptr; }
     [[nodiscard]] CurveWriter* curve() noexcept { return curve_ ? &*curve_ : nullptr; }
 
     /// The next feed segment of the run, to all outputs that are made of them.
@@ -58,9 +63,11 @@ private:
     std::optional<OutputFile> trace_file_;
     std::deque<OutputFile> segment_files_; // where they are: the writers refer to them
     std::optional<OutputFile> curve_file_;
+    std::optional<OutputFile> elements_file_;
     std::optional<TraceWriter> trace_;
     std::vector<std::unique_ptr<SegmentOutput>> of_segments_; // of each file
     std::optional<CurveWriter> curve_;
+    std::optional<ElementWriter> elements_;
 };
 
 } // namespace splinefeed::host

@@ -219,6 +219,9 @@ std::string to_json(const Summary& summary) {
     if (summary.tolerance) {
         json["tolerance"] = tolerance_json(*summary.tolerance);
     }
+    if (!summary.program.empty()) {
+        json["program"] = to_json(summary.program);
+    }
     if (summary.link) {
         json["link"] = to_json(*summary.link);
     }
@@ -244,8 +247,9 @@ std::string to_text(const Summary& summary) {
     if (summary.tolerance) {
         write_tolerance(out, summary);
     }
+    text += to_text(summary.program);
     row(out, "smoothing error", fine(summary.smoothing_bound_mm), "mm at most");
-    row(out, "waypoints", std::to_string(summary.waypoints), "");
+    row(out, summary.curve == "gcode" ? "moves" : "waypoints", std::to_string(summary.waypoints), "");
     row(out, "curve segments", std::to_string(summary.curve_segments), summary.curve);
     row(out, "feed segments", std::to_string(summary.feed_segments), summary.scalar);
     row(out, "planning time", fmt::format("{:.3f}", summary.planning_time_s), "s");

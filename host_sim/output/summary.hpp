@@ -5,6 +5,7 @@
 #include "host_sim/analysis/limit_share.hpp"
 #include "host_sim/output/gpio_summary.hpp"
 #include "host_sim/output/link_summary.hpp"
+#include "host_sim/output/program_summary.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -71,6 +72,7 @@ struct Summary {
     std::uint64_t peak_rss_bytes = 0; ///< memory of the process; 0: unknown
     std::optional<LimitShares> limit_share;    ///< which limit bound; axes as in limit_use
     std::optional<ToleranceSummary> tolerance; ///< for elements, and lines within a tolerance
+    ProgramSummary program;                    ///< dwells and events
     std::optional<LinkSummary> link;           ///< for a run on Modbus drives
     std::optional<GpioSummary> gpio;           ///< for a run on lines of GPIO chips
 };

@@ -77,17 +77,17 @@ char* write_time(char* out, std::uint64_t ticks) {
 
 } // namespace
 
-TraceWriter::TraceWriter(OutputFile& file, const MachineDescription& machine)
-    : file_(&file), axes_(static_cast<unsigned>(machine.settings.axes)) {
+TraceWriter::TraceWriter(OutputFile& file, const MachineDescription& machine, bool has_lines)
+    : file_(&file), axes_(static_cast<unsigned>(machine.settings.axes)), has_lines_(has_lines) {
     file.append("t");
     for (unsigned k = 0; k < axes_; ++k) {
         file.format(",{}", machine.axis_name[k]);
     }
-    file.append(",speed\n");
+    file.append(has_lines ? ",speed,line\n" : ",speed\n");
 }
 
 void TraceWriter::row(std::uint64_t ticks, const PerAxis<double>& position_mm, double speed_mm_s) {
-    std::array<char, (max_axes + 2) * longest_number> line; // NOLINT: written before it is read
+    std::array<char, (max_axes + 3) * longest_number> line; // NOLINT: written before it is read
     char* out = write_time(line.data(), ticks);
     for (unsigned k = 0; k < axes_; ++k) {
         *out++ = ',';
@@ -95,6 +95,10 @@ void TraceWriter::row(std::uint64_t ticks, const PerAxis<double>& position_mm, d
     }
     *out++ = ',';
     out = write_fixed<9>(out, speed_mm_s);
+    if (has_lines_) {
+        *out++ = ',';
+        out = write_whole(out, line_);
+    }
     *out++ = '\n';
     file_->append({line.data(), static_cast<std::size_t>(out - line.data())});
 }

@@ -51,7 +51,7 @@ CurveFeeder<S>::CurveFeeder(PathInput& input) : input_(&input) {
     take_tangent(choice.start_tangent, options.axes, tangents.has_start, tangents.start);
     take_tangent(choice.end_tangent, options.axes, tangents.has_end, tangents.end);
     if (input.within_tolerance()) {
-        source_ = &elements_.emplace(input, input.elements() == nullptr ? input.rows() : nullptr).source();
+        source_ = &elements_.emplace(input).source();
         return;
     }
     if (input.segments() != nullptr) {
@@ -135,10 +135,8 @@ bool CurveFeeder<S>::next_row(WaypointRow& row, Role& role) {
 template <Scalar S>
 bool CurveFeeder<S>::more(Pushed& pushed) {
     if (elements_) {
-        typename ElementFeeder<S>::Pushed element;
-        const bool any = elements_->more(element);
-        pushed = {0, element.position, false, element.start, element.line, element.move};
-        return any;
+        pushed = {};
+        return elements_->more(pushed.program);
     }
     if (finished_) {
         return false;
@@ -160,7 +158,7 @@ bool CurveFeeder<S>::more(Pushed& pushed) {
         if (const Status status = waypoints_->push(waypoint, role); !status.ok()) {
             throw InputError(input_->name(), row.line, describe(status.error()));
         }
-        pushed = {static_cast<std::uint32_t>(pushed_++), waypoint.position, role == Role::path, false, 0, nullptr};
+        pushed = {static_cast<std::uint32_t>(pushed_++), waypoint.position, role == Role::path, {}};
         return true;
     } catch (...) {
         if (!finished_) {
@@ -182,7 +180,7 @@ void CurveFeeder<S>::finish() {
 template <Scalar S>
 std::uint32_t CurveFeeder<S>::row_of(std::uint32_t index) const noexcept {
     if (elements_) {
-        return elements_->row_of(index);
+        return elements_->program().row_of(index);
     }
     if (all_.empty()) {
         return index;
@@ -195,7 +193,7 @@ std::uint32_t CurveFeeder<S>::row_of(std::uint32_t index) const noexcept {
 template <Scalar S>
 std::uint64_t CurveFeeder<S>::line_of_row(std::uint32_t row) const noexcept {
     if (elements_) {
-        return elements_->line_of_row(whole_row(row));
+        return elements_->program().line_of_row(whole_row(row));
     }
     if (!all_.empty()) {
         return row < all_.size() ? all_[row].line : 0;
@@ -213,21 +211,17 @@ std::uint64_t CurveFeeder<S>::whole_row(std::uint32_t row) const noexcept {
 
 template <Scalar S>
 std::string CurveFeeder<S>::name_of_row(std::uint32_t row) const {
-    const ElementProgram* const program = input_->elements();
-    return program != nullptr ? element_name(row, program->line_of(row)) : fmt::format("point {}", row + 1);
+    return elements_ ? elements_->program().name_of_row(row) : fmt::format("point {}", row + 1);
 }
 
 template <Scalar S>
 std::uint64_t CurveFeeder<S>::number_of_move(std::uint64_t move) const noexcept {
-    const ElementProgram* const program = input_->elements();
-    return program != nullptr ? program->element_of(move) + std::uint64_t{1} : move + 2;
+    return elements_->program().number_of_move(move);
 }
 
 template <Scalar S>
 std::string CurveFeeder<S>::name_of_move(std::uint64_t move, std::uint64_t line) const {
-    const std::uint64_t number = number_of_move(move);
-    return input_->elements() != nullptr ? element_name(number - 1, static_cast<std::uint32_t>(line))
-                                         : fmt::format("the move to point {} (line {})", number, line);
+    return elements_->program().name_of_move(move, line);
 }
 
 template class CurveFeeder<double>;

@@ -34,11 +34,9 @@ public:
     struct Pushed {
         std::uint32_t index = 0; ///< as CurveSegment::waypoint counts, modulo 2^32
         PerAxis<Position> position{};
-        bool on_path = false;   ///< false: lead-in or lead-out, or no waypoint that the path must pass
-        bool start = false;     ///< within a tolerance: where the first move begins
-        std::uint64_t line = 0; ///< within a tolerance: of the move, in the CSV or in the program of the elements
-        const PathElement<double>* move = nullptr; ///< within a tolerance: the move that ends here; valid until the
-                                                   ///< next call
+        bool on_path = false; ///< false: lead-in or lead-out, or no waypoint that the path must pass
+        /// Within a tolerance: what the program's step did. Pointers are valid until the next call.
+        typename ElementFeeder<S>::Pushed program{};
     };
     /// Pushes the next waypoint, or finishes the curve; false if there is none. Throws InputError; the curve then ends
     /// with the waypoints before. @pre the curve is starved
@@ -55,7 +53,7 @@ public:
     }
 
     /// Number of waypoints of the input so far.
-    [[nodiscard]] std::uint64_t rows() const noexcept { return elements_ ? elements_->rows() : rows_read_; }
+    [[nodiscard]] std::uint64_t rows() const noexcept { return elements_ ? elements_->program().rows() : rows_read_; }
     /// Index of the waypoint in the input, from 0, for an index of CurveSegment::waypoint.
     [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept;
     /// Line of the waypoint in its file; 0: unknown.
@@ -67,6 +65,12 @@ public:
     [[nodiscard]] std::string name_of_row(std::uint32_t row) const;
     /// The complete index of a row that was read recently.
     [[nodiscard]] std::uint64_t whole_row(std::uint32_t row) const noexcept;
+    /// The motion has come to this row: nobody asks for those before it any more.
+    void passed(std::uint32_t row) {
+        if (elements_) {
+            elements_->program().passed(whole_row(row));
+        }
+    }
     /// Memory of the curve stage.
     [[nodiscard]] std::size_t bytes() const noexcept {
         return segments_ ? sizeof *segments_ : elements_ ? sizeof *elements_ : streamed_.bytes;

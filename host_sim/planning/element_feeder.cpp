@@ -1,97 +1,97 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/planning/element_feeder.hpp"
 
-#include "host_sim/base/input_error.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <utility>
 
 namespace splinefeed::host {
 
-namespace {
-
-bool turns_rotary_axis(const PathElement<double>& move, const PerAxis<Position>& from, const PerAxis<bool>& rotary) {
-    for (unsigned k = 0; k < max_axes; ++k) {
-        const auto& points = move.bezier.points[k];
-        const bool bends = move.shape == MoveShape::bezier &&
-                           std::any_of(points.begin(), points.end(), [](double offset) { return offset != 0.0; });
-        if (rotary[k] && (move.to[k] != from[k] || bends)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-} // namespace
-
 template <Scalar S>
-ElementFeeder<S>::ElementFeeder(PathInput& input, std::unique_ptr<WaypointRows> rows)
-    : input_(&input), program_(input.elements()), rows_(std::move(rows)),
+ElementFeeder<S>::ElementFeeder(PathInput& input)
+    : input_(&input), program_(move_source<S>(input)),
       path_(static_cast<int>(input.axes().size()), from_double<S>(input.tolerances().joint_mm),
             {from_double<S>(input.tolerances().sharpest.curvature_1_mm),
-             from_double<S>(input.tolerances().sharpest.fading)}) {
-    if (program_ == nullptr) {
-        lines_.resize(remembered);
+             from_double<S>(input.tolerances().sharpest.fading)}) {}
+
+// A move that turns a rotary axis keeps the smaller number: then the path is nowhere farther off, in mm and in degrees.
+template <Scalar S>
+void ElementFeeder<S>::limit_tolerance(SourceStep<S>& step) const {
+    const PathTolerances& tolerances = input_->tolerances();
+    for (unsigned k = 0; k < max_axes; ++k) {
+        const auto& points = step.element.bezier.points[k];
+        const bool bends = step.element.shape == MoveShape::bezier &&
+                           std::any_of(points.begin(), points.end(), [](S offset) { return absolute(offset) > S{}; });
+        if (tolerances.rotary[k] && (step.element.to[k] != here_[k] || bends) &&
+            step.programmed.tolerance_mm > tolerances.rotary_deg) {
+            step.programmed.tolerance_mm = tolerances.rotary_deg;
+            step.element.tolerance_mm = from_double<S>(tolerances.rotary_deg);
+        }
     }
 }
 
+// A move that is too short is none for the path: the machine cannot stand at its end, but at the end of the one before.
 template <Scalar S>
-void ElementFeeder<S>::refuse(Error error, std::uint64_t line) const {
-    if (program_ != nullptr && moves_ < program_->moves()) {
-        const std::uint32_t element = program_->element_of(moves_);
-        throw InputError(input_->name(), 0,
-                         fmt::format("{}: {}", element_name(element, program_->line_of(element)), describe(error)));
+bool ElementFeeder<S>::has_length(const SourceStep<S>& step) const {
+    const auto length = BlendedPath<S>::length_of(here_, step.element, static_cast<int>(input_->axes().size()));
+    if (!length.has_value()) {
+        throw program_->refusal(step, describe(length.error()));
     }
-    throw InputError(input_->name(), line, describe(error));
+    return *length > S{};
 }
 
-// The start, or the next move.
 template <Scalar S>
-bool ElementFeeder<S>::next(Pushed& pushed) {
-    pushed = {};
-    std::uint64_t line = 0;
-    if (program_ != nullptr) {
-        if (started_ && moves_ == program_->moves()) {
-            return false;
-        }
-        pushed.position = program_->start();
-        if (started_) {
-            move_ = program_->element(moves_);
-            pushed.position = move_.to;
-            const std::uint32_t element = program_->element_of(moves_);
-            rows_read_ = element + std::uint64_t{1};
-            pushed.line = program_->line_of(element);
-        }
-    } else {
-        WaypointRow row;
-        if (!rows_->next(row)) {
-            return false;
-        }
-        pushed.line = line = lines_[rows_read_++ % remembered] = row.line;
-        for (unsigned k = 0; k < input_->axes().size(); ++k) {
-            pushed.position[k] = position_from_mm(row.position[k]);
-        }
-        move_ = {};
-        move_.to = pushed.position;
-        move_.stop_at_end = row.corner == Corner::forced;
-        move_.tolerance_mm = row.tolerance_mm.value_or(input_->choice().tolerance_mm);
-        move_.feed_mm_s = row.feed_mm_s;
-        move_.max_feed_mm_s = row.max_feed_mm_s;
+void ElementFeeder<S>::push(SourceStep<S>& step, Pushed& pushed) {
+    if (const Status status = path_.push(step.element); !status.ok()) {
+        throw program_->refusal(step, describe(status.error()));
     }
-    if (started_ && turns_rotary_axis(move_, at_, input_->tolerances().rotary)) {
-        // Then the path is nowhere farther off than the smaller number, in mm and in degrees.
-        move_.tolerance_mm = std::min(move_.tolerance_mm, input_->tolerances().rotary_deg);
+    program_->pushed(step);
+    std::swap(pushed_, step);
+    pushed.move = &pushed_;
+    pushed.position = pushed_.element.to;
+    ++moves_;
+}
+
+// The next step of the program; false: it has ended.
+template <Scalar S>
+bool ElementFeeder<S>::take(Pushed& pushed) {
+    if (!program_->next(step_)) {
+        return false;
     }
-    at_ = pushed.position;
-    const Status status = started_ ? path_.push(element_in<S>(move_)) : path_.start(pushed.position);
-    if (!status.ok()) {
-        refuse(status.error(), line);
+    if (step_.kind == StepKind::nothing) {
+        return true;
     }
-    pushed.start = !started_;
-    pushed.move = started_ ? &move_ : nullptr;
-    moves_ += started_ ? 1U : 0U;
-    started_ = true;
+    if (holds_ && step_.stops) {
+        held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+    }
+    if (step_.kind != StepKind::move) {
+        if (holds_) {
+            holds_ = false;
+            push(held_, pushed);
+        }
+        pushed.step = &step_;
+        return true;
+    }
+    limit_tolerance(step_);
+    const bool moves = has_length(step_);
+    if (program_->knows_stops()) {
+        here_ = step_.element.to;
+        push(step_, pushed);
+        row_ = moves ? program_->row_of(moves_ - 1U) : row_;
+        return true;
+    }
+    if (!moves) {
+        if (step_.element.stop_at_end && holds_) {
+            held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+        }
+        return true;
+    }
+    here_ = step_.element.to;
+    if (holds_) {
+        push(held_, pushed);
+    }
+    std::swap(held_, step_);
+    holds_ = true;
+    row_ = program_->row_of(moves_); // of the move that waits
     return true;
 }
 
@@ -99,38 +99,59 @@ template <Scalar S>
 void ElementFeeder<S>::finish() {
     finished_ = true;
     if (const Status status = path_.finish(); !status.ok()) {
-        throw InputError(input_->name(), 0,
-                         program_ != nullptr ? "no element moves; a program needs a move" : describe(status.error()));
+        if (const std::string text = program_->without_moves(status.error()); !text.empty()) {
+            throw InputError(input_->name(), 0, text);
+        }
     }
 }
 
 template <Scalar S>
 bool ElementFeeder<S>::more(Pushed& pushed) {
+    pushed = {};
     if (finished_) {
         return false;
     }
     try {
-        if (next(pushed)) {
+        if (failure_ != nullptr) {
+            std::rethrow_exception(std::exchange(failure_, nullptr));
+        }
+        if (!started_) {
+            started_ = program_->start(here_);
+            if (!started_) {
+                finish();
+                return false;
+            }
+            if (const Status status = path_.start(here_); !status.ok()) {
+                throw program_->refusal(step_, describe(status.error()));
+            }
+            pushed.start = true;
+            pushed.position = here_;
+            return true;
+        }
+        if (take(pushed)) {
+            pushed.row = row_;
+            return true;
+        }
+        if (holds_) {
+            holds_ = false;
+            push(held_, pushed);
             return true;
         }
         finish();
         return false;
     } catch (...) {
+        if (holds_ && pushed.move == nullptr) { // the path ends with the move that waits
+            failure_ = std::current_exception();
+            holds_ = false;
+            push(held_, pushed);
+            return true;
+        }
         if (!finished_) {
             finished_ = true;
             static_cast<void>(path_.finish());
         }
         throw;
     }
-}
-
-template <Scalar S>
-std::uint64_t ElementFeeder<S>::line_of_row(std::uint64_t row) const noexcept {
-    if (program_ != nullptr) {
-        return 0;
-    }
-    const bool known = row < rows_read_ && row + remembered >= rows_read_;
-    return known ? lines_[row % remembered] : 0;
 }
 
 template class ElementFeeder<double>;

@@ -1,66 +1,63 @@
 // SPDX-License-Identifier: MIT
-// ElementFeeder: moves of a program, or lines between waypoints, into a path within their tolerance.
+// ElementFeeder: the moves of a program into a path within their tolerance.
 #pragma once
 
-#include "host_sim/program/path_input.hpp"
+#include "host_sim/planning/move_sources.hpp"
 
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 
+#include <exception>
 #include <memory>
-#include <vector>
+#include <optional>
 
 namespace splinefeed::host {
 
-/// Owns the path. more() pushes one move at a time, so waypoints are not read before the path needs them.
+/// Owns the path. more() takes one step of the program at a time, so nothing is read before the path needs it. If a
+/// program does not say in advance where the machine has to stand, a move waits here until the next step is known.
 template <Scalar S>
 class ElementFeeder {
 public:
     /// `input` must outlive it. @pre input.within_tolerance()
-    /// @param rows  null for a program
-    ElementFeeder(PathInput& input, std::unique_ptr<WaypointRows> rows);
+    explicit ElementFeeder(PathInput& input);
 
     [[nodiscard]] CurveSource<S>& source() noexcept { return path_; }
     [[nodiscard]] const TolerancePath<S>& path() const noexcept { return path_; }
+    [[nodiscard]] MoveSource<S>& program() noexcept { return *program_; }
+    [[nodiscard]] const MoveSource<S>& program() const noexcept { return *program_; }
 
     /// What more() did.
     struct Pushed {
-        bool start = false;                ///< it told where the first move begins
-        PerAxis<Position> position{};      ///< there, or at the end of the move
-        const PathElement<double>* move{}; ///< null: none; valid until the next call
-        std::uint64_t line = 0;            ///< of the move, in the CSV or in the program that the elements came from
+        bool start = false;                 ///< it told where the first move begins
+        PerAxis<Position> position{};       ///< there, or at the end of the last move
+        const SourceStep<S>* move{};        ///< it pushed this move; null: none; valid until the next call
+        const SourceStep<S>* step{};        ///< a dwell or an event behind the moves so far; null: none; valid as above
+        std::optional<std::uint32_t> row{}; ///< of the last move that has a length; none: there was none
     };
-    /// Pushes the start, the next move, or finishes the path; false if there is none. Throws InputError; the path then
+    /// Takes the start or the next step, or finishes the path; false if there is none. Throws InputError; the path then
     /// ends with the moves before. @pre the path is starved
     bool more(Pushed& pushed);
-    [[nodiscard]] bool wait_for_row(WaypointRows::Patience patience) {
-        return finished_ || rows_ == nullptr || rows_->wait(patience);
+    [[nodiscard]] bool wait_for_row(typename MoveSource<S>::Patience patience) {
+        return finished_ || failure_ != nullptr || program_->wait(patience);
     }
-
-    /// Waypoints, or elements, so far.
-    [[nodiscard]] std::uint64_t rows() const noexcept { return rows_read_; }
-    /// Index of the waypoint or the element for an index of CurveSegment::waypoint, modulo 2^32.
-    [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept {
-        return program_ == nullptr ? index + 1U : program_->element_of(index);
-    }
-    /// Line of a waypoint in its file; 0: unknown.
-    [[nodiscard]] std::uint64_t line_of_row(std::uint64_t row) const noexcept;
 
 private:
-    static constexpr std::size_t remembered = 1024; ///< number of lines that are remembered
-
-    bool next(Pushed& pushed);
+    bool take(Pushed& pushed);
+    void push(SourceStep<S>& step, Pushed& pushed);
+    void limit_tolerance(SourceStep<S>& step) const;
+    [[nodiscard]] bool has_length(const SourceStep<S>& step) const;
     void finish();
-    [[noreturn]] void refuse(Error error, std::uint64_t line) const;
 
-    PathInput* input_;
-    const ElementProgram* program_; // null: rows
-    std::unique_ptr<WaypointRows> rows_;
+    const PathInput* input_;
+    std::unique_ptr<MoveSource<S>> program_;
     TolerancePath<S> path_;
-    PathElement<double> move_;         // the last one
-    PerAxis<Position> at_{};           // its end
-    std::vector<std::uint64_t> lines_; // line of row i at index i % remembered
-    std::uint64_t rows_read_ = 0;
-    std::uint64_t moves_ = 0;
+    SourceStep<S> step_;               // read last
+    SourceStep<S> held_;               // a move that waits for what comes behind it
+    SourceStep<S> pushed_;             // the move that was pushed last
+    PerAxis<Position> here_{};         // where the last move so far ends, held or not
+    std::optional<std::uint32_t> row_; // of the last move with a length
+    std::exception_ptr failure_;       // thrown behind the moves before it
+    std::uint32_t moves_ = 0;          // pushed
+    bool holds_ = false;
     bool started_ = false;
     bool finished_ = false;
 };

@@ -231,7 +231,7 @@ private:
                 if (!(seconds >= 0.0 && seconds <= longest_dwell_s)) {
                     refuse(fmt::format("{} lasts {} s; it must be 0 to {}", what, seconds, longest_dwell_s));
                 }
-                program_.add_dwell(seconds);
+                program_.add_dwell(place->get<std::uint32_t>(), seconds);
             }
         }
     }

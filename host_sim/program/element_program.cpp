@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/element_program.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -34,9 +35,10 @@ void ElementProgram::stop_before(std::uint32_t element) noexcept {
     }
 }
 
-void ElementProgram::add_dwell(double seconds) noexcept {
-    ++dwells_.count;
-    dwells_.seconds += seconds;
+void ElementProgram::add_dwell(std::uint32_t before, double seconds) {
+    const auto behind = std::upper_bound(dwells_.begin(), dwells_.end(), before,
+                                         [](std::uint32_t place, const Dwell& dwell) { return place < dwell.before; });
+    dwells_.insert(behind, {before, seconds});
 }
 
 PathElement<double> ElementProgram::element(std::size_t move) const noexcept {
@@ -55,34 +57,6 @@ PathElement<double> ElementProgram::element(std::size_t move) const noexcept {
     }
     return out;
 }
-
-template <Scalar S>
-PathElement<S> element_in(const PathElement<double>& element) {
-    PathElement<S> out;
-    out.shape = element.shape;
-    out.mode = element.mode;
-    out.stop_at_end = element.stop_at_end;
-    out.to = element.to;
-    out.arc.centre = element.arc.centre;
-    for (unsigned k = 0; k < 3; ++k) {
-        out.arc.normal[k] = from_double<S>(element.arc.normal[k]);
-    }
-    out.arc.sweep_rad = from_double<S>(element.arc.sweep_rad);
-    out.bezier.degree = element.bezier.degree;
-    for (unsigned k = 0; k < max_axes; ++k) {
-        for (unsigned i = 0; i <= static_cast<unsigned>(element.bezier.degree); ++i) {
-            out.bezier.points[k][i] = from_double<S>(element.bezier.points[k][i]);
-        }
-    }
-    out.tolerance_mm = from_double<S>(element.tolerance_mm);
-    out.feed_mm_s = from_double<S>(element.feed_mm_s);
-    out.max_feed_mm_s = from_double<S>(element.max_feed_mm_s);
-    return out;
-}
-
-template PathElement<double> element_in(const PathElement<double>&);
-template PathElement<float> element_in(const PathElement<double>&);
-template PathElement<Fixed> element_in(const PathElement<double>&);
 
 std::string element_name(std::uint64_t element, std::uint32_t line) {
     return line > 0 ? fmt::format("element {} (line {})", element + 1, line) : fmt::format("element {}", element + 1);

@@ -25,8 +25,8 @@ public:
         double tolerance_mm = 0.0;
         double feed_mm_s = 0.0; ///< 0: the machine's
     };
-    struct Dwells {
-        std::uint64_t count = 0;
+    struct Dwell {
+        std::uint32_t before = 0; ///< element
         double seconds = 0.0;
     };
 
@@ -38,7 +38,8 @@ public:
     void add_element_line(std::uint32_t line) { lines_.push_back(line); }
     /// The machine stops at the end of the moves before this element. @pre element is at most elements()
     void stop_before(std::uint32_t element) noexcept;
-    void add_dwell(double seconds) noexcept;
+    /// In any order. @pre before is at most elements()
+    void add_dwell(std::uint32_t before, double seconds);
 
     [[nodiscard]] const PerAxis<Position>& start() const noexcept { return start_; }
     /// Where the last move so far ends.
@@ -49,7 +50,8 @@ public:
     [[nodiscard]] std::uint32_t line_of(std::uint32_t element) const noexcept { return lines_[element]; }
     /// A move in the form of the core.
     [[nodiscard]] PathElement<double> element(std::size_t move) const noexcept;
-    [[nodiscard]] const Dwells& dwells() const noexcept { return dwells_; }
+    /// In the order of their places.
+    [[nodiscard]] const std::vector<Dwell>& dwells() const noexcept { return dwells_; }
 
 private:
     void add(const Move& move, MoveShape shape, std::size_t detail);
@@ -59,12 +61,8 @@ private:
     std::vector<ArcShape<double>> arcs_;
     std::vector<BezierShape<double>> beziers_;
     std::vector<std::uint32_t> lines_; // of each element
-    Dwells dwells_;
+    std::vector<Dwell> dwells_;
 };
-
-/// A move in another scalar.
-template <Scalar S>
-[[nodiscard]] PathElement<S> element_in(const PathElement<double>& element);
 
 /// "element 3", or "element 3 (line 12)" where the line of its own program is known. @param element from 0
 [[nodiscard]] std::string element_name(std::uint64_t element, std::uint32_t line);

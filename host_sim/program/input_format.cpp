@@ -38,8 +38,9 @@ OpenedRows open_text(const std::string& path, const std::string& name, const std
 
 /// One row per format: a new one adds its own.
 constexpr std::array formats{
-    InputFormat{"csv", open_text<WaypointReader>},
-    InputFormat{"json", nullptr},
+    InputFormat{"csv", InputKind::waypoints, " csv ", open_text<WaypointReader>},
+    InputFormat{"json", InputKind::curve, " json ", nullptr},
+    InputFormat{"gcode", InputKind::gcode, " ngc nc gcode gco tap cnc g ", nullptr},
 };
 
 } // namespace
@@ -47,6 +48,20 @@ constexpr std::array formats{
 const InputFormat* input_format(std::string_view name) noexcept {
     for (const InputFormat& format : formats) {
         if (format.name == name) {
+            return &format;
+        }
+    }
+    return nullptr;
+}
+
+const InputFormat* format_of_suffix(std::string_view suffix) noexcept {
+    std::string padded = " ";
+    for (const char c : suffix) {
+        padded += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    padded += ' ';
+    for (const InputFormat& format : formats) {
+        if (suffix.find(' ') == std::string_view::npos && format.suffixes.find(padded) != std::string_view::npos) {
             return &format;
         }
     }

@@ -35,6 +35,13 @@ PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vec
         open_description(arguments, use, machine_axes);
         return;
     }
+    if (const std::string_view option = first_option(arguments.gcode); !option.empty() && !format_->is_gcode()) {
+        throw UsageError(fmt::format("{}: only a program in G-code has it; leave the option out", option));
+    }
+    if (format_->is_gcode()) {
+        open_gcode(arguments, use, machine_axes);
+        return;
+    }
     choice_ = choose_curve(arguments.curve);
     if (path_ == "-" && is_regular_file("/dev/stdin")) {
         path_ = "/dev/stdin"; // it can be read twice
@@ -138,6 +145,61 @@ void PathInput::open_elements(const PathArguments& arguments, const nlohmann::js
     choice_.method = "elements";
     axes_ = machine_axes.empty() ? axes_of_elements(document) : machine_axes;
     elements_ = read_elements(document, name_, axes_, tolerances_);
+}
+
+void PathInput::open_gcode(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes) {
+    if (const std::string_view option = first_option(arguments.curve); !option.empty()) {
+        throw UsageError(
+            fmt::format("{}: a program in G-code says itself what its path is; leave the option out", option));
+    }
+    if (arguments.curve.smooth) {
+        throw UsageError("--smooth: a program in G-code is smoothed within its tolerance; leave the option out");
+    }
+    if (arguments.curve.tolerance) {
+        tolerances_.programmed_mm = read_tolerance(*arguments.curve.tolerance);
+    }
+    choice_.method = "gcode";
+    axes_ = machine_axes.empty() ? std::vector<std::string>{"x", "y", "z"} : machine_axes;
+    if (path_ == "-" && is_regular_file("/dev/stdin")) {
+        path_ = "/dev/stdin"; // it can be read twice
+    }
+    repeatable_ = is_regular_file(path_);
+    gcode_ = read_gcode_arguments(arguments.gcode);
+    gcode_->simulated = use != PathUse::followed;
+    gcode_->tolerance_mm = tolerances_.programmed_mm;
+    gcode_->rapid_tolerance_mm = tolerances_.rapid_mm;
+    gcode_->axes = axes_;
+    if (!repeatable_) {
+        return;
+    }
+    static_cast<void>(LineReader(path_, name_)); // it can be opened
+}
+
+void PathInput::limit_feed(double max_feed_mm_s, bool mixed) noexcept {
+    if (gcode_) {
+        gcode_->max_feed_mm_s = max_feed_mm_s;
+        gcode_->mixed = mixed;
+    }
+}
+
+void PathInput::begin_at(const MachineState& state) {
+    if (gcode_) {
+        gcode_->offsets = state.offsets;
+        for (unsigned k = 0; k < axes_.size(); ++k) {
+            gcode_->start[k] = position_from_mm(state.position_mm[k]);
+        }
+    }
+}
+
+void PathInput::collect_problems(std::vector<std::string>* problems) noexcept {
+    if (gcode_) {
+        gcode_->problems = problems;
+    }
+}
+
+std::unique_ptr<SourceLines> PathInput::lines() {
+    auto lines = std::make_unique<LineReader>(path_, name_);
+    return read_ahead_ ? std::unique_ptr<SourceLines>(std::make_unique<LineQueue>(std::move(lines))) : std::move(lines);
 }
 
 std::unique_ptr<WaypointRows> PathInput::rows() {

@@ -5,14 +5,17 @@
 
 namespace splinefeed::host {
 
-RowQueue::RowQueue(std::unique_ptr<WaypointRows> rows) : rows_(std::move(rows)), thread_([this] { read(); }) {}
+template <class Row>
+ReadAhead<Row>::ReadAhead(std::unique_ptr<RowSource<Row>> rows) : rows_(std::move(rows)), thread_([this] { read(); }) {}
 
-RowQueue::~RowQueue() {
+template <class Row>
+ReadAhead<Row>::~ReadAhead() {
     stop();
     thread_.join();
 }
 
-void RowQueue::stop() noexcept {
+template <class Row>
+void ReadAhead<Row>::stop() noexcept {
     {
         const std::lock_guard lock(mutex_);
         stops_ = true;
@@ -21,12 +24,14 @@ void RowQueue::stop() noexcept {
     rows_->stop();
 }
 
-bool RowQueue::wait(Patience patience) {
+template <class Row>
+bool ReadAhead<Row>::wait(Patience patience) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, patience, [this] { return answers(); });
 }
 
-bool RowQueue::next(WaypointRow& out) {
+template <class Row>
+bool ReadAhead<Row>::next(Row& out) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return answers(); });
     if (queue_.empty()) {
@@ -35,23 +40,24 @@ bool RowQueue::next(WaypointRow& out) {
         }
         return false;
     }
-    out = queue_.front();
+    out = std::move(queue_.front());
     queue_.pop_front();
     lock.unlock();
     changed_.notify_all();
     return true;
 }
 
-void RowQueue::read() noexcept {
+template <class Row>
+void ReadAhead<Row>::read() noexcept {
     std::exception_ptr failure;
     try {
-        for (WaypointRow row; rows_->next(row);) {
+        for (Row row; rows_->next(row);) {
             std::unique_lock lock(mutex_);
             changed_.wait(lock, [this] { return queue_.size() < capacity || stops_; });
             if (stops_) {
                 break;
             }
-            queue_.push_back(row);
+            queue_.push_back(std::move(row));
             lock.unlock();
             changed_.notify_all();
         }
@@ -63,5 +69,8 @@ void RowQueue::read() noexcept {
     ended_ = true;
     changed_.notify_all();
 }
+
+template class ReadAhead<WaypointRow>;
+template class ReadAhead<SourceLine>;
 
 } // namespace splinefeed::host

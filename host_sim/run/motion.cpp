@@ -8,7 +8,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
-#include <sys/resource.h>
 
 namespace splinefeed::host {
 
@@ -27,9 +26,10 @@ Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& de
                   const MotionLimits<S>& limits, PathInput& input, const PathLimits& path_limits, Outputs& outputs,
                   Supervision* target)
     : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), limits_(&limits),
-      input_(&input), outputs_(&outputs), target_(target),
-      deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>), exact_stop_(description.settings),
-      optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
+      input_(&input), outputs_(&outputs), state_(arguments.state), kept_(arguments.begins), report_(arguments.report),
+      target_(target), deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>),
+      exact_stop_(description.settings), optimum_(description.settings, to_double(limits.refinement.direction_jump)),
+      share_(description.settings), steps_(limits, !arguments.quiet), program_(outputs.elements(), arguments.report),
       feeder_(input), tee_(feeder_, input.name(),
                            {.limits = &path_limits,
                             .writer = outputs.curve(),
@@ -54,12 +54,29 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
         if (paused_ && feeder_.wait_for_row(Clock::duration::zero())) {
             read();
         }
-        if (pull(segment)) {
+        const bool dwells = dwell(segment);
+        if (steps_.take_change()) {
+            keep_state();
+        }
+        if (dwells) {
+            if (!execute(segment)) {
+                break;
+            }
+            if (report_ != nullptr) {
+                report_->stood(steps_.line(), segment.duration_ticks / (ticks_per_us * 1e6));
+            }
+            steps_.stood(segment);
+        } else if (pull(segment)) {
             if (segments_ == 0 && tee_.failure()) {
                 std::rethrow_exception(tee_.failure());
             }
+            steps_.begin(segment, machine_.cycle_time_s());
+            pass(segment.waypoint);
             if (!execute(segment)) {
                 break;
+            }
+            if (report_ != nullptr) {
+                report_->moved(segment.waypoint, segment.duration_ticks / (ticks_per_us * 1e6), share_.bound());
             }
             progress.update(feeder_.rows(), machine_.cycle_time_s());
         } else if (trajectory_.state() == Pull::held) {
@@ -117,6 +134,7 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     } else if (trajectory_.activity() == Activity::held && trajectory_.state() == Pull::held && !held_by_target_) {
         stopped_ = "held, and no event resumes it";
     }
+    keep_state();
     machine_.finish();
     optimum_.finish();
     require_tolerance();
@@ -124,7 +142,9 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
         Fault whole = *fault;
         whole.waypoint = feeder_.whole_row(static_cast<std::uint32_t>(fault->waypoint));
         const auto row = static_cast<std::uint32_t>(whole.waypoint);
-        stopped_ = describe(whole, input_->elements() != nullptr ? feeder_.name_of_row(row) : std::string());
+        stopped_ =
+            describe(whole, input_->within_tolerance() && !input_->lines_within_tolerance() ? feeder_.name_of_row(row)
+                                                                                            : std::string());
     }
     if (target_ == nullptr) {
         return stopped_.empty() ? stopped_ : stopped_ + where();
@@ -195,6 +215,48 @@ bool Motion<S>::stand() {
     return trajectory_.stand(segment) && execute(segment);
 }
 
+// Whether the program wants the machine to stand for another segment.
+template <Scalar S>
+bool Motion<S>::dwell(FeedSegment& segment) {
+    if (moves_ || steps_.empty() || !steps_.stands(machine_.position_mm(), machine_.cycle_time_s())) {
+        return false;
+    }
+    if (steps_.moved()) {
+        return trajectory_.stand(segment);
+    }
+    steps_.at_start(segment);
+    return true;
+}
+
+// The motion comes to a row: what is known of those before it can be forgotten.
+template <Scalar S>
+void Motion<S>::pass(std::uint32_t row) {
+    if (row == row_) {
+        return;
+    }
+    row_ = row;
+    feeder_.passed(row);
+    line_ = input_->gcode() != nullptr ? feeder_.line_of_row(row) : 0;
+    if (outputs_->trace() != nullptr) {
+        outputs_->trace()->set_line(line_);
+    }
+}
+
+// Offsets as the motion has come to them, and where the machine stands.
+template <Scalar S>
+void Motion<S>::keep_state() {
+    if (state_.empty()) {
+        return;
+    }
+    if (steps_.offsets() != nullptr) {
+        kept_.offsets = *steps_.offsets();
+    }
+    if (segments_ > 0) {
+        kept_.position_mm = machine_.position_mm();
+    }
+    write_state_file(state_, input_->axes(), kept_);
+}
+
 // Gives the curve one more waypoint, or tells it that there are none.
 template <Scalar S>
 void Motion<S>::read() {
@@ -218,9 +280,9 @@ void Motion<S>::read() {
 }
 
 template <Scalar S>
-bool Motion<S>::execute(const FeedSegment& segment) {
+bool Motion<S>::execute(FeedSegment& segment) {
+    segment.index = segments_++; // standstill before the first move is none of the trajectory's
     outputs_->segment(segment);
-    ++segments_;
     bool rest = trajectory_.activity() == Activity::running;
     bool moves = false;
     bool ends_in_motion = false;
@@ -248,12 +310,15 @@ bool Motion<S>::execute(const FeedSegment& segment) {
 // Moves of a program that the path follows within a tolerance.
 template <Scalar S>
 void Motion<S>::measure(const typename CurveFeeder<S>::Pushed& pushed) {
-    if (pushed.start) {
-        deviation_.start(pushed.position);
-        exact_stop_.start(pushed.position);
-    } else if (pushed.move != nullptr) {
-        deviation_.move(*pushed.move, pushed.line);
-        exact_stop_.move(*pushed.move);
+    const auto& program = pushed.program;
+    steps_.add(program);
+    program_.see(program);
+    if (program.start) {
+        deviation_.start(program.position);
+        exact_stop_.start(program.position);
+    } else if (program.move != nullptr) {
+        deviation_.move(program.move->programmed, program.move->line);
+        exact_stop_.move(program.move->programmed);
     }
 }
 
@@ -269,36 +334,6 @@ void Motion<S>::require_tolerance() {
     if (enforce_ && stopped_.empty()) {
         stopped_ = excess();
     }
-}
-
-// Where the path is too far from its moves; empty: nowhere.
-template <Scalar S>
-std::string Motion<S>::excess() const {
-    const auto& excess = deviation_.excess();
-    return excess ? describe(*excess, feeder_.name_of_move(excess->place.move, excess->place.line)) : std::string();
-}
-
-template <Scalar S>
-ToleranceSummary Motion<S>::tolerance_summary() const {
-    ToleranceSummary out;
-    const auto place = [&](const PathDeviation::Place& of) {
-        return ToleranceSummary::Place{of.distance, feeder_.number_of_move(of.move), of.line,
-                                       feeder_.name_of_move(of.move, of.line)};
-    };
-    out.deviation = place(deviation_.linear());
-    if (deviation_.has_rotary()) {
-        out.rotary_deviation = place(deviation_.rotary());
-    }
-    out.excess = excess();
-    const PathCounts counts = feeder_.tolerance_path()->counts();
-    out.blended = counts.joints.blended;
-    out.stopped = counts.joints.stopped;
-    out.through = counts.joints.through;
-    out.chains = counts.chains;
-    out.elements = feeder_.rows() - (input_->elements() == nullptr && feeder_.rows() > 0 ? 1U : 0U);
-    out.pieces = tee_.segments();
-    out.exact_stop_s = exact_stop_.seconds();
-    return out;
 }
 
 // Before the first move what is wrong is thrown; after it, it is why the machine stopped.
@@ -322,56 +357,6 @@ std::string Motion<S>::where() const {
         place.add(description_->axis_name[k], position[k]);
     }
     return place.text() + fmt::format(", {:.6f} s after its start", machine_.cycle_time_s());
-}
-
-template <Scalar S>
-Summary Motion<S>::summary() const {
-    Summary summary;
-    summary.cycle_time_s = machine_.cycle_time_s();
-    summary.length_mm = length_to_mm(trajectory_.arc_length().travelled());
-    summary.waypoints = feeder_.rows();
-    summary.curve_segments = tee_.segments();
-    summary.feed_segments = segments_;
-    summary.scalar = scalar_name<S>();
-    summary.curve = input_->curve_name();
-    summary.max_speed_mm_s = machine_.max_path_speed_mm_s();
-    double acceleration_sq = 0.0;
-    for (int k = 0; k < limits_->axes; ++k) {
-        const LimitUse& use = machine_.use(k);
-        const AxisSettings& axis = description_->settings.axis[static_cast<unsigned>(k)];
-        const bool has_jerk = axis.max_jerk_mm_s3 > 0.0;
-        summary.limit_use.push_back({description_->axis_name[static_cast<unsigned>(k)], use.velocity, use.acceleration,
-                                     has_jerk ? std::optional(use.jerk) : std::nullopt});
-        acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
-    }
-    // Segments that came whole are not measured against the points they were made of.
-    if (input_->segments() == nullptr && !input_->within_tolerance() && passes_waypoints(summary.curve)) {
-        summary.waypoint_error_mm = error_.largest_mm();
-    }
-    if (stopped_.empty() && operated_ == 0) { // an override may be faster than what was programmed
-        summary.optimum_time_s = optimum_.seconds();
-    }
-    if (input_->within_tolerance()) {
-        summary.tolerance = tolerance_summary();
-    }
-    summary.limit_share = share_.shares();
-    summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
-    summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};
-    summary.stopped = !stopped_.empty();
-    summary.events = operated_;
-    summary.events_not_reached = events_.size() - operated_;
-    summary.window_limited = trajectory_.feed_plan().window_limited();
-    summary.stops = rests_ > 0 ? rests_ - 1 : 0;
-    const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);
-    summary.smoothing_bound_mm = duration_s * duration_s * std::sqrt(acceleration_sq) / 6.0;
-    if (target_ != nullptr) {
-        target_->describe(summary);
-    }
-    rusage usage{};
-    if (getrusage(RUSAGE_SELF, &usage) == 0) {
-        summary.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
-    }
-    return summary;
 }
 
 template class Motion<double>;

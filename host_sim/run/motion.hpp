@@ -3,11 +3,14 @@
 #pragma once
 
 #include "host_sim/analysis/exact_stop_time.hpp"
+#include "host_sim/analysis/program_report.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/planning/planned_trajectory.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/program_observer.hpp"
+#include "host_sim/run/program_steps.hpp"
 #include "host_sim/run/supervision.hpp"
 
 #include <chrono>
@@ -26,6 +29,9 @@ struct MotionArguments {
     std::string events;              ///< file of an operator's actions; empty: none
     bool enforce = true;             ///< the simulated machine stops if a limit is broken
     bool quiet = false;              ///< writes nothing on standard error
+    std::string state;               ///< file that keeps offsets and position; empty: none
+    MachineState begins;             ///< as the run begins
+    ProgramReport* report = nullptr; ///< gets the moves of a program and their times; null: nobody does
 };
 
 /// One run. A waypoint is read only when the planner has no segment left.
@@ -68,9 +74,12 @@ private:
     void operate();
     void obey_target();
     bool stand();
-    bool execute(const FeedSegment& segment);
+    [[nodiscard]] bool dwell(FeedSegment& segment);
+    bool execute(FeedSegment& segment);
     void keep_failure(const std::exception_ptr& failure);
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
+    void pass(std::uint32_t row);
+    void keep_state();
     void require_tolerance();
     [[nodiscard]] std::string excess() const;
     [[nodiscard]] ToleranceSummary tolerance_summary() const;
@@ -82,12 +91,17 @@ private:
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
+    std::string state_; // file; empty: none
+    MachineState kept_; // what it has
+    ProgramReport* report_;
     Supervision* target_; // null: only the simulated machine
     WaypointError error_;
     PathDeviation deviation_;
     ExactStopTime exact_stop_;
     OptimumTime optimum_;
     LimitShare share_;
+    ProgramSteps<S> steps_;
+    ProgramObserver<S> program_;
     CurveFeeder<S> feeder_;
     PathTee<S> tee_;
     PlannedTrajectory<S> planner_;
@@ -96,7 +110,9 @@ private:
     std::vector<OperatorEvent> events_;
     std::size_t operated_ = 0; // events that have acted so far
     Clock::duration planning_{};
-    std::string stopped_; // why the run stopped before its end
+    std::string stopped_;              // why the run stopped before its end
+    std::optional<std::uint32_t> row_; // of the last segment
+    std::uint64_t line_ = 0;           // of that row; 0: unknown
     std::uint64_t segments_ = 0;
     std::uint64_t rests_ = 0; // number of instants at which all axes stood still
     bool read_all_ = false;

@@ -4,11 +4,11 @@
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/config/machine_file.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/supervision.hpp"
 #include "host_sim/target/run_target.hpp"
 #include "host_sim/targets/target_table.hpp"
@@ -44,15 +44,7 @@ std::uint64_t pass(PathInput& input, const PathObservers& observers) {
 
 /// Input that is valid, but whose curve is hardly what was meant.
 void warn(const PathInput& input, bool quiet) {
-    if (quiet) {
-        return;
-    }
-    if (input.elements() != nullptr && input.elements()->dwells().count > 0) {
-        const ElementProgram::Dwells& dwells = input.elements()->dwells();
-        fmt::print(stderr, "{}: warning: dwells: {}, {:.6g} s in all; the machine stops there, but does not wait\n",
-                   printable(input.name()), dwells.count, dwells.seconds);
-    }
-    if (input.segments() == nullptr) {
+    if (quiet || input.segments() == nullptr) {
         return;
     }
     for (const std::string& warning : input.segments()->warnings) {
@@ -140,15 +132,6 @@ Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& tar
     return limits;
 }
 
-/// Without a jerk limit a jump of the curvature costs nothing: exact paths stay as they are.
-PathTolerances tolerances_of(const MachineDescription& machine) {
-    PathTolerances tolerances = machine.tolerances;
-    if (!(axis_totals(machine.settings).smoothest > 0.0)) {
-        tolerances.joint_mm = 0.0;
-    }
-    return tolerances;
-}
-
 template <Scalar S>
 int move_machine(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.
@@ -156,14 +139,21 @@ int move_machine(const RunArguments& arguments) {
     if (arguments.target != "sim") {
         signals.emplace([] { abandon("interrupted before anything was moved; the drives were not enabled", 1); });
     }
-    MachineDescription machine = arguments.machine.empty() ? default_machine() : read_machine_file(arguments.machine);
+    RunMachine of(arguments.machine, *arguments.path.format);
+    MachineDescription& machine = of.machine;
     auto limits = MotionLimits<S>::make(machine.settings);
     if (!limits.has_value()) {
         throw InputError(machine.file, 0, describe(limits.error()));
     }
-    const auto axes = static_cast<std::size_t>(machine.settings.axes);
-    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed,
-                    {machine.axis_name.begin(), machine.axis_name.begin() + axes}, tolerances_of(machine));
+    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
+    input.limit_feed(of.max_feed_mm_s, limits->mixed);
+    if (input.gcode() == nullptr && !(arguments.state.empty() && arguments.position.empty())) {
+        throw UsageError("--state and --position are for programs in G-code; other inputs begin at their first point");
+    }
+    MotionArguments motion_arguments = arguments.motion;
+    motion_arguments.state = arguments.motion.enforce ? arguments.state : std::string(); // plan changes nothing
+    motion_arguments.begins = of.state(arguments.state, arguments.position);
+    input.begin_at(motion_arguments.begins);
     warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;
@@ -178,8 +168,8 @@ int move_machine(const RunArguments& arguments) {
         target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
         supervision.emplace(*target, *signals);
     }
-    Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine);
-    Motion<S> motion(arguments.motion, machine, *limits, input, path_limits, outputs,
+    Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
+    Motion<S> motion(motion_arguments, machine, *limits, input, path_limits, outputs,
                      supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();

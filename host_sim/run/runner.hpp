@@ -18,6 +18,8 @@ struct RunArguments {
     MotionArguments motion;
     std::string machine;        ///< empty: the default machine
     std::string target = "sim"; ///< "sim": only the simulated machine; or "modbus", or an address
+    std::string state;          ///< file of offsets and position; empty: none
+    std::string position;       ///< where the machine stands, "X,Y,Z"; empty: as the state says
     RunOptions options;
     OutputNames outputs;
     SummaryKind summary = SummaryKind::text;

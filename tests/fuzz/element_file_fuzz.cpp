@@ -3,6 +3,7 @@
 // is wrong.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/json_text.hpp"
+#include "host_sim/program/element_cast.hpp"
 #include "host_sim/program/element_file.hpp"
 
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
@@ -43,7 +44,7 @@ void require_chain(const ElementProgram& program) {
             if (ended) {
                 std::abort();
             }
-            ended = pushed == program.moves() || !path.push(element_in<S>(program.element(pushed++))).ok();
+            ended = pushed == program.moves() || !path.push(element_cast<S>(program.element(pushed++))).ok();
             if (ended) {
                 static_cast<void>(path.finish());
             }

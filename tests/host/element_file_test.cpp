@@ -92,8 +92,9 @@ TEST_CASE("Dwells and events stop the machine before them") {
         read(two, xyz, R"(, "dwells": [{"after_element": 1, "seconds": 2.5}], "events": [{"after_element": 0}])");
     CHECK(program.element(0).stop_at_end);
     CHECK_FALSE(program.element(1).stop_at_end);
-    CHECK(program.dwells().count == 1);
-    CHECK(program.dwells().seconds == 2.5);
+    REQUIRE(program.dwells().size() == 1);
+    CHECK(program.dwells()[0].before == 1);
+    CHECK(program.dwells()[0].seconds == 2.5);
     CHECK(read(two, xyz, R"(, "events": [{"after_element": 2, "what": "stop"}])").element(1).stop_at_end);
 }
 

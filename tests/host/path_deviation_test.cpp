@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/analysis/path_deviation.hpp"
+#include "host_sim/program/element_cast.hpp"
 
 #include "host_sim/program/element_file.hpp"
 #include "host_sim/program/input_format.hpp"
@@ -62,7 +63,7 @@ void require_kept(const ElementProgram& program, int axes, double joint_mm) {
         } else if (pull == Pull::starved && pushed < program.moves()) {
             const PathElement<double> move = program.element(pushed);
             CAPTURE(pushed);
-            const Status status = path.push(element_in<S>(move));
+            const Status status = path.push(element_cast<S>(move));
             CAPTURE(describe(status.error()));
             CHECK(status.ok());
             deviation.move(move, 0);

@@ -5,6 +5,7 @@
 #include "support/places.hpp"
 #include "tool.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 using nlohmann::json;
@@ -136,11 +137,32 @@ max_jerk_mm_s3 = 30000
             CHECK(end.substr(end.find('=')) == "=0");
         }
     }
-    const Call warned = tool("run part.json --summary json");
-    CHECK(warned.error.find(
-              "part.json: warning: dwells: 1, 0.5 s in all; the machine stops there, but does not wait\n") !=
-          std::string::npos);
-    CHECK(summary_of(warned)["stops"].get<int>() >= 2);
+    const json dwelled = summary_of(tool("run part.json --quiet --summary json"));
+    CHECK(dwelled["stops"].get<int>() >= 2);
+    CHECK(dwelled["program"]["dwells"] == 1);
+    CHECK(dwelled["program"]["dwell_s"] == 0.5);
+    std::string at_once = part;
+    at_once.replace(at_once.find("\"seconds\": 0.5"), 14, "\"seconds\": 0");
+    tool.write("at_once.json", at_once);
+    const json quick = summary_of(tool("run at_once.json --quiet --summary json"));
+    CHECK(std::abs(dwelled["cycle_time_s"].get<double>() - quick["cycle_time_s"].get<double>() - 0.5) < 1e-9);
+}
+
+TEST_CASE("A dwell before the first move and behind the last one takes its time, also while the feed is held") {
+    const Tool tool;
+    const std::string element = R"({"from": [1, 2, 0], "to": [11, 2, 0], "feed_mm_s": 20})";
+    const auto program = [&](const char* a, const char* b) {
+        return "{\"elements\": [" + element + R"(], "dwells": [{"after_element": 1, "seconds": )" + b +
+               R"(}, {"after_element": 0, "seconds": )" + a + "}]}";
+    };
+    tool.write("at_once.json", program("0", "0"));
+    tool.write("waits.json", program("0.5", "0.25"));
+    tool.write("events.csv", "0.1,hold\n0.7,resume\n1.5,hold\n1.6,resume\n");
+    const double at_once = summary_of(tool("run at_once.json --quiet --summary json"))["cycle_time_s"];
+    const double waits = summary_of(tool("run waits.json --quiet --summary json"))["cycle_time_s"];
+    CHECK(std::abs(waits - at_once - 0.75) < 1e-9);
+    const json held = summary_of(tool("run waits.json --quiet --summary json --events events.csv"));
+    CHECK(std::abs(held["cycle_time_s"].get<double>() - waits - 0.2) < 1e-9); // the first dwell is over at 0.5 s
 }
 
 TEST_CASE("The path does not depend on overrides, and survives a hold") {

@@ -200,7 +200,7 @@ TEST_CASE("Every wrong command line gets one line and status 2, and nothing is w
         std::string part;
     };
     const std::vector<Case> cases{
-        {"", "run, plan, curve"},
+        {"", "run, plan, check, curve"},
         {"rnu p.csv", "did you mean 'run'"},
         {"--quite", "--help"},
         {"run", "no input"},
@@ -216,8 +216,8 @@ TEST_CASE("Every wrong command line gets one line and status 2, and nothing is w
         {"run p.csv --trace - --summary json", "both go to standard output"},
         {"run p.csv --summary yaml", "text, json"},
         {"run p.csv --scalar half", "fixed, float, double"},
-        {"run p.csv --format ngc", "csv, json"},
-        {"run p.ngc", ".csv or .json"},
+        {"run p.csv --format ngc", "csv, json, gcode"},
+        {"run p.xyz", ".csv or .json or .gcode"},
         {"run p", ".csv or .json"},
         {"run p.csv --target gpio:///dev/gpiochip0", "map=lines.toml"},
         {"run p.csv --target gpioo://x", "available are sim"},

@@ -19,12 +19,19 @@ constexpr char upper(char c) noexcept {
 
 } // namespace
 
-// Whether the block does something besides the word that is ignored.
-bool BlockReader::has_others(const Block& block) const noexcept {
+bool BlockReader::has_axes(const Block& block) const noexcept {
     for (int k = 0; k < settings_->axes; ++k) {
         if (block.has(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'))) {
             return true;
         }
+    }
+    return false;
+}
+
+// Whether the block does something besides the word that is ignored.
+bool BlockReader::has_others(const Block& block) const noexcept {
+    if (has_axes(block)) {
+        return true;
     }
     for (unsigned group = 0; group < code_groups; ++group) {
         if (block.has(static_cast<CodeGroup>(group))) {
@@ -38,7 +45,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
                               LineKind& kind) noexcept {
     out.clear();
     kind = LineKind::block;
-    ignored_code_ = false;
+    ignored_code_ = ignored_word_ = false;
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
         text.remove_suffix(1);
     }
@@ -61,6 +68,10 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         return {};
     }
     const Status status = read_words(cursor, control, out);
+    if (ignored_word_ && !has_axes(out) && out.code(CodeGroup::non_modal) == 920) { // a printer's G92 E0 without E
+        kind = LineKind::left_out;
+        return {};
+    }
     if (ignored_code_ && !has_others(out)) { // its words are not another code's, whatever they are
         kind = LineKind::left_out;
         return {};
@@ -126,6 +137,7 @@ Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control,
         return status;
     }
     if (is_ignored(upper(letter), value)) {
+        ignored_word_ = true;
         return {};
     }
     if (out.has(letter)) {

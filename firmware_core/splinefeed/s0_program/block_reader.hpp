@@ -35,12 +35,14 @@ private:
     static Status read_comment(TextCursor& text, Block& out) noexcept;
     static Status read_checksum(TextCursor& text) noexcept;
     Status add_code(char letter, Decimal value, TextCursor& text, std::size_t column, Block& out) noexcept;
+    [[nodiscard]] bool has_axes(const Block& block) const noexcept;
     [[nodiscard]] bool has_others(const Block& block) const noexcept;
     [[nodiscard]] bool is_ignored(char letter, Decimal value) const noexcept;
 
     const ProgramSettings* settings_;
     WordEvaluator* evaluator_;
     bool ignored_code_ = false; // the block has a G or M word that is left out
+    bool ignored_word_ = false; // the block has another one
 };
 
 } // namespace splinefeed

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/base/durable_file.hpp"
+
+#include "host_sim/base/output_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, int error) {
+    throw OutputError(fmt::format("{}: cannot be written: {}", path, std::generic_category().message(error)));
+}
+
+bool write_all(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written < 0 && errno != EINTR) {
+            return false;
+        }
+        text.remove_prefix(written > 0 ? static_cast<std::size_t>(written) : 0U);
+    }
+    return true;
+}
+
+} // namespace
+
+void replace_durably(const std::string& path, std::string_view text) {
+    const std::string aside = path + ".new";
+    const int file = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) {
+        fail(path, errno);
+    }
+    const bool written = write_all(file, text) && ::fsync(file) == 0;
+    const int error = errno;
+    ::close(file);
+    if (!written) {
+        ::unlink(aside.c_str());
+        fail(path, error);
+    }
+    if (std::rename(aside.c_str(), path.c_str()) != 0) {
+        fail(path, errno);
+    }
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    const int folder = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0) {
+        static_cast<void>(::fsync(folder)); // not every file system has it; the file is whole in any case
+        ::close(folder);
+    }
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// durable_file: replaces a small file so that a crash at any instant leaves the old one or the new one, whole.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace splinefeed::host {
+
+/// Writes a file beside it, forces it to the disk, and renames it. Throws OutputError; the old file is then unchanged.
+/// Cost: two waits for the disk.
+void replace_durably(const std::string& path, std::string_view text);
+
+} // namespace splinefeed::host

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/config/state_file.hpp"
+
+#include "host_sim/base/durable_file.hpp"
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/json_text.hpp"
+#include "host_sim/base/text_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace splinefeed::host {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t largest = 1U << 16U;
+constexpr double largest_mm = 1048576.0;
+constexpr int version = 1;
+
+// Decimals of that size are exact as doubles.
+double number(Decimal value) {
+    return static_cast<double>(value.raw) / static_cast<double>(Decimal::one);
+}
+
+Json numbers(const PerAxis<Decimal>& values, std::size_t axes) {
+    Json json = Json::array();
+    for (std::size_t k = 0; k < axes; ++k) {
+        json.push_back(number(values[k]));
+    }
+    return json;
+}
+
+class StateReader {
+public:
+    StateReader(const nlohmann::json& json, std::string file, std::size_t axes)
+        : json_(json), file_(std::move(file)), axes_(axes) {}
+
+    [[noreturn]] void fail(std::string_view key) const {
+        throw InputError(file_, 0,
+                         fmt::format("\"{}\" is missing or wrong; a state file is written by --state, and not by hand. "
+                                     "Remove it to begin with offsets of 0",
+                                     key));
+    }
+    [[nodiscard]] double value(const nlohmann::json& json, const char* key) const {
+        if (!json.is_number() || !(std::fabs(json.get<double>()) <= largest_mm)) {
+            fail(key);
+        }
+        return json.get<double>();
+    }
+    [[nodiscard]] Decimal decimal(const nlohmann::json& json, const char* key) const {
+        return {std::llround(value(json, key) * static_cast<double>(Decimal::one))};
+    }
+    [[nodiscard]] const nlohmann::json& member(const nlohmann::json& json, const char* key) const {
+        const auto found = json.is_object() ? json.find(key) : json.end();
+        if (!json.is_object() || found == json.end()) {
+            fail(key);
+        }
+        return *found;
+    }
+    [[nodiscard]] const nlohmann::json& list(const nlohmann::json& json, const char* key, std::size_t size) const {
+        const nlohmann::json& found = member(json, key);
+        if (!found.is_array() || found.size() != size) {
+            fail(key);
+        }
+        return found;
+    }
+    [[nodiscard]] PerAxis<Decimal> point(const nlohmann::json& json, const char* key) const {
+        const nlohmann::json& found = list(json, key, axes_);
+        PerAxis<Decimal> out{};
+        for (std::size_t k = 0; k < axes_; ++k) {
+            out[k] = decimal(found[k], key);
+        }
+        return out;
+    }
+    [[nodiscard]] int whole(const char* key, int low, int high) const {
+        const nlohmann::json& found = member(json_, key);
+        if (!found.is_number_integer() || found.get<std::int64_t>() < low || found.get<std::int64_t>() > high) {
+            fail(key);
+        }
+        return found.get<int>();
+    }
+
+    [[nodiscard]] MachineState state() const {
+        MachineState out;
+        static_cast<void>(whole("version", version, version));
+        const nlohmann::json& position = list(json_, "position_mm", axes_);
+        for (std::size_t k = 0; k < axes_; ++k) {
+            out.position_mm[k] = value(position[k], "position_mm");
+        }
+        const nlohmann::json& systems = list(json_, "work_systems", work_systems);
+        for (std::size_t i = 0; i < systems.size(); ++i) {
+            out.offsets.systems[i].origin = point(systems[i], "origin_mm");
+            out.offsets.systems[i].rotation_deg = decimal(member(systems[i], "rotation_deg"), "rotation_deg");
+        }
+        out.offsets.active = whole("active", 0, work_systems - 1);
+        out.offsets.g92 = point(json_, "g92_mm");
+        const nlohmann::json& applies = member(json_, "g92_applies");
+        if (!applies.is_boolean()) {
+            fail("g92_applies");
+        }
+        out.offsets.g92_applies = applies.get<bool>();
+        out.offsets.tool = point(json_, "tool_mm");
+        out.offsets.g28 = point(json_, "g28_mm");
+        out.offsets.g30 = point(json_, "g30_mm");
+        out.offsets.tool_number = whole("tool_number", 0, 1'000'000);
+        return out;
+    }
+
+private:
+    const nlohmann::json& json_;
+    std::string file_;
+    std::size_t axes_;
+};
+
+} // namespace
+
+std::optional<MachineState> read_state_file(const std::string& path, const std::vector<std::string>& axes) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) {
+        return std::nullopt;
+    }
+    const nlohmann::json json = parse_json(read_text_file(path, largest), path);
+    const StateReader reader(json, path, axes.size());
+    if (reader.member(json, "axes") != nlohmann::json(axes)) {
+        throw InputError(path, 0, "it is the state of a machine with other axes; give each machine its own file");
+    }
+    return reader.state();
+}
+
+void write_state_file(const std::string& path, const std::vector<std::string>& axes, const MachineState& state) {
+    Json json;
+    json["version"] = version;
+    json["axes"] = axes;
+    json["position_mm"] = Json::array();
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        json["position_mm"].push_back(state.position_mm[k]);
+    }
+    json["work_systems"] = Json::array();
+    for (const WorkSystem& system : state.offsets.systems) {
+        json["work_systems"].push_back(
+            Json{{"origin_mm", numbers(system.origin, axes.size())}, {"rotation_deg", number(system.rotation_deg)}});
+    }
+    json["active"] = state.offsets.active;
+    json["g92_mm"] = numbers(state.offsets.g92, axes.size());
+    json["g92_applies"] = state.offsets.g92_applies;
+    json["tool_mm"] = numbers(state.offsets.tool, axes.size());
+    json["g28_mm"] = numbers(state.offsets.g28, axes.size());
+    json["g30_mm"] = numbers(state.offsets.g30, axes.size());
+    json["tool_number"] = state.offsets.tool_number;
+    replace_durably(path, json.dump(2) + "\n");
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// MachineState: where a machine stands and its work offsets, from one run to the next.
+#pragma once
+
+#include "splinefeed/number/position.hpp"
+#include "splinefeed/s0_program/work_offsets.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+struct MachineState {
+    WorkOffsets offsets{};
+    PerAxis<double> position_mm{}; ///< in machine coordinates
+
+    friend bool operator==(const MachineState&, const MachineState&) = default;
+};
+
+/// Nothing: there is no such file. Throws InputError where it is another machine's, or no state file.
+/// @param axes  the machine's
+[[nodiscard]] std::optional<MachineState> read_state_file(const std::string& path,
+                                                          const std::vector<std::string>& axes);
+/// A crash at any instant leaves the old file or the new one. Throws OutputError.
+void write_state_file(const std::string& path, const std::vector<std::string>& axes, const MachineState& state);
+
+} // namespace splinefeed::host

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// ProgramSummary: what a program asked for besides motion, and when it happened.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+struct ProgramSummary {
+    /// The first ones are kept, so the memory of an endless program is bounded.
+    static constexpr std::size_t most_events = 1000;
+
+    struct Event {
+        double time_s = 0.0;
+        std::uint64_t line = 0; ///< 0: unknown
+        std::string what;       ///< as element files name it
+        std::int32_t number = 0;
+        double value = 0.0;
+        std::string text;
+    };
+    std::uint64_t dwells = 0;
+    double dwell_s = 0.0;     ///< as programmed
+    std::uint64_t events = 0; ///< all of them
+    std::vector<Event> first_events;
+    std::uint64_t line = 0; ///< of the last move that was begun; 0: unknown
+
+    [[nodiscard]] bool empty() const noexcept { return dwells == 0 && events == 0 && line == 0; }
+};
+
+[[nodiscard]] nlohmann::ordered_json to_json(const ProgramSummary& summary);
+/// Rows for the table of a summary.
+[[nodiscard]] std::string to_text(const ProgramSummary& summary);
+
+} // namespace splinefeed::host

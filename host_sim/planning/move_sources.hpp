@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// move_sources: the moves of an input, whatever its format is.
+#pragma once
+
+#include "host_sim/program/move_source.hpp"
+#include "host_sim/program/path_input.hpp"
+
+#include <memory>
+
+namespace splinefeed::host {
+
+/// The program from its beginning. `input` must outlive it. @pre input.within_tolerance()
+template <Scalar S>
+[[nodiscard]] std::unique_ptr<MoveSource<S>> move_source(PathInput& input);
+
+} // namespace splinefeed::host

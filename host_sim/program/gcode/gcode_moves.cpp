@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/gcode/gcode_moves.hpp"
+
+#include "host_sim/program/element_cast.hpp"
+#include "host_sim/program/gcode/line_history.hpp"
+#include "host_sim/program/gcode/parameter_memory.hpp"
+#include "host_sim/program/gcode/program_flow.hpp"
+
+#include "splinefeed/s0_program/expression.hpp"
+#include "splinefeed/s0_program/interpreter.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <utility>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double seconds_per_minute = 60.0;
+
+double number(Decimal value) {
+    return static_cast<double>(value.raw) / static_cast<double>(Decimal::one);
+}
+
+Decimal decimal(double value) {
+    return {std::llround(value * static_cast<double>(Decimal::one))};
+}
+
+ProgramSettings program_settings(const GcodeSettings& from) {
+    ProgramSettings out;
+    out.axes = static_cast<int>(from.axes.size());
+    for (std::size_t k = 0; k < from.axes.size(); ++k) {
+        out.letters[k] = static_cast<char>(from.axes[k].front() - 'a' + 'A');
+    }
+    out.dialect = from.dialect;
+    out.block_delete = from.block_delete;
+    out.optional_pause = from.optional_stop;
+    out.default_tolerance_mm = decimal(from.tolerance_mm);
+    out.rapid_tolerance_mm = decimal(from.rapid_tolerance_mm);
+    out.ignored = from.ignored.data();
+    out.ignored_count = from.ignored.size();
+    return out;
+}
+
+// A line may have a comment that is longer than a line of the interpreter: slicers write their settings that way.
+std::string_view without_comment(std::string_view text, std::size_t longest) {
+    if (text.size() <= longest) {
+        return text;
+    }
+    bool inside = false;
+    for (std::size_t i = 0; i < longest; ++i) {
+        inside = text[i] == '(' || (inside && text[i] != ')');
+        if (text[i] == ';' && !inside) {
+            return text.substr(0, i);
+        }
+    }
+    return text;
+}
+
+bool is_linear(const std::string& axis) {
+    return axis == "x" || axis == "y" || axis == "z";
+}
+
+template <Scalar S>
+class GcodeMoves final : public MoveSource<S> {
+public:
+    GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines);
+
+    bool start(PerAxis<Position>& position) override;
+    bool next(SourceStep<S>& out) override;
+    [[nodiscard]] bool wait(typename MoveSource<S>::Patience patience) override;
+    [[nodiscard]] bool knows_stops() const noexcept override { return false; }
+    void pushed(const SourceStep<S>& step) override { history_.add(step.line); }
+
+    [[nodiscard]] std::uint64_t rows() const noexcept override { return history_.moves(); }
+    [[nodiscard]] std::uint32_t row_of(std::uint32_t move) const noexcept override { return move; }
+    [[nodiscard]] std::uint64_t line_of_row(std::uint64_t row) const noexcept override { return history_.line_of(row); }
+    [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override { return move + 1; }
+    [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const override;
+    [[nodiscard]] std::string name_of_row(std::uint32_t row) const override;
+    [[nodiscard]] InputError refusal(const SourceStep<S>& step, std::string_view text) const override;
+    [[nodiscard]] std::string without_moves(Error /*error*/) const override { return {}; }
+    void passed(std::uint64_t row) noexcept override { history_.forget_before(row); }
+
+private:
+    void read_line();
+    void take(SourceStep<S>& out);
+    void take_move(SourceStep<S>& out) const;
+    void take_event(SourceStep<S>& out);
+    void require_possible(EventKind kind) const;
+    [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
+
+    const GcodeSettings* settings_;
+    std::string file_;
+    std::unique_ptr<SourceLines> lines_;
+    ParameterMemory parameters_;
+    Expression expression_{parameters_};
+    Interpreter<S> interpreter_;
+    ProgramFlow flow_;
+    SourceLine line_;
+    ProgramItem<S> item_;
+    PerAxis<Position> here_{}; // where the last move so far ends
+    LineHistory history_;
+    bool pending_ = false; // the block has more items
+};
+
+template <Scalar S>
+GcodeMoves<S>::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines)
+    : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)),
+      interpreter_(program_settings(settings), &expression_),
+      flow_(*lines_, file_, expression_, interpreter_, parameters_) {}
+
+template <Scalar S>
+bool GcodeMoves<S>::start(PerAxis<Position>& position) {
+    position = here_ = settings_->start;
+    if (settings_->offsets) {
+        interpreter_.restore(*settings_->offsets);
+    }
+    interpreter_.start(here_);
+    return true;
+}
+
+template <Scalar S>
+bool GcodeMoves<S>::wait(typename MoveSource<S>::Patience patience) {
+    return pending_ || flow_.in_memory() || interpreter_.has_ended() || lines_->wait(patience);
+}
+
+template <Scalar S>
+std::string GcodeMoves<S>::in_the_line(const BlockStatus& status) const {
+    const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
+    if (status.length == 0 || at >= line_.text.size()) {
+        return {};
+    }
+    return in_quotes(std::string_view(line_.text).substr(at, status.length)) + ": ";
+}
+
+template <Scalar S>
+void GcodeMoves<S>::read_line() {
+    if (line_.number > std::numeric_limits<std::uint32_t>::max()) {
+        throw InputError(file_, line_.number, "the program has more than 2^32 lines; split it");
+    }
+    const std::string_view text = without_comment(line_.text, Interpreter<S>::longest_line);
+    const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
+    if (status.ok()) {
+        return;
+    }
+    const InputError error(file_, line_.number, std::uint64_t{status.column},
+                           in_the_line(status) + describe(status.error));
+    if (settings_->problems == nullptr) {
+        throw error;
+    }
+    settings_->problems->emplace_back(error.what());
+}
+
+// One line at a time: whoever waits for a pipe wants to know after each.
+template <Scalar S>
+bool GcodeMoves<S>::next(SourceStep<S>& out) {
+    out.kind = StepKind::nothing;
+    if (!pending_) {
+        if (interpreter_.has_ended()) {
+            return false;
+        }
+        switch (flow_.next(line_)) {
+        case ProgramFlow::Step::end: return false;
+        case ProgramFlow::Step::nothing: return true;
+        case ProgramFlow::Step::line: break;
+        }
+        read_line();
+    }
+    pending_ = interpreter_.next(item_) == Pull::item;
+    if (pending_) {
+        take(out);
+    }
+    return true;
+}
+
+template <Scalar S>
+void GcodeMoves<S>::take(SourceStep<S>& out) {
+    out.line = item_.line;
+    out.stops = item_.stops_before;
+    out.dwell_s = 0.0;
+    switch (item_.kind) {
+    case ItemKind::move:
+        out.kind = StepKind::move;
+        take_move(out);
+        here_ = out.element.to;
+        break;
+    case ItemKind::dwell:
+        out.kind = StepKind::dwell;
+        out.dwell_s = number(item_.dwell_s);
+        break;
+    case ItemKind::event:
+        out.kind = StepKind::event;
+        take_event(out);
+        break;
+    }
+}
+
+// Feeds of the core are along the linear axes where any of them moves, as programs state them.
+template <Scalar S>
+void GcodeMoves<S>::take_move(SourceStep<S>& out) const {
+    out.element = item_.element;
+    out.rapid = item_.move == MoveKind::rapid || item_.move == MoveKind::home;
+    double feed = to_double(out.element.feed_mm_s);
+    if (out.rapid) {
+        out.element.feed_mm_s = S{}; // the limits of the axes
+    } else {
+        if (settings_->mixed && !item_.inverse_time) {
+            feed = number(item_.feed) / seconds_per_minute;
+        } else if (settings_->mixed) {
+            double linear_sq = 0.0;
+            double all_sq = 0.0;
+            for (std::size_t k = 0; k < settings_->axes.size(); ++k) {
+                const double way = to_mm(out.element.to[k]) - to_mm(here_[k]);
+                all_sq += way * way;
+                linear_sq += is_linear(settings_->axes[k]) ? way * way : 0.0;
+            }
+            feed *= linear_sq > 0.0 && all_sq > 0.0 ? std::sqrt(linear_sq / all_sq) : 1.0;
+        }
+        out.element.feed_mm_s = from_double<S>(feed);
+        out.element.max_feed_mm_s = from_double<S>(settings_->max_feed_mm_s);
+    }
+    out.linear_feed_mm_s = out.rapid ? 0.0 : feed;
+    out.programmed = element_cast<double>(out.element);
+}
+
+template <Scalar S>
+void GcodeMoves<S>::take_event(SourceStep<S>& out) {
+    const ProgramEvent& event = item_.event;
+    if (!settings_->simulated) {
+        require_possible(event.kind);
+    }
+    out.action.kind = event.kind;
+    out.action.number = event.number;
+    out.action.value = number(event.value);
+    out.action.text.assign(event.text);
+    out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
+                                                           : nullptr;
+    if (event.kind == EventKind::input_wait) { // inputs of the simulated machine are low, and stay so
+        const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
+        out.dwell_s = met ? 0.0 : number(event.value);
+        interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
+    }
+}
+
+// What is not built for real machines is refused, rather than left out.
+template <Scalar S>
+void GcodeMoves<S>::require_possible(EventKind kind) const {
+    switch (kind) {
+    case EventKind::message:
+    case EventKind::print:
+    case EventKind::debug:
+    case EventKind::tool_select:
+    case EventKind::tool_set:
+    case EventKind::program_end:
+    case EventKind::overrides_on:
+    case EventKind::feed_override:
+    case EventKind::spindle_override:
+    case EventKind::offsets_changed: return;
+    default:
+        throw InputError(file_, line_.number, std::uint64_t{0},
+                         fmt::format("{}: only the simulated machine does this so far; take it out of the program, or "
+                                     "add its word to --ignore",
+                                     action_name(kind)));
+    }
+}
+
+template <Scalar S>
+std::string GcodeMoves<S>::name_of_move(std::uint64_t /*move*/, std::uint64_t line) const {
+    return fmt::format("line {}", line);
+}
+
+template <Scalar S>
+std::string GcodeMoves<S>::name_of_row(std::uint32_t row) const {
+    const std::uint64_t line = history_.line_of(row);
+    return line > 0 ? fmt::format("line {}", line) : fmt::format("move {}", row + std::uint64_t{1});
+}
+
+template <Scalar S>
+InputError GcodeMoves<S>::refusal(const SourceStep<S>& step, std::string_view text) const {
+    return {file_, step.line, text};
+}
+
+} // namespace
+
+template <Scalar S>
+std::unique_ptr<MoveSource<S>> gcode_moves(const GcodeSettings& settings, std::string file,
+                                           std::unique_ptr<SourceLines> lines) {
+    return std::make_unique<GcodeMoves<S>>(settings, std::move(file), std::move(lines));
+}
+
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template std::unique_ptr<MoveSource<S>> gcode_moves(const GcodeSettings&, std::string,                             \
+                                                        std::unique_ptr<SourceLines>);
+SPLINEFEED_INSTANTIATE(double)
+SPLINEFEED_INSTANTIATE(float)
+SPLINEFEED_INSTANTIATE(Fixed)
+#undef SPLINEFEED_INSTANTIATE
+
+} // namespace splinefeed::host

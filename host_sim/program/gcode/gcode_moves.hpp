@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// gcode_moves: a program in G-code as steps.
+#pragma once
+
+#include "host_sim/program/gcode_settings.hpp"
+#include "host_sim/program/move_source.hpp"
+#include "host_sim/program/source_line.hpp"
+
+#include <memory>
+#include <string>
+
+namespace splinefeed::host {
+
+/// Reads a line when the step before it has been taken, so motion can begin before the program ends. Errors have the
+/// line and the column.
+/// @param settings  must outlive it
+/// @param file      for messages
+template <Scalar S>
+[[nodiscard]] std::unique_ptr<MoveSource<S>> gcode_moves(const GcodeSettings& settings, std::string file,
+                                                         std::unique_ptr<SourceLines> lines);
+
+} // namespace splinefeed::host

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/gcode/parameter_memory.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::host {
+
+namespace {
+
+// Names differ neither by case nor by spaces.
+std::string normalized(std::string_view name) {
+    std::string out;
+    for (const char c : name) {
+        if (c != ' ' && c != '\t') {
+            out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        }
+    }
+    return out;
+}
+
+bool is_global(std::string_view key) {
+    return !key.empty() && key.front() == '_';
+}
+
+} // namespace
+
+bool ParameterMemory::read(std::int32_t number, Decimal& out) const noexcept {
+    if (number < 0 || number > largest_number || !numbered_[static_cast<std::size_t>(number)].set) {
+        return false;
+    }
+    out = numbered_[static_cast<std::size_t>(number)].value;
+    return true;
+}
+
+bool ParameterMemory::write(std::int32_t number, Decimal value) noexcept {
+    if (number < 0 || number > largest_number) {
+        return false;
+    }
+    numbered_[static_cast<std::size_t>(number)] = {value, true};
+    return true;
+}
+
+bool ParameterMemory::read(std::string_view name, Decimal& out) const noexcept {
+    try {
+        const std::string key = normalized(name);
+        const Names& names = is_global(key) ? global_ : named_;
+        const auto found = names.find(key);
+        if (found == names.end()) {
+            return false;
+        }
+        out = found->second;
+        return true;
+    } catch (...) { // out of memory
+        return false;
+    }
+}
+
+bool ParameterMemory::write(std::string_view name, Decimal value) noexcept {
+    try {
+        std::string key = normalized(name);
+        Names& names = is_global(key) ? global_ : named_;
+        const auto found = names.find(key);
+        if (found != names.end()) {
+            found->second = value;
+        } else if (names.size() < most_names) {
+            names.emplace(std::move(key), value);
+        } else {
+            return false;
+        }
+        return true;
+    } catch (...) {
+        return false;
+    }
+}
+
+void ParameterMemory::enter(const std::vector<Decimal>& arguments) {
+    const auto begin = numbered_.begin() + 1;
+    const auto end = begin + local_numbers;
+    callers_.push_back({{begin, end}, std::move(named_)});
+    named_.clear();
+    std::fill(begin, end, Value{{}, true});
+    for (std::size_t i = 0; i < std::min(arguments.size(), local_numbers); ++i) {
+        numbered_[i + 1] = {arguments[i], true};
+    }
+}
+
+void ParameterMemory::leave() {
+    std::copy(callers_.back().numbered.begin(), callers_.back().numbered.end(), numbered_.begin() + 1);
+    named_ = std::move(callers_.back().named);
+    callers_.pop_back();
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// ProgramFlow: the lines of a program in the order in which they are executed: subprograms, conditions, loops.
+#pragma once
+
+#include "host_sim/program/gcode/flow_word.hpp"
+#include "host_sim/program/gcode/parameter_memory.hpp"
+#include "host_sim/program/source_line.hpp"
+
+#include "splinefeed/s0_program/word_evaluator.hpp"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// Lines without O words pass as they come. A subprogram, a condition or a loop is read to its end before it begins,
+/// and kept in memory while it runs. A subprogram has to stand before its first call. Steps and depth are bounded.
+class ProgramFlow {
+public:
+    static constexpr std::size_t most_lines = 1'000'000;    ///< kept in memory
+    static constexpr std::uint64_t most_jumps = 10'000'000; ///< O words executed
+    static constexpr std::size_t deepest = 30;              ///< calls within calls
+    static constexpr std::int32_t most_arguments = 30;
+
+    enum class Step : std::uint8_t {
+        line,    ///< execute it
+        nothing, ///< ask again
+        end,
+    };
+
+    /// Everything must outlive it.
+    ProgramFlow(SourceLines& lines, std::string file, WordEvaluator& evaluator, const BlockInterpreter& system,
+                ParameterMemory& parameters)
+        : lines_(&lines), file_(std::move(file)), evaluator_(&evaluator), system_(&system), parameters_(&parameters) {}
+
+    /// Throws InputError. May wait for the input.
+    Step next(SourceLine& out);
+    /// Whether next() needs no more input.
+    [[nodiscard]] bool in_memory() const noexcept { return !frames_.empty() && !collects_; }
+
+private:
+    using Code = std::vector<SourceLine>;
+
+    struct Loop {
+        std::string label;
+        std::int64_t left = 0; // of a repeat
+    };
+    /// A block that is executed from memory.
+    struct Frame {
+        std::shared_ptr<const Code> code;
+        std::size_t at = 0;
+        bool called = false; // it has parameters of its own
+        std::vector<Loop> loops;
+    };
+
+    Step collect(SourceLine& line);
+    void begin(const FlowWord& word, const SourceLine& line);
+    void execute(const FlowWord& word, const SourceLine& line);
+    void execute_if(const FlowWord& word, const SourceLine& line);
+    void execute_call(const FlowWord& word, const SourceLine& line);
+    void execute_repeat(const FlowWord& word, const SourceLine& line);
+    void leave_sub(const FlowWord& word, const SourceLine& line);
+    void define(const FlowWord& word, const SourceLine& line);
+    [[nodiscard]] bool ends_do(const FlowWord& word) const;
+    [[nodiscard]] FlowWord word_of(const SourceLine& line) const;
+    [[nodiscard]] std::string label_of(const FlowWord& word, const SourceLine& line);
+    [[nodiscard]] std::size_t find(std::size_t from, const std::string& label, std::initializer_list<FlowKind> kinds,
+                                   const SourceLine& line) const;
+    [[nodiscard]] std::size_t find_back(const std::string& label, FlowKind kind, const SourceLine& line) const;
+    [[nodiscard]] Decimal value(std::string_view text, std::size_t& at, const SourceLine& line);
+    [[nodiscard]] bool condition(const FlowWord& word, const SourceLine& line);
+    [[noreturn]] void fail(const SourceLine& line, std::size_t at, std::string_view text) const;
+
+    SourceLines* lines_;
+    std::string file_;
+    WordEvaluator* evaluator_;
+    const BlockInterpreter* system_;
+    ParameterMemory* parameters_;
+    std::map<std::string, std::shared_ptr<const Code>> subs_;
+    std::vector<Frame> frames_;
+    bool collects_ = false; // a block is read to its end
+    std::shared_ptr<Code> block_;
+    std::string block_label_;
+    FlowKind block_kind_ = FlowKind::sub;
+    std::size_t kept_ = 0; // lines of subprograms
+    std::uint64_t jumps_ = 0;
+};
+
+} // namespace splinefeed::host

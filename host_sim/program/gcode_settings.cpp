@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/gcode_settings.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double largest_word = 3000.0;
+
+bool is_letter(char c) {
+    return c >= 'A' && c <= 'Z';
+}
+
+// "M104" or "E".
+IgnoredWord ignored_word(std::string_view word) {
+    IgnoredWord out;
+    std::string upper(word);
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+    out.letter = upper.empty() ? '\0' : upper.front();
+    if (upper.size() == 1 && is_letter(out.letter)) {
+        return out;
+    }
+    double number = -1.0;
+    const bool numeric = !upper.empty() && read_number(std::string_view(upper).substr(1), number) == NumberText::number;
+    const double tenths = numeric ? number * 10.0 : -1.0;
+    if (!is_letter(out.letter) || !(tenths >= 0.0 && tenths <= 10.0 * largest_word) ||
+        std::fabs(tenths - std::round(tenths)) > 1e-6) {
+        throw UsageError(
+            fmt::format("--ignore: {} is no word; name words like M104,E, separated by commas", in_quotes(word)));
+    }
+    out.tenths = static_cast<std::int16_t>(std::lround(tenths));
+    return out;
+}
+
+} // namespace
+
+std::string_view first_option(const GcodeArguments& arguments) noexcept {
+    return arguments.dialect         ? "--dialect"
+           : arguments.ignore        ? "--ignore"
+           : arguments.block_delete  ? "--block-delete"
+           : arguments.optional_stop ? "--optional-stop"
+                                     : "";
+}
+
+GcodeSettings read_gcode_arguments(const GcodeArguments& arguments) {
+    GcodeSettings out;
+    if (arguments.dialect) {
+        const auto* const found =
+            std::find(std::begin(dialect_names), std::end(dialect_names), std::string_view(*arguments.dialect));
+        if (found == std::end(dialect_names)) {
+            throw UsageError(fmt::format("--dialect {}: it must be one of {}", in_quotes(*arguments.dialect),
+                                         listed(dialect_names)));
+        }
+        out.dialect = static_cast<Dialect>(found - std::begin(dialect_names));
+    }
+    for (std::string_view rest = arguments.ignore.value_or(""); arguments.ignore;) {
+        const std::size_t comma = rest.find(',');
+        out.ignored.push_back(ignored_word(rest.substr(0, comma)));
+        if (comma == std::string_view::npos) {
+            break;
+        }
+        rest.remove_prefix(comma + 1);
+    }
+    out.block_delete = arguments.block_delete;
+    out.optional_stop = arguments.optional_stop;
+    return out;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// GcodeSettings: how a program in G-code is to be read, and for which machine.
+#pragma once
+
+#include "splinefeed/number/position.hpp"
+#include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s0_program/work_offsets.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// As they were typed.
+struct GcodeArguments {
+    std::optional<std::string> dialect;
+    std::optional<std::string> ignore;
+    bool block_delete = false;
+    bool optional_stop = false;
+};
+
+struct GcodeSettings {
+    Dialect dialect = Dialect::linuxcnc;
+    std::vector<IgnoredWord> ignored;
+    bool block_delete = false;
+    bool optional_stop = false;
+    bool simulated = true;                        ///< a simulated machine has a spindle, coolant, and everything else
+    double tolerance_mm = 0.01;                   ///< of G64 without P
+    double rapid_tolerance_mm = 0.1;              ///< between rapids
+    double max_feed_mm_s = 0.0;                   ///< of moves with a feed, along the linear axes; 0: none
+    bool mixed = false;                           ///< the machine has linear and rotary axes
+    std::vector<std::string> axes;                ///< names: x, y, z, a, b, c
+    std::vector<std::string>* problems = nullptr; ///< gets what is wrong with lines, which are left out; null: the
+                                                  ///< first one ends the program
+    std::optional<WorkOffsets> offsets{};         ///< of a state file
+    PerAxis<Position> start{};                    ///< where the machine stands, in its own coordinates
+};
+
+/// The names of --dialect.
+inline constexpr std::string_view dialect_names[] = {"linuxcnc", "grbl", "marlin"};
+
+/// Whether one of the options was given; its name, else empty.
+[[nodiscard]] std::string_view first_option(const GcodeArguments& arguments) noexcept;
+
+/// What was typed. Throws UsageError.
+[[nodiscard]] GcodeSettings read_gcode_arguments(const GcodeArguments& arguments);
+
+} // namespace splinefeed::host

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// MoveSource: a program as a sequence of steps: moves, dwells and events.
+#pragma once
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/program/program_action.hpp"
+
+#include "splinefeed/base/status.hpp"
+#include "splinefeed/s1_blended_path/path_element.hpp"
+
+#include "splinefeed/s0_program/work_offsets.hpp"
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+namespace splinefeed::host {
+
+enum class StepKind : std::uint8_t { move, dwell, event, nothing };
+
+/// Only the members of its kind are meaningful.
+template <Scalar S>
+struct SourceStep {
+    StepKind kind = StepKind::move;
+    std::uint64_t line = 0; ///< of its source; 0: unknown
+
+    PathElement<S> element{};
+    PathElement<double> programmed{}; ///< the same move, for those who measure
+    bool rapid = false;
+    double linear_feed_mm_s = 0.0; ///< as it was programmed; 0: unknown
+
+    bool stops = false;   ///< the machine stands at the end of the moves before it
+    double dwell_s = 0.0; ///< of a dwell, and how long the machine waits for an event
+    ProgramAction action{};
+    std::shared_ptr<const WorkOffsets> offsets{}; ///< of an event that changes them: what they are then
+};
+
+/// Every method that reads throws InputError.
+template <Scalar S>
+class MoveSource {
+public:
+    using Patience = std::chrono::steady_clock::duration;
+
+    MoveSource() = default;
+    MoveSource(const MoveSource&) = delete;
+    MoveSource& operator=(const MoveSource&) = delete;
+    virtual ~MoveSource() = default;
+
+    /// Where the first move begins. Call it once, before next(); false: there is nothing. May wait for the input.
+    virtual bool start(PerAxis<Position>& position) = 0;
+    /// The next step, which may be nothing; false: there are no more. May wait for the input.
+    virtual bool next(SourceStep<S>& out) = 0;
+    /// Whether start() or next() would return without waiting; waits for that up to the given time.
+    [[nodiscard]] virtual bool wait(Patience /*patience*/) { return true; }
+
+    /// Whether a move says itself that the machine has to stand at its end, before the step that needs it is known.
+    [[nodiscard]] virtual bool knows_stops() const noexcept { return true; }
+    /// The path has taken a move. Not all are: some have no length.
+    virtual void pushed(const SourceStep<S>& /*step*/) {}
+    /// Number of waypoints, elements or lines so far.
+    [[nodiscard]] virtual std::uint64_t rows() const noexcept = 0;
+    /// Of a move, from 0, as they were delivered: the index of its waypoint, element or move, modulo 2^32.
+    [[nodiscard]] virtual std::uint32_t row_of(std::uint32_t move) const noexcept = 0;
+    /// Line of a row in the file; 0: unknown.
+    [[nodiscard]] virtual std::uint64_t line_of_row(std::uint64_t row) const noexcept = 0;
+    /// What a move is counted as, from 1; and its name, e.g. "element 3 (line 12)".
+    [[nodiscard]] virtual std::uint64_t number_of_move(std::uint64_t move) const noexcept = 0;
+    [[nodiscard]] virtual std::string name_of_move(std::uint64_t move, std::uint64_t line) const = 0;
+    /// For messages that do not begin with a line.
+    [[nodiscard]] virtual std::string name_of_row(std::uint32_t row) const = 0;
+    /// An error of the move that was delivered last.
+    [[nodiscard]] virtual InputError refusal(const SourceStep<S>& step, std::string_view text) const = 0;
+    /// An error of a program that has no move; empty: it needs none.
+    [[nodiscard]] virtual std::string without_moves(Error error) const { return std::string(describe(error)); }
+    /// The motion has come to this row: nobody asks for those before it any more.
+    virtual void passed(std::uint64_t /*row*/) noexcept {}
+};
+
+} // namespace splinefeed::host

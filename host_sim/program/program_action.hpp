@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// ProgramAction: what a program asks for besides motion.
+#pragma once
+
+#include "splinefeed/s0_program/program_event.hpp"
+
+#include <string>
+
+namespace splinefeed::host {
+
+/// An event with its own copy of the text.
+struct ProgramAction {
+    EventKind kind = EventKind::message;
+    std::int32_t number = 0;
+    double value = 0.0;
+    std::string text;
+};
+
+/// "spindle_clockwise", "stop", ...: the words of element files and reports.
+[[nodiscard]] const char* action_name(EventKind kind) noexcept;
+
+} // namespace splinefeed::host

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/source_line.hpp"
+
+#include "host_sim/base/input_error.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+#include <ios>
+
+namespace splinefeed::host {
+
+bool LineReader::next(SourceLine& out) {
+    using Traits = std::streambuf::traits_type;
+    out.text.clear();
+    out.number = ++lines_;
+    try {
+        for (;;) {
+            if (Traits::eq_int_type(input_.sgetc(), Traits::eof())) {
+                return !out.text.empty();
+            }
+            const std::string_view here = input_.arrived();
+            const std::size_t end = here.find('\n');
+            const std::string_view part = here.substr(0, end);
+            if (out.text.size() + part.size() > longest_line) {
+                throw InputError(name_, lines_,
+                                 fmt::format("the line is longer than {} bytes; is it a text file?", longest_line));
+            }
+            out.text += part;
+            input_.skip(std::min(part.size() + 1, here.size()));
+            if (end != std::string_view::npos) {
+                if (!out.text.empty() && out.text.back() == '\r') {
+                    out.text.pop_back();
+                }
+                return true;
+            }
+        }
+    } catch (const std::ios_base::failure&) {
+        throw InputError(name_, lines_, "cannot be read; it must be a file or a pipe");
+    }
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/run/check.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/output/program_report_text.hpp"
+#include "host_sim/planning/move_sources.hpp"
+#include "host_sim/run/run_machine.hpp"
+
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr std::size_t most_problems = 1000;
+
+/// Every line once: what is wrong with it, and whether its moves stay within the travel.
+class Survey {
+public:
+    Survey(const MachineDescription& machine, const std::string& file)
+        : machine_(&machine), file_(&file), report_(machine) {}
+
+    void read(PathInput& input) {
+        input.collect_problems(&problems_);
+        const auto program = move_source<double>(input);
+        PerAxis<Position> here{};
+        static_cast<void>(program->start(here));
+        report_.start(here);
+        try {
+            for (SourceStep<double> step; problems_.size() < most_problems && program->next(step);) {
+                if (step.kind == StepKind::move) {
+                    require_travel(here, step);
+                    report_.move(step.programmed, step.rapid, step.line);
+                    here = step.programmed.to;
+                }
+            }
+        } catch (const InputError& error) { // the rest cannot be read
+            problems_.emplace_back(error.what());
+        }
+        input.collect_problems(nullptr);
+    }
+
+    [[nodiscard]] const ProgramReport& report() const noexcept { return report_; }
+    [[nodiscard]] const std::vector<std::string>& problems() const noexcept { return problems_; }
+
+private:
+    void require_travel(const PerAxis<Position>& from, const SourceStep<double>& step) {
+        AxisBox box;
+        add_extent(from, step.programmed, machine_->settings.axes, box);
+        for (unsigned k = 0; k < static_cast<unsigned>(machine_->settings.axes); ++k) {
+            const auto& travel = machine_->travel[k];
+            if (travel && (box.low[k] < travel->low || box.high[k] > travel->high)) {
+                const double end = to_mm(step.programmed.to[k]);
+                const bool below = box.low[k] < travel->low && !(end > travel->high);
+                problems_.push_back(
+                    fmt::format("{}:{}: axis {} goes to {:.4f} mm, {} the end of its travel at {:.4f} mm", *file_,
+                                step.line, machine_->axis_name[k], below ? box.low[k] : box.high[k],
+                                below ? "below" : "above", below ? travel->low : travel->high));
+            }
+        }
+    }
+
+    const MachineDescription* machine_;
+    const std::string* file_;
+    ProgramReport report_;
+    std::vector<std::string> problems_;
+};
+
+void print(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw OutputError("standard output: the report cannot be written; keep its reader running to the end");
+    }
+}
+
+template <Scalar S>
+int check_with(const RunArguments& arguments) {
+    const RunMachine of(arguments.machine, *arguments.path.format);
+    const auto limits = MotionLimits<S>::make(of.machine.settings);
+    if (!limits.has_value()) {
+        throw InputError(of.machine.file, 0, describe(limits.error()));
+    }
+    PathInput input(arguments.path, PathUse::executed, of.axes, of.tolerances);
+    if (input.gcode() == nullptr) {
+        throw UsageError("check takes a program in G-code; for other inputs: splinefeed plan");
+    }
+    if (!input.repeatable()) {
+        throw UsageError("check reads the program twice; give it a file");
+    }
+    input.limit_feed(of.max_feed_mm_s, limits->mixed);
+    input.begin_at(of.state(arguments.state, arguments.position));
+    const auto text = arguments.summary == SummaryKind::json ? check_json : check_text;
+    Survey survey(of.machine, input.name());
+    survey.read(input);
+    if (!survey.problems().empty()) {
+        print(text(survey.report(), of.machine, survey.problems(), 0.0));
+        return 1;
+    }
+    ProgramReport report(of.machine);
+    MotionArguments motion_arguments = arguments.motion;
+    motion_arguments.enforce = false;
+    motion_arguments.quiet = true;
+    motion_arguments.report = &report;
+    const PathLimits path_limits(of.machine);
+    Outputs outputs(arguments.outputs, input.curve_name(), false, of.machine);
+    Motion<S> motion(motion_arguments, of.machine, *limits, input, path_limits, outputs);
+    const std::string stopped = motion.run(std::nullopt);
+    print(text(report, of.machine, stopped.empty() ? std::vector<std::string>{} : std::vector<std::string>{stopped},
+               motion.summary().cycle_time_s));
+    return stopped.empty() ? 0 : 1;
+}
+
+} // namespace
+
+int check(const RunArguments& arguments) {
+    switch (arguments.path.scalar) {
+    case ScalarKind::fixed: return check_with<Fixed>(arguments);
+    case ScalarKind::float32: return check_with<float>(arguments);
+    case ScalarKind::float64: return check_with<double>(arguments);
+    }
+    return 1;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// What a motion says of itself.
+#include "host_sim/run/motion.hpp"
+
+#include <cmath>
+#include <sys/resource.h>
+
+namespace splinefeed::host {
+
+// Where the path is too far from its moves; empty: nowhere.
+template <Scalar S>
+std::string Motion<S>::excess() const {
+    const auto& excess = deviation_.excess();
+    return excess ? describe(*excess, feeder_.name_of_move(excess->place.move, excess->place.line)) : std::string();
+}
+
+template <Scalar S>
+ToleranceSummary Motion<S>::tolerance_summary() const {
+    ToleranceSummary out;
+    const auto place = [&](const PathDeviation::Place& of) {
+        return ToleranceSummary::Place{of.distance, feeder_.number_of_move(of.move), of.line,
+                                       feeder_.name_of_move(of.move, of.line)};
+    };
+    out.deviation = place(deviation_.linear());
+    if (deviation_.has_rotary()) {
+        out.rotary_deviation = place(deviation_.rotary());
+    }
+    out.excess = excess();
+    const PathCounts counts = feeder_.tolerance_path()->counts();
+    out.blended = counts.joints.blended;
+    out.stopped = counts.joints.stopped;
+    out.through = counts.joints.through;
+    out.chains = counts.chains;
+    out.elements = feeder_.rows() - (input_->lines_within_tolerance() && feeder_.rows() > 0 ? 1U : 0U);
+    out.pieces = tee_.segments();
+    out.exact_stop_s = exact_stop_.seconds() + steps_.summary().dwell_s;
+    return out;
+}
+
+template <Scalar S>
+Summary Motion<S>::summary() const {
+    Summary summary;
+    summary.cycle_time_s = machine_.cycle_time_s();
+    summary.length_mm = length_to_mm(trajectory_.arc_length().travelled());
+    summary.waypoints = feeder_.rows();
+    summary.curve_segments = tee_.segments();
+    summary.feed_segments = segments_;
+    summary.scalar = scalar_name<S>();
+    summary.curve = input_->curve_name();
+    summary.max_speed_mm_s = machine_.max_path_speed_mm_s();
+    double acceleration_sq = 0.0;
+    for (int k = 0; k < limits_->axes; ++k) {
+        const LimitUse& use = machine_.use(k);
+        const AxisSettings& axis = description_->settings.axis[static_cast<unsigned>(k)];
+        const bool has_jerk = axis.max_jerk_mm_s3 > 0.0;
+        summary.limit_use.push_back({description_->axis_name[static_cast<unsigned>(k)], use.velocity, use.acceleration,
+                                     has_jerk ? std::optional(use.jerk) : std::nullopt});
+        acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();
+    }
+    // Segments that came whole are not measured against the points they were made of.
+    if (input_->segments() == nullptr && !input_->within_tolerance() && passes_waypoints(summary.curve)) {
+        summary.waypoint_error_mm = error_.largest_mm();
+    }
+    if (stopped_.empty() && operated_ == 0) { // an override may be faster than what was programmed
+        summary.optimum_time_s = optimum_.seconds() + steps_.summary().dwell_s;
+    }
+    if (input_->within_tolerance()) {
+        summary.tolerance = tolerance_summary();
+    }
+    summary.program = steps_.summary();
+    summary.program.line = line_;
+    summary.limit_share = share_.shares();
+    summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
+    summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};
+    summary.stopped = !stopped_.empty();
+    summary.events = operated_;
+    summary.events_not_reached = events_.size() - operated_;
+    summary.window_limited = trajectory_.feed_plan().window_limited();
+    summary.stops = rests_ > 0 ? rests_ - 1 : 0;
+    const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);
+    summary.smoothing_bound_mm = duration_s * duration_s * std::sqrt(acceleration_sq) / 6.0;
+    if (target_ != nullptr) {
+        target_->describe(summary);
+    }
+    rusage usage{};
+    if (getrusage(RUSAGE_SELF, &usage) == 0) {
+        summary.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
+    }
+    return summary;
+}
+
+#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
+    template std::string Motion<S>::excess() const;                                                                    \
+    template ToleranceSummary Motion<S>::tolerance_summary() const;                                                    \
+    template Summary Motion<S>::summary() const;
+SPLINEFEED_INSTANTIATE(double)
+SPLINEFEED_INSTANTIATE(float)
+SPLINEFEED_INSTANTIATE(Fixed)
+#undef SPLINEFEED_INSTANTIATE
+
+} // namespace splinefeed::host

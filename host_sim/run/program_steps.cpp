@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/run/program_steps.hpp"
+
+#include "host_sim/base/input_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace splinefeed::host {
+
+namespace {
+
+// As SegmentStream makes control points: from 2^-40 mm times Q32.32 counts per mm to multiples of 6 units.
+constexpr int control_shift = Position::fraction_bits + 32 - 29;
+constexpr int units_per_control = 6;
+
+} // namespace
+
+template <Scalar S>
+void ProgramSteps<S>::add(const typename ElementFeeder<S>::Pushed& pushed) {
+    if (pushed.start) {
+        start_ = place_ = pushed.position;
+    }
+    if (pushed.move != nullptr) {
+        place_ = pushed.position;
+    }
+    if (pushed.step == nullptr) {
+        return;
+    }
+    const SourceStep<S>& step = *pushed.step;
+    const bool dwells = step.kind == StepKind::dwell;
+    if (dwells) {
+        ++summary_.dwells;
+        summary_.dwell_s += step.dwell_s;
+    }
+    pending_.add({step.kind, step.stops, step.dwell_s, step.line, step.action, step.offsets, pushed.row, place_});
+}
+
+template <Scalar S>
+void ProgramSteps<S>::happen(double time_s) {
+    const PendingStep step = pending_.take();
+    left_ticks_ = 0;
+    if (step.kind != StepKind::event) {
+        return;
+    }
+    const ProgramAction& action = step.action;
+    if (step.offsets != nullptr) {
+        offsets_ = step.offsets;
+        offsets_changed_ = true;
+    }
+    if (summary_.events++ < ProgramSummary::most_events) {
+        summary_.first_events.push_back(
+            {time_s, step.line, action_name(action.kind), action.number, action.value, action.text});
+    }
+    const bool said =
+        action.kind == EventKind::message || action.kind == EventKind::print || action.kind == EventKind::debug;
+    if (tells_ && said) {
+        fmt::print(stderr, "{}\n", printable(action.text));
+    }
+}
+
+template <Scalar S>
+void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
+    while (pending_.passed(segment.waypoint) != nullptr) {
+        happen(time_s);
+    }
+    row_ = segment.waypoint;
+}
+
+template <Scalar S>
+bool ProgramSteps<S>::stands(const PerAxis<double>& position_mm, double time_s) {
+    while (const PendingStep* const step = pending_.reached(row_, position_mm, limits_->axes)) {
+        if (left_ticks_ > 0) {
+            return true;
+        }
+        left_ticks_ = static_cast<std::uint64_t>(std::llround(step->dwell_s * ticks_per_us * 1e6));
+        began_s_ = time_s;
+        if (left_ticks_ == 0) {
+            happen(time_s);
+        }
+    }
+    return false;
+}
+
+template <Scalar S>
+void ProgramSteps<S>::stood(const FeedSegment& segment) {
+    left_ticks_ -= std::min<std::uint64_t>(left_ticks_, segment.duration_ticks);
+    if (left_ticks_ == 0) {
+        happen(began_s_);
+    }
+}
+
+template <Scalar S>
+void ProgramSteps<S>::at_start(FeedSegment& segment) const noexcept {
+    segment = {};
+    segment.duration_ticks = limits_->segment_ticks;
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        segment.start[k] = units_per_control * scaled(start_[k], limits_->steps_per_mm_q32[k], control_shift);
+        segment.end[k] = segment.start[k];
+    }
+}
+
+template class ProgramSteps<double>;
+template class ProgramSteps<float>;
+template class ProgramSteps<Fixed>;
+
+} // namespace splinefeed::host

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// ProgramSteps: carries out the dwells and events of a program where the motion reaches them.
+#pragma once
+
+#include "host_sim/output/program_summary.hpp"
+#include "host_sim/planning/element_feeder.hpp"
+#include "host_sim/run/pending_steps.hpp"
+
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
+#include "splinefeed/s4_segment_stream/feed_segment.hpp"
+
+#include <utility>
+
+namespace splinefeed::host {
+
+/// A dwell is standstill, segment by segment, so it takes the machine's time on every target. Events happen at the
+/// begin of the segment after their place.
+template <Scalar S>
+class ProgramSteps {
+public:
+    /// @param tells  messages of the program go to standard error
+    /// `limits` must outlive it.
+    ProgramSteps(const MotionLimits<S>& limits, bool tells) : limits_(&limits), tells_(tells) {}
+
+    /// What the feeder has read.
+    void add(const typename ElementFeeder<S>::Pushed& pushed);
+
+    /// Whether nothing is waiting.
+    [[nodiscard]] bool empty() const noexcept { return pending_.empty(); }
+    /// The next segment is executed: events that it leaves behind happen.
+    void begin(const FeedSegment& segment, double time_s);
+    /// The machine stands at `position_mm`: steps that are due happen. Returns whether it has to stand for one more
+    /// segment.
+    [[nodiscard]] bool stands(const PerAxis<double>& position_mm, double time_s);
+    /// Line of the step for which the machine stands; 0: unknown. @pre stands() was true
+    [[nodiscard]] std::uint64_t line() const noexcept { return pending_.first().line; }
+    /// It stood for this segment. @pre stands() was true
+    void stood(const FeedSegment& segment);
+    /// Standstill where the program begins, for a machine that has not moved yet. @pre stands() was true
+    void at_start(FeedSegment& segment) const noexcept;
+    [[nodiscard]] bool moved() const noexcept { return row_.has_value(); }
+
+    /// The offsets as the motion has come to them; null: the program has not changed them.
+    [[nodiscard]] const WorkOffsets* offsets() const noexcept { return offsets_.get(); }
+    /// Whether they changed since the last call.
+    [[nodiscard]] bool take_change() noexcept { return std::exchange(offsets_changed_, false); }
+
+    [[nodiscard]] const ProgramSummary& summary() const noexcept { return summary_; }
+
+private:
+    void happen(double time_s);
+
+    const MotionLimits<S>* limits_;
+    PendingSteps pending_;
+    PerAxis<Position> start_{};
+    PerAxis<Position> place_{}; // where the last move that was read ends
+    std::shared_ptr<const WorkOffsets> offsets_;
+    bool offsets_changed_ = false;
+    std::optional<std::uint32_t> row_; // of the last segment
+    std::uint64_t left_ticks_ = 0;     // of a dwell that has begun
+    double began_s_ = 0.0;             // when it began
+    ProgramSummary summary_;
+    bool tells_;
+};
+
+} // namespace splinefeed::host

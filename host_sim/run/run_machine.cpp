@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/run/run_machine.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/number_text.hpp"
+#include "host_sim/config/machine_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+// Along a diagonal of all linear axes, or of the rotary ones where there are no others.
+double fastest_rapid_mm_s(const MachineSettings& machine) {
+    constexpr double most = 10000.0; // as a machine file may state
+    double linear_sq = 0.0;
+    double rotary_sq = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+        const double v = machine.axis[k].max_velocity_mm_s;
+        (machine.axis[k].rotary ? rotary_sq : linear_sq) += v * v;
+    }
+    return std::clamp(std::sqrt(linear_sq > 0.0 ? linear_sq : rotary_sq), machine.max_feed_mm_s, most);
+}
+
+} // namespace
+
+RunMachine::RunMachine(const std::string& file, const InputFormat& format)
+    : machine(file.empty() ? default_machine() : read_machine_file(file)),
+      max_feed_mm_s(machine.settings.max_feed_mm_s),
+      axes(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes),
+      tolerances(machine.tolerances) {
+    if (format.is_gcode()) {
+        machine.settings.max_feed_mm_s = fastest_rapid_mm_s(machine.settings);
+    }
+    // Without a jerk limit a jump of the curvature costs nothing: exact paths stay as they are.
+    if (!(axis_totals(machine.settings).smoothest > 0.0)) {
+        tolerances.joint_mm = 0.0;
+    }
+}
+
+MachineState RunMachine::state(const std::string& state, const std::string& position) const {
+    MachineState out = (state.empty() ? std::nullopt : read_state_file(state, axes)).value_or(MachineState{});
+    if (position.empty()) {
+        return out;
+    }
+    std::string_view rest = position;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        const std::size_t comma = rest.find(',');
+        const bool last = k + 1 == axes.size();
+        if (read_number(rest.substr(0, comma), out.position_mm[k]) != NumberText::number ||
+            (comma == std::string_view::npos) != last) {
+            throw UsageError(fmt::format("--position {}: it must be a number for each axis, {}", in_quotes(position),
+                                         fmt::join(axes, ",")));
+        }
+        rest.remove_prefix(last ? rest.size() : comma + 1);
+    }
+    return out;
+}
+
+} // namespace splinefeed::host

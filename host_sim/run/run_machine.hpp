@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// RunMachine: the machine of a run, as the planning of its input takes it.
+#pragma once
+
+#include "host_sim/config/machine_description.hpp"
+#include "host_sim/config/state_file.hpp"
+#include "host_sim/program/input_format.hpp"
+
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// For a program in G-code the limit of the path is that of a rapid along the diagonal: rapids move at the limits of
+/// the axes. What moves with a feed may not exceed is then a limit of each move.
+struct RunMachine {
+    /// Reads the file. Throws InputError.
+    /// @param file  empty: the default machine
+    RunMachine(const std::string& file, const InputFormat& format);
+
+    /// Where the machine stands, and its offsets. Throws InputError and UsageError.
+    /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says
+    [[nodiscard]] MachineState state(const std::string& state, const std::string& position) const;
+
+    MachineDescription machine;
+    double max_feed_mm_s = 0.0; ///< as the file states it
+    std::vector<std::string> axes;
+    PathTolerances tolerances;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/source_line.hpp"
+
+#include "refusal.hpp"
+#include "support/catch.hpp"
+#include "temporary_folder.hpp"
+
+#include <fstream>
+
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+std::vector<std::string> read_lines(const std::string& text) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("p.ngc"), std::ios::binary) << text;
+    LineReader reader(folder.file("p.ngc"), "p.ngc");
+    std::vector<std::string> lines;
+    for (SourceLine line; reader.next(line);) {
+        CHECK(line.number == lines.size() + 1);
+        lines.push_back(line.text);
+    }
+    return lines;
+}
+
+} // namespace
+
+TEST_CASE("Lines end with either kind of line end, or with the file") {
+    CHECK(read_lines("").empty());
+    CHECK(read_lines("a\nb") == std::vector<std::string>{"a", "b"});
+    CHECK(read_lines("a\r\n\r\nb\r\n") == std::vector<std::string>{"a", "", "b"});
+}
+
+TEST_CASE("Lines are whole where the blocks of the file end within them") {
+    std::string text;
+    std::vector<std::string> expected;
+    for (int i = 0; i < 500; ++i) {
+        expected.emplace_back(static_cast<std::size_t>(i * 7 % 997), static_cast<char>('a' + i % 26));
+        text += expected.back() + "\n";
+    }
+    CHECK(read_lines(text) == expected);
+}
+
+TEST_CASE("A line that does not end is refused, in bounded memory") {
+    CHECK(read_lines(std::string(LineReader::longest_line, 'x')).size() == 1);
+    CHECK(refusal_of([] { static_cast<void>(read_lines("a\n" + std::string(1'000'000, 'x'))); }) ==
+          "p.ngc:2: the line is longer than 65536 bytes; is it a text file?");
+}

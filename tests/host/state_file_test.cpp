@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/config/state_file.hpp"
+
+#include "host_sim/base/durable_file.hpp"
+#include "refusal.hpp"
+#include "support/catch.hpp"
+#include "temporary_folder.hpp"
+
+#include <random>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+const std::vector<std::string> xyz{"x", "y", "z"};
+
+MachineState random_state(std::mt19937_64& random) {
+    std::uniform_int_distribution<std::int64_t> any(-1'000'000'000'000'000, 1'000'000'000'000'000);
+    MachineState state;
+    for (unsigned k = 0; k < 3; ++k) {
+        for (WorkSystem& system : state.offsets.systems) {
+            system.origin[k] = {any(random)};
+        }
+        state.offsets.g92[k] = {any(random)};
+        state.offsets.tool[k] = {any(random)};
+        state.offsets.g28[k] = {any(random)};
+        state.offsets.g30[k] = {any(random)};
+        state.position_mm[k] = static_cast<double>(any(random)) * 1e-9 / 3.0;
+    }
+    state.offsets.systems[8].rotation_deg = {any(random) % 360'000'000'000};
+    state.offsets.active = static_cast<int>(random() % work_systems);
+    state.offsets.g92_applies = random() % 2 == 0;
+    state.offsets.tool_number = static_cast<std::int32_t>(random() % 100);
+    return state;
+}
+
+} // namespace
+
+TEST_CASE("A state is read as it was written, to the last digit") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("state.json");
+    CHECK_FALSE(read_state_file(file, xyz).has_value());
+    std::mt19937_64 random(5); // NOLINT: the same states each time
+    for (int i = 0; i < 50; ++i) {
+        const MachineState state = random_state(random);
+        write_state_file(file, xyz, state);
+        const auto read = read_state_file(file, xyz);
+        REQUIRE(read.has_value());
+        CHECK(*read == state);
+    }
+}
+
+TEST_CASE("What is no state of this machine is refused, not taken for offsets of 0") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("state.json");
+    write_state_file(file, xyz, {});
+    const auto refusal = [&](const std::vector<std::string>& axes) {
+        return refusal_of([&] { static_cast<void>(read_state_file(file, axes)); });
+    };
+    CHECK(refusal(xyz) == "accepted");
+    CHECK(refusal({"x", "y", "a"}).find("the state of a machine with other axes") != std::string::npos);
+    for (const char* const text : {"", "{}", "[]", "{\"axes\": [\"x\",\"y\",\"z\"]}", "\0\0\0"}) {
+        replace_durably(file, text);
+        CHECK(refusal(xyz) != "accepted");
+    }
+}
+
+TEST_CASE("A file that cannot be replaced stays as it is") {
+    CHECK(refusal_of<std::runtime_error>([] {
+              replace_durably("/no/such/folder/state.json", "{}");
+          }).find("/no/such/folder/state.json: cannot be written: ") == 0);
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// splinefeed check: what is wrong with a program, and how long it takes.
+#include "support/catch.hpp"
+#include "support/places.hpp"
+#include "tool.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+using namespace splinefeed::test;
+using json = nlohmann::json;
+
+TEST_CASE("check tells every problem of a program, each with its line") {
+    const Tool tool;
+    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
+                         "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 50]\n");
+    tool.write("part.ngc", "G1 X10\nG41 D1\nG1 X5 F100\nG0 X-3\nM104 S1\nG1 X60\nX61\n");
+    const Call call = tool("check part.ngc -m m.toml");
+    CHECK(call.status == 1);
+    CHECK(call.output.find("part.ngc:1:1: 'G1': ") == 0);
+    for (const char* const part : {"\npart.ngc:2:1: 'G41': ", "\npart.ngc:4: axis x goes to -3.0000 mm, below",
+                                   "\npart.ngc:5:1: 'M104': ", "\npart.ngc:6: axis x goes to 60.0000 mm, above",
+                                   "\npart.ngc:7: axis x", "\n6 problems\n"}) {
+        CAPTURE(part);
+        CHECK(call.output.find(part) != std::string::npos);
+    }
+    const Call as_json = tool("check part.ngc -m m.toml --json");
+    CHECK(as_json.status == 1);
+    CHECK(json::parse(as_json.output)["problems"].size() == 6);
+    CHECK(tool("check part.ngc -m m.toml --ignore G41,M104").output.find("\n4 problems\n") != std::string::npos);
+    CHECK(tool("check missing.ngc").status == 2);
+    tool.write("part.csv", "0,0\n1,1\n");
+    CHECK(tool("check part.csv").error.find("splinefeed: check takes a program in G-code") == 0);
+    CHECK(tool("check - --format gcode </dev/null").status == 2);
+}
+
+TEST_CASE("check takes the time of a real plan, and its parts make the whole") {
+    const Tool tool;
+    const std::string program = "'" + source_folder() + "/examples/bracket.ngc'";
+    const Call call = tool("check " + program + " --json");
+    CHECK(call.status == 0);
+    const json report = json::parse(call.output);
+    const json run = json::parse(tool("run " + program + " --quiet --summary json").output);
+    CHECK(report["cycle_time_s"] == run["cycle_time_s"]);
+    CHECK(report["problems"].empty());
+    const double parts = report["feeds"]["time_s"].get<double>() + report["rapids"]["time_s"].get<double>() +
+                         report["dwell_s"].get<double>();
+    CHECK(std::abs(parts - run["cycle_time_s"].get<double>()) < 1e-6);
+    CHECK(report["feed_box"]["z"][0] == -5.0);
+    CHECK(report["slowest_lines"].size() == 10);
+    CHECK(tool("check " + program).output.find("0 problems\n") == 0);
+}

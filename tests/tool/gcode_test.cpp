@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Programs in G-code, as a user runs them.
+#include "support/catch.hpp"
+#include "support/places.hpp"
+#include "tool.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+using namespace splinefeed::test;
+using json = nlohmann::json;
+
+namespace {
+
+const std::string examples = "'" + source_folder() + "/examples/";
+
+json summary_of(const Call& call) {
+    CAPTURE(call.error);
+    REQUIRE(call.status == 0);
+    return json::parse(call.output);
+}
+
+double seconds(const Tool& tool, const std::string& program, const std::string& options = "") {
+    tool.write("part.ngc", program);
+    return summary_of(tool("run part.ngc --quiet --summary json " + options))["cycle_time_s"];
+}
+
+std::string error_of(const Tool& tool, const std::string& program, const std::string& options = "") {
+    tool.write("part.ngc", program);
+    const Call call = tool("run part.ngc " + options);
+    CHECK(call.status == 2);
+    return call.error;
+}
+
+} // namespace
+
+TEST_CASE("The examples in G-code run within their tolerance") {
+    const Tool tool;
+    const std::string machine = " -m " + examples + "three_axis.toml' --quiet --summary json";
+    for (const std::string& program : {examples + "bracket.ngc'", examples + "nameplate.nc'",
+                                       examples + "ring.gcode' --dialect marlin --ignore E"}) {
+        CAPTURE(program);
+        const json summary = summary_of(tool("run " + program + machine));
+        CHECK(summary["curve"] == "gcode");
+        CHECK(summary["tolerance"]["kept"] == true);
+        CHECK(summary["cycle_time_s"].get<double>() < 1.03 * summary["optimum_time_s"].get<double>());
+        CHECK(summary_of(tool("plan " + program + machine))["cycle_time_s"] == summary["cycle_time_s"]);
+    }
+}
+
+TEST_CASE("A program from a pipe is the program from its file") {
+    const Tool tool;
+    const json file = summary_of(tool("run " + examples + "bracket.ngc' --quiet --summary json --segments a.csv"));
+    const Call piped = tool.shell("cat " + examples + "bracket.ngc' | '" + tool_path() +
+                                  "' run - --format gcode --quiet --summary json --segments b.csv");
+    CHECK(summary_of(piped)["cycle_time_s"] == file["cycle_time_s"]);
+    CHECK(tool.read("a.csv") == tool.read("b.csv"));
+}
+
+TEST_CASE("Dwells, pauses and events stand where the program has them, and dwells take their time") {
+    const Tool tool;
+    const std::string moves = "G1 X10 F3000\n%\nG1 X20\nM2\n";
+    const auto with = [&](const std::string& what) {
+        std::string text = moves;
+        return text.replace(text.find("%\n"), 2, what);
+    };
+    const double straight = seconds(tool, with(""));
+    const double stopped = seconds(tool, with("M0\n"));
+    CHECK(stopped > straight + 0.04);
+    CHECK(std::abs(seconds(tool, with("G4 P0.25\n")) - stopped - 0.25) < 1e-9);
+    CHECK(std::abs(seconds(tool, with("M1\n")) - straight) < 1e-9);
+    CHECK(std::abs(seconds(tool, with("M1\n"), "--optional-stop") - stopped) < 1e-9);
+    CHECK(std::abs(seconds(tool, with("/G4 P1\n"), "--block-delete") - straight) < 1e-9);
+    CHECK(std::abs(seconds(tool, "G4 P0.5\n" + with("")) - straight - 0.5) < 1e-9);
+
+    tool.write("part.ngc", with("M3 S1200\nG4 P0.25\nM5\n(MSG,halfway)\n"));
+    const Call call = tool("run part.ngc --summary json --trace t.csv --elements e.json");
+    CHECK(call.error.find("halfway\n") != std::string::npos);
+    const json program = summary_of(call)["program"];
+    CHECK(program["dwells"] == 1);
+    CHECK(program["line"] == 6);
+    const json& events = program["first_events"];
+    REQUIRE(events.size() == 5);
+    CHECK(events[0]["what"] == "spindle_speed");
+    CHECK(events[1]["what"] == "spindle_clockwise");
+    CHECK(events[2]["what"] == "spindle_stop");
+    CHECK(events[2]["line"] == 4);
+    CHECK(events[4]["what"] == "end");
+    CHECK(events[2]["t"].get<double>() - events[1]["t"].get<double>() > 0.2499);
+    const json elements = json::parse(tool.read("e.json"));
+    CHECK(elements["elements"].size() == 2);
+    CHECK(elements["elements"][1]["line_number"] == 6);
+    CHECK(elements["dwells"][0]["after_element"] == 1);
+    CHECK(elements["events"].size() == 5);
+    const std::string trace = tool.read("t.csv");
+    CHECK(trace.find("t,x,y,z,speed,line\n") == 0);
+    CHECK(trace.substr(trace.rfind(',')) == ",6\n");
+}
+
+TEST_CASE("A program without a move takes the time of its dwells") {
+    const Tool tool;
+    CHECK(std::abs(seconds(tool, "M3 S100\nG4 P0.5\nM5\n") - 0.5) < 1e-9);
+    CHECK(seconds(tool, "(nothing)\n") == 0.0);
+}
+
+TEST_CASE("Rapids move at the axes' own limits, feeds at the machine's") {
+    const Tool tool;
+    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
+                         "max_acceleration_mm_s2 = 1000\n[[axis]]\nname = \"y\"\nmax_velocity_mm_s = 50\n"
+                         "max_acceleration_mm_s2 = 1000\n");
+    CHECK(std::abs(seconds(tool, "G0 X100\n", "-m m.toml") - 1.1) < 0.005);
+    CHECK(std::abs(seconds(tool, "G0 X100 Y50\n", "-m m.toml") - 1.1) < 0.005);
+    CHECK(std::abs(seconds(tool, "G0 X100 Y100\n", "-m m.toml") - 2.05) < 0.005);
+    CHECK(std::abs(seconds(tool, "G1 X100 F6000\n", "-m m.toml") - 5.02) < 0.005);
+    CHECK(std::abs(seconds(tool, "G1 X100 F600\n", "-m m.toml") - 10.01) < 0.005);
+}
+
+TEST_CASE("What is wrong is said with line and column, before anything moves") {
+    const Tool tool;
+    CHECK(error_of(tool, "G1 X10 F600\nG1 Y5 G33\n").find("part.ngc:2:7: 'G33': ") == 0);
+    CHECK(error_of(tool, "G1 X10\n").find("part.ngc:1:1: 'G1': ") == 0);
+    CHECK(error_of(tool, "G1 X10 (open\n").find("part.ngc:1:8: ") == 0);
+    CHECK(error_of(tool, "M104 S200\n").find("part.ngc:1:1: 'M104': ") == 0);
+    CHECK(error_of(tool, std::string("G1 \0X1 F100\n", 12)).find("part.ngc:1:4: ") == 0);
+    CHECK(error_of(tool, std::string(1'000'000, 'X')).find("part.ngc:1: the line is longer than") == 0);
+    CHECK(error_of(tool, "G1 X" + std::string(200, '9') + " F100\n").find("part.ngc:1:4: ") == 0);
+    CHECK(error_of(tool, "G1 X1 F100\n", "--curve g2").find("splinefeed: --curve: ") == 0);
+    CHECK(error_of(tool, "G1 X1 F100\n", "--dialect mach3").find("splinefeed: --dialect 'mach3': ") == 0);
+    CHECK(tool("run part.ngc --ignore G33 --quiet").status == 0);
+    tool.write("part.csv", "0,0\n1,1\n");
+    CHECK(tool("run part.csv --dialect grbl").error.find("splinefeed: --dialect: only a program in G-code has it") ==
+          0);
+    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
+                         "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 50]\n");
+    CHECK(error_of(tool, "G0 X10\nG0 X51\n", "-m m.toml").find("part.ngc:2: ") == 0);
+}
+
+TEST_CASE("The tolerance of --tolerance is that of a program that states none") {
+    const Tool tool;
+    const std::string program = "G1 X10 F6000\nY10\nM2\n";
+    tool.write("part.ngc", program);
+    for (const double tolerance : {0.02, 0.5}) {
+        const json summary =
+            summary_of(tool("run part.ngc --quiet --summary json --tolerance " + std::to_string(tolerance)));
+        const double deviation = summary["tolerance"]["deviation_mm"]["distance"];
+        CHECK(deviation < tolerance + 0.001);
+        CHECK(deviation > 0.5 * tolerance);
+    }
+}
+
+TEST_CASE("Subprograms, conditions and loops run as they are written") {
+    const Tool tool;
+    const auto ends_of = [&](const std::string& program) {
+        tool.write("part.ngc", program);
+        const Call call = tool("run part.ngc --quiet --summary json --elements e.json");
+        CAPTURE(call.error);
+        REQUIRE(call.status == 0);
+        std::string ends;
+        const json document = json::parse(tool.read("e.json"));
+        for (const auto& element : document["elements"]) {
+            ends += std::to_string(element["to"][0].get<int>()) + " ";
+        }
+        return ends;
+    };
+    CHECK(ends_of("F600\no1 repeat [3]\nG91 G1 X10\no1 endrepeat\nG90 X0\n") == "10 20 30 0 ");
+    CHECK(ends_of("F600\n#1=0\no1 while [#1 LT 3]\n#1=[#1+1]\nG1 X[#1*10]\no1 endwhile\nX0\n") == "10 20 30 0 ");
+    CHECK(ends_of("F600\n#1=0\no1 do\n#1=[#1+1]\nG1 X[#1]\no1 while [#1 LT 3]\nX0\n") == "1 2 3 0 ");
+    CHECK(ends_of("F600\n#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 elseif [#1 GT 4]\no1 break\n"
+                  "o2 else\nG1 X[#1]\no2 endif\no1 endwhile\nX9\n") == "1 3 4 9 ");
+    CHECK(ends_of("o<hole> sub\n#<x>=[#1+#2]\nG1 X#<x> F600\no10 if [#1 LE 0]\no<hole> return [7]\no10 endif\n"
+                  "o<hole> call [#1-1] [#2]\nX[#1*100]\no<hole> endsub\n#1=5\no<hole> call [2] [20]\n"
+                  "G1 X[#1*1000] F600\n") == "22 21 20 100 200 5000 ");
+    CHECK(ends_of("o1 sub\nG1 X1 F600\no1 endsub\no2 sub\nG1 X2 F600\no2 endsub\n#5=2\no#5 call\no[#5-1] call\n") ==
+          "2 1 ");
+    CHECK(ends_of("o1 repeat [2]\no2 repeat [2]\nG91 G1 X1 F600\no2 endrepeat\no1 endrepeat\n") == "1 2 3 4 ");
+}
+
+TEST_CASE("Wrong O words are refused with their line, and a program that never ends, ends") {
+    const Tool tool;
+    CHECK(error_of(tool, "o1 call\n").find("part.ngc:1:2: there is no subprogram o1") == 0);
+    CHECK(error_of(tool, "o1 while [1]\nG1 X1 F100\n").find("part.ngc:1:1: o1 has no end") == 0);
+    CHECK(error_of(tool, "o1 endwhile\n").find("part.ngc:1:2: o1 has no begin") == 0);
+    CHECK(error_of(tool, "o1 loop\n").find("part.ngc:1:4: an O word has a number or a <name>") == 0);
+    CHECK(error_of(tool, "o1 if 1\no1 endif\n").find("part.ngc:1:7: a condition stands in brackets") == 0);
+    CHECK(error_of(tool, "o1 sub\no1 call\no1 endsub\no1 call\n").find("nested more than 30 deep") !=
+          std::string::npos);
+    CHECK(error_of(tool, "o1 while [1]\no1 endwhile\n").find("does it ever end?") != std::string::npos);
+    CHECK(error_of(tool, "o1 repeat [2]\nG1 X1 G33\no1 endrepeat\n").find("part.ngc:2:7: ") == 0);
+}

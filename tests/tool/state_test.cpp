@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Where the machine stands, and its offsets, from one run to the next.
+#include "support/catch.hpp"
+#include "support/places.hpp"
+#include "support/rounds.hpp"
+#include "tool.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+using namespace splinefeed::test;
+using json = nlohmann::json;
+
+TEST_CASE("A run begins where the one before ended, with its offsets") {
+    const Tool tool;
+    tool.write("a.ngc", "G10 L2 P2 X100 Y5\nG0 X10 Y20\nM2\n");
+    tool.write("b.ngc", "G55 G0 X1 Y1\nM2\n");
+    REQUIRE(tool("run a.ngc --state s.json --quiet").status == 0);
+    const json first = json::parse(tool.read("s.json"));
+    CHECK(first["position_mm"] == json({10.0, 20.0, 0.0}));
+    CHECK(first["work_systems"][1]["origin_mm"] == json({100.0, 5.0, 0.0}));
+    REQUIRE(tool("plan b.ngc --state s.json --quiet --elements e.json").status == 0);
+    CHECK(json::parse(tool.read("s.json")) == first); // plan changes nothing
+    const json elements = json::parse(tool.read("e.json"));
+    CHECK(elements["elements"][0]["from"] == json({10.0, 20.0, 0.0}));
+    CHECK(elements["elements"][0]["to"] == json({101.0, 6.0, 0.0}));
+    REQUIRE(tool("run b.ngc --state s.json --quiet").status == 0);
+    CHECK(json::parse(tool.read("s.json"))["position_mm"] == json({101.0, 6.0, 0.0}));
+    REQUIRE(tool("run b.ngc --state s.json --position 1,2,3 --quiet --elements e.json").status == 0);
+    CHECK(json::parse(tool.read("e.json"))["elements"][0]["from"] == json({1.0, 2.0, 3.0}));
+}
+
+TEST_CASE("A wrong state, position or program leaves the state as it is") {
+    const Tool tool;
+    tool.write("a.ngc", "G10 L2 P1 X1\nG0 X10\nG1 Y1\n"); // no F
+    tool.write("s.json", "broken");
+    CHECK(tool("run a.ngc --state s.json").status == 2);
+    CHECK(tool("run a.ngc --state new.json").status == 2);
+    CHECK(tool.read("s.json") == "broken");
+    CHECK(tool.holds_only("a.ngc s.json"));
+    CHECK(tool("run a.ngc --position 1,2").error.find("it must be a number for each axis, x,y,z") != std::string::npos);
+    CHECK(tool("run a.ngc --position 1,2,3,4").status == 2);
+    tool.write("p.csv", "0,0\n1,1\n");
+    CHECK(tool("run p.csv --state s.json").error.find("--state and --position are for programs in G-code") !=
+          std::string::npos);
+}
+
+TEST_CASE("A crash while the state is written leaves the old one or the new one") {
+    const Tool tool;
+    std::string program = "G0 X1\n";
+    for (int i = 1; i <= 3000; ++i) {
+        program += "G10 L2 P1 X" + std::to_string(i) + " Y" + std::to_string(i) + "\n";
+    }
+    tool.write("a.ngc", program);
+    const int rounds = splinefeed_test::rounds(10);
+    int written = 0;
+    for (int i = 0; i < rounds; ++i) {
+        const std::string wait = std::to_string(0.05 + 0.002 * (i * 37 % 100));
+        static_cast<void>(tool.shell("timeout -s KILL " + wait + " '" + tool_path() +
+                                     "' run a.ngc --state s.json --quiet >/dev/null || true"));
+        const std::string text = tool.read("s.json");
+        if (text.empty()) {
+            continue; // killed before the first one
+        }
+        const json state = json::parse(text, nullptr, false);
+        REQUIRE_FALSE(state.is_discarded());
+        const json& origin = state["work_systems"][0]["origin_mm"];
+        CHECK(origin[0] == origin[1]);
+        ++written;
+        CHECK(tool("check a.ngc --state s.json").status == 0);
+    }
+    CHECK(written > 0);
+}
