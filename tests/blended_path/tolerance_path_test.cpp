@@ -117,8 +117,8 @@ Real digits_mm(const MoveProgram& program) {
         }
     }
     return std::same_as<S, float>   ? 64.0L * 0x1p-24L * largest
-           : std::same_as<S, Fixed> ? 2e-8L + 64.0L * 0x1p-44L * largest + 8.0L * 0x1p-32L * radius
-                                    : 2e-8L + 64.0L * 0x1p-44L * largest;
+           : std::same_as<S, Fixed> ? 1e-6L + 64.0L * 0x1p-44L * largest + 8.0L * 0x1p-32L * radius
+                                    : 1e-6L + 64.0L * 0x1p-44L * largest;
 }
 
 template <Scalar S>
