@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/check.hpp"
+#include "host_sim/run/check_program.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/output/program_report_text.hpp"
@@ -112,7 +112,7 @@ int check_with(const RunArguments& arguments) {
 
 } // namespace
 
-int check(const RunArguments& arguments) {
+int check_program(const RunArguments& arguments) {
     switch (arguments.path.scalar) {
     case ScalarKind::fixed: return check_with<Fixed>(arguments);
     case ScalarKind::float32: return check_with<float>(arguments);
