@@ -81,6 +81,7 @@ TEST_CASE("wrong text is refused at its place", "[program][reader]") {
     CHECK(refused("G1 X1e3") == said(Error::word_unused, 6, 2));
     CHECK(refused(std::string("G1 X").append(300, '1')) == said(Error::line_too_long, 257, 1));
     CHECK(refused(std::string("G1 X").append(200, '1')) == said(Error::number_out_of_range, 4, 201));
+    CHECK(refused("G1 @3 ^45") == said(Error::polar_unsupported, 4, 1));
     CHECK(refused("o100 sub") == said(Error::o_word, 1, 4));
     CHECK(refused("G1 X1 % 2") == said(Error::character_invalid, 7, 1));
     CHECK(refused("% 2", six_axes(), "G0") == said(Error::character_invalid, 3, 1));

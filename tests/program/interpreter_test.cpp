@@ -48,6 +48,20 @@ TEST_CASE("the feed counts x, y and z, else rotary axes", "[program][interpreter
     CHECK(feed("G94 G2 X10 I5 A10 F600") == Approx(10.0 * std::hypot(5.0 * M_PI, 10.0) / (5.0 * M_PI)));
 }
 
+TEST_CASE("a feed plan that knows rotary axes gets F", "[program][interpreter]") {
+    ProgramSettings settings = six_axes();
+    settings.rotary_axes = 0x38; // A, B, C
+    GcodeRun<double> run(settings);
+    const auto feed = [&](const char* line) {
+        return run.run(line).back().element.feed_mm_s;
+    };
+    run.run("F600 G1 X0");
+    CHECK(feed("G91 X3 A4") == Approx(10.0));
+    CHECK(feed("B3 C4") == Approx(10.0));
+    CHECK(feed("G93 X3 A4 F60") == Approx(3.0));
+    CHECK(feed("A30 F60") == Approx(30.0));
+}
+
 TEST_CASE("path modes", "[program][interpreter]") {
     GcodeRun<double> run;
     const auto move = [&](const char* line) {

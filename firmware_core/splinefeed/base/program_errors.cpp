@@ -33,6 +33,7 @@ const char* describe_refusal(Error error) noexcept {
     case Error::firmware_retraction_unsupported:
         return "retraction by the firmware is not supported; let the slicer write E moves";
     case Error::bed_levelling_unsupported: return "bed levelling is not supported; --ignore G29 leaves it out";
+    case Error::polar_unsupported: return "polar coordinates (@ and ^) are not supported; write X and Y";
     case Error::grbl_command_unsupported: return "of grbl's $ commands there is $H only";
     case Error::o_word: return "O words need the file; they are read by the host, and not within a block";
     case Error::expression_unsupported: return "parameters and expressions are not built in here; use plain numbers";

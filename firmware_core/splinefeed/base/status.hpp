@@ -86,6 +86,7 @@ enum class Error : std::uint8_t {
     o_word,
     checksum_wrong,
     grbl_command_unsupported,
+    polar_unsupported,
     cutter_radius_unsupported,
     thread_unsupported,
     lathe_unsupported,

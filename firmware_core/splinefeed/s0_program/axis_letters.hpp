@@ -39,6 +39,20 @@ public:
                : c >= 'u' && c <= 'w' ? AxisKind::second_linear
                                       : AxisKind::linear;
     }
+    /// Where x, y and z stand among the first three axes; one that the machine lacks takes a place that is left. @pre
+    /// those that it has stand there
+    [[nodiscard]] constexpr std::array<int, 3> space_places() const noexcept {
+        const std::array<int, 3> axes{index('x'), index('y'), index('z')};
+        std::array<int, 3> places = axes;
+        int free = 0;
+        for (int& place : places) {
+            while (place < 0 && (free == axes[0] || free == axes[1] || free == axes[2])) {
+                ++free;
+            }
+            place = place < 0 ? free++ : place;
+        }
+        return places;
+    }
 
 private:
     int count_ = 0;

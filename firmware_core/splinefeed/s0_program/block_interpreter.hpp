@@ -13,7 +13,7 @@
 
 namespace splinefeed {
 
-/// Use it as Interpreter<S>.
+/// Use it as `Interpreter<S>`.
 class BlockInterpreter {
 public:
     /// Longest line, without its end.
@@ -38,7 +38,8 @@ public:
     /// Executes a line. After an error nothing of the line has happened, and the next line may follow. The text must
     /// live until the next push(): messages refer to it. @pre next() has returned starved, else: block_pending
     /// @param line_number  of the source, for the items
-    /// Cost: about 100 ns on x86-64, 10,000 instructions on a Cortex-M4F.
+    /// Cost, with the items: about 0.25 us on x86-64 for a line, 0.5 us for an arc (bench/gcode_bench); on a Cortex-M4F
+    /// 7,000 to 8,000 instructions for a line, 15,000 for an arc (tests/arm/gcode_proof.sh).
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
     /// Whether M2, M30 or the closing % has been executed.
     [[nodiscard]] bool has_ended() const noexcept { return ended_; }
@@ -58,6 +59,9 @@ protected:
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return plan_.manner; }
     [[nodiscard]] const WorkFrame& frame() const noexcept { return frame_; }
+    [[nodiscard]] bool plan_counts(int axis) const noexcept {
+        return (settings_.rotary_axes >> static_cast<unsigned>(axis) & 1U) == 0;
+    }
     [[nodiscard]] Decimal rapid_tolerance() const noexcept { return settings_.rapid_tolerance_mm; }
     [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
 

@@ -97,7 +97,7 @@ Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control
         } else if (is_letter(c)) {
             status = read_word(text, control, out);
         } else {
-            status = Error::character_invalid;
+            status = c == '@' || c == '^' ? Error::polar_unsupported : Error::character_invalid;
         }
         if (!status.ok()) {
             return status;
@@ -198,7 +198,7 @@ Status BlockReader::add_code(char letter, Decimal value, TextCursor& text, std::
     return {};
 }
 
-Status BlockReader::read_comment(TextCursor& text, Block& out) const noexcept {
+Status BlockReader::read_comment(TextCursor& text, Block& out) noexcept {
     const std::string_view line = text.text();
     const std::size_t begin = text.at() + 1;
     std::size_t end = begin;
@@ -229,7 +229,7 @@ Status BlockReader::read_comment(TextCursor& text, Block& out) const noexcept {
 }
 
 // "*71": the exclusive or of all characters before it.
-Status BlockReader::read_checksum(TextCursor& text) const noexcept {
+Status BlockReader::read_checksum(TextCursor& text) noexcept {
     unsigned sum = 0;
     for (const char c : text.part(0, text.at())) {
         sum ^= static_cast<unsigned char>(c);

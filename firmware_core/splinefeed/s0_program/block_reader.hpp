@@ -32,8 +32,8 @@ private:
     Status read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
     Status read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
     Status read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept;
-    Status read_comment(TextCursor& text, Block& out) const noexcept;
-    Status read_checksum(TextCursor& text) const noexcept;
+    static Status read_comment(TextCursor& text, Block& out) noexcept;
+    static Status read_checksum(TextCursor& text) noexcept;
     Status add_code(char letter, Decimal value, TextCursor& text, std::size_t column, Block& out) noexcept;
     [[nodiscard]] bool has_axes(const Block& block) const noexcept;
     [[nodiscard]] bool has_others(const Block& block) const noexcept;

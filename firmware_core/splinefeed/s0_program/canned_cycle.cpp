@@ -15,30 +15,19 @@ constexpr Decimal longest_row = Decimal::from_integer(1 << 20);
 
 } // namespace
 
-BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, const ModalState& before,
-                               const AxisLetters& letters, const AxisPoint& at, CycleWords& words) noexcept {
-    const PlaneLetters plane = letters_of(modal.plane);
-    const char normal = plane.axes[2];
-    for (unsigned k = 0; k < 3; ++k) {
-        axes_[k] = static_cast<std::int8_t>(letters.index(plane.axes[k]));
-        if (axes_[k] < 0) {
-            return block.at(Error::axis_missing, CodeGroup::motion);
-        }
-    }
-    code_ = modal.motion;
-    const bool fresh = before.motion != code_;
+// The words of the block, or those that are still in effect.
+BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal, bool fresh, char normal,
+                                    CycleWords& words) noexcept {
     if (fresh && !block.has(normal)) {
         return block.at(Error::cycle_depth_missing, CodeGroup::motion);
     }
     if (fresh && !block.has('r')) {
         return block.at(Error::cycle_radius_missing, CodeGroup::motion);
     }
-    const bool dwells = code_ == 820 || code_ == 860 || code_ == 890;
-    const bool pecks = code_ == 730 || code_ == 830;
-    if (dwells && ((fresh && !block.has('p')) || block.value('p').raw < 0)) {
+    if (dwells() && ((fresh && !block.has('p')) || block.value('p').raw < 0)) {
         return block.at(Error::cycle_dwell_missing, CodeGroup::motion);
     }
-    if (pecks && ((fresh && !block.has('q')) || (block.has('q') && modal.in_mm(block.value('q')).raw < 1000))) {
+    if (pecks() && ((fresh && !block.has('q')) || (block.has('q') && modal.in_mm(block.value('q')).raw < 1000))) {
         return block.at(Error::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
     }
     repeats_ = 1;
@@ -50,8 +39,27 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
     }
     words.depth = block.has(normal) ? modal.in_mm(block.value(normal)) : words.depth;
     words.clearance = block.has('r') ? modal.in_mm(block.value('r')) : words.clearance;
-    words.dwell_s = dwells && block.has('p') ? block.value('p') : words.dwell_s;
+    words.dwell_s = dwells() && block.has('p') ? block.value('p') : words.dwell_s;
     words.peck = block.has('q') ? modal.in_mm(block.value('q')) : words.peck;
+    dwell_s_ = words.dwell_s;
+    peck_ = words.peck;
+    return {};
+}
+
+BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, const ModalState& before,
+                               const AxisLetters& letters, const AxisPoint& at, CycleWords& words) noexcept {
+    const PlaneLetters plane = letters_of(modal.plane);
+    const char normal = plane.axes[2];
+    for (unsigned k = 0; k < 3; ++k) {
+        axes_[k] = letters.index(plane.axes[k]);
+        if (axes_[k] < 0) {
+            return block.at(Error::axis_missing, CodeGroup::motion);
+        }
+    }
+    code_ = modal.motion;
+    if (const BlockStatus status = read_words(block, modal, before.motion != code_, normal, words); !status.ok()) {
+        return status;
+    }
     const auto n = static_cast<unsigned>(axes_[2]);
     if (!words.begun) {
         words.initial = at[n];
@@ -83,13 +91,11 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
             return block.at(Error::move_too_long, block.has('l') ? 'l' : plane.axes[0]);
         }
     }
-    if (pecks && (clearance_ - bottom_).raw / words.peck.raw > most_pecks) {
+    if (pecks() && (clearance_ - bottom_).raw / words.peck.raw > most_pecks) {
         return block.at(Error::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
     }
     phase_ = words.initial < clearance_ ? Phase::lift : Phase::across;
     clear_ = modal.retract_to_r || words.initial < clearance_ ? clearance_ : words.initial;
-    dwell_s_ = words.dwell_s;
-    peck_ = words.peck;
     return {};
 }
 
@@ -129,14 +135,14 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
         return go(at, level_, CycleStep::rapid);
     case Phase::to_clearance: phase_ = Phase::hole; return go(at, clearance_, CycleStep::rapid);
     case Phase::hole:
-        if ((code_ == 730 || code_ == 830) && depth_ > bottom_) {
+        if (pecks() && depth_ > bottom_) {
             return next_peck(at);
         }
         phase_ = Phase::retract;
         hole_step_ = 0;
         return go(at, bottom_, CycleStep::feed);
     case Phase::retract:
-        if (hole_step_ == 0 && (code_ == 820 || code_ == 860 || code_ == 890)) {
+        if (hole_step_ == 0 && dwells()) {
             hole_step_ = 1;
             return CycleStep::dwell;
         }

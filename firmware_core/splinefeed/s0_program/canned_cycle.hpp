@@ -39,6 +39,10 @@ public:
 private:
     enum class Phase : std::uint8_t { lift, across, to_clearance, hole, retract, restart, finished };
 
+    BlockStatus read_words(const Block& block, const ModalState& modal, bool fresh, char normal,
+                           CycleWords& words) noexcept;
+    [[nodiscard]] bool dwells() const noexcept { return code_ == 820 || code_ == 860 || code_ == 890; }
+    [[nodiscard]] bool pecks() const noexcept { return code_ == 730 || code_ == 830; }
     CycleStep next_peck(AxisPoint& at) noexcept;
     CycleStep go(AxisPoint& at, Decimal level, CycleStep how) const noexcept;
 
@@ -46,9 +50,9 @@ private:
     Phase phase_ = Phase::finished;
     std::uint8_t hole_step_ = 0;
     std::int32_t repeats_ = 0;
-    std::array<std::int8_t, 3> axes_{}; // first, second, normal
-    AxisPoint place_{};                 // across
-    std::array<Decimal, 2> start_{};    // where it was before
+    std::array<int, 3> axes_{};      // first, second, normal
+    AxisPoint place_{};              // across
+    std::array<Decimal, 2> start_{}; // where it was before
     Decimal first_step_{};
     Decimal second_step_{};
     Decimal level_{}; // where the normal axis stands

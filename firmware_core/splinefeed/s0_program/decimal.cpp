@@ -7,7 +7,6 @@ namespace {
 
 // A unit of a position, 2^-40 mm, is 5^9 / 2^31 units of a Decimal.
 constexpr std::uint64_t five_to_9 = 1953125;
-constexpr std::int64_t two_to_31 = std::int64_t{1} << 31;
 static_assert(Position::fraction_bits == 40 && Decimal::digits == 9);
 
 } // namespace
@@ -26,7 +25,14 @@ detail::Checked product_quotient(std::int64_t a, std::int64_t b, std::uint64_t c
 }
 
 Position to_position(Decimal value) noexcept {
-    return {product_quotient(value.raw, two_to_31, five_to_9).raw};
+    // By whole units of 5^9 first: then no step needs more than 64 bits.
+    const std::uint64_t size = detail::magnitude(value.raw);
+    const std::uint64_t whole = size / five_to_9;
+    const std::uint64_t rest = (size - whole * five_to_9) << 31;
+    if (whole >> 32 != 0) {
+        return {detail::saturated(value.raw < 0).raw};
+    }
+    return {detail::with_sign((whole << 31) + (rest + five_to_9 / 2) / five_to_9, value.raw < 0).raw};
 }
 
 Decimal to_decimal(Position position) noexcept {

@@ -27,6 +27,12 @@ std::int64_t product(std::int64_t a, std::int64_t b) noexcept {
     return detail::with_sign((wide.high << 2) | (wide.low >> 62), (a ^ b) < 0).raw;
 }
 
+// a * 1e9 / 2^bits
+std::int64_t decimal_of(std::int64_t a, int bits) noexcept {
+    const Wide wide = multiply(detail::magnitude(a), static_cast<std::uint64_t>(Decimal::one));
+    return detail::with_sign(shift_right(add(wide, shift_left(Wide{0U, 1U}, bits - 1)), bits).low, a < 0).raw;
+}
+
 // Taylor: x - x^3/3! + ..., and 1 - x^2/2! + ...; |x| <= pi/4.
 SineCosine series(std::int64_t x) noexcept {
     const std::int64_t square = product(x, x);
@@ -103,7 +109,7 @@ Result<Decimal> exponential_q56(std::int64_t x) noexcept {
     const std::int64_t half = x < 0 ? -(ln2_q56 / 2) : ln2_q56 / 2;
     const std::int64_t power = (x + half) / ln2_q56;
     // The rest needs ln(2) to 2^-62.
-    const std::int64_t rest = static_cast<std::int64_t>(
+    const auto rest = static_cast<std::int64_t>(
         (static_cast<std::uint64_t>(x) << 6) - static_cast<std::uint64_t>(power) * static_cast<std::uint64_t>(ln2_q62));
     std::int64_t sum = one_q62;
     for (std::int64_t k = 18; k > 0; --k) {
@@ -163,8 +169,7 @@ Decimal angle_of(Decimal x, Decimal y) noexcept {
     const std::int64_t radians = arc_tangents[static_cast<std::size_t>(eighth)] +
                                  small_arc_tangent(product_quotient(t - c, one_q62, divisor).raw);
     // radians / 2^62 * 180/pi * 1e9: 2^118 = 2^62 * 2^56
-    const std::int64_t q56 = product_quotient(radians, degrees_of_radian_q56, std::uint64_t{1} << 62).raw;
-    Decimal degrees{product_quotient(q56, Decimal::one, std::uint64_t{1} << 56).raw};
+    Decimal degrees{decimal_of(product(radians, degrees_of_radian_q56), 56)};
     if (steep) {
         degrees.raw = quarter_turn - degrees.raw;
     }
@@ -207,7 +212,7 @@ std::int64_t logarithm_q56(std::uint64_t raw) noexcept {
 
 Decimal logarithm(Decimal value) noexcept {
     const std::int64_t q56 = logarithm_q56(detail::magnitude(value.raw));
-    return {product_quotient(q56, Decimal::one, std::uint64_t{1} << 56).raw};
+    return {decimal_of(q56, 56)};
 }
 
 Result<Decimal> power(Decimal base, Decimal exponent) noexcept {

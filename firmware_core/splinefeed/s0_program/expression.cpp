@@ -115,7 +115,7 @@ private:
             return status;
         }
         if (number > 0) {
-            if (system_.owns(number)) {
+            if (SystemParameters::owns(number)) {
                 out = system_.read(number);
             } else if (!table_.read(number, out)) {
                 out = {};
@@ -172,7 +172,7 @@ private:
             return status;
         }
         Decimal unused;
-        out = truth(number > 0 ? system_.owns(number) || table_.read(number, unused)
+        out = truth(number > 0 ? SystemParameters::owns(number) || table_.read(number, unused)
                                : system_.read(name, unused) || table_.read(name, unused));
         return text_.take(']') ? Status{} : Status(Error::bracket_missing);
     }

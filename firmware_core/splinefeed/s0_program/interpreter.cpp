@@ -136,17 +136,7 @@ void Interpreter<S>::fill_arc(const ProgramStep& step, ProgramItem<S>& out) cons
     case Plane::xy: normal = {0, 0, std::int64_t{1} << sine_bits}; break;
     }
     // Axes in another order than x, y, z: the core's frame is left-handed if the order is odd.
-    std::array<int, 3> places{0, 1, 2};
-    int free = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-        places[k] = axes[k];
-    }
-    for (unsigned k = 0; k < 3; ++k) { // an axis that the machine lacks takes the place that is left
-        while (places[k] < 0 && (free == axes[0] || free == axes[1] || free == axes[2])) {
-            ++free;
-        }
-        places[k] = places[k] < 0 ? free++ : places[k];
-    }
+    const std::array<int, 3> places = letters().space_places();
     const bool odd = (places[1] - places[0] + 3) % 3 != 1;
     for (unsigned k = 0; k < 3; ++k) {
         const std::int64_t value = odd ? -normal[k] : normal[k];
@@ -254,6 +244,8 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
     PerAxis<S> second{};
     PerAxis<S> rotary{};
     PerAxis<S> extruder{};
+    PerAxis<S> counted_by_plan{}; // but x, y and z
+    PerAxis<S> left_by_plan{};
     for (int axis = 0; axis < letters().count(); ++axis) {
         const auto k = static_cast<unsigned>(axis);
         const AxisKind kind = letters().kind(axis);
@@ -265,9 +257,9 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
             continue;
         }
         others = true;
-        (kind == AxisKind::second_linear ? second
-         : kind == AxisKind::rotary      ? rotary
-                                         : extruder)[k] = length_mm<S>(step.from[k], step.to[k]);
+        const S way = length_mm<S>(step.from[k], step.to[k]);
+        (kind == AxisKind::second_linear ? second : kind == AxisKind::rotary ? rotary : extruder)[k] = way;
+        (plan_counts(axis) ? counted_by_plan : left_by_plan)[k] = way;
     }
     space = space || step.shape != MoveShape::line;
     const MoveManner& how = manner();
@@ -279,8 +271,9 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
     const S in_second = norm(second.data(), max_axes);
     const S in_rotary = norm(rotary.data(), max_axes);
     const S in_extruder = norm(extruder.data(), max_axes);
-    const std::array<S, 4> parts{in_space, in_second, in_rotary, in_extruder};
-    const S total = norm(parts.data(), 4);
+    const std::array<S, 2> parts{in_space, norm(counted_by_plan.data(), max_axes)};
+    S total = norm(parts.data(), 2);
+    total = total > S{} ? total : norm(left_by_plan.data(), max_axes);
     if (how.inverse_time) {
         return clamped(product_up_to(total, per_second, literal<S>(fastest_mm_s)));
     }

@@ -52,7 +52,7 @@ bool NurbsCurve::next(BezierPlan& out) noexcept {
     }
     const SpacePoint& origin = at(piece_).place;
     for (int i = 0; i <= d; ++i) {
-        std::array<std::int64_t, 4 * (most_order + 0)> work{};
+        std::array<std::int64_t, std::size_t{4} * most_order> work{};
         for (int j = 0; j <= d; ++j) {
             const Point& point = at(piece_ + j);
             const std::int64_t weight =
@@ -77,7 +77,7 @@ bool NurbsCurve::next(BezierPlan& out) noexcept {
                 }
             }
         }
-        const unsigned result = static_cast<unsigned>(4 * d);
+        const auto result = static_cast<unsigned>(4 * d);
         const std::int64_t weight = work[result + 3];
         for (unsigned k = 0; k < 3; ++k) {
             const std::int64_t offset =

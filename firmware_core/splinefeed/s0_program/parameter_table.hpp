@@ -11,11 +11,11 @@ namespace splinefeed {
 /// The caller's memory for parameters. Subroutines give each call its own #1 to #30 and local names behind it.
 class ParameterTable {
 public:
-    /// #number, 1 to 5602 but for those of the control. False: it has no value yet (it reads as 0).
+    /// `#number`, 1 to 5602 but for those of the control. False: it has no value yet (it reads as 0).
     [[nodiscard]] virtual bool read(std::int32_t number, Decimal& out) const noexcept = 0;
     /// False: there is no room for it.
     virtual bool write(std::int32_t number, Decimal value) noexcept = 0;
-    /// #<name>, as it is written: names differ neither by case nor by spaces. A leading _ makes it global. False: it
+    /// `#<name>`, as it is written: names differ neither by case nor by spaces. A leading _ makes it global. False: it
     /// has no value.
     [[nodiscard]] virtual bool read(std::string_view name, Decimal& out) const noexcept = 0;
     virtual bool write(std::string_view name, Decimal value) noexcept = 0;

@@ -11,7 +11,7 @@ namespace splinefeed {
 /// Events happen at their place in the program: after the moves before them, before the moves after them.
 enum class EventKind : std::uint8_t {
     message,           ///< (MSG,text): show `text` to the operator
-    print,             ///< (PRINT,text): write `text` to the standard output; #1 and #<name> are left to the host
+    print,             ///< (PRINT,text): write `text` to the standard output; #1 and `#<name>` are left to the host
     debug,             ///< (DEBUG,text): the same, to the operator
     spindle_speed,     ///< S: `value` in revolutions per minute
     spindle_clockwise, ///< M3; `value`: the speed [1/min]. Motion waits until it is reached

@@ -34,7 +34,7 @@ struct ProgramItem {
     bool inverse_time = false; ///< G93: `feed` is 1/min
     ProbeCondition probe{};
     std::uint32_t home_axes = 0; ///< MoveKind::home: bit k for axis k of the machine
-    PathElement<S> element{};    ///< feed_mm_s is along the path in all axes, as TolerancePath takes it
+    PathElement<S> element{};    ///< feed_mm_s as the feed plan counts it: ProgramSettings::rotary_axes
     S chain_tolerance_mm{};      ///< Q of G64: for chains of short moves
     Decimal feed{};              ///< F as programmed, in mm/min or degrees/min, also if only rotary axes move
 

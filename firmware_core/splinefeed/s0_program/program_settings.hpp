@@ -50,6 +50,9 @@ struct ProgramSettings {
         'X'
 #endif
     };
+    /// Bit k: axis k is rotary for the feed plan, too (MachineSettings: rotary), which then counts the other axes
+    /// itself. Without it the plan's feed is along the path in all axes, and feeds are converted to that.
+    std::uint32_t rotary_axes = 0;
     Dialect dialect = Dialect::linuxcnc;
     bool block_delete = false;                        ///< lines that begin with / are left out
     bool optional_pause = true;                       ///< M1 pauses

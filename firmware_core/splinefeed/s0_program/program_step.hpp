@@ -6,7 +6,7 @@
 
 namespace splinefeed {
 
-/// What Interpreter<S> makes a ProgramItem<S> of. Places are in machine coordinates.
+/// What `Interpreter<S>` makes a `ProgramItem<S>` of. Places are in machine coordinates.
 struct ProgramStep {
     ItemKind kind = ItemKind::move;
     MoveKind move = MoveKind::feed;

@@ -55,7 +55,8 @@ bool SystemParameters::owns(std::int32_t number) noexcept {
 
 bool SystemParameters::can_write(std::int32_t number) noexcept {
     const Number place = number_of(number);
-    if (place.block == g28_block || place.block == g30_block) {
+    if (place.block == g28_block || place.block == g30_block || place.block == probe_block ||
+        place.block == input_number) {
         return true;
     }
     return place.block == system_block && place.index > 0 && (place.index - 1) % system_step < 10;
@@ -114,6 +115,18 @@ bool SystemParameters::write(BlockInterpreter& interpreter, std::int32_t number,
             point[static_cast<unsigned>(axis)] = value;
         }
     };
+    if (place.block == input_number) {
+        interpreter.input_ = value;
+        return true;
+    }
+    if (place.block == probe_block) { // programs clear it before they probe
+        if (place.index == 9) {
+            interpreter.probe_contact_ = value.raw != 0;
+        } else {
+            set_axis(interpreter.probe_at_, place.index);
+        }
+        return true;
+    }
     if (place.block != system_block) {
         set_axis(place.block == g28_block ? offsets.g28 : offsets.g30, place.index);
     } else {

@@ -147,10 +147,8 @@ BlockStatus find_axis_use(const Block& block, const ModalState& modal, bool axes
         if (modal.motion == ModalState::no_motion) {
             return {Error::axis_word_unused, 0, 0};
         }
-    } else if (is_arc(modal.motion) && block.has_any(Block::bits("ijk"))) {
-        out.motion = modal.motion; // a whole turn by I and J alone
-    } else if (modal.motion == 52 && block.has('p')) {
-        out.motion = modal.motion;
+    } else if ((is_arc(modal.motion) && block.has_any(Block::bits("ijk"))) || (modal.motion == 52 && block.has('p'))) {
+        out.motion = modal.motion; // a whole turn by I and J alone; a weight of a NURBS
     }
     out.axes = out.motion == ModalState::no_motion ? AxisUse::none : AxisUse::motion;
     return {};
