@@ -42,6 +42,7 @@ def machine_text(axes, jerk, period):
     for axis in axes:
         text += f'\n[[axis]]\nname = "{axis}"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 320\n'
         text += f"max_jerk_mm_s3 = {jerk}\n" if jerk else ""
+        text += 'kind = "rotary"\n' if axis == "a" else ""
     return text
 
 
