@@ -91,8 +91,8 @@ void add_extent(const PerAxis<Position>& from, const PathElement<double>& move, 
     }
 }
 
-double length_of(const PerAxis<Position>& from, const PathElement<double>& move, int axes,
-                 const PerAxis<bool>& counts) noexcept {
+double move_length(const PerAxis<Position>& from, const PathElement<double>& move, int axes,
+                   const PerAxis<bool>& counts) noexcept {
     const auto count = static_cast<unsigned>(axes);
     if (move.shape == MoveShape::arc) {
         const ArcWay way(from, move);

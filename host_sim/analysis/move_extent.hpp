@@ -21,7 +21,7 @@ void add_extent(const PerAxis<Position>& from, const PathElement<double>& move, 
 
 /// Length over the first `axes` axes of which `counts` is true [mm]. Arcs up to the change of their radius; Bezier
 /// segments within 0.1 %.
-[[nodiscard]] double length_of(const PerAxis<Position>& from, const PathElement<double>& move, int axes,
-                               const PerAxis<bool>& counts) noexcept;
+[[nodiscard]] double move_length(const PerAxis<Position>& from, const PathElement<double>& move, int axes,
+                                 const PerAxis<bool>& counts) noexcept;
 
 } // namespace splinefeed::host

@@ -17,7 +17,7 @@ ProgramReport::ProgramReport(const MachineDescription& machine) : axes_(machine.
 
 void ProgramReport::move(const PathElement<double>& move, bool rapid, std::uint64_t line) {
     add_extent(here_, move, axes_, boxes_[rapid ? 1 : 0]);
-    const double length = length_of(here_, move, axes_, counts_);
+    const double length = move_length(here_, move, axes_, counts_);
     for (MoveTotal* total : {&totals_[rapid ? 1 : 0], &tools_[tool_]}) {
         total->length_mm += length;
         ++total->moves;

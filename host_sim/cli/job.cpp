@@ -2,7 +2,7 @@
 #include "host_sim/cli/job.hpp"
 
 #include "host_sim/base/file_claims.hpp"
-#include "host_sim/run/check.hpp"
+#include "host_sim/run/check_program.hpp"
 
 namespace splinefeed::host {
 
@@ -11,7 +11,7 @@ int carry_out(const Job& job) {
     switch (job.command) {
     case Command::run:
     case Command::plan: return run(job.run);
-    case Command::check: return check(job.run);
+    case Command::check: return check_program(job.run);
     case Command::curve: return draw(job.run);
     case Command::surface: return run_surface(job.run.path.input, job.surface, job.run.path.scalar);
     case Command::drive: return run_drive(job.drive);

@@ -17,9 +17,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t largest = 1U << 16U;
+constexpr std::size_t largest_file = 1U << 16U;
 constexpr double largest_mm = 1048576.0;
-constexpr int version = 1;
+constexpr int state_version = 1;
 
 // Decimals of that size are exact as doubles.
 double number(Decimal value) {
@@ -86,7 +86,7 @@ public:
 
     [[nodiscard]] MachineState state() const {
         MachineState out;
-        static_cast<void>(whole("version", version, version));
+        static_cast<void>(whole("version", state_version, state_version));
         const nlohmann::json& position = list(json_, "position_mm", axes_);
         for (std::size_t k = 0; k < axes_; ++k) {
             out.position_mm[k] = value(position[k], "position_mm");
@@ -123,7 +123,7 @@ std::optional<MachineState> read_state_file(const std::string& path, const std::
     if (!std::filesystem::exists(path, error)) {
         return std::nullopt;
     }
-    const nlohmann::json json = parse_json(read_text_file(path, largest), path);
+    const nlohmann::json json = parse_json(read_text_file(path, largest_file), path);
     const StateReader reader(json, path, axes.size());
     if (reader.member(json, "axes") != nlohmann::json(axes)) {
         throw InputError(path, 0, "it is the state of a machine with other axes; give each machine its own file");
@@ -133,7 +133,7 @@ std::optional<MachineState> read_state_file(const std::string& path, const std::
 
 void write_state_file(const std::string& path, const std::vector<std::string>& axes, const MachineState& state) {
     Json json;
-    json["version"] = version;
+    json["version"] = state_version;
     json["axes"] = axes;
     json["position_mm"] = Json::array();
     for (std::size_t k = 0; k < axes.size(); ++k) {

@@ -10,7 +10,7 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr std::size_t most_lines = 10;
+constexpr std::size_t most_slow_lines = 10;
 
 std::string range(const AxisBox& box, unsigned k) {
     return box.empty ? "-" : fmt::format("{:.3f} to {:.3f}", box.low[k], box.high[k]);
@@ -69,7 +69,7 @@ std::string check_text(const ProgramReport& report, const MachineDescription& ma
         text += totals_row(number > 0 ? fmt::format("tool {}", number) : "no tool", total);
     }
     text += "\nlines that take most time\n";
-    for (const ProgramReport::Line& line : report.slowest(most_lines)) {
+    for (const ProgramReport::Line& line : report.slowest(most_slow_lines)) {
         text += fmt::format("  line {:<10}{:>12.3f} s   limited by {}\n", line.line, line.seconds, what_bound(line));
     }
     return text;
@@ -98,7 +98,7 @@ std::string check_json(const ProgramReport& report, const MachineDescription& ma
             json["tools"][std::to_string(number)] = totals_json(total);
         }
         json["slowest_lines"] = Json::array();
-        for (const ProgramReport::Line& line : report.slowest(most_lines)) {
+        for (const ProgramReport::Line& line : report.slowest(most_slow_lines)) {
             json["slowest_lines"].push_back(
                 Json{{"line", line.line}, {"time_s", line.seconds}, {"limit", what_bound(line)}});
         }

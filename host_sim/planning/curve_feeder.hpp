@@ -41,6 +41,11 @@ public:
     /// Pushes the next waypoint, or finishes the curve; false if there is none. Throws InputError; the curve then ends
     /// with the waypoints before. @pre the curve is starved
     bool more(Pushed& pushed);
+    /// ElementFeeder::release().
+    bool release(Pushed& pushed) {
+        pushed = {};
+        return elements_ && elements_->release(pushed.program);
+    }
     /// Whether more() would return without waiting; waits for that up to the given time. A closed curve is read
     /// completely before.
     [[nodiscard]] bool wait_for_row(WaypointRows::Patience patience) {

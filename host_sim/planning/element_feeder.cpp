@@ -96,6 +96,19 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
 }
 
 template <Scalar S>
+bool ElementFeeder<S>::release(Pushed& pushed) {
+    pushed = {};
+    if (!holds_) {
+        return false;
+    }
+    holds_ = false;
+    held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+    push(held_, pushed);
+    pushed.row = row_;
+    return true;
+}
+
+template <Scalar S>
 void ElementFeeder<S>::finish() {
     finished_ = true;
     if (const Status status = path_.finish(); !status.ok()) {

@@ -36,6 +36,9 @@ public:
     /// Takes the start or the next step, or finishes the path; false if there is none. Throws InputError; the path then
     /// ends with the moves before. @pre the path is starved
     bool more(Pushed& pushed);
+    /// The machine needs what there is, and the input pauses: a move that waits is pushed, with a stop at its end.
+    /// false: none waits. @pre the path is starved
+    bool release(Pushed& pushed);
     [[nodiscard]] bool wait_for_row(typename MoveSource<S>::Patience patience) {
         return finished_ || failure_ != nullptr || program_->wait(patience);
     }

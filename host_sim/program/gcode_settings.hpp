@@ -29,7 +29,7 @@ struct GcodeSettings {
     double tolerance_mm = 0.01;                   ///< of G64 without P
     double rapid_tolerance_mm = 0.1;              ///< between rapids
     double max_feed_mm_s = 0.0;                   ///< of moves with a feed, along the linear axes; 0: none
-    bool mixed = false;                           ///< the machine has linear and rotary axes
+    std::uint32_t rotary_axes = 0;                ///< bit k: axis k of the machine is rotary
     std::vector<std::string> axes;                ///< names: x, y, z, a, b, c
     std::vector<std::string>* problems = nullptr; ///< gets what is wrong with lines, which are left out; null: the
                                                   ///< first one ends the program

@@ -27,7 +27,6 @@ struct SourceStep {
     PathElement<S> element{};
     PathElement<double> programmed{}; ///< the same move, for those who measure
     bool rapid = false;
-    double linear_feed_mm_s = 0.0; ///< as it was programmed; 0: unknown
 
     bool stops = false;   ///< the machine stands at the end of the moves before it
     double dwell_s = 0.0; ///< of a dwell, and how long the machine waits for an event

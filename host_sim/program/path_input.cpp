@@ -175,10 +175,10 @@ void PathInput::open_gcode(const PathArguments& arguments, PathUse use, const st
     static_cast<void>(LineReader(path_, name_)); // it can be opened
 }
 
-void PathInput::limit_feed(double max_feed_mm_s, bool mixed) noexcept {
+void PathInput::limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noexcept {
     if (gcode_) {
         gcode_->max_feed_mm_s = max_feed_mm_s;
-        gcode_->mixed = mixed;
+        gcode_->rotary_axes = rotary_axes;
     }
 }
 

@@ -59,9 +59,9 @@ public:
     [[nodiscard]] const ElementProgram* elements() const noexcept { return elements_ ? &*elements_ : nullptr; }
     /// A program in G-code. Null: there is none.
     [[nodiscard]] const GcodeSettings* gcode() const noexcept { return gcode_ ? &*gcode_ : nullptr; }
-    /// Of a program in G-code: the largest feed of its moves that are no rapids. @param mixed  the machine has linear
-    /// and rotary axes
-    void limit_feed(double max_feed_mm_s, bool mixed) noexcept;
+    /// Of a program in G-code: the largest feed of its moves that are no rapids. @param rotary_axes  bit k: axis k
+    /// of the machine is rotary
+    void limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noexcept;
     /// Of a program in G-code: where the machine stands, and its offsets.
     void begin_at(const MachineState& state);
     /// Of a program in G-code: wrong lines are left out, and told to `problems` (null: they end the program).

@@ -102,6 +102,11 @@ bool Motion<S>::late() const {
 template <Scalar S>
 bool Motion<S>::wait() {
     paused_ = paused_.value_or(Clock::now());
+    typename CurveFeeder<S>::Pushed pushed;
+    if (late_ && feeder_.release(pushed)) {
+        measure(pushed);
+        return true;
+    }
     if (moves_ || !held_by_target_) {
         if (!late_ || moves_ || segments_ == 0) {
             return true;

@@ -32,6 +32,9 @@ RunMachine::RunMachine(const std::string& file, const InputFormat& format)
       max_feed_mm_s(machine.settings.max_feed_mm_s),
       axes(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes),
       tolerances(machine.tolerances) {
+    for (unsigned k = 0; k < axes.size(); ++k) {
+        rotary_axes |= machine.settings.axis[k].rotary ? std::uint32_t{1} << k : 0U;
+    }
     if (format.is_gcode()) {
         machine.settings.max_feed_mm_s = fastest_rapid_mm_s(machine.settings);
     }

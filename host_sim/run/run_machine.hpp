@@ -23,7 +23,8 @@ struct RunMachine {
     [[nodiscard]] MachineState state(const std::string& state, const std::string& position) const;
 
     MachineDescription machine;
-    double max_feed_mm_s = 0.0; ///< as the file states it
+    double max_feed_mm_s = 0.0;    ///< as the file states it
+    std::uint32_t rotary_axes = 0; ///< bit k: axis k is rotary
     std::vector<std::string> axes;
     PathTolerances tolerances;
 };

@@ -146,7 +146,7 @@ int move_machine(const RunArguments& arguments) {
         throw InputError(machine.file, 0, describe(limits.error()));
     }
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
-    input.limit_feed(of.max_feed_mm_s, limits->mixed);
+    input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
     if (input.gcode() == nullptr && !(arguments.state.empty() && arguments.position.empty())) {
         throw UsageError("--state and --position are for programs in G-code; other inputs begin at their first point");
     }

@@ -27,7 +27,7 @@ TEST_CASE("The box and the length of a line are those of its ends") {
     add_extent(at(0.0, 0.0, 0.0), line, 3, box);
     CHECK(box.low[1] == -3.0);
     CHECK(box.high[0] == 4.0);
-    CHECK(length_of(at(0.0, 0.0, 0.0), line, 3, linear) == 5.0);
+    CHECK(move_length(at(0.0, 0.0, 0.0), line, 3, linear) == 5.0);
 }
 
 TEST_CASE("The box of an arc has its extremes, and no more: random arcs against their points") {
@@ -71,7 +71,7 @@ TEST_CASE("The box of an arc has its extremes, and no more: random arcs against 
             CHECK(std::fabs(box.low[k] - low[k]) < 1e-4);
             CHECK(std::fabs(box.high[k] - high[k]) < 1e-4);
         }
-        CHECK(std::fabs(length_of(at(from[0], from[1], from[2]), arc, 3, linear) - std::hypot(radius * sweep, rise)) <
+        CHECK(std::fabs(move_length(at(from[0], from[1], from[2]), arc, 3, linear) - std::hypot(radius * sweep, rise)) <
               1e-6);
     }
 }
@@ -89,5 +89,5 @@ TEST_CASE("A Bezier segment is as long as its chords, and lies within its points
     // y = 2 x (1 - x / 10): the length of a parabola
     const double s = 2.0;
     const double exact = 10.0 * (std::sqrt(1.0 + s * s) + std::asinh(s) / s) / 2.0;
-    CHECK(std::fabs(length_of({}, curve, 3, linear) / exact - 1.0) < 1e-3);
+    CHECK(std::fabs(move_length({}, curve, 3, linear) / exact - 1.0) < 1e-3);
 }

@@ -18,8 +18,6 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double seconds_per_minute = 60.0;
-
 double number(Decimal value) {
     return static_cast<double>(value.raw) / static_cast<double>(Decimal::one);
 }
@@ -34,6 +32,7 @@ ProgramSettings program_settings(const GcodeSettings& from) {
     for (std::size_t k = 0; k < from.axes.size(); ++k) {
         out.letters[k] = static_cast<char>(from.axes[k].front() - 'a' + 'A');
     }
+    out.rotary_axes = from.rotary_axes;
     out.dialect = from.dialect;
     out.block_delete = from.block_delete;
     out.optional_pause = from.optional_stop;
@@ -57,10 +56,6 @@ std::string_view without_comment(std::string_view text, std::size_t longest) {
         }
     }
     return text;
-}
-
-bool is_linear(const std::string& axis) {
-    return axis == "x" || axis == "y" || axis == "z";
 }
 
 template <Scalar S>
@@ -101,7 +96,6 @@ private:
     ProgramFlow flow_;
     SourceLine line_;
     ProgramItem<S> item_;
-    PerAxis<Position> here_{}; // where the last move so far ends
     LineHistory history_;
     bool pending_ = false; // the block has more items
 };
@@ -114,11 +108,11 @@ GcodeMoves<S>::GcodeMoves(const GcodeSettings& settings, std::string file, std::
 
 template <Scalar S>
 bool GcodeMoves<S>::start(PerAxis<Position>& position) {
-    position = here_ = settings_->start;
+    position = settings_->start;
     if (settings_->offsets) {
         interpreter_.restore(*settings_->offsets);
     }
-    interpreter_.start(here_);
+    interpreter_.start(settings_->start);
     return true;
 }
 
@@ -185,7 +179,6 @@ void GcodeMoves<S>::take(SourceStep<S>& out) {
     case ItemKind::move:
         out.kind = StepKind::move;
         take_move(out);
-        here_ = out.element.to;
         break;
     case ItemKind::dwell:
         out.kind = StepKind::dwell;
@@ -198,31 +191,15 @@ void GcodeMoves<S>::take(SourceStep<S>& out) {
     }
 }
 
-// Feeds of the core are along the linear axes where any of them moves, as programs state them.
 template <Scalar S>
 void GcodeMoves<S>::take_move(SourceStep<S>& out) const {
     out.element = item_.element;
     out.rapid = item_.move == MoveKind::rapid || item_.move == MoveKind::home;
-    double feed = to_double(out.element.feed_mm_s);
     if (out.rapid) {
         out.element.feed_mm_s = S{}; // the limits of the axes
     } else {
-        if (settings_->mixed && !item_.inverse_time) {
-            feed = number(item_.feed) / seconds_per_minute;
-        } else if (settings_->mixed) {
-            double linear_sq = 0.0;
-            double all_sq = 0.0;
-            for (std::size_t k = 0; k < settings_->axes.size(); ++k) {
-                const double way = to_mm(out.element.to[k]) - to_mm(here_[k]);
-                all_sq += way * way;
-                linear_sq += is_linear(settings_->axes[k]) ? way * way : 0.0;
-            }
-            feed *= linear_sq > 0.0 && all_sq > 0.0 ? std::sqrt(linear_sq / all_sq) : 1.0;
-        }
-        out.element.feed_mm_s = from_double<S>(feed);
         out.element.max_feed_mm_s = from_double<S>(settings_->max_feed_mm_s);
     }
-    out.linear_feed_mm_s = out.rapid ? 0.0 : feed;
     out.programmed = element_cast<double>(out.element);
 }
 

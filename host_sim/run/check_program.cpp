@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/check.hpp"
+#include "host_sim/run/check_program.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/output/program_report_text.hpp"
@@ -87,7 +87,7 @@ int check_with(const RunArguments& arguments) {
     if (!input.repeatable()) {
         throw UsageError("check reads the program twice; give it a file");
     }
-    input.limit_feed(of.max_feed_mm_s, limits->mixed);
+    input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
     input.begin_at(of.state(arguments.state, arguments.position));
     const auto text = arguments.summary == SummaryKind::json ? check_json : check_text;
     Survey survey(of.machine, input.name());
@@ -112,7 +112,7 @@ int check_with(const RunArguments& arguments) {
 
 } // namespace
 
-int check(const RunArguments& arguments) {
+int check_program(const RunArguments& arguments) {
     switch (arguments.path.scalar) {
     case ScalarKind::fixed: return check_with<Fixed>(arguments);
     case ScalarKind::float32: return check_with<float>(arguments);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/planning/element_feeder.hpp"
+
+#include "support/catch.hpp"
+#include "temporary_folder.hpp"
+
+#include <fstream>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+/// What a feeder does with a program: "S" start, "m" a move, "M" one with a stop, "e" event, "d" dwell, "." nothing,
+/// "r" and "R" a move that was released.
+std::string steps_of(const std::string& program, std::size_t release_at = 1000) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("p.ngc")) << program;
+    PathArguments arguments;
+    arguments.input = folder.file("p.ngc");
+    arguments.format = input_format("gcode");
+    PathInput input(arguments, PathUse::executed, {"x", "y", "z"});
+    ElementFeeder<double> feeder(input);
+    ElementFeeder<double>::Pushed pushed;
+    std::string out;
+    CurveSegment<double> segment;
+    for (;;) {
+        if (out.size() == release_at && feeder.release(pushed)) {
+            out += pushed.move->element.stop_at_end ? 'R' : 'r';
+        }
+        if (!feeder.more(pushed)) {
+            return out;
+        }
+        if (pushed.start) {
+            out += 'S';
+        }
+        if (pushed.move != nullptr) {
+            out += pushed.move->element.stop_at_end ? 'M' : 'm';
+        }
+        if (pushed.step != nullptr) {
+            out += pushed.step->kind == StepKind::dwell ? 'd' : 'e';
+        }
+        if (!pushed.start && pushed.move == nullptr && pushed.step == nullptr) {
+            out += '.';
+        }
+        while (feeder.source().next(segment) == Pull::item) {
+        }
+    }
+}
+
+std::string without_pauses(std::string steps) {
+    steps.erase(std::remove(steps.begin(), steps.end(), '.'), steps.end());
+    return steps;
+}
+
+} // namespace
+
+TEST_CASE("A move waits until it is known whether the machine stops at its end") {
+    CHECK(without_pauses(steps_of("G1 X1 F600\nX2\nX3\n")) == "Smmm");
+    CHECK(without_pauses(steps_of("G1 X1 F600\nG4 P1\nX3\n")) == "SMdm");
+    CHECK(without_pauses(steps_of("G1 X1 F600\n(MSG,a)\nX3\nM2\n")) == "SmeMe");
+    CHECK(without_pauses(steps_of("G1 X1 F600\nX1\nX1.00000001\nM0\nX3\n")) == "SMem"); // moves without length are none
+    CHECK(without_pauses(steps_of("M3 S1\nG4 P1\n")) == "Seed");
+    CHECK(without_pauses(steps_of("")) == "S");
+}
+
+TEST_CASE("A move that is released stops, and what comes behind it still finds its place") {
+    CHECK(without_pauses(steps_of("G1 X1 F600\nX2\nX3\n", 3)).find('R') != std::string::npos);
+    const std::string steps = without_pauses(steps_of("G1 X1 F600\nG4 P1\nX3\n", 2));
+    CHECK(steps == "SRdm");
+}
