@@ -63,8 +63,8 @@ GcodeSettings read_gcode_arguments(const GcodeArguments& arguments) {
         }
         out.dialect = static_cast<Dialect>(found - std::begin(dialect_names));
     }
-    const std::string words = arguments.ignore.value_or("");
-    for (std::string_view rest = words; arguments.ignore;) {
+    const std::string ignored = arguments.ignore.value_or("");
+    for (std::string_view rest = ignored; arguments.ignore;) {
         const std::size_t comma = rest.find(',');
         out.ignored.push_back(ignored_word(rest.substr(0, comma)));
         if (comma == std::string_view::npos) {
