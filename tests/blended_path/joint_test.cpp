@@ -37,7 +37,7 @@ template <Scalar S>
 Joint<S> joint_of(const MoveProgram& program, PathMode mode = PathMode::continuous) {
     const auto moves = moves_of<S>(program);
     const S tolerance = from_double<S>(program.moves[0].tolerance_mm * 4096.0);
-    return decide_joint<S>(moves[0], moves[1], mode, {tolerance, from_double<S>(4.096), S{}}, program.axes);
+    return decide_joint<S>(moves[0], moves[1], mode, {tolerance, from_double<S>(4.096), {}}, program.axes);
 }
 
 } // namespace

@@ -8,7 +8,7 @@ using splinefeed::host::LineHistory;
 TEST_CASE("The line of a move is known until the motion is past it") {
     LineHistory history;
     CHECK(history.line_of(0) == 0);
-    for (const std::uint64_t line : {4, 7, 7, 7, 9}) {
+    for (const std::uint64_t line : {4U, 7U, 7U, 7U, 9U}) {
         history.add(line);
     }
     CHECK(history.moves() == 5);
