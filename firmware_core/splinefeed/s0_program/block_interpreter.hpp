@@ -118,7 +118,7 @@ private:
     WorkFrame frame_;
     Place place_{};
     Block block_{};
-    MotionPlan plan_{};
+    BlockMotion plan_{};
     AxisPoint emitted_{}; // where the moves that next() has given end
     CycleWords cycle_words_{};
     NurbsCurve nurbs_{};

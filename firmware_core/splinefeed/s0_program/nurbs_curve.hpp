@@ -2,7 +2,7 @@
 // NurbsCurve: the control points of G5.2 to Bezier pieces, as they come.
 #pragma once
 
-#include "splinefeed/s0_program/motion_plan.hpp"
+#include "splinefeed/s0_program/block_motion.hpp"
 
 namespace splinefeed {
 

@@ -2,7 +2,7 @@
 // ProgramStep: an item of a program without a scalar.
 #pragma once
 
-#include "splinefeed/s0_program/motion_plan.hpp"
+#include "splinefeed/s0_program/block_motion.hpp"
 
 namespace splinefeed {
 

@@ -2,7 +2,7 @@
 // RationalPieces: a rational Bezier segment as polynomial ones.
 #pragma once
 
-#include "splinefeed/s0_program/motion_plan.hpp"
+#include "splinefeed/s0_program/block_motion.hpp"
 
 namespace splinefeed {
 

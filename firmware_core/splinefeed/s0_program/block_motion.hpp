@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MotionPlan: the motion of a block, in machine coordinates and without a scalar.
+// BlockMotion: the motion of a block, in machine coordinates and without a scalar.
 #pragma once
 
 #include "splinefeed/s0_program/modal_state.hpp"
@@ -37,7 +37,7 @@ struct MoveManner {
     Decimal feed{};
 };
 
-struct MotionPlan {
+struct BlockMotion {
     PlanKind kind = PlanKind::none;
     MoveKind move = MoveKind::feed;
     ProbeCondition probe{};
