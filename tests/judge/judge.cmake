@@ -12,7 +12,7 @@ endfunction()
 
 judge_test(judge_of_known_runs judge_test.py)
 judge_test(judge_of_tolerances path_tolerance_test.py $<TARGET_FILE:splinefeed_tool>)
-judge_test(judge_tolerances_kept ../../bench/tolerance.py --tool $<TARGET_FILE:splinefeed_tool> --judge)
+judge_test(judge_tolerances_kept ../../bench/tolerance.py --tool $<TARGET_FILE:splinefeed_tool> --judge --goals)
 foreach(program path61.csv circle720.csv butterfly.json uneven)
     string(REGEX REPLACE "\\..*" "" name ${program})
     judge_test(judge_gates_${name} gates.py $<TARGET_FILE:splinefeed_tool> ${program})
