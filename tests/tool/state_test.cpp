@@ -52,7 +52,7 @@ TEST_CASE("A crash while the state is written leaves the old one or the new one"
         program += "G10 L2 P1 X" + std::to_string(i) + " Y" + std::to_string(i) + "\n";
     }
     tool.write("a.ngc", program);
-    const int rounds = splinefeed_test::rounds(10);
+    const int rounds = splinefeed_test::rounds(10, 200);
     int written = 0;
     for (int i = 0; i < rounds; ++i) {
         const std::string wait = std::to_string(0.05 + 0.002 * (i * 37 % 100));
