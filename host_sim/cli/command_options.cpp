@@ -73,6 +73,8 @@ void add_gcode_options(CLI::App& app, Job& job) {
         ->group(group);
     app.add_option("--ignore", gcode.ignore, "M104,E,...: words that the program may have without being followed")
         ->group(group);
+    app.add_option("--tools", gcode.tools, "tool.tbl: lengths of tools for G43, a line T1 P1 Z12.5 D6 for each")
+        ->group(group);
     app.add_flag("--block-delete", gcode.block_delete, "leave out the lines that begin with /")
         ->group(group)
         ->disable_flag_override();

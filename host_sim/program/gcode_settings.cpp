@@ -47,6 +47,7 @@ IgnoredWord ignored_word(std::string_view word) {
 std::string_view first_option(const GcodeArguments& arguments) noexcept {
     return arguments.dialect         ? "--dialect"
            : arguments.ignore        ? "--ignore"
+           : arguments.tools         ? "--tools"
            : arguments.block_delete  ? "--block-delete"
            : arguments.optional_stop ? "--optional-stop"
                                      : "";
@@ -71,6 +72,9 @@ GcodeSettings read_gcode_arguments(const GcodeArguments& arguments) {
             break;
         }
         rest.remove_prefix(comma + 1);
+    }
+    if (arguments.tools) {
+        out.tools = read_tool_file(*arguments.tools);
     }
     out.block_delete = arguments.block_delete;
     out.optional_stop = arguments.optional_stop;

@@ -2,6 +2,8 @@
 // GcodeSettings: how a program in G-code is to be read, and for which machine.
 #pragma once
 
+#include "host_sim/program/tool_file.hpp"
+
 #include "splinefeed/number/position.hpp"
 #include "splinefeed/s0_program/program_settings.hpp"
 #include "splinefeed/s0_program/work_offsets.hpp"
@@ -16,6 +18,7 @@ namespace splinefeed::host {
 struct GcodeArguments {
     std::optional<std::string> dialect;
     std::optional<std::string> ignore;
+    std::optional<std::string> tools;
     bool block_delete = false;
     bool optional_stop = false;
 };
@@ -23,6 +26,7 @@ struct GcodeArguments {
 struct GcodeSettings {
     Dialect dialect = Dialect::linuxcnc;
     std::vector<IgnoredWord> ignored;
+    std::optional<ToolRows> tools; ///< none: G43 and G43 H are refused
     bool block_delete = false;
     bool optional_stop = false;
     bool simulated = true;                        ///< a simulated machine has a spindle, coolant, and everything else

@@ -34,6 +34,20 @@ std::string error_of(const Tool& tool, const std::string& program, const std::st
 
 } // namespace
 
+TEST_CASE("Tool lengths come from the table of --tools") {
+    const Tool tool;
+    tool.write("tool.tbl", "T1 P1 Z10\nT2 P2 Z25.5\n");
+    tool.write("lengths.ngc", "G21 G90 T1 M6 G43\nG1 Z0 F600\nG43 H2\nG1 Z0\nM2\n");
+    const Call call = tool("plan lengths.ngc --tools tool.tbl --elements e.json --quiet");
+    CAPTURE(call.error);
+    REQUIRE(call.status == 0);
+    const json elements = json::parse(tool.read("e.json"))["elements"];
+    REQUIRE(elements.size() == 2);
+    CHECK(elements[0]["to"][2].get<double>() == Approx(10.0));
+    CHECK(elements[1]["to"][2].get<double>() == Approx(25.5));
+    CHECK(tool("plan lengths.ngc --quiet").error.find("give one (--tools)") != std::string::npos);
+}
+
 TEST_CASE("The examples in G-code run within their tolerance") {
     const Tool tool;
     const std::string machine = " -m " + examples + "three_axis.toml' --quiet --summary json";

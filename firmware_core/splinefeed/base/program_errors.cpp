@@ -93,7 +93,7 @@ const char* describe_words(Error error) noexcept {
     case Error::feed_negative: return "F must not be negative";
     case Error::speed_negative: return "S must not be negative; the direction is that of M3 or M4";
     case Error::tool_unknown: return "a tool is a whole number from 0, and G43 needs one that is in the tool table";
-    case Error::tool_table_missing: return "there is no tool table; use G43.1, or give a table";
+    case Error::tool_table_missing: return "there is no tool table; give one (--tools), or write G43.1";
     case Error::g53_unsuited: return "G53 needs G0 or G1 in effect, and G90";
     case Error::g10_invalid:
         return "G10 takes L2 or L20 with P0 to P9 for the system (0: the one in effect), and R with L2 only";

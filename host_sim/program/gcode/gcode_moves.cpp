@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace splinefeed::host {
@@ -26,7 +27,7 @@ Decimal decimal(double value) {
     return {std::llround(value * static_cast<double>(Decimal::one))};
 }
 
-ProgramSettings program_settings(const GcodeSettings& from) {
+ProgramSettings program_settings(const GcodeSettings& from, const MachineTools* tools) {
     ProgramSettings out;
     out.axes = static_cast<int>(from.axes.size());
     for (std::size_t k = 0; k < from.axes.size(); ++k) {
@@ -40,6 +41,7 @@ ProgramSettings program_settings(const GcodeSettings& from) {
     out.rapid_tolerance_mm = decimal(from.rapid_tolerance_mm);
     out.ignored = from.ignored.data();
     out.ignored_count = from.ignored.size();
+    out.tools = tools;
     return out;
 }
 
@@ -90,6 +92,7 @@ private:
     const GcodeSettings* settings_;
     std::string file_;
     std::unique_ptr<SourceLines> lines_;
+    std::optional<MachineTools> tools_;
     ParameterMemory parameters_;
     Expression expression_{parameters_};
     Interpreter<S> interpreter_;
@@ -103,7 +106,9 @@ private:
 template <Scalar S>
 GcodeMoves<S>::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines)
     : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)),
-      interpreter_(program_settings(settings), &expression_),
+      tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
+                            : std::nullopt),
+      interpreter_(program_settings(settings, tools_ ? &*tools_ : nullptr), &expression_),
       flow_(*lines_, file_, expression_, interpreter_, parameters_) {}
 
 template <Scalar S>

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/tool_file.hpp"
+
+#include "refusal.hpp"
+#include "support/catch.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+class Table {
+public:
+    explicit Table(const std::string& text) { std::ofstream(path_) << text; }
+    Table(const Table&) = delete;
+    Table& operator=(const Table&) = delete;
+    ~Table() { std::filesystem::remove(path_); }
+
+    [[nodiscard]] ToolRows rows() const { return read_tool_file(path_); }
+    /// Without the name of the file.
+    [[nodiscard]] std::string refusal() const {
+        return refusal_of<InputError>([&] { static_cast<void>(rows()); }).substr(path_.size());
+    }
+
+private:
+    std::string path_ = (std::filesystem::temp_directory_path() / "splinefeed-tool-file-test.tbl").string();
+};
+
+} // namespace
+
+TEST_CASE("A table of tools is read as LinuxCNC writes it") {
+    const Table table("; tools\n\nT1 P1 D0.125 Z+12.511 ;1/8 end mill\r\nt99999 p2 x-0.5 A10 z0\nT3 P7 I10 J20 Q2");
+    const ToolRows rows = table.rows();
+    REQUIRE(rows.size() == 3);
+    CHECK(rows.at(1).diameter == Decimal{125'000'000});
+    const std::vector<std::string> axes{"x", "z", "a"};
+    const MachineTools tools(rows, axes);
+    ToolOffset found;
+    REQUIRE(tools.find(1, found));
+    CHECK(found.offset[0] == Decimal{});
+    CHECK(found.offset[1] == Decimal{12'511'000'000});
+    REQUIRE(tools.find(99999, found));
+    CHECK(found.offset[0] == Decimal{-500'000'000});
+    CHECK(found.offset[2] == Decimal{10'000'000'000});
+    CHECK_FALSE(tools.find(2, found));
+}
+
+TEST_CASE("What is no tool is refused with its line") {
+    CHECK(Table("T1 Z1\nP2 Z3\n").refusal() == ":2: there is no T; a line is like T1 P1 Z12.5 D6 ;remark");
+    CHECK(Table("T1.5\n").refusal() == ":1: T1.5 is no tool; its number is 0 to 99999");
+    CHECK(Table("T-1\n").refusal() == ":1: T-1 is no tool; its number is 0 to 99999");
+    CHECK(Table("T1 Z\n").refusal() == ":1: a number of at most 1000000 must follow Z");
+    CHECK(Table("T1 Z1e300\n").refusal() == ":1: 'E' is no letter of a tool; a line is like T1 P1 Z12.5 D6 ;remark");
+    CHECK(Table("T1 Z1\nT2\nT1 Z2\n").refusal() == ":3: tool 1 stands in the file twice; leave one of its lines out");
+    CHECK(Table("T1 Z9999999\n").refusal() == ":1: a number of at most 1000000 must follow Z");
+    CHECK_THROWS_AS(read_tool_file("/nowhere/tool.tbl"), InputError);
+}
