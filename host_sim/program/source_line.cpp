@@ -10,6 +10,15 @@
 
 namespace splinefeed::host {
 
+// Editors begin a text with the mark of its encoding.
+void LineReader::leave_out_mark(std::string& text) const {
+    if (text.starts_with("\xef\xbb\xbf")) {
+        text.erase(0, 3);
+    } else if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+        throw InputError(name_, lines_, "the text is UTF-16; save it as UTF-8 or ASCII");
+    }
+}
+
 bool LineReader::next(SourceLine& out) {
     using Traits = std::streambuf::traits_type;
     out.text.clear();
@@ -31,6 +40,9 @@ bool LineReader::next(SourceLine& out) {
             if (end != std::string_view::npos) {
                 if (!out.text.empty() && out.text.back() == '\r') {
                     out.text.pop_back();
+                }
+                if (lines_ == 1) {
+                    leave_out_mark(out.text);
                 }
                 return true;
             }

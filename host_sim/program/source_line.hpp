@@ -17,7 +17,8 @@ struct SourceLine {
 
 using SourceLines = RowSource<SourceLine>;
 
-/// Memory: one line. Lines end with \n or \r\n; the last one may end with the file.
+/// Memory: one line. Lines end with \n or \r\n; the last one may end with the file. A mark of UTF-8
+/// at the beginning is left out.
 class LineReader final : public SourceLines {
 public:
     static constexpr std::size_t longest_line = 65536; ///< bytes, comments included
@@ -30,6 +31,8 @@ public:
     void stop() noexcept override { input_.stop(); }
 
 private:
+    void leave_out_mark(std::string& text) const;
+
     InputStream input_;
     std::string name_;
     std::uint64_t lines_ = 0;

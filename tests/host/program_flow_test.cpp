@@ -109,3 +109,11 @@ TEST_CASE("Wrong O words are told with line and column") {
     says("o1 while [1]\no1 endwhile", "p.ngc:2:1: the program has executed");
     says("o1 sub\no1 call\no1 endsub\no1 call", "p.ngc:2:2: calls are nested more than 30 deep");
 }
+
+TEST_CASE("A number of the program stands before its first block") {
+    CHECK(run("%\nO0001 (PART)\nG1 X3 F100\nM2\n") == " 3 end");
+    CHECK(run("\n(part)\nN10 o12\nG1 X3 F100\nM2\n") == " 3 end");
+    CHECK(run("G1 X3 F100\nO0001\nM2\n").find("p.ngc:2:6: an O word has a number") == 0);
+    CHECK(run("O0001 X2\nM2\n").find("p.ngc:1:7: an O word has a number") == 0);
+    CHECK(run("O1\nO2 sub\nG1 X5 F100\nO2 endsub\nO2 call\nM2\n") == " 5 end");
+}

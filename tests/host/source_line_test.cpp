@@ -47,3 +47,11 @@ TEST_CASE("A line that does not end is refused, in bounded memory") {
     CHECK(refusal_of([] { static_cast<void>(read_lines("a\n" + std::string(1'000'000, 'x'))); }) ==
           "p.ngc:2: the line is longer than 65536 bytes; is it a text file?");
 }
+
+TEST_CASE("A mark of the encoding is left out, or refused") {
+    CHECK(read_lines("\xef\xbb\xbfG21\n\xef\xbb\xbf\n") == std::vector<std::string>{"G21", "\xef\xbb\xbf"});
+    for (const std::string mark : {"\xff\xfe", "\xfe\xff"}) {
+        CHECK(refusal_of([&] { static_cast<void>(read_lines(mark + "G21\n")); }) ==
+              "p.ngc:1: the text is UTF-16; save it as UTF-8 or ASCII");
+    }
+}

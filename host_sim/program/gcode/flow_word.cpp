@@ -54,6 +54,19 @@ bool has_flow_word(std::string_view text) noexcept {
     return cursor.peek() == 'o';
 }
 
+bool is_program_number(std::string_view text) noexcept {
+    TextCursor cursor(text);
+    if (cursor.take('n')) {
+        skip_number(cursor);
+    }
+    cursor.step(); // the O
+    if (!is_digit(cursor.peek())) {
+        return false;
+    }
+    skip_number(cursor);
+    return cursor.at_end() || cursor.peek() == '(' || cursor.peek() == ';';
+}
+
 std::optional<FlowWord> read_flow_word(std::string_view text, std::size_t& wrong) {
     TextCursor cursor(text);
     if (cursor.take('n')) {

@@ -37,6 +37,9 @@ struct FlowWord {
 /// Whether a line begins with an O word, behind an N number at most.
 [[nodiscard]] bool has_flow_word(std::string_view text) noexcept;
 
+/// Whether it is a number without a keyword, as controls name programs: O1000 (PART). @pre has_flow_word(text)
+[[nodiscard]] bool is_program_number(std::string_view text) noexcept;
+
 /// The word. Nothing: it has no label or no known keyword; `wrong` is where.
 [[nodiscard]] std::optional<FlowWord> read_flow_word(std::string_view text, std::size_t& wrong);
 

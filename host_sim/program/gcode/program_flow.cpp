@@ -287,8 +287,14 @@ ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
         return collect(out);
     }
     if (!has_flow_word(out.text)) {
+        const char first = TextCursor(out.text).peek();
+        begun_ = begun_ || (first >= 'a' && first <= 'z');
         return Step::line;
     }
+    if (!begun_ && is_program_number(out.text)) {
+        return Step::nothing;
+    }
+    begun_ = true;
     if (++jumps_ > most_jumps) {
         fail(out, 0, fmt::format("the program has executed {} O words; does it ever end?", most_jumps));
     }

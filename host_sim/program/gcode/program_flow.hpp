@@ -79,6 +79,7 @@ private:
     ParameterMemory* parameters_;
     std::map<std::string, std::shared_ptr<const Code>> subs_;
     std::vector<Frame> frames_;
+    bool begun_ = false;    // there was a block: a number of the program would have come before it
     bool collects_ = false; // a block is read to its end
     std::shared_ptr<Code> block_;
     std::string block_label_;
