@@ -21,7 +21,7 @@ struct SpindleDescription {
     double rpm_per_hz = 60.0;         ///< of the VFD's output: 60 for a motor of two poles, 30 for one of four
     double ramp_s = 0.0;              ///< from standstill to max_rpm, as the simulated machine counts it
     double at_speed_timeout_s = 10.0; ///< a spindle that takes longer ends the run
-    std::optional<Vfd> vfd;           ///< nothing: real targets have no spindle
+    std::optional<Vfd> vfd{};         ///< nothing: real targets have no spindle
 
     /// How long the simulated machine waits for a change of speed; speeds have the sign of their direction.
     [[nodiscard]] double change_s(double from_rpm, double to_rpm) const noexcept {

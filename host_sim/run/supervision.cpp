@@ -218,8 +218,12 @@ void Supervision::await_planner() noexcept {
 
 void Supervision::work() noexcept {
     try {
-        ending_ = with_trouble(supervise());
+        ending_ = supervise();
+        if (spindle_ != nullptr && spindle_trouble_.empty()) {
+            spindle_trouble_ = spindle_->trouble();
+        }
         end_spindle();
+        ending_ = with_trouble(ending_);
         where_ = began_ ? target_->where() : std::string();
         for (const std::string& what : {began_ ? target_->finish() : std::string(), spindle_standstill()}) {
             ending_ += what.empty() || ending_.empty() ? what : "; " + what;

@@ -19,7 +19,7 @@ public:
     virtual void order(int direction, double rpm) = 0;
     /// Stops it for good.
     virtual void end() = 0;
-    /// Whether the last order is carried out: it has its speed, or has taken the order to stop.
+    /// Whether the last order is carried out: it has its speed, or has taken the order to stop. Never after end().
     [[nodiscard]] virtual bool reached() const = 0;
     /// Whether it is known to stand: it was never told to turn, or has confirmed its standstill.
     [[nodiscard]] virtual bool stands() const = 0;

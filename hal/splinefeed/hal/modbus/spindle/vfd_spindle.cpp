@@ -90,7 +90,7 @@ bool VfdSpindle::ended() const {
 
 bool VfdSpindle::reached() const {
     const std::lock_guard lock(mutex_);
-    return carried_out_ == ordered_;
+    return !ended_ && carried_out_ == ordered_;
 }
 
 bool VfdSpindle::stands() const {
@@ -124,7 +124,8 @@ void VfdSpindle::work() {
         }
         if (fresh || now_us >= next_us) {
             step();
-            next_us = clock_->now_us() + us_per_ms * settings_.poll_ms;
+            // A stop that was not taken is repeated at once.
+            next_us = clock_->now_us() + (known_ ? us_per_ms * settings_.poll_ms : 0);
         }
         clock_->sleep_us(slice_us);
     }
@@ -218,7 +219,7 @@ void VfdSpindle::step() {
     }
     carry_out(order, fresh);
     VfdReading reading;
-    if (took(client_.read(reading), "a reading")) {
+    if ((known_ || order.direction != 0) && took(client_.read(reading), "a reading")) {
         judge(order, reading);
     }
 }

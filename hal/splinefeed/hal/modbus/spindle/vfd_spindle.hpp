@@ -42,7 +42,7 @@ public:
     /// Stops the spindle for good.
     void end();
 
-    /// Whether the last order is carried out: the speed is reached, or the VFD has taken the stop.
+    /// Whether the last order is carried out: the speed is reached, or the VFD has taken the stop. Never after end().
     [[nodiscard]] bool reached() const;
     /// Whether the VFD has confirmed a stop, and since then that its output is off.
     [[nodiscard]] bool stands() const;
