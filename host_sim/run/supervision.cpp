@@ -169,6 +169,7 @@ std::string Supervision::supervise() {
     if (std::string what = target_->prepare(first); !what.empty()) {
         return what;
     }
+    const std::uint64_t before = target_->port().poll().executed; // of moves to the references
     for (std::uint64_t next_us = system_clock().now_us();;
          next_us = std::max(next_us + poll_every_us, system_clock().now_us())) {
         system_clock().sleep_until_us(next_us);
@@ -196,7 +197,7 @@ std::string Supervision::supervise() {
         } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
             return "interrupted, but not every drive has confirmed that it stands";
         }
-        tend_spindle(state.executed);
+        tend_spindle(state.executed - before);
     }
 }
 

@@ -317,13 +317,14 @@ TEST_CASE("a spindle gets its order when the machine has come to its place", "[s
     TalkingTarget target;
     TalkingSpindle spindle(target);
     Supervision supervision(target, signals, &spindle);
+    target.executed = 1000; // on the way to the references
     REQUIRE(supervision.submit(segment(0)));
     supervision.order_spindle({1, 12000.0});
     REQUIRE(comes([&] { return target.told().size() == 2; }));
-    target.executed = 2; // the segment, and the first of standstill
+    target.executed = 1002; // the segment, and the first of standstill
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     CHECK(target.told() == Told{"prepare", "segment 0"});
-    target.executed = 3;
+    target.executed = 1003;
     CHECK(comes([&] { return target.told().back() == "spindle 1 12000"; }));
     CHECK_FALSE(supervision.spindle_reached());
     spindle.is_reached = true;
