@@ -9,9 +9,9 @@
 
 namespace splinefeed::host {
 
-namespace {
-
 using namespace hal::modbus;
+
+namespace {
 
 TargetAddress address_of(const std::string& text) {
     try {
@@ -86,8 +86,12 @@ public:
     void add(TargetAddress address, int machine_axis) {
         const auto k = static_cast<unsigned>(machine_axis);
         DriveProfile profile = find_profile(address.profile);
-        take_defaults(address, profile.link);
-        check_wire(address, profile);
+        if (profile.stream == StreamWay::speed) {
+            throw UsageError(fmt::format("--target {}: the profile {} is of a spindle, not of an axis; name it in "
+                                         "[spindle] of the machine file",
+                                         in_quotes(address.text), profile.name));
+        }
+        complete_address(address, profile);
         take_window(address, profile);
         check_ramp(address, profile);
         check_line(address, machine_.axis_name[k]);
@@ -162,6 +166,11 @@ private:
 };
 
 } // namespace
+
+void complete_address(TargetAddress& address, const DriveProfile& profile) {
+    take_defaults(address, profile.link);
+    check_wire(address, profile);
+}
 
 DriveTable drive_table(const std::string& target, const MachineDescription& machine) {
     Builder builder(machine);

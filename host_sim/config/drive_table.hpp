@@ -22,6 +22,9 @@ struct DriveTable {
     bool interpolate = false;  ///< they use it
 };
 
+/// Values that an address does not state become those of the profile. Throws UsageError if they do not fit together.
+void complete_address(TargetAddress& address, const hal::modbus::DriveProfile& profile);
+
 /// The drives of a target, each with its machine axes. Values that an address does not state come from the profile.
 /// Throws UsageError and InputError.
 [[nodiscard]] DriveTable drive_table(const std::string& target, const MachineDescription& machine);

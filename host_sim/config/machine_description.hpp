@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/config/path_tolerances.hpp"
+#include "host_sim/config/spindle_description.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s5_pulse_train/step_timing.hpp"
@@ -36,10 +37,11 @@ struct MachineDescription {
     std::optional<bool> drives_on_at_end{};
     PerAxis<std::string> axis_name{};        ///< "x", "y", ...
     PerAxis<std::optional<Travel>> travel{}; ///< soft limits where the file states them
-    StepSettings step{};                     ///< of the step and direction lines of all axes
-    PerAxis<StepMotors> motors{};            ///< their directions already include `invert`
-    PerAxis<bool> inverted{};                ///< the drive counts down where the axis goes up
-    PerAxis<std::string> drive{};            ///< address of the axis's drive, for --target modbus; empty: none
+    std::optional<SpindleDescription> spindle{};
+    StepSettings step{};          ///< of the step and direction lines of all axes
+    PerAxis<StepMotors> motors{}; ///< their directions already include `invert`
+    PerAxis<bool> inverted{};     ///< the drive counts down where the axis goes up
+    PerAxis<std::string> drive{}; ///< address of the axis's drive, for --target modbus; empty: none
 };
 
 } // namespace splinefeed::host

@@ -5,6 +5,7 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/base/toml_checker.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/spindle_section.hpp"
 #include "host_sim/config/target_address.hpp"
 
 #include <cmath>
@@ -32,7 +33,7 @@ public:
     explicit MachineReader(const std::string& file) : file_(file), check_(file) {}
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
-        check_.require_known(root, {"name", "sample_period_us", "drives_at_end", "path", "step", "axis"},
+        check_.require_known(root, {"name", "sample_period_us", "drives_at_end", "path", "step", "spindle", "axis"},
                              "the machine file");
         MachineDescription machine;
         machine.file = file_;
@@ -49,6 +50,7 @@ public:
         }
         path(root, machine.settings, machine.tolerances);
         step(root, machine.step);
+        machine.spindle = read_spindle(check_, root);
         axes(root, machine);
         machine.tolerances.sharpest = sharpest_corner(machine.settings);
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {

@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::array<std::string_view, drive_states> state_names{
     "unknown", "not_ready", "disabled", "enabled", "moving", "homing", "halted", "quick_stop", "fault"};
-constexpr std::array<std::string_view, drive_commands> command_names{"enable", "disable", "fault_reset", "start_move",
-                                                                     "halt",   "resume",  "quick_stop",  "home"};
+constexpr std::array<std::string_view, drive_commands> command_names{"enable",  "disable", "fault_reset", "start_move",
+                                                                     "halt",    "resume",  "quick_stop",  "home",
+                                                                     "forward", "reverse", "stop"};
 constexpr std::array<std::string_view, 4> kind_names{"level", "edge", "pulse", "toggle"};
 constexpr std::array<std::string_view, 5> reaction_names{"none", "stop", "quick_stop", "disable", "fault"};
 

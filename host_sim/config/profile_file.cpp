@@ -14,7 +14,7 @@ using namespace hal::modbus;
 
 namespace {
 
-constexpr std::array<std::string_view, 3> stream_names{"pvt", "cyclic", "blocks"};
+constexpr std::array<std::string_view, 4> stream_names{"pvt", "cyclic", "blocks", "speed"};
 
 std::string name_of_profile(const TomlChecker& check, const toml::table& root) {
     const toml::node& node = check.required(root, "name", "the profile", "a text like \"maker-mode\"");
@@ -35,12 +35,36 @@ void require_role(const TomlChecker& check, const DriveProfile& profile, FieldRo
     }
 }
 
+// A VFD: the speed is written and read back, and the commands set levels, so repeating one changes nothing.
+void require_speed(const TomlChecker& check, const DriveProfile& profile) {
+    require_role(check, profile, FieldRole::target_velocity, "target_velocity", true);
+    require_role(check, profile, FieldRole::actual_velocity, "actual_velocity", false);
+    constexpr std::array<std::pair<DriveCommand, std::string_view>, 3> spindle{
+        {{DriveCommand::forward, "forward"}, {DriveCommand::stop, "stop"}, {DriveCommand::reverse, "reverse"}}};
+    for (const auto& [command, name] : spindle) {
+        const std::vector<CommandStep>& steps = profile.steps_of(command);
+        if (steps.empty() && command != DriveCommand::reverse) {
+            check.fail_file(fmt::format(
+                "stream = \"speed\" needs the command {0}; write [[command]] with name = \"{0}\" and its steps", name));
+        }
+        for (const CommandStep& step : steps) {
+            if (step.kind != StepKind::level) {
+                check.fail_file(fmt::format("a step of {} must be of kind \"level\" with stream = \"speed\"", name));
+            }
+        }
+    }
+}
+
 // What the way of streaming cannot do without.
 void require_complete(const TomlChecker& check, const DriveProfile& profile) {
     if (profile.stream == StreamWay::pvt) {
         if (!profile.link.function_write) {
             check.fail_file("stream = \"pvt\" needs function 16 in `functions` of [link]: segments are written by it");
         }
+        return;
+    }
+    if (profile.stream == StreamWay::speed) {
+        require_speed(check, profile);
         return;
     }
     require_role(check, profile, FieldRole::status, "status", false);
@@ -90,8 +114,9 @@ DriveProfile profile_of(const toml::table& root, const std::string& file) {
     profile.not_verified = check.texts(
         check.required(root, "not_verified", "the profile", "a list of texts: what was not tried on hardware"),
         "not_verified", true);
-    profile.stream = static_cast<StreamWay>(check.choice(
-        check.required(root, "stream", "the profile", "\"pvt\", \"cyclic\" or \"blocks\""), "stream", stream_names));
+    profile.stream = static_cast<StreamWay>(
+        check.choice(check.required(root, "stream", "the profile", "\"pvt\", \"cyclic\", \"blocks\" or \"speed\""),
+                     "stream", stream_names));
     check.take(root, "axes", {1, 6}, profile.axes);
     if (profile.axes > 1 && profile.stream != StreamWay::pvt) {
         check.fail(*root.get("axes"), "axes beyond 1 are for stream = \"pvt\" alone; leave axes out");

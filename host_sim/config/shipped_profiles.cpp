@@ -22,6 +22,7 @@ std::string_view way(StreamWay stream) {
     switch (stream) {
     case StreamWay::cyclic: return "cyclic positions";
     case StreamWay::blocks: return "blocks on the fly";
+    case StreamWay::speed: return "spindle speed";
     case StreamWay::pvt: break;
     }
     return "buffered segments";

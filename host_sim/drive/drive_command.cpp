@@ -7,6 +7,7 @@
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/profile_drive.hpp"
 #include "host_sim/drive/pvt_drive.hpp"
+#include "host_sim/drive/vfd_drive.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -146,9 +147,39 @@ ProfileDriveParameters profile_parameters(const DriveArguments& arguments, const
     return out;
 }
 
+VfdDriveParameters vfd_parameters(const DriveArguments& arguments, const std::string& profile) {
+    const std::array<std::pair<const char*, bool>, 9> of_axes{
+        {{"--position", arguments.position.has_value()},
+         {"--ring", arguments.ring.has_value()},
+         {"--max-velocity", arguments.max_velocity.has_value()},
+         {"--max-acceleration", arguments.max_acceleration.has_value()},
+         {"--stop-deceleration", arguments.stop_deceleration.has_value()},
+         {"--bandwidth", arguments.bandwidth.has_value()},
+         {"--damping", arguments.damping.has_value()},
+         {"--feed-forward", arguments.feed_forward.has_value()},
+         {"--record-segments", arguments.record_segments.has_value()}}};
+    for (const auto& [option, given] : of_axes) {
+        if (given) {
+            throw UsageError(fmt::format(
+                "{} is for drives of axes, not for the spindle of the profile {}; leave it out", option, profile));
+        }
+    }
+    VfdDriveParameters out;
+    if (arguments.ramp) {
+        out.ramp_hz_s = read_option_number("--ramp", *arguments.ramp, 0.1, 1e6);
+    }
+    return out;
+}
+
 /// The one place where a profile becomes a model.
 std::unique_ptr<DriveModel> make_drive_model(const DriveArguments& arguments, const hal::modbus::DriveProfile& profile,
                                              std::size_t axes, SegmentRecord* segments) {
+    if (profile.stream == hal::modbus::StreamWay::speed) {
+        return std::make_unique<VfdDrive>(profile, vfd_parameters(arguments, profile.name));
+    }
+    if (arguments.ramp) {
+        throw UsageError(fmt::format("--ramp is for spindles, not for the profile {}; leave it out", profile.name));
+    }
     if (profile.stream == hal::modbus::StreamWay::pvt) {
         return make_pvt_drive(arguments, axes, segments);
     }
@@ -191,6 +222,7 @@ void add_drive_options(CLI::App& app, DriveArguments& arguments) {
     option("--axes", arguments.axes, "1 to 6 (default 3; other profiles than splinefeed-pvt have one)");
     option("--position", arguments.position, "A,B,C: where the shafts stand at first [counts] (default 0)");
     option("--ring", arguments.ring, "segments that it holds, 16 to 65535 (default 512)");
+    option("--ramp", arguments.ramp, "of a spindle (profiles vfd-...), up and down [Hz/s] (default 200)");
     option("--faults", arguments.faults,
            "drop=P, corrupt=P, exception=P, duplicate=P, stale=P (probabilities per exchange), delay=MS:P, "
            "disconnect@S:MS, freeze@S:MS, power-cycle@S, swap-words@S, clock-skew=PPM, seed=N; several with commas");

@@ -18,6 +18,7 @@ struct DriveArguments {
     std::optional<std::string> axes;
     std::optional<std::string> position;
     std::optional<std::string> ring;
+    std::optional<std::string> ramp;
     std::optional<std::string> bandwidth;
     std::optional<std::string> damping;
     std::optional<std::string> feed_forward;

@@ -189,7 +189,7 @@ bool ProfileDrive::is_commanded(DriveCommand command, const std::vector<std::int
 }
 
 void ProfileDrive::execute_masks(const std::vector<std::int64_t>& before) {
-    constexpr std::array<DriveCommand, drive_commands> by_priority{
+    constexpr std::array<DriveCommand, 8> by_priority{
         DriveCommand::disable, DriveCommand::enable, DriveCommand::fault_reset, DriveCommand::quick_stop,
         DriveCommand::halt,    DriveCommand::resume, DriveCommand::home,        DriveCommand::start_move};
     bool stopped = false;
@@ -236,6 +236,9 @@ void ProfileDrive::execute(DriveCommand command) {
             start(profile_.change_on_the_fly, false);
         }
         break;
+    case DriveCommand::forward:
+    case DriveCommand::reverse:
+    case DriveCommand::stop: break; // of spindles
     }
 }
 

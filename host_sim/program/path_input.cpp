@@ -182,6 +182,12 @@ void PathInput::limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noex
     }
 }
 
+void PathInput::use_spindle(const std::optional<SpindleDescription>& spindle) noexcept {
+    if (gcode_) {
+        gcode_->spindle = spindle ? &*spindle : nullptr;
+    }
+}
+
 void PathInput::begin_at(const MachineState& state) {
     if (gcode_) {
         gcode_->offsets = state.offsets;

@@ -4,9 +4,16 @@
 
 #include "splinefeed/s0_program/program_event.hpp"
 
+#include <optional>
 #include <string>
 
 namespace splinefeed::host {
+
+/// How a spindle is to turn.
+struct SpindleTurn {
+    int direction = 0; ///< 1 clockwise, -1 counterclockwise, 0 not at all
+    double rpm = 0.0;
+};
 
 /// An event with its own copy of the text.
 struct ProgramAction {
@@ -14,6 +21,7 @@ struct ProgramAction {
     std::int32_t number = 0;
     double value = 0.0;
     std::string text;
+    std::optional<SpindleTurn> spindle{}; ///< the motion waits until a real spindle turns like this
 };
 
 /// "spindle_clockwise", "stop", ...: the words of element files and reports.

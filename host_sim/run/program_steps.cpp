@@ -69,11 +69,31 @@ void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
     row_ = segment.waypoint;
 }
 
+// The machine stands until the spindle turns as the step says.
+template <Scalar S>
+bool ProgramSteps<S>::waits_for_spindle(const PendingStep& step) {
+    if (spindle_ == nullptr || !step.action.spindle) {
+        return false;
+    }
+    if (!ordered_) {
+        spindle_->order_spindle(*step.action.spindle);
+        ordered_ = true;
+    }
+    return !spindle_->spindle_reached();
+}
+
 template <Scalar S>
 bool ProgramSteps<S>::stands(const PerAxis<double>& position_mm, double time_s) {
     while (const PendingStep* const step = pending_.reached(row_, position_mm, limits_->axes)) {
         if (left_ticks_ > 0) {
             return true;
+        }
+        if (waits_for_spindle(*step)) {
+            return true;
+        }
+        if (std::exchange(ordered_, false)) {
+            happen(time_s);
+            continue;
         }
         left_ticks_ = static_cast<std::uint64_t>(std::llround(step->dwell_s * ticks_per_us * 1e6));
         began_s_ = time_s;
@@ -86,6 +106,9 @@ bool ProgramSteps<S>::stands(const PerAxis<double>& position_mm, double time_s) 
 
 template <Scalar S>
 void ProgramSteps<S>::stood(const FeedSegment& segment) {
+    if (ordered_) {
+        return;
+    }
     left_ticks_ -= std::min<std::uint64_t>(left_ticks_, segment.duration_ticks);
     if (left_ticks_ == 0) {
         happen(began_s_);

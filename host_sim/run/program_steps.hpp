@@ -5,6 +5,7 @@
 #include "host_sim/output/program_summary.hpp"
 #include "host_sim/planning/element_feeder.hpp"
 #include "host_sim/run/pending_steps.hpp"
+#include "host_sim/run/spindle_orders.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -20,7 +21,9 @@ class ProgramSteps {
 public:
     /// @param tells  messages of the program go to standard error
     /// `limits` must outlive it.
-    ProgramSteps(const MotionLimits<S>& limits, bool tells) : limits_(&limits), tells_(tells) {}
+    /// @param spindle  gets the orders for a real spindle; null: there is none
+    ProgramSteps(const MotionLimits<S>& limits, bool tells, SpindleOrders* spindle = nullptr)
+        : limits_(&limits), spindle_(spindle), tells_(tells) {}
 
     /// What the feeder has read.
     void add(const typename ElementFeeder<S>::Pushed& pushed);
@@ -49,8 +52,11 @@ public:
 
 private:
     void happen(double time_s);
+    [[nodiscard]] bool waits_for_spindle(const PendingStep& step);
 
     const MotionLimits<S>* limits_;
+    SpindleOrders* spindle_;
+    bool ordered_ = false; // the first step's order is with the spindle, and not carried out
     PendingSteps pending_;
     PerAxis<Position> start_{};
     PerAxis<Position> place_{}; // where the last move that was read ends

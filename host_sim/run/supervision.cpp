@@ -45,6 +45,7 @@ bool Supervision::submit(const FeedSegment& segment) {
         return false;
     }
     pushed_ticks_ += segment.duration_ticks;
+    ++pushed_;
     ring_.push(segment);
     if (!thread_.joinable()) {
         thread_ = std::thread([this] { work(); });
@@ -70,10 +71,75 @@ void Supervision::obey() {
     obeyed_us_ = system_clock().now_us();
     obeyed_ = asked;
     if (asked > 1) {
+        end_spindle();
         target_->quick_stop();
     } else {
         target_->hold();
     }
+}
+
+void Supervision::order_spindle(const SpindleTurn& turn) {
+    const std::lock_guard lock(turn_mutex_);
+    constexpr std::uint64_t stood = 2; // a port may take a segment before its last step is made
+    due_turn_ = {turn, pushed_ + stood};
+}
+
+bool Supervision::spindle_reached() const {
+    const std::lock_guard lock(turn_mutex_);
+    return !due_turn_ && spindle_->reached();
+}
+
+void Supervision::end_spindle() {
+    if (spindle_ != nullptr) {
+        spindle_->end();
+    }
+}
+
+// Orders whose place the machine has reached; and the spindle's own trouble, which holds the motion.
+void Supervision::tend_spindle(std::uint64_t executed) {
+    if (spindle_ == nullptr) {
+        return;
+    }
+    {
+        const std::lock_guard lock(turn_mutex_);
+        if (due_turn_ && obeyed_ == 0 && executed >= due_turn_->after) {
+            spindle_->order(due_turn_->turn.direction, due_turn_->turn.rpm);
+            due_turn_.reset();
+        }
+    }
+    if (obeyed_ > 0 || !spindle_trouble_.empty()) {
+        return;
+    }
+    spindle_trouble_ = spindle_->trouble();
+    if (!spindle_trouble_.empty()) {
+        obeyed_ = 1;
+        obeyed_us_ = system_clock().now_us();
+        target_->hold();
+    }
+}
+
+std::string Supervision::with_trouble(const std::string& ending) const {
+    if (spindle_trouble_.empty()) {
+        return ending;
+    }
+    constexpr std::string_view begin = "interrupted: ";
+    const bool prefixed = ending.compare(0, begin.size(), begin) == 0;
+    const std::string rest = prefixed ? ending.substr(begin.size()) : ending;
+    return rest.empty() ? spindle_trouble_ : spindle_trouble_ + "; " + rest;
+}
+
+// A spindle that has ended comes to a standstill by its own ramp; a further signal does not wait for it.
+std::string Supervision::spindle_standstill() const {
+    if (spindle_ == nullptr) {
+        return {};
+    }
+    const int signals = SignalWatch::interrupts();
+    const std::uint64_t until_us =
+        system_clock().now_us() + static_cast<std::uint64_t>(spindle_->stop_timeout_s() * us_per_s);
+    while (!spindle_->stands() && system_clock().now_us() < until_us && SignalWatch::interrupts() == signals) {
+        system_clock().sleep_us(poll_every_us);
+    }
+    return spindle_->stands() ? std::string() : "the spindle did not confirm that it stands and may still turn";
 }
 
 void Supervision::hand_over() {
@@ -103,6 +169,7 @@ std::string Supervision::supervise() {
     if (std::string what = target_->prepare(first); !what.empty()) {
         return what;
     }
+    const std::uint64_t before = target_->port().poll().executed; // of moves to the references
     for (std::uint64_t next_us = system_clock().now_us();;
          next_us = std::max(next_us + poll_every_us, system_clock().now_us())) {
         system_clock().sleep_until_us(next_us);
@@ -110,9 +177,11 @@ std::string Supervision::supervise() {
         target_->update();
         hold_asked_.store(!target_->holds().empty());
         hand_over();
-        const hal::PortPhase phase = target_->port().poll().phase;
+        const hal::PortState state = target_->port().poll();
+        const hal::PortPhase phase = state.phase;
         const std::uint64_t now_us = system_clock().now_us();
         if (phase == hal::PortPhase::fault) {
+            end_spindle();
             return target_->fault();
         }
         if (phase == hal::PortPhase::halted) {
@@ -123,10 +192,12 @@ std::string Supervision::supervise() {
         }
         if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {
             obeyed_ = 2;
+            end_spindle();
             target_->quick_stop();
         } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
             return "interrupted, but not every drive has confirmed that it stands";
         }
+        tend_spindle(state.executed - before);
     }
 }
 
@@ -149,11 +220,17 @@ void Supervision::await_planner() noexcept {
 void Supervision::work() noexcept {
     try {
         ending_ = supervise();
+        if (spindle_ != nullptr && spindle_trouble_.empty()) {
+            spindle_trouble_ = spindle_->trouble();
+        }
+        end_spindle();
+        ending_ = with_trouble(ending_);
         where_ = began_ ? target_->where() : std::string();
-        if (const std::string what = began_ ? target_->finish() : std::string(); !what.empty()) {
-            ending_ += ending_.empty() ? what : "; " + what;
+        for (const std::string& what : {began_ ? target_->finish() : std::string(), spindle_standstill()}) {
+            ending_ += what.empty() || ending_.empty() ? what : "; " + what;
         }
     } catch (const std::exception& error) {
+        end_spindle();
         target_->quick_stop();
         ending_ = error.what();
     }

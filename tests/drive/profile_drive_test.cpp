@@ -62,7 +62,7 @@ TEST_CASE("Profile drive: a new target replaces the one under way, without a sto
 TEST_CASE("Profile drive: quick stop, fault, fault reset and enable again, as each profile says") {
     for (const ShippedProfile& shipped : shipped_profiles()) {
         const std::string name(shipped.name);
-        if (name == "splinefeed-pvt") {
+        if (name == "splinefeed-pvt" || name.rfind("vfd-", 0) == 0) {
             continue;
         }
         CAPTURE(name);

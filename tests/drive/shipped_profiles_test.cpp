@@ -23,7 +23,8 @@ TEST_CASE("Every shipped profile is read, has its file's name, and says what it 
         names.insert(profile.name);
     }
     CHECK(names == std::set<std::string>{"cia402-index", "cia402-kinco", "leadshine-pr", "lexium32m", "oriental-az",
-                                         "splinefeed-pvt"});
+                                         "splinefeed-pvt", "vfd-delta-ms300", "vfd-gs2", "vfd-ls-ig5a", "vfd-optidrive",
+                                         "vfd-yl620"});
 }
 
 TEST_CASE("The shipped profiles have what their makers' documents say") {
@@ -62,6 +63,17 @@ TEST_CASE("The shipped profiles have what their makers' documents say") {
     CHECK(lexium.group_for(GroupUse::status)->registers == 13);
     CHECK(lexium.link.reads_zero_until_written);
     CHECK(lexium.steps_of(DriveCommand::start_move).front().kind == StepKind::toggle);
+
+    const DriveProfile delta = find_profile("vfd-delta-ms300");
+    CHECK(delta.stream == StreamWay::speed);
+    CHECK(delta.field_of(FieldRole::target_velocity)->address == 0x2001);
+    CHECK(delta.field_of(FieldRole::actual_velocity)->address == 0x2103);
+    CHECK(delta.steps_of(DriveCommand::forward).front().value == 0x12);
+
+    const DriveProfile optidrive = find_profile("vfd-optidrive");
+    CHECK(optidrive.field_of(FieldRole::control)->address == 0); // register 1 of its manual
+    CHECK(optidrive.field_of(FieldRole::actual_velocity)->address == 6);
+    CHECK(optidrive.steps_of(DriveCommand::reverse).empty());
 
     const DriveProfile pvt = find_profile("splinefeed-pvt");
     CHECK(pvt.axes == 6);

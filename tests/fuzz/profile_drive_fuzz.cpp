@@ -20,7 +20,7 @@ const std::vector<DriveProfile>& profiles() {
         std::vector<DriveProfile> out;
         for (const ShippedProfile& shipped : shipped_profiles()) {
             DriveProfile profile = find_profile(std::string(shipped.name));
-            if (profile.stream != StreamWay::pvt) {
+            if (profile.stream != StreamWay::pvt && profile.stream != StreamWay::speed) {
                 out.push_back(std::move(profile));
             }
         }

@@ -27,7 +27,7 @@ public:
             target_->said("segment " + std::to_string(segment.index));
             return target_->phase == hal::PortPhase::running;
         }
-        hal::PortState do_poll() noexcept override { return {target_->phase, 0}; }
+        hal::PortState do_poll() noexcept override { return {target_->phase, target_->executed}; }
         void do_halt() noexcept override { target_->phase = hal::PortPhase::halted; }
 
         TalkingTarget* target_;
@@ -85,11 +85,39 @@ public:
     std::atomic<bool> halts{true};
     std::atomic<bool> stops{true};
     std::atomic<hal::PortPhase> phase{hal::PortPhase::running};
+    std::atomic<std::uint64_t> executed{0};
 
 private:
     Port port_{*this};
     mutable std::mutex mutex_;
     std::vector<std::string> said_;
+};
+
+/// It says to the target what it was told.
+class TalkingSpindle final : public RunSpindle {
+public:
+    explicit TalkingSpindle(TalkingTarget& target) : target_(&target) {}
+
+    void order(int direction, double rpm) override {
+        target_->said("spindle " + std::to_string(direction) + " " + std::to_string(static_cast<int>(rpm)));
+    }
+    void end() override {
+        if (!ended.exchange(true)) {
+            target_->said("spindle ends");
+        }
+    }
+    [[nodiscard]] bool reached() const override { return is_reached; }
+    [[nodiscard]] bool stands() const override { return is_still; }
+    [[nodiscard]] std::string trouble() const override { return lost ? "no answer" : ""; }
+    [[nodiscard]] double stop_timeout_s() const override { return 0.05; }
+
+    std::atomic<bool> ended{false};
+    std::atomic<bool> is_reached{false};
+    std::atomic<bool> is_still{true};
+    std::atomic<bool> lost{false};
+
+private:
+    TalkingTarget* target_;
 };
 
 FeedSegment segment(std::uint32_t index) {
@@ -282,4 +310,82 @@ TEST_CASE("a planner that leaves before the end has the axes held", "[supervisio
     const Told told = target.told();
     CHECK(std::count(told.begin(), told.end(), "hold") == 1);
     CHECK(target.phase == hal::PortPhase::halted);
+}
+
+TEST_CASE("a spindle gets its order when the machine has come to its place", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    TalkingSpindle spindle(target);
+    Supervision supervision(target, signals, &spindle);
+    target.executed = 1000; // on the way to the references
+    REQUIRE(supervision.submit(segment(0)));
+    supervision.order_spindle({1, 12000.0});
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    target.executed = 1002; // the segment, and the first of standstill
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(target.told() == Told{"prepare", "segment 0"});
+    target.executed = 1003;
+    CHECK(comes([&] { return target.told().back() == "spindle 1 12000"; }));
+    CHECK_FALSE(supervision.spindle_reached());
+    spindle.is_reached = true;
+    CHECK(supervision.spindle_reached());
+    CHECK(supervision.finish());
+    CHECK(target.told() == Told{"prepare", "segment 0", "spindle 1 12000", "complete", "spindle ends", "finish"});
+}
+
+TEST_CASE("trouble of a spindle holds the motion and ends the run", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    TalkingSpindle spindle(target);
+    Supervision supervision(target, signals, &spindle);
+    REQUIRE(supervision.submit(segment(0)));
+    spindle.is_still = false;
+    spindle.lost = true;
+    REQUIRE(comes([&] { return supervision.over(); }));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() ==
+          "no answer; held; the spindle did not confirm that it stands and may still turn; there");
+    const Told told = target.told();
+    CHECK(std::find(told.begin(), told.end(), "hold") < std::find(told.begin(), told.end(), "spindle ends"));
+}
+
+TEST_CASE("a second signal and a fault end the spindle first of all", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    TalkingSpindle spindle(target);
+    Supervision supervision(target, signals, &spindle);
+    SECTION("the second signal") {
+        target.halts = false;
+        REQUIRE(supervision.submit(segment(0)));
+        REQUIRE(comes([&] { return target.told().size() == 2; }));
+        request(1);
+        REQUIRE(comes([&] { return target.told().back() == "hold"; }));
+        CHECK_FALSE(spindle.ended);
+        supervision.order_spindle({1, 12000.0}); // nothing is started any more
+        target.executed = 10;
+        request(2);
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK_FALSE(supervision.finish());
+        CHECK(target.told() == Told{"prepare", "segment 0", "hold", "spindle ends", "quick stop", "finish"});
+    }
+    SECTION("a fault") {
+        REQUIRE(supervision.submit(segment(0)));
+        REQUIRE(comes([&] { return target.told().size() == 2; }));
+        target.phase = hal::PortPhase::fault;
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK_FALSE(supervision.finish());
+        CHECK(target.told().at(2) == "spindle ends");
+        CHECK(supervision.ending() == "a fault; there");
+    }
+}
+
+TEST_CASE("a program whose spindle does not come to a standstill has not succeeded", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    TalkingSpindle spindle(target);
+    Supervision supervision(target, signals, &spindle);
+    spindle.is_still = false;
+    REQUIRE(supervision.submit(segment(0)));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "the spindle did not confirm that it stands and may still turn; there");
 }

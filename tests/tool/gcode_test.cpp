@@ -201,3 +201,29 @@ TEST_CASE("Wrong O words are refused with their line, and a program that never e
     CHECK(error_of(tool, "o1 while [1]\no1 endwhile\n").find("does it ever end?") != std::string::npos);
     CHECK(error_of(tool, "o1 repeat [2]\nG1 X1 G33\no1 endrepeat\n").find("part.ngc:2:7: ") == 0);
 }
+
+TEST_CASE("The simulated spindle takes its time at standstill, and has the speeds of the machine file") {
+    const Tool tool;
+    const std::string axes = "[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n";
+    tool.write("plain.toml", "[path]\nmax_feed_mm_s = 100\n" + axes);
+    tool.write("spindle.toml", "[path]\nmax_feed_mm_s = 100\n[spindle]\nmax_rpm = 20000\nramp_s = 4\n" + axes);
+    const std::string program = "G1 X10 F3000\nS10000 M3\nX20\nM5\nX30\nM2\n";
+    const double waiting_s = seconds(tool, program, "-m spindle.toml");
+    CHECK(waiting_s == Approx(seconds(tool, "G61.1\n" + program, "-m plain.toml") + 4.0).margin(0.01));
+    CHECK(
+        error_of(tool, "S30000 M3\nG1 X10 F3000\nM2\n", "-m spindle.toml") ==
+        "part.ngc:1: the spindle would turn with S30000; S must be above 0 to 20000, as [spindle] of the machine file "
+        "has it\n");
+    tool.write("part.ngc", "S30000 M3\nG1 X10 F3000\nM2\n");
+    const Call checked = tool("check part.ngc -m spindle.toml");
+    CHECK(checked.status == 1);
+    CHECK(checked.output.find("part.ngc:1: the spindle would turn with S30000") != std::string::npos);
+}
+
+TEST_CASE("A real target without an inverter refuses a spindle before anything moves") {
+    const Tool tool;
+    const std::string error = error_of(tool, "S1000 M3\nG1 X10 F3000\nM2\n", "--target modbus-tcp://127.0.0.1:1");
+    CHECK(
+        error.rfind("part.ngc:1: spindle_speed: the machine file has no spindle for this; name its frequency inverter",
+                    0) == 0);
+}

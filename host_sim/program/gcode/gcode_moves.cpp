@@ -5,6 +5,7 @@
 #include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
+#include "host_sim/program/gcode/program_spindle.hpp"
 
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
@@ -83,9 +84,12 @@ public:
 
 private:
     void read_line();
+    /// Throws, unless problems are collected.
+    void report(const InputError& error) const;
     void take(SourceStep<S>& out);
     void take_move(SourceStep<S>& out) const;
     void take_event(SourceStep<S>& out);
+    void take_spindle(SourceStep<S>& out);
     void require_possible(EventKind kind) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
 
@@ -100,6 +104,7 @@ private:
     SourceLine line_;
     ProgramItem<S> item_;
     LineHistory history_;
+    ProgramSpindle spindle_;
     bool pending_ = false; // the block has more items
 };
 
@@ -145,8 +150,11 @@ void GcodeMoves<S>::read_line() {
     if (status.ok()) {
         return;
     }
-    const InputError error(file_, line_.number, std::uint64_t{status.column},
-                           in_the_line(status) + describe(status.error));
+    report({file_, line_.number, std::uint64_t{status.column}, in_the_line(status) + describe(status.error)});
+}
+
+template <Scalar S>
+void GcodeMoves<S>::report(const InputError& error) const {
     if (settings_->problems == nullptr) {
         throw error;
     }
@@ -218,12 +226,37 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     out.action.number = event.number;
     out.action.value = number(event.value);
     out.action.text.assign(event.text);
+    out.action.spindle.reset();
+    if (ProgramSpindle::is_of(event.kind)) {
+        take_spindle(out);
+    }
     out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
                                                            : nullptr;
     if (event.kind == EventKind::input_wait) { // inputs of the simulated machine are low, and stay so
         const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
         out.dwell_s = met ? 0.0 : number(event.value);
         interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
+    }
+}
+
+// A real spindle is waited for at standstill; the simulated one takes its time.
+template <Scalar S>
+void GcodeMoves<S>::take_spindle(SourceStep<S>& out) {
+    if (settings_->spindle == nullptr) {
+        return;
+    }
+    const std::string problem = spindle_.take(out.action.kind, out.action.value, *settings_->spindle);
+    if (!problem.empty()) {
+        report(InputError(file_, line_.number, std::uint64_t{0}, problem));
+    }
+    if (!problem.empty() || !spindle_.turn()) {
+        return;
+    }
+    out.stops = true;
+    if (settings_->simulated) {
+        out.dwell_s = spindle_.change_s();
+    } else {
+        out.action.spindle = spindle_.turn();
     }
 }
 
@@ -241,6 +274,17 @@ void GcodeMoves<S>::require_possible(EventKind kind) const {
     case EventKind::feed_override:
     case EventKind::spindle_override:
     case EventKind::offsets_changed: return;
+    case EventKind::spindle_speed:
+    case EventKind::spindle_clockwise:
+    case EventKind::spindle_counterclockwise:
+    case EventKind::spindle_stop:
+        if (settings_->spindle != nullptr && settings_->spindle->vfd) {
+            return;
+        }
+        throw InputError(file_, line_.number, std::uint64_t{0},
+                         fmt::format("{}: the machine file has no spindle for this; name its frequency inverter, vfd = "
+                                     "\"modbus-rtu://...\" in [spindle], or add the word to --ignore",
+                                     action_name(kind)));
     default:
         throw InputError(file_, line_.number, std::uint64_t{0},
                          fmt::format("{}: only the simulated machine does this so far; take it out of the program, or "

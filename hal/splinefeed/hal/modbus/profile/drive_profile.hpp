@@ -19,6 +19,7 @@ enum class StreamWay : std::uint8_t {
     pvt,    ///< it buffers segments and interpolates them: docs/reference/pvt_map.md
     cyclic, ///< one target position per period, which it reaches a period later
     blocks, ///< positioning blocks that replace each other on the fly
+    speed,  ///< none: a frequency inverter (VFD), which turns a spindle at a speed. Its counts/s are Hz of its output
 };
 
 /// Meaning of a field for the port. Only groups, commands and the init list write fields without a role.
@@ -139,8 +140,11 @@ enum class DriveCommand : std::uint8_t {
     resume,
     quick_stop,
     home,
+    forward, ///< these three with StreamWay::speed
+    reverse,
+    stop,
 };
-inline constexpr std::size_t drive_commands = 8;
+inline constexpr std::size_t drive_commands = 11;
 
 struct LinkSettings {
     bool rtu = true;
@@ -194,7 +198,7 @@ struct DriveProfile {
     bool change_on_the_fly = false; ///< a new block replaces the active one
     std::uint32_t period_us =
         0; ///< shortest period of cyclic targets or blocks that the drive accepts; 0: limited by the link
-    std::optional<FieldTest> done; ///< the last move is complete
+    std::optional<FieldTest> done; ///< the last move is complete; with StreamWay::speed: the speed is reached
     std::optional<FieldTest> homed;
     /// Written before the drive is enabled; empty: the drive keeps its setting. With pvt 0 disables the check.
     std::optional<std::int64_t> following_error_window_counts;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/gcode/program_spindle.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+bool ProgramSpindle::is_of(EventKind kind) noexcept {
+    return kind == EventKind::spindle_speed || kind == EventKind::spindle_clockwise ||
+           kind == EventKind::spindle_counterclockwise || kind == EventKind::spindle_stop;
+}
+
+std::string ProgramSpindle::take(EventKind kind, double rpm, const SpindleDescription& machine) {
+    turn_.reset();
+    change_s_ = 0.0;
+    int direction = kind == EventKind::spindle_clockwise ? 1 : kind == EventKind::spindle_counterclockwise ? -1 : 0;
+    if (kind == EventKind::spindle_speed) {
+        direction = signed_rpm_ > 0.0 ? 1 : signed_rpm_ < 0.0 ? -1 : 0;
+        if (direction == 0) {
+            return {};
+        }
+    }
+    if (direction != 0 && !(rpm > 0.0 && rpm >= machine.min_rpm && rpm <= machine.max_rpm)) {
+        return fmt::format("the spindle would turn with S{:g}; S must be {} to {:g}, as [spindle] of the machine file "
+                           "has it",
+                           rpm, machine.min_rpm > 0.0 ? fmt::format("{:g}", machine.min_rpm) : "above 0",
+                           machine.max_rpm);
+    }
+    if (direction < 0 && !machine.reverses()) {
+        return fmt::format("M4: the profile {} has no command to reverse; use M3", machine.vfd->profile.name);
+    }
+    const double wanted = direction * rpm;
+    change_s_ = machine.change_s(signed_rpm_, wanted);
+    signed_rpm_ = wanted;
+    turn_ = SpindleTurn{direction, direction == 0 ? 0.0 : rpm};
+    return {};
+}
+
+} // namespace splinefeed::host

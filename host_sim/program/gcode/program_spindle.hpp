@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// ProgramSpindle: how the spindle turns where a program has been read to.
+#pragma once
+
+#include "host_sim/config/spindle_description.hpp"
+#include "host_sim/program/program_action.hpp"
+
+#include <optional>
+#include <string>
+
+namespace splinefeed::host {
+
+class ProgramSpindle {
+public:
+    /// @param kind  of an event of the spindle   @param rpm  its S   @param machine  the spindle; must outlive it
+    /// Returns why the machine cannot do this; empty: it can. S alone changes a spindle that turns.
+    [[nodiscard]] std::string take(EventKind kind, double rpm, const SpindleDescription& machine);
+
+    /// What the last event asks for; nothing: nothing that the spindle has to wait for.
+    [[nodiscard]] const std::optional<SpindleTurn>& turn() const noexcept { return turn_; }
+    /// How long that takes in the simulated machine.
+    [[nodiscard]] double change_s() const noexcept { return change_s_; }
+
+    /// Whether an event is one of the spindle.
+    [[nodiscard]] static bool is_of(EventKind kind) noexcept;
+
+private:
+    double signed_rpm_ = 0.0;
+    std::optional<SpindleTurn> turn_;
+    double change_s_ = 0.0;
+};
+
+} // namespace splinefeed::host

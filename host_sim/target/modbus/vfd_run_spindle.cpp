@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/target/modbus/vfd_run_spindle.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/target/run_target.hpp"
+
+#include "splinefeed/hal/modbus/spindle/vfd_spindle.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+using namespace hal::modbus;
+
+namespace {
+
+class VfdRunSpindle final : public RunSpindle {
+public:
+    explicit VfdRunSpindle(const SpindleDescription& spindle)
+        : spindle_(&spindle),
+          vfd_({spindle.vfd->address.link, spindle.vfd->profile},
+               {.at_speed_timeout_ms = static_cast<std::uint32_t>(std::lround(spindle.at_speed_timeout_s * 1e3))}) {
+        if (const std::string what = vfd_.open(); !what.empty()) {
+            throw TargetError(fmt::format("{}: {}", spindle.vfd->address.text, what));
+        }
+    }
+
+    void order(int direction, double rpm) override { vfd_.order({direction, rpm / spindle_->rpm_per_hz}); }
+    void end() override { vfd_.end(); }
+    [[nodiscard]] bool reached() const override { return vfd_.reached(); }
+    [[nodiscard]] bool stands() const override { return !vfd_.was_on() || vfd_.stands(); }
+    [[nodiscard]] std::string trouble() const override {
+        const std::string what = vfd_.trouble();
+        return what.empty() ? what : fmt::format("{}: {}", spindle_->vfd->address.text, what);
+    }
+    [[nodiscard]] double stop_timeout_s() const override { return spindle_->at_speed_timeout_s; }
+
+private:
+    const SpindleDescription* spindle_;
+    VfdSpindle vfd_;
+};
+
+// The inverter has a wire of its own: the drives' threads do not wait for it.
+void require_own_wire(const SpindleDescription::Vfd& vfd, const MachineDescription& machine,
+                      const std::string& target) {
+    const bool all = target == "modbus";
+    if (!all && target.rfind("modbus-", 0) != 0) {
+        return;
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const TargetAddress drive = parse_target_address(all ? machine.drive[k] : target);
+        if (drive.link.same_wire(vfd.address.link)) {
+            throw UsageError(fmt::format("{}: the spindle shares the line of the drive of axis {}; give it a line, or "
+                                         "a port, of its own",
+                                         vfd.address.text, machine.axis_name[k]));
+        }
+    }
+}
+
+} // namespace
+
+std::unique_ptr<RunSpindle> make_vfd_spindle(const MachineDescription& machine, const std::string& target) {
+    require_own_wire(*machine.spindle->vfd, machine, target);
+    return std::make_unique<VfdRunSpindle>(*machine.spindle);
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// VfdSpindle on a virtual clock, with a simulated frequency inverter of each shipped profile behind a line with faults.
+#include "splinefeed/hal/modbus/spindle/vfd_spindle.hpp"
+
+#include "host_sim/config/shipped_profiles.hpp"
+#include "host_sim/drive/vfd_drive.hpp"
+#include "ports/plant.hpp"
+#include "support/catch.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace splinefeed::hal::modbus;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr double ramp_hz_s = 100.0;
+
+/// An inverter on a line, and the spindle that a run has.
+struct Bench {
+    explicit Bench(const std::string& profile, const VfdSpindleSettings& settings = {}) : wire(plant.add_wire()) {
+        auto model = std::make_unique<VfdDrive>(find_profile(profile), VfdDriveParameters{.ramp_hz_s = ramp_hz_s});
+        vfd = model.get();
+        plant.add(std::move(model), 1, 0.0, wire);
+        spindle = std::make_unique<VfdSpindle>(VfdWiring{{.port = 1502, .unit = 1}, find_profile(profile)}, settings,
+                                               plant.make_line(), plant.clock);
+    }
+
+    /// For so long, looked at every millisecond.
+    template <class Look>
+    void pass_ms(int duration_ms, Look look) {
+        for (int i = 0; i < duration_ms; ++i) {
+            plant.clock.sleep_us(1000);
+            plant.stations.front()->advance(plant.clock.now_us());
+            look();
+        }
+    }
+    void pass_ms(int duration_ms) {
+        pass_ms(duration_ms, [] {});
+    }
+
+    Plant plant;
+    SimulatedWire& wire;
+    VfdDrive* vfd = nullptr;
+    std::unique_ptr<VfdSpindle> spindle;
+};
+
+std::vector<std::string> vfd_profiles() {
+    std::vector<std::string> names;
+    for (const ShippedProfile& shipped : shipped_profiles()) {
+        if (shipped.name.rfind("vfd-", 0) == 0) {
+            names.emplace_back(shipped.name);
+        }
+    }
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("Spindle: with each profile it turns as ordered, and is at speed only when it is", "[spindle]") {
+    REQUIRE(vfd_profiles().size() >= 4);
+    for (const std::string& name : vfd_profiles()) {
+        CAPTURE(name);
+        Bench bench(name);
+        REQUIRE(bench.spindle->open().empty());
+        bench.spindle->order({1, 200.0});
+        CHECK_FALSE(bench.spindle->reached());
+        bench.pass_ms(2500, [&] {
+            if (bench.spindle->reached()) {
+                REQUIRE(bench.vfd->output_hz() > 0.975 * 200.0);
+            }
+        });
+        CHECK(bench.spindle->reached());
+        CHECK(bench.vfd->direction() == 1);
+        bench.spindle->order({1, 300.0});
+        CHECK_FALSE(bench.spindle->reached());
+        bench.pass_ms(1500, [&] {
+            if (bench.spindle->reached()) {
+                REQUIRE(bench.vfd->output_hz() > 0.975 * 300.0);
+            }
+        });
+        CHECK(bench.spindle->reached());
+        CHECK_FALSE(bench.spindle->stands());
+        bench.spindle->order({0, 0.0});
+        bench.pass_ms(200);
+        CHECK(bench.spindle->reached());
+        CHECK_FALSE(bench.spindle->stands());
+        bench.pass_ms(3500);
+        CHECK(bench.spindle->stands());
+        CHECK(bench.spindle->trouble().empty());
+    }
+}
+
+TEST_CASE("Spindle: it stands before it turns in the other direction", "[spindle]") {
+    for (const std::string& name : vfd_profiles()) {
+        CAPTURE(name);
+        if (find_profile(name).steps_of(DriveCommand::reverse).empty()) {
+            continue;
+        }
+        Bench bench(name);
+        REQUIRE(bench.spindle->open().empty());
+        bench.spindle->order({1, 100.0});
+        bench.pass_ms(1500);
+        REQUIRE(bench.spindle->reached());
+        bench.spindle->order({-1, 100.0});
+        bench.pass_ms(3000, [&] {
+            if (bench.vfd->direction() < 0) {
+                REQUIRE(bench.vfd->output_hz() < 1.0);
+            }
+            if (bench.spindle->reached()) {
+                REQUIRE(bench.vfd->output_hz() < -97.0);
+            }
+        });
+        CHECK(bench.spindle->reached());
+    }
+}
+
+TEST_CASE("Spindle: once it was ended it never turns again, whatever is ordered and lost", "[spindle]") {
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        CAPTURE(seed);
+        Bench bench("vfd-delta-ms300");
+        bench.wire.random.seed(seed);
+        REQUIRE(bench.spindle->open().empty());
+        bench.wire.faults = {.lost_request = 0.1, .lost_answer = 0.1};
+        bench.spindle->order({1, 50.0});
+        bench.pass_ms(static_cast<int>(seed) * 17);
+        bench.spindle->end();
+        bench.spindle->order({1, 50.0});
+        bench.pass_ms(800); // an exchange that was under way, and some that are lost
+        bench.pass_ms(3000, [&] { REQUIRE(bench.vfd->direction() == 0); });
+        CHECK(bench.vfd->output_hz() == 0.0);
+        CHECK(bench.spindle->stands());
+    }
+}
+
+TEST_CASE("Spindle: a line that loses some exchanges only takes longer", "[spindle]") {
+    Bench bench("vfd-yl620");
+    REQUIRE(bench.spindle->open().empty());
+    bench.wire.faults = {.lost_request = 0.1, .lost_answer = 0.1};
+    bench.spindle->order({1, 100.0});
+    bench.pass_ms(4000);
+    CHECK(bench.spindle->trouble().empty());
+    CHECK(bench.spindle->reached());
+}
+
+TEST_CASE("Spindle: a lost inverter is trouble while it turns, and is stopped when it returns", "[spindle]") {
+    Bench bench("vfd-gs2");
+    REQUIRE(bench.spindle->open().empty());
+    bench.spindle->order({1, 100.0});
+    bench.pass_ms(1500);
+    REQUIRE(bench.spindle->reached());
+    const std::uint64_t now_us = bench.plant.clock.now_us();
+    bench.plant.stations.front()->mute.push_back({now_us, now_us + 3'000'000});
+    bench.pass_ms(900);
+    CHECK(bench.spindle->trouble().empty());
+    bench.pass_ms(700);
+    CHECK(bench.spindle->trouble().rfind("the VFD does not answer (", 0) == 0);
+    CHECK_FALSE(bench.spindle->stands());
+    CHECK(bench.vfd->direction() == 1); // nobody can tell it anything
+    bench.pass_ms(4000);
+    CHECK(bench.vfd->direction() == 0);
+    CHECK(bench.spindle->stands());
+}
+
+TEST_CASE("Spindle: a lost inverter is no trouble while the spindle stands", "[spindle]") {
+    Bench bench("vfd-gs2");
+    REQUIRE(bench.spindle->open().empty());
+    const std::uint64_t now_us = bench.plant.clock.now_us();
+    bench.plant.stations.front()->mute.push_back({now_us, now_us + 3'000'000});
+    bench.pass_ms(5000);
+    CHECK(bench.spindle->trouble().empty());
+    bench.spindle->order({1, 100.0});
+    bench.pass_ms(2000);
+    CHECK(bench.spindle->reached());
+}
+
+TEST_CASE("Spindle: a speed that is not reached in time, or is lost, is trouble, and it stops", "[spindle]") {
+    Bench bench("vfd-ls-ig5a", {.at_speed_timeout_ms = 1500});
+    REQUIRE(bench.spindle->open().empty());
+    SECTION("not reached") {
+        bench.spindle->order({1, 300.0}); // takes 3 s
+        bench.pass_ms(1700);
+        CHECK(bench.spindle->trouble().rfind("the spindle has not reached its speed in", 0) == 0);
+        CHECK_FALSE(bench.spindle->reached());
+    }
+    SECTION("lost: the inverter was switched off and on") {
+        bench.spindle->order({1, 100.0});
+        bench.pass_ms(1300);
+        REQUIRE(bench.spindle->reached());
+        bench.vfd->power_cycle();
+        bench.pass_ms(400);
+        CHECK(bench.spindle->trouble().rfind("the spindle has lost its speed", 0) == 0);
+    }
+    SECTION("a fault") {
+        bench.spindle->order({1, 100.0});
+        bench.pass_ms(1300);
+        bench.vfd->trip();
+        bench.pass_ms(200);
+        CHECK(bench.spindle->trouble() == "the VFD is in fault, code 1");
+    }
+    bench.pass_ms(300);
+    CHECK(bench.vfd->direction() == 0);
+}
+
+TEST_CASE("Spindle: an inverter that does not answer or is in fault is refused", "[spindle]") {
+    Bench bench("vfd-ls-ig5a");
+    SECTION("silent") {
+        bench.plant.stations.front()->mute.push_back({0, UINT64_MAX});
+        CHECK_FALSE(bench.spindle->open().empty());
+    }
+    SECTION("in fault") {
+        bench.vfd->trip();
+        CHECK(bench.spindle->open() == "it is in fault, code 1: reset it");
+    }
+}
+
+TEST_CASE("Spindle: an inverter that turns when the run begins is stopped", "[spindle]") {
+    Bench bench("vfd-yl620");
+    const std::uint16_t speed = 1000;
+    const std::uint16_t run = 0x12;
+    bench.vfd->advance(bench.plant.clock.now_us());
+    REQUIRE(bench.vfd->write(0x2001, std::span(&speed, 1)) == ModbusException::none);
+    REQUIRE(bench.vfd->write(0x2000, std::span(&run, 1)) == ModbusException::none);
+    REQUIRE(bench.spindle->open().empty());
+    bench.pass_ms(100);
+    CHECK(bench.vfd->direction() == 0);
+}
