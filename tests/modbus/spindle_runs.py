@@ -159,16 +159,16 @@ def held(tool, folder):
 
 
 def interrupted(tool, folder):
-    run = Run(tool, folder, lambda run: run.tell(signal.SIGINT))
+    run = Run(tool, folder, lambda run: run.tell(signal.SIGTERM))
     return (run.expect(1, "all drives were held on the path") + run.cuts_too_early() + run.ends_for_good() +
             run.stops_in_the_cut())
 
 
 def twice(tool, folder):
     def both(run):
-        run.tell(signal.SIGINT)
+        run.tell(signal.SIGTERM)
         time.sleep(0.05)
-        run.tell(signal.SIGINT)
+        run.tell(signal.SIGTERM)
     run = Run(tool, folder, both)
     return run.expect(1, "interrupted twice") + run.ends_for_good() + run.stops_in_the_cut()
 

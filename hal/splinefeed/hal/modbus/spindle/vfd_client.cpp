@@ -123,7 +123,8 @@ LinkAnswer VfdClient::read(VfdReading& out) {
         }
         reading.fault = reading.fault || holds(state.test, raw);
     }
-    if (const RegisterField* const code = profile.field_of(FieldRole::fault_code); reading.fault && code != nullptr) {
+    const RegisterField* const code = profile.field_of(FieldRole::fault_code);
+    if (reading.fault && code != nullptr && code->readable()) {
         if (!read_once(profile.index_of(code->name), reading.fault_code, answer)) {
             return answer;
         }

@@ -43,8 +43,8 @@ public:
 
 private:
     [[nodiscard]] bool connected();
-    [[nodiscard]] LinkAnswer write_raw(FieldIndex field, std::int64_t raw);
-    [[nodiscard]] LinkAnswer read_raw(FieldIndex field, std::int64_t& raw);
+    [[nodiscard]] LinkAnswer write_raw(FieldIndex index, std::int64_t raw);
+    [[nodiscard]] LinkAnswer read_raw(FieldIndex index, std::int64_t& raw);
     [[nodiscard]] bool read_once(FieldIndex field, std::int64_t& raw, LinkAnswer& answer);
 
     VfdWiring wiring_;

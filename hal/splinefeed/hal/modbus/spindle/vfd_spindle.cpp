@@ -43,9 +43,12 @@ VfdSpindle::~VfdSpindle() {
 
 std::string VfdSpindle::open() {
     VfdReading reading;
-    LinkAnswer answer = client_.command(DriveCommand::stop);
-    if (answer.ok()) {
-        answer = client_.read(reading);
+    LinkAnswer answer{.fault = LinkFault::timeout};
+    for (int i = 0; i <= client_.profile().link.retries && !answer.ok(); ++i) {
+        answer = client_.command(DriveCommand::stop);
+        if (answer.ok()) {
+            answer = client_.read(reading);
+        }
     }
     if (!answer.ok()) {
         return answer.fault == LinkFault::exception
