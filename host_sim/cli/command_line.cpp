@@ -228,7 +228,7 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curve", "surface", "drive", "link"};
     Job job;
     Typed typed;
-    CLI::App app("splinefeed turns waypoints into smooth motion.", "splinefeed");
+    CLI::App app("splinefeed turns waypoints and G-code into smooth motion.", "splinefeed");
     app.set_help_flag("-h,--help", "print this help; options of a command: splinefeed run --help");
     app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
     app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);

@@ -392,8 +392,7 @@ void ProfileDrive::check_watchdog() {
 
 std::unique_ptr<DriveModel> make_drive(DriveProfile profile, const ProfileDriveParameters& parameters) {
     if (profile.stream == StreamWay::pvt) {
-        throw UsageError(fmt::format("profile {} streams segments; its model is the drive with the map splinefeed-pvt",
-                                     in_quotes(profile.name)));
+        throw UsageError(fmt::format("profile {} streams segments; name splinefeed-pvt", in_quotes(profile.name)));
     }
     return std::make_unique<ProfileDrive>(std::move(profile), parameters);
 }
