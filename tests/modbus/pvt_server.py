@@ -10,20 +10,16 @@ import argparse
 import asyncio
 import logging
 import random
-import signal
 import struct
 import sys
 import time
 import zlib
 
-from pymodbus.datastore import ModbusServerContext
 from pymodbus.pdu import ModbusExceptions
-from pymodbus.register_read_message import (ReadHoldingRegistersRequest, ReadHoldingRegistersResponse,
-                                            ReadWriteMultipleRegistersRequest, ReadWriteMultipleRegistersResponse)
-from pymodbus.register_write_message import WriteMultipleRegistersRequest, WriteMultipleRegistersResponse
-from pymodbus.server.async_io import ModbusTcpServer
+from pymodbus.register_read_message import ReadWriteMultipleRegistersRequest, ReadWriteMultipleRegistersResponse
 
 from pvt_motion import DISABLED, FAULT, HELD, HOMING, NEVER, RUNNING, STANDING, STOPPING, TICKS_PER_S, Motion, Segment
+from pymodbus_server import Read, Refused, Write, answered, serve
 
 IDENTITY, CONFIGURATION, STATUS, BLOCK = 0x0000, 0x0010, 0x0020, 0x0100
 CHECKSUM, SESSION, GAP, NO_ROOM, MALFORMED, NOT_NOW = range(1, 7)
@@ -36,10 +32,6 @@ ALLOWED = {
 REST_MARK = 0x80000000
 FEW_SEGMENTS = 250  # with --spoil few it takes no more while it runs
 LATE_SEGMENTS = 80  # with --spoil late it stops so far behind where it is told to; 1 ms each
-
-
-class Refused(Exception):
-    """Of a register access, with Modbus's number, or of a block, with the map's."""
 
 
 def words(data):
@@ -239,29 +231,6 @@ class PvtDrive:
                     file.write(f"{segment.number},{segment.ticks},{ends},{t:.9f}\n")
 
 
-def answered(request, answer):
-    """What answer() returns, or the exception that it was refused with."""
-    try:
-        return answer()
-    except Refused as why:
-        return request.doException(why.args[0])
-
-
-class Read(ReadHoldingRegistersRequest):
-    def execute(self, context):
-        return answered(self, lambda: ReadHoldingRegistersResponse(context.read(self.address, self.count)))
-
-
-class Write(WriteMultipleRegistersRequest):
-    def execute(self, context):
-        def answer():
-            if self.byte_count != 2 * self.count:
-                raise Refused(ModbusExceptions.IllegalValue)
-            context.write(self.address, self.values)
-            return WriteMultipleRegistersResponse(self.address, self.count)
-        return answered(self, answer)
-
-
 class Exchange(ReadWriteMultipleRegistersRequest):
     def execute(self, context):
         def answer():
@@ -271,20 +240,6 @@ class Exchange(ReadWriteMultipleRegistersRequest):
             context.write(self.write_address, self.write_registers)
             return ReadWriteMultipleRegistersResponse(context.read(self.read_address, self.read_count))
         return answered(self, answer)
-
-
-async def serve(drive):
-    server = ModbusTcpServer(ModbusServerContext(slaves=drive, single=True), address=("127.0.0.1", 0))
-    # No other function: exception 1. (`register` only adds to pymodbus's own.)
-    server.decoder._ServerDecoder__lookup = {request.function_code: request for request in (Read, Write, Exchange)}
-    task = asyncio.create_task(server.serve_forever())
-    await server.serving
-    port = server.server.sockets[0].getsockname()[1]
-    print(f"listening on tcp://127.0.0.1:{port}, {drive.axes} axes, pymodbus", flush=True)
-    stopped = asyncio.Event()
-    asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, stopped.set)
-    await stopped.wait()
-    task.cancel()
 
 
 def main():
@@ -299,7 +254,7 @@ def main():
     logging.disable(logging.CRITICAL)
     clock_us = random.randrange(2**32) if options.clock_us is None else options.clock_us
     drive = PvtDrive(options.axes, options.ring, clock_us, options.spoil)
-    asyncio.run(serve(drive))
+    asyncio.run(serve(drive, (Read, Write, Exchange), f"{drive.axes} axes"))
     drive.motion.advance(time.monotonic() - drive.began)
     drive.write_records(options.record, options.record_segments)
     return 0

@@ -10,24 +10,17 @@ CLOCK_MONOTONIC, output frequency with the sign of the direction, and 1, -1 or 0
 import argparse
 import asyncio
 import logging
-import signal
 import sys
 import time
 
-from pymodbus.datastore import ModbusServerContext
 from pymodbus.pdu import ModbusExceptions
-from pymodbus.register_read_message import ReadHoldingRegistersRequest, ReadHoldingRegistersResponse
-from pymodbus.register_write_message import (WriteMultipleRegistersRequest, WriteMultipleRegistersResponse,
-                                             WriteSingleRegisterRequest, WriteSingleRegisterResponse)
-from pymodbus.server.async_io import ModbusTcpServer
+from pymodbus.register_write_message import WriteSingleRegisterRequest, WriteSingleRegisterResponse
+
+from pymodbus_server import Read, Refused, Write, answered, serve
 
 COMMAND, FREQUENCY, STATE, OUTPUT = 0x2000, 0x2001, 0x2101, 0x2103
 STOP, RUN = 1, 2
 FORWARD, REVERSE = 1, 2
-
-
-class Refused(Exception):
-    pass
 
 
 class Vfd:
@@ -72,18 +65,6 @@ class Vfd:
             self.direction = {FORWARD: 1, REVERSE: -1}.get(word >> 4 & 3, self.direction)
 
 
-def answered(request, answer):
-    try:
-        return answer()
-    except Refused as why:
-        return request.doException(why.args[0])
-
-
-class Read(ReadHoldingRegistersRequest):
-    def execute(self, context):
-        return answered(self, lambda: ReadHoldingRegistersResponse(context.read(self.address, self.count)))
-
-
 class WriteOne(WriteSingleRegisterRequest):
     def execute(self, context):
         def answer():
@@ -92,36 +73,14 @@ class WriteOne(WriteSingleRegisterRequest):
         return answered(self, answer)
 
 
-class Write(WriteMultipleRegistersRequest):
-    def execute(self, context):
-        def answer():
-            context.write(self.address, self.values)
-            return WriteMultipleRegistersResponse(self.address, self.count)
-        return answered(self, answer)
-
-
-async def serve(vfd):
-    server = ModbusTcpServer(ModbusServerContext(slaves=vfd, single=True), address=("127.0.0.1", 0))
-    server.decoder._ServerDecoder__lookup = {request.function_code: request for request in (Read, WriteOne, Write)}
-    task = asyncio.create_task(server.serve_forever())
-    await server.serving
-    port = server.server.sockets[0].getsockname()[1]
-    print(f"listening on tcp://127.0.0.1:{port}, a VFD, pymodbus", flush=True)
-    stopped = asyncio.Event()
-    asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, stopped.set)
-    while not stopped.is_set():
-        vfd.advance()
-        await asyncio.sleep(0.001)
-    task.cancel()
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--ramp", type=float, default=400.0)
     parser.add_argument("--record", required=True)
     options = parser.parse_args()
     logging.disable(logging.CRITICAL)
-    asyncio.run(serve(Vfd(options.ramp, options.record)))
+    vfd = Vfd(options.ramp, options.record)
+    asyncio.run(serve(vfd, (Read, WriteOne, Write), "a VFD", vfd.advance))
     return 0
 
 
