@@ -12,3 +12,15 @@ board=$(board_of "${cpu/%m0/m3}")
 output=$(run "$image" -icount shift=10,sleep=off)
 echo "$output"
 as_host 2 '^(items|hash) +0x' "$output" gcode_program
+
+# at_most_hex NAME LIMIT: a value that the program says in 16 digits to the base 16
+at_most_hex() {
+    local line
+    line=$(said 1 "^$1 +0x" "$output")
+    if ((${line##* } > $2)); then
+        echo "$1 is $((${line##* })), at most $2 was to be"
+        exit 1
+    fi
+}
+at_most_hex 'bytes of RAM' 2048
+if [[ $cpu == cortex-m4f ]]; then at_most_hex 'cost of all' 540000; fi
