@@ -136,6 +136,12 @@ TEMPLATE_TEST_CASE("moves that are none are refused", "[blended_path]", double, 
     element = element_of<S>(program.moves[0], 3);
     element.arc.sweep_rad = from_double<S>(1e5);
     CHECK(move.set({}, element, 3).error() == Error::arc_invalid); // too many turns
+    element = element_of<S>(program.moves[0], 3);
+    element.arc.centre[1] = position_from_mm(-600000.0);
+    CHECK(move.set({}, element, 3).error() == Error::move_too_long); // a radius of 600 m
+    MoveProgram turns;
+    turns.arc(-1000.0L, 0.0L, 200.0L * 6.2831853L, 1.0L);
+    CHECK(move.set({}, element_of<S>(turns.moves[0], 3), 3).error() == Error::move_too_long); // 1257 m of way
     MoveProgram bezier;
     bezier.bezier({{1.0L}, {2.0L}, {3.0L}});
     element = element_of<S>(bezier.moves[0], 3);

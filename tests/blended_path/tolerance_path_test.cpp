@@ -339,6 +339,33 @@ TEMPLATE_TEST_CASE("random moves of all kinds are kept within their tolerance", 
     CHECK(corners > 0);
 }
 
+TEMPLATE_TEST_CASE("lines of tens of metres in a chain, and arcs as large", "[blended_path][random]", double, Fixed) {
+    using S = TestType;
+    for (int round = 0; round < rounds(40, 2000); ++round) {
+        Random random(seed + 2000000 + static_cast<std::uint64_t>(round));
+        MoveProgram program;
+        PlaceMm to{};
+        Real heading = 0.0L;
+        const Real turn = real_decades(random, 1e-6, 1e-2);
+        const Real longest = real_decades(random, 1e4, 6.5e4);
+        for (int i = 0, count = random.integer(3, 20); i < count; ++i) {
+            heading += real_between(random, -1.0, 1.0) * turn;
+            const Real length = longest * real_between(random, 0.2, 1.0);
+            if (random.chance(0.1)) {
+                const Real radius = length * real_between(random, 0.5, 1.0);
+                program.arc(to[0] - radius * std::sin(heading), to[1] + radius * std::cos(heading), 0.5L, 0.0L);
+                heading += 0.5L;
+            } else {
+                program.line({to[0] + length * std::cos(heading), to[1] + length * std::sin(heading)});
+            }
+            to = program.moves.back().to;
+            program.moves.back().tolerance_mm = random.chance(0.9) ? 0.5 : 0.05;
+        }
+        CAPTURE(seed, round, program.moves.size());
+        require_path(program, blended<S>(program));
+    }
+}
+
 TEMPLATE_TEST_CASE("what is made of random moves is run within every limit", "[blended_path][random][jerk]", double,
                    Fixed) {
     using S = TestType;

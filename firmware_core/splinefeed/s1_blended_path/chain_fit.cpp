@@ -145,7 +145,7 @@ bool ChainFit<S>::near_point(const PerAxis<S>& point, S u, S limit, bool bends) 
         at[k] = point[k] - at[k];
         second[k] = second[k] / speed - across * (first[k] / speed);
     }
-    const S bend = scale2(scale2(norm(second.data(), points_.axes()), bend_log2 - unit_) / speed, 0);
+    const S bend = scale2(norm(second.data(), points_.axes()), bend_log2 - unit_) / speed;
     return norm(at.data(), points_.axes()) <= limit &&
            (!bends || bend <= literal<S>(bend_factor) * bend_ + literal<S>(bend_more));
 }

@@ -15,6 +15,7 @@ constexpr std::uint64_t unsettled = 8;        // the last points of a chain that
 constexpr std::uint64_t fewest_lines = 3;     // of a chain
 
 constexpr double shortest = 4e-4;    // 0.1 nm: a shorter line is none
+constexpr double longest = 0x1p27;   // 33 m, of a line and of a piece: half of what a move may be
 constexpr double most_turn = 0.684;  // 2 sin(phi / 2) at 40 degrees
 constexpr double most_bow = 12.0;    // h phi in tolerances: a bow of 1.5
 constexpr double most_uneven = 12.0; // longer line over the shorter one, unless h phi is below one tolerance
@@ -76,8 +77,9 @@ void ChainSmoother<S>::begin(const PathElement<S>& element, std::uint32_t index,
     closed_ = left_out_ = false;
     tolerance_ = scale2(element.tolerance_mm, -chord_unit_log2);
     PerAxis<S> direction{};
+    const S length = length_to(element.to, direction);
     if (element.shape != MoveShape::line || element.mode == PathMode::exact_stop || !(tolerance_ > S{}) ||
-        !(length_to(element.to, direction) > literal<S>(shortest))) {
+        !(length > literal<S>(shortest) && length < literal<S>(longest))) {
         kind_ = Kind::single;
         held_ = {element, index};
         return;
@@ -99,16 +101,15 @@ void ChainSmoother<S>::begin_pending(const PerAxis<Position>& from) noexcept {
 
 template <Scalar S>
 bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
-    if (element.shape != MoveShape::line || end_.mode != PathMode::continuous || end_.stop_at_end ||
-        element.tolerance_mm != end_.tolerance_mm) {
-        return false;
-    }
     PerAxis<S> direction{};
     const S length = length_to(element.to, direction);
-    const bool plain = element.mode == PathMode::continuous && !element.stop_at_end;
+    if (element.shape != MoveShape::line || !end_.passes_end() || element.tolerance_mm != end_.tolerance_mm ||
+        !(length < literal<S>(longest))) {
+        return false;
+    }
     const bool same_feed = element.feed_mm_s == end_.feed_mm_s && element.max_feed_mm_s == end_.max_feed_mm_s;
     const S before = points_[points_.last()].chord;
-    if (too_short(length) && plain && same_feed) {
+    if (too_short(length) && element.passes_end() && same_feed) {
         return true;
     }
     const S longer = larger(length, before);
@@ -167,10 +168,9 @@ void ChainSmoother<S>::restore() noexcept {
 template <Scalar S>
 void ChainSmoother<S>::append(const PathElement<S>& element, std::uint32_t index) noexcept {
     PerAxis<S> direction{};
-    const bool plain = element.mode == PathMode::continuous && !element.stop_at_end;
     const S length = length_to(element.to, direction);
     merged_before_ = left_out_ || points_[points_.last()].merged;
-    left_out_ = length < literal<S>(left_out) * tolerance_ || (plain && too_short(length));
+    left_out_ = length < literal<S>(left_out) * tolerance_ || (element.passes_end() && too_short(length));
     end_ = element;
     end_index_ = index;
     if (left_out_) {
@@ -212,21 +212,16 @@ void ChainSmoother<S>::add_point(const PerAxis<Position>& place, std::uint32_t i
 // The chain ends: its last place is met exactly, and its last points are smoothed with what is known.
 template <Scalar S>
 void ChainSmoother<S>::close() noexcept {
-    if (left_out_) {
-        PerAxis<S> direction{};
-        if (!(length_to(end_.to, direction) < literal<S>(left_out) * tolerance_)) {
-            restore();
-        }
+    PerAxis<S> chord{};
+    if (left_out_ && !(length_to(end_.to, chord) < literal<S>(left_out) * tolerance_)) {
+        restore();
     }
     closed_ = true;
     const std::uint64_t last = points_.last();
     if (left_out_) {
         ChainPoint<S>& point = points_[last];
-        PerAxis<S> chord{};
-        for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
-            chord[k] = distance<S>(points_[last - 1].place[k], end_.to[k], chord_unit_log2);
-        }
         point.place = end_.to;
+        points_.programmed(last - 1, last, chord);
         point.chord = norm(chord.data(), points_.axes());
         point.index = end_index_;
         measure_last_point(points_, tolerance_);
@@ -247,9 +242,12 @@ template <Scalar S>
 std::uint64_t ChainSmoother<S>::farthest() const noexcept {
     const std::uint64_t most = closed_ ? points_.last() : points_.last() - unsettled;
     const ChainPoint<S>& first = points_[front_ + 1];
+    S way = first.chord;
     for (std::uint64_t i = front_ + 1; i < most; ++i) { // a feed ends where its line does
         const ChainPoint<S>& behind = points_[i + 1];
-        if (behind.feed_mm_s != first.feed_mm_s || behind.max_feed_mm_s != first.max_feed_mm_s) {
+        way += behind.chord;
+        if (!(way < literal<S>(longest)) || behind.feed_mm_s != first.feed_mm_s ||
+            behind.max_feed_mm_s != first.max_feed_mm_s) {
             return i;
         }
     }

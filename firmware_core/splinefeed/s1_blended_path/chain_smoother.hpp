@@ -54,7 +54,6 @@ private:
     void begin_pending(const PerAxis<Position>& from) noexcept;
     void append(const PathElement<S>& element, std::uint32_t index) noexcept;
     void add_point(const PerAxis<Position>& place, std::uint32_t index) noexcept;
-    void measure_end() noexcept;
     void close() noexcept;
     [[nodiscard]] S length_to(const PerAxis<Position>& place, PerAxis<S>& direction) const noexcept;
     [[nodiscard]] std::uint64_t farthest() const noexcept;

@@ -110,7 +110,7 @@ bool too_sharp(const Joint<S>& joint, S way) noexcept {
     const S sine = joint.half_sine;
     const S square = from_integer<S>(1) - sine * sine;
     return joint.sharpest > S{} && sine > literal<S>(0.5 * corner_jump) &&
-           literal<S>(0x1p20 * 8.0 / 3.0) * sine > joint.sharpest * (way * square);
+           quotient_or_max(literal<S>(0x1p20 * 8.0 / 3.0) * sine, joint.sharpest) > way * square;
 }
 
 } // namespace

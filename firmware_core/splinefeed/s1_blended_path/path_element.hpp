@@ -44,6 +44,9 @@ struct PathElement {
     S tolerance_mm{};        ///< largest distance between the path and the moves, both ways; 0: the path is exact
     S feed_mm_s{};           ///< programmed feed; 0: the machine's
     S max_feed_mm_s{};       ///< upper limit for every feed override; 0: none
+
+    /// Whether its end may be rounded.
+    [[nodiscard]] bool passes_end() const noexcept { return mode == PathMode::continuous && !stop_at_end; }
 };
 
 } // namespace splinefeed

@@ -121,6 +121,13 @@ S PathMove<S>::frame_at(const PerAxis<Position>& place, const ArcShape<S>& arc, 
 
 template <Scalar S>
 Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        for (const Position end : {from_[k], to_[k]}) {
+            if (const std::int64_t arm = arc.centre[k].raw - end.raw; arm > longest_raw || arm < -longest_raw) {
+                return Error::move_too_long;
+            }
+        }
+    }
     radius_start_ = frame_at(from_, arc, start_);
     radius_end_ = frame_at(to_, arc, end_);
     const S radius = scale2(radius_start_ + radius_end_, -1);
@@ -139,6 +146,9 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     sweep_ = seen + turn * from_integer<S>(whole_part(larger(turns, S{})));
     if (!(sweep_ > S{})) {
         return Error::arc_invalid;
+    }
+    if (!(sweep_ < quotient_or_max(literal<S>(longest), radius))) {
+        return Error::move_too_long;
     }
     PerAxis<S> rise{};
     S height{};
