@@ -40,14 +40,9 @@ S distance_between(const PerAxis<S>& a, const PerAxis<S>& b, int axes) noexcept 
 template <Scalar S>
 PerAxis<S> point_at(const Blend<S>& blend, S u, int axes) noexcept {
     PerAxis<S> point{};
-    const auto degree = static_cast<unsigned>(blend.degree);
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         PerDegree<S> row = blend.points[k];
-        for (unsigned step = 1; step <= degree; ++step) {
-            for (unsigned i = 0; i + step <= degree; ++i) {
-                row[i] = row[i] + u * (row[i + 1] - row[i]);
-            }
-        }
+        reduce(row, blend.degree, 0, u);
         point[k] = row[0];
     }
     return point;

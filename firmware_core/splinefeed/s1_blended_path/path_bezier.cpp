@@ -7,16 +7,6 @@ namespace {
 
 constexpr int nearings = 3; // Newton's steps towards the nearest place
 
-// The points of degree `left` at u, in place: 0 leaves the point of the curve.
-template <Scalar S>
-void reduce(PerDegree<S>& row, int degree, int left, S u) noexcept {
-    for (int n = degree; n > left; --n) {
-        for (unsigned i = 0; i < static_cast<unsigned>(n); ++i) {
-            row[i] = row[i] + u * (row[i + 1] - row[i]);
-        }
-    }
-}
-
 } // namespace
 
 template <Scalar S>

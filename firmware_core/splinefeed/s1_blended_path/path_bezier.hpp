@@ -7,6 +7,16 @@
 
 namespace splinefeed {
 
+/// De Casteljau's construction at u, in place, until points of degree `left` remain: 0 leaves the point of the curve.
+template <Scalar S>
+void reduce(PerDegree<S>& row, int degree, int left, S u) noexcept {
+    for (int n = degree; n > left; --n) {
+        for (unsigned i = 0; i < static_cast<unsigned>(n); ++i) {
+            row[i] = row[i] + u * (row[i + 1] - row[i]);
+        }
+    }
+}
+
 /// Offsets are from the start of the segment, in chord units. Cost of a function: degree^2 / 2 products per axis.
 template <Scalar S>
 class PathBezier {
