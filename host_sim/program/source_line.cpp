@@ -2,6 +2,7 @@
 #include "host_sim/program/source_line.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/text_file.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -9,6 +10,9 @@
 #include <ios>
 
 namespace splinefeed::host {
+
+LineReader::LineReader(const std::string& path, const std::string& name)
+    : input_(path, name), name_(name), file_(is_regular_file(path == "-" ? "/dev/stdin" : path)) {}
 
 // Editors begin a text with the mark of its encoding.
 void LineReader::leave_out_mark(std::string& text) const {
@@ -23,10 +27,12 @@ bool LineReader::next(SourceLine& out) {
     using Traits = std::streambuf::traits_type;
     out.text.clear();
     out.number = ++lines_;
+    out.whole = true;
     try {
         for (;;) {
             if (Traits::eq_int_type(input_.sgetc(), Traits::eof())) {
-                return !out.text.empty();
+                out.whole = file_;
+                return !out.text.empty() && !stopped_;
             }
             const std::string_view here = input_.arrived();
             const std::size_t end = here.find('\n');

@@ -5,30 +5,40 @@
 #include "host_sim/base/input_stream.hpp"
 #include "host_sim/program/row_source.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace splinefeed::host {
 
 struct SourceLine {
     std::string text;         ///< without its end
     std::uint64_t number = 0; ///< from 1
+    bool whole = true;        ///< false: a pipe ended within it, so the rest of it may be missing
 };
+
+/// Why a line that is not whole was refused.
+inline constexpr std::string_view cut_line =
+    "the input ends within this line, so it was not executed; a line that is whole has a line end";
 
 using SourceLines = RowSource<SourceLine>;
 
 /// Memory: one line. Lines end with \n or \r\n; the last one may end with the file. A mark of UTF-8
-/// at the beginning is left out.
+/// at the beginning is left out. After stop() there is no further line, and none that is cut off.
 class LineReader final : public SourceLines {
 public:
     static constexpr std::size_t longest_line = 65536; ///< bytes, comments included
 
     /// Throws InputError if it cannot be opened.
     /// @param name  for messages
-    LineReader(const std::string& path, const std::string& name) : input_(path, name), name_(name) {}
+    LineReader(const std::string& path, const std::string& name);
 
     bool next(SourceLine& out) override;
-    void stop() noexcept override { input_.stop(); }
+    void stop() noexcept override {
+        stopped_ = true;
+        input_.stop();
+    }
 
 private:
     void leave_out_mark(std::string& text) const;
@@ -36,6 +46,8 @@ private:
     InputStream input_;
     std::string name_;
     std::uint64_t lines_ = 0;
+    bool file_ = false; // its last line is whole without a line end
+    std::atomic<bool> stopped_{false};
 };
 
 } // namespace splinefeed::host

@@ -5,7 +5,11 @@
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 
+#include <chrono>
 #include <fstream>
+#include <thread>
+
+#include <sys/stat.h>
 
 using namespace splinefeed::host;
 using namespace splinefeed_test;
@@ -54,4 +58,37 @@ TEST_CASE("A mark of the encoding is left out, or refused") {
         CHECK(refusal_of([&] { static_cast<void>(read_lines(mark + "G21\n")); }) ==
               "p.ngc:1: the text is UTF-16; save it as UTF-8 or ASCII");
     }
+}
+
+TEST_CASE("The last line of a pipe is whole only with its line end") {
+    const TemporaryFolder folder;
+    for (const bool ended : {false, true}) {
+        const std::string pipe = folder.file(ended ? "ended" : "cut");
+        REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+        std::thread sender([&] { std::ofstream(pipe) << "G1 X1\nG1 X2" << (ended ? "\n" : ""); });
+        LineReader reader(pipe, "p.ngc");
+        SourceLine line;
+        CHECK((reader.next(line) && line.whole));
+        CHECK((reader.next(line) && line.text == "G1 X2" && line.whole == ended));
+        CHECK(!reader.next(line));
+        sender.join();
+    }
+}
+
+TEST_CASE("A reader that is stopped within a line has no line") {
+    const TemporaryFolder folder;
+    const std::string pipe = folder.file("open");
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    std::ofstream sender;
+    std::thread opens([&] { sender.open(pipe); });
+    LineReader reader(pipe, "p.ngc");
+    opens.join();
+    sender << "G1 X2" << std::flush;
+    std::thread stops([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        reader.stop();
+    });
+    SourceLine line;
+    CHECK(!reader.next(line));
+    stops.join();
 }

@@ -71,6 +71,18 @@ TEST_CASE("A program from a pipe is the program from its file") {
     CHECK(tool.read("a.csv") == tool.read("b.csv"));
 }
 
+TEST_CASE("A sender that dies within a line: the line is not executed") {
+    const Tool tool;
+    const auto piped = [&](const std::string& text) {
+        return tool.shell("printf '" + text + "' | '" + tool_path() + "' run - --format gcode --quiet --summary json");
+    };
+    const Call cut = piped("G1 X1 F600\\nG1 X2");
+    CHECK(cut.status == 2);
+    CHECK(cut.error.find("-:2: the input ends within this line, so it was not executed") == 0);
+    CHECK(piped("O1 sub\\nG1 X1 F600\\nO1 endsub\\nO1 call").status == 2);
+    CHECK(summary_of(piped("G1 X1 F600\\nM2"))["length_mm"] == 1.0);
+}
+
 TEST_CASE("Dwells, pauses and events stand where the program has them, and dwells take their time") {
     const Tool tool;
     const std::string moves = "G1 X10 F3000\n%\nG1 X20\nM2\n";

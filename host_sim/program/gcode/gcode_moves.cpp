@@ -185,6 +185,11 @@ bool GcodeMoves<S>::next(SourceStep<S>& out) {
 
 template <Scalar S>
 void GcodeMoves<S>::take(SourceStep<S>& out) {
+    const bool ends = item_.kind == ItemKind::event &&
+                      (item_.event.kind == EventKind::program_end || item_.event.kind == EventKind::offsets_changed);
+    if (!line_.whole && !ends) {
+        throw InputError(file_, line_.number, cut_line);
+    }
     out.line = item_.line;
     out.stops = item_.stops_before;
     out.dwell_s = 0.0;

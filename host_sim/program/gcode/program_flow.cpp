@@ -295,6 +295,9 @@ ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
         return Step::nothing;
     }
     begun_ = true;
+    if (!out.whole) {
+        throw InputError(file_, out.number, cut_line);
+    }
     if (++jumps_ > most_jumps) {
         fail(out, 0, fmt::format("the program has executed {} O words; does it ever end?", most_jumps));
     }
