@@ -82,7 +82,7 @@ Real distance(const std::vector<Control>& points, int order, const std::array<Re
             continue;
         }
         Real where = end * static_cast<Real>(i) / samples;
-        for (Real step = end / samples; step > 1e-8L; step /= 3) {
+        for (Real step = end / samples; step > 1e-11L; step /= 3) {
             for (const Real middle = where; const int j : {-3, -2, -1, 1, 2, 3}) {
                 where = apart(middle + j * step) < apart(where) ? middle + j * step : where;
             }
