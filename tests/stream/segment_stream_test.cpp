@@ -157,8 +157,9 @@ TEST_CASE("Fixed and double differ by less than a nanometre", "[stream]") {
     }
 }
 
-TEMPLATE_TEST_CASE("a stop dwells two segments and a part, not more", "[stream]", double, Fixed) {
-    // Control points repeat three times; the part is what was left of a segment on arrival.
+TEMPLATE_TEST_CASE("a stop dwells one to two segments, not more", "[stream]", double, Fixed) {
+    // Control points repeat three times. The motion arrives on a sample or up to 0.414 of a segment before the next
+    // one, and leaves as much earlier.
     const MachineSettings machine = machine_of(1, 100.0, 1000.0, 100.0);
     for (const double length : {0.5, 1.0, 3.7, 20.0}) {
         const BezierPath path{line_shape(1, 3, {length}), line_shape(1, 3, {-length})};
@@ -166,9 +167,9 @@ TEMPLATE_TEST_CASE("a stop dwells two segments and a part, not more", "[stream]"
         const auto planned = plan_of<TestType>(path, machine, 1024);
         const double least = planned.seconds() * 1e3;
         const auto count = static_cast<double>(stream.segments.size());
-        // Two moves, each rounded up to whole segments and followed by two more
-        CHECK(count >= least + 4.0 - 0.01);
-        CHECK(count <= least + 4.0 + 2.0);
+        // Two moves, each followed by two segments
+        CHECK(count >= least + 4.0 - 4.0 * 0.414);
+        CHECK(count <= least + 4.0 + 2.0 * (1.0 - 2.0 * 0.414) + 0.01);
         int stopped = 0;
         const std::int64_t target = target_units(length, machine.axis[0]);
         for (const FeedSegment& s : stream.segments) {

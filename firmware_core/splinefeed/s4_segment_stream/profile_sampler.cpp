@@ -14,6 +14,13 @@
 //
 // A stop that is not tied to a place (of a hold) may be made up to T / 2 early, on the sample itself: on the way to
 // standstill at t, |q'| <= A (t - time), so the last difference is below A T (T / 2 + T / 2).
+//
+// A stop at a place is on its sample, too. Braking with A at most, the machine is within A (T + r)^2 / 2 of it at the
+// sample before the last one, if it arrives r after the last one. So the last sample may be the place itself, and the
+// machine arrives r early, if (T + r)^2 / 2 <= T^2: r <= (sqrt(2) - 1) T. The same holds for a motion that leaves it:
+// its first sample may be at T + r. Along a bent path an axis can reverse in that time, and the sum of both
+// accelerations be too large: so the differences that the shift changes are looked at. They are two second differences,
+// each with the limit A T^2, and one first difference, which is smaller than that beside it.
 #include "splinefeed/s4_segment_stream/profile_sampler.hpp"
 
 namespace splinefeed {
@@ -28,6 +35,10 @@ constexpr double arrival = 1.0 / 1024.0;
 constexpr double least_change = 1.0 / 256.0;
 constexpr double kept_for_rounding = 0.98;
 
+constexpr double head_start = 0.414;
+constexpr double kept_of_change = 0.9999; // for the rounding of control points
+constexpr int fine = 12;                  // lengths in units of 2^-12 mm
+
 } // namespace
 
 template <Scalar S>
@@ -35,7 +46,10 @@ ProfileSampler<S>::ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& li
     : plan_(&plan), segments_per_s_(limits.segments_per_s), axes_(limits.axes) {
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
         braking_mm_s2_[k] = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
+        largest_change_[k] =
+            literal<S>(kept_of_change) * (scale2(braking_mm_s2_[k] / segments_per_s_, fine) / segments_per_s_);
     }
+    head_start_ = limits.jerk_limited ? S{} : literal<S>(head_start);
 }
 
 // Computes the time of the plan's next profile segment.
@@ -51,10 +65,10 @@ Pull ProfileSampler<S>::enter_segment(UnderrunPolicy underrun) noexcept {
     return Pull::item;
 }
 
-// Fraction of the cell's length where the machine is.
+// Fraction of the cell's length where the machine is at a time since the start of the profile segment.
 template <Scalar S>
-S ProfileSampler<S>::fraction() const noexcept {
-    const S x = motion_.at(elapsed_ / motion_.duration());
+S ProfileSampler<S>::fraction_at(S time) const noexcept {
+    const S x = motion_.at(time / motion_.duration());
     const CellInterval<S>& stretch = plan_->profile_segment().stretch;
     return stretch.whole() ? x : stretch.from + stretch.length() * x;
 }
@@ -62,7 +76,6 @@ S ProfileSampler<S>::fraction() const noexcept {
 // The speed from which a stop may start at the last control point.
 template <Scalar S>
 S ProfileSampler<S>::braked(S x, S speed) const noexcept {
-    constexpr int fine = 12; // lengths in units of 2^-12 mm
     PerAxis<S> direction{};
     plan_->cell().direction_at(x, direction);
     const S way = scale2(speed, fine) / segments_per_s_;
@@ -81,13 +94,21 @@ S ProfileSampler<S>::braked(S x, S speed) const noexcept {
     return speed * ((way - less) / way);
 }
 
+// The last sample is a stop.
+template <Scalar S>
+void ProfileSampler<S>::rest() noexcept {
+    repeats_ = 2;
+    previous_ = position_;
+    resting_ = true;
+}
+
 // Chooses the profile segment from the place of the last control point.
 template <Scalar S>
 void ProfileSampler<S>::follow_steering() noexcept {
     const S v0 = square_root(plan_->profile_segment().entry_sq);
     const S v1 = square_root(plan_->profile_segment().exit_sq);
     const S share = elapsed_ / motion_.duration();
-    const S x = fraction();
+    const S x = fraction_at(elapsed_);
     S speed = v0 + (v1 - v0) * share;
     // Without a jump of the acceleration the hold needs no correction at its start.
     if (plan_->steering().stops() && plan_->profile_segment().shape == SpeedShape::line) {
@@ -99,8 +120,51 @@ void ProfileSampler<S>::follow_steering() noexcept {
     elapsed_ = S{};
     in_segment_ = false;
     if (plan_->standing()) {
-        repeats_ = 2; // so slow that the last control point is the stop
+        rest(); // so slow that the last control point is the stop
     }
+}
+
+// Whether a second difference of the samples keeps the acceleration of an axis.
+template <Scalar S>
+bool ProfileSampler<S>::within(unsigned axis, S change) const noexcept {
+    const S size = absolute(change);
+    return !(size > S{}) || (size <= largest_change_[axis] && largest_change_[axis] > literal<S>(least_change));
+}
+
+template <Scalar S>
+bool ProfileSampler<S>::may_arrive_at(const PerAxis<Position>& stop) const noexcept {
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        const S before = distance<S>(older_[k], previous_[k], -fine);
+        const S last = distance<S>(previous_[k], stop[k], -fine);
+        if (!within(k, last - before) || !within(k, last) || absolute(last) > absolute(before)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Whether the first sample of a motion from rest may be head_start_ late in it: the profile segment lasts that long.
+template <Scalar S>
+bool ProfileSampler<S>::may_leave() const noexcept {
+    const S first = from_integer<S>(1) + head_start_;
+    const S second = from_integer<S>(2) + head_start_;
+    const ProfileSegment<S>& profile_segment = plan_->profile_segment();
+    if (!(head_start_ > S{}) || !resting_ || elapsed_ > S{} || profile_segment.shape != SpeedShape::line ||
+        profile_segment.entry_sq > S{} || !(second < motion_.duration())) {
+        return false;
+    }
+    PerAxis<Position> near{};
+    PerAxis<Position> far{};
+    plan_->cell().position_at(fraction_at(first), near);
+    plan_->cell().position_at(fraction_at(second), far);
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        const S before = distance<S>(position_[k], near[k], -fine);
+        const S behind = distance<S>(near[k], far[k], -fine);
+        if (!within(k, before) || !within(k, behind - before) || absolute(before) > absolute(behind)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // The control point of a stop, if the machine comes to one before the next sample.
@@ -113,23 +177,26 @@ bool ProfileSampler<S>::arrive() noexcept {
     const Cell<S>& cell = plan_->cell();
     // With a limited jerk the last part of the way to standstill is no longer than rounding.
     const bool bound_to_place = !plan_->steering().stops() || profile_segment.shape != SpeedShape::line;
-    const S early = bound_to_place ? literal<S>(arrival) : literal<S>(0.5);
+    const S early = bound_to_place ? larger(head_start_, literal<S>(arrival)) : literal<S>(0.5);
     if (elapsed_ + early < motion_.duration()) {
         return false;
     }
     if (!bound_to_place && elapsed_ < motion_.duration()) {
-        const S x = fraction();
+        const S x = fraction_at(elapsed_);
         cell.position_at(x, position_);
         plan_->rest_at(x);
     } else {
-        if (cell.stop_at_end && profile_segment.stretch.to == from_integer<S>(1)) {
-            position_ = cell.end;
-        } else {
-            cell.position_at(profile_segment.stretch.to, position_);
+        PerAxis<Position> stop = cell.end;
+        if (!cell.stop_at_end || !(profile_segment.stretch.to == from_integer<S>(1))) {
+            cell.position_at(profile_segment.stretch.to, stop);
         }
+        if (elapsed_ + literal<S>(arrival) < motion_.duration() && !may_arrive_at(stop)) {
+            return false;
+        }
+        position_ = stop;
         plan_->advance();
     }
-    repeats_ = 2;
+    rest();
     elapsed_ = S{};
     advanced_ = in_segment_ = false;
     return true;
@@ -148,15 +215,17 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun) noexcept {
     const Pull entered = in_segment_ ? Pull::item : enter_segment(underrun);
     if (!started_ && (entered == Pull::item || entered == Pull::held)) {
         plan_->cell().position_at(S{}, origin_);
-        position_ = origin_;
-        started_ = true;
+        previous_ = position_ = origin_;
+        started_ = resting_ = true;
     }
     if (entered != Pull::item) {
         return entered;
     }
     if (!advanced_) {
+        elapsed_ += may_leave() ? from_integer<S>(1) + head_start_ : from_integer<S>(1);
+        older_ = previous_;
         previous_ = position_;
-        elapsed_ += from_integer<S>(1);
+        resting_ = false;
         advanced_ = true;
     }
     for (;;) {
@@ -174,7 +243,7 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun) noexcept {
             return pull;
         }
     }
-    plan_->cell().position_at(fraction(), position_);
+    plan_->cell().position_at(fraction_at(elapsed_), position_);
     advanced_ = false;
     return Pull::item;
 }

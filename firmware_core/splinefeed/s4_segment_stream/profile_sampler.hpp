@@ -25,7 +25,11 @@ private:
     void follow_steering() noexcept;
     [[nodiscard]] S braked(S x, S speed) const noexcept;
     bool arrive() noexcept;
-    [[nodiscard]] S fraction() const noexcept;
+    void rest() noexcept;
+    [[nodiscard]] bool may_arrive_at(const PerAxis<Position>& stop) const noexcept;
+    [[nodiscard]] bool may_leave() const noexcept;
+    [[nodiscard]] bool within(unsigned axis, S change) const noexcept;
+    [[nodiscard]] S fraction_at(S time) const noexcept;
 
     using Sampler<S>::position_;
     using Sampler<S>::origin_;
@@ -36,10 +40,14 @@ private:
     S segments_per_s_{};
     S elapsed_{}; // time since the start of the profile segment [segment durations]
     ProfileMotion<S> motion_;
+    S head_start_{};               // how much earlier than on a sample a motion may arrive at a stop, and leave it
+    PerAxis<S> largest_change_{};  // second difference of samples that keeps the acceleration [2^-12 mm]
     PerAxis<Position> previous_{}; // the previous sample
+    PerAxis<Position> older_{};    // the one before it
     int axes_ = 0;
     int repeats_ = 0; // samples that are still to be repeated at a stop
     bool started_ = false;
+    bool resting_ = false; // the last three samples are equal
     bool in_segment_ = false;
     bool advanced_ = false; // elapsed_ already holds the next sample's time
 };
