@@ -18,9 +18,9 @@ namespace splinefeed::host {
 struct ToleranceSummary {
     struct Place {
         double distance = 0.0;    ///< [mm, degrees]
-        std::uint64_t number = 0; ///< of the element or the waypoint, from 1
+        std::uint64_t number = 0; ///< of the element or the waypoint, from 1; 0: the distance is 0 everywhere
         std::uint64_t line = 0;   ///< 0: unknown
-        std::string name;         ///< for people
+        std::string name;         ///< for people; empty: the distance is 0 everywhere
     };
     Place deviation;                       ///< largest distance between the path and the elements, both ways
     std::optional<Place> rotary_deviation; ///< nothing: the machine has no rotary axis

@@ -18,8 +18,9 @@ template <Scalar S>
 ToleranceSummary Motion<S>::tolerance_summary() const {
     ToleranceSummary out;
     const auto place = [&](const PathDeviation::Place& of) {
-        return ToleranceSummary::Place{of.distance, feeder_.number_of_move(of.move), of.line,
-                                       feeder_.name_of_move(of.move, of.line)};
+        return of.distance > 0.0 ? ToleranceSummary::Place{of.distance, feeder_.number_of_move(of.move), of.line,
+                                                           feeder_.name_of_move(of.move, of.line)}
+                                 : ToleranceSummary::Place{};
     };
     out.deviation = place(deviation_.linear());
     if (deviation_.has_rotary()) {

@@ -193,3 +193,30 @@ TEST_CASE("a path within a tolerance says how near it is, and what became of the
     CHECK(broken["deviation_deg"]["distance"] == 0.5);
     CHECK(broken["deviation_deg"]["line"].is_null());
 }
+
+TEST_CASE("a run is shorter than with exact stops, longer or as long: never less by a negative share") {
+    Summary summary = sample();
+    summary.tolerance = ToleranceSummary{};
+    summary.tolerance->exact_stop_s = summary.cycle_time_s / 1.012;
+    CHECK(contains(to_text(summary), "(estimated; this run takes 1.2 % more)"));
+    summary.tolerance->exact_stop_s = summary.cycle_time_s / 1.0004;
+    CHECK(contains(to_text(summary), "(estimated; this run takes as long)"));
+    summary.tolerance->exact_stop_s = summary.cycle_time_s / 0.9996;
+    CHECK(contains(to_text(summary), "(estimated; this run takes as long)"));
+    summary.tolerance->exact_stop_s = 0.0;
+    CHECK(contains(to_text(summary), "(estimated; this run takes as long)"));
+}
+
+TEST_CASE("a deviation of zero is at no element and at no line") {
+    Summary summary = sample();
+    summary.tolerance = ToleranceSummary{};
+    summary.tolerance->rotary_deviation = ToleranceSummary::Place{};
+    const std::string text = to_text(summary);
+    CHECK(contains(text, "0 mm at most\n"));
+    CHECK(contains(text, "0 degrees at most\n"));
+    CHECK_FALSE(contains(text, ", at"));
+    const auto json = nlohmann::json::parse(to_json(summary))["tolerance"];
+    CHECK(json["deviation_mm"]["distance"] == 0.0);
+    CHECK(json["deviation_mm"]["at"].is_null());
+    CHECK(json["deviation_deg"]["at"].is_null());
+}
