@@ -21,9 +21,9 @@ namespace {
 #define SPLINEFEED_VERSION "unknown"
 #endif
 
-constexpr const char* exit_statuses =
-    "Exit status: 0 done; 1 the machine did not finish (the message says where it stands), or a drive cannot be used; "
-    "2 bad input or usage (the message is one line).";
+constexpr const char* exit_statuses = "Exit status: 0 done; 1 the machine did not finish (the message says where it "
+                                      "stands), a tolerance was not kept, or a "
+                                      "drive cannot be used; 2 bad input or usage (the message is one line).";
 
 std::string joined(std::initializer_list<std::string_view> names) {
     return listed({names.begin(), names.size()});
@@ -184,7 +184,8 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
                       "MM: of G64 without P, 0 to 100 (default: the machine file's)");
     add_gcode_options(*check, job);
     check->add_option("--scalar", typed.scalar,
-                      "fixed, float or double: number type of the computation (default fixed)");
+                      "fixed, float or double: number type of the computation (default fixed); float not with a jerk "
+                      "limit");
     check->add_flag("--json", typed.json, "print one JSON object")->disable_flag_override();
     check->footer("Example: splinefeed check part.ngc -m three_axis.toml\n"
                   "Exit status: 0 nothing is wrong; 1 the program has problems; 2 it cannot be read, or bad usage.");
