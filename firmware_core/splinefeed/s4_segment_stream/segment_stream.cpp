@@ -14,7 +14,7 @@
 // point is rounded from an absolute position.
 //
 // At a stop the control point is repeated three times: the position is exact, and velocity and acceleration are zero at
-// one instant. The dwell is 2 T and the rest of the current T.
+// one instant. The dwell is 2 T; ProfileSampler says when it begins and ends.
 #include "splinefeed/s4_segment_stream/segment_stream.hpp"
 
 namespace splinefeed {
