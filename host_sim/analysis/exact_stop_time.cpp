@@ -18,7 +18,21 @@ namespace {
 
 constexpr double unlimited = 1e30;
 
+double arc_length(const PathStrand& strand, int axes, double& least_radius) {
+    const PerAxis<double> from = strand.at(0.0);
+    const PerAxis<double> to = strand.at(1.0);
+    double others_sq = 0.0;
+    for (unsigned k = 3; k < static_cast<unsigned>(axes); ++k) {
+        others_sq += (to[k] - from[k]) * (to[k] - from[k]);
+    }
+    least_radius = strand.arc()->least_radius(others_sq);
+    return strand.arc()->length(others_sq);
+}
+
 double curve_length(const PathStrand& strand, int axes, double& least_radius) {
+    if (strand.arc()) {
+        return arc_length(strand, axes, least_radius);
+    }
     constexpr int parts = 64;
     const auto between = [axes](const PerAxis<double>& a, const PerAxis<double>& b) {
         double sum = 0.0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/analysis/move_extent.hpp"
 
+#include "host_sim/program/element_shapes.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace splinefeed::host {
 
@@ -11,57 +12,6 @@ namespace {
 
 constexpr double chord_unit_mm = 1.0 / 4096.0;
 constexpr int chords = 64;
-
-// The way of an arc in the plane, as u cos + v sin about its centre.
-struct ArcWay {
-    std::array<double, 3> u{};
-    std::array<double, 3> v{};
-    double radius = 0.0;
-    double rise_sq = 0.0;
-
-    ArcWay(const PerAxis<Position>& from, const PathElement<double>& move) noexcept {
-        const auto& n = move.arc.normal;
-        double along = 0.0;
-        double rise = 0.0;
-        for (unsigned k = 0; k < 3; ++k) {
-            u[k] = to_mm(from[k]) - to_mm(move.arc.centre[k]);
-            along += u[k] * n[k];
-            rise += (to_mm(move.to[k]) - to_mm(from[k])) * n[k];
-        }
-        for (unsigned k = 0; k < 3; ++k) {
-            u[k] -= along * n[k];
-        }
-        for (unsigned k = 0; k < 3; ++k) {
-            v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
-        }
-        radius = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-        rise_sq = rise * rise;
-    }
-};
-
-void add_arc(const PerAxis<Position>& from, const PathElement<double>& move, int axes, AxisBox& box) noexcept {
-    const ArcWay way(from, move);
-    const double sweep = move.arc.sweep_rad;
-    for (unsigned k = 0; k < static_cast<unsigned>(std::min(axes, 3)); ++k) {
-        const double peak = std::hypot(way.u[k], way.v[k]);
-        const double at = std::atan2(way.v[k], way.u[k]);
-        for (const double side : {0.0, std::numbers::pi}) {
-            // The first time that the angle is reached in the sense of the arc.
-            const double turn = std::fmod(std::fmod(at + side, 2.0 * std::numbers::pi) + 2.0 * std::numbers::pi,
-                                          2.0 * std::numbers::pi);
-            const double angle = sweep >= 0.0 ? turn : 2.0 * std::numbers::pi - turn;
-            if (angle <= std::fabs(sweep)) {
-                const double share = sweep != 0.0 ? angle / std::fabs(sweep) : 0.0;
-                // The centre's plane rises with the arc.
-                const double start = to_mm(from[k]);
-                const double base = start - way.u[k];
-                const double end = to_mm(move.to[k]) - (way.u[k] * std::cos(sweep) + way.v[k] * std::sin(sweep));
-                const double value = base + share * (end - base) + (side > 0.0 ? -peak : peak);
-                box.add(k, value, value);
-            }
-        }
-    }
-}
 
 } // namespace
 
@@ -87,7 +37,11 @@ void add_extent(const PerAxis<Position>& from, const PathElement<double>& move, 
         }
     }
     if (move.shape == MoveShape::arc) {
-        add_arc(from, move, axes, box);
+        const ProgrammedArc arc = arc_of(from, move, axes);
+        for (unsigned k = 0; k < static_cast<unsigned>(std::min(axes, 3)); ++k) {
+            const auto [low, high] = arc.range(k);
+            box.add(k, low, high);
+        }
     }
 }
 
@@ -95,13 +49,12 @@ double move_length(const PerAxis<Position>& from, const PathElement<double>& mov
                    const PerAxis<bool>& counts) noexcept {
     const auto count = static_cast<unsigned>(axes);
     if (move.shape == MoveShape::arc) {
-        const ArcWay way(from, move);
-        double others_sq = way.rise_sq;
+        double others_sq = 0.0;
         for (unsigned k = 3; k < count; ++k) {
             const double d = to_mm(move.to[k]) - to_mm(from[k]);
             others_sq += counts[k] ? d * d : 0.0;
         }
-        return std::sqrt(way.radius * way.radius * move.arc.sweep_rad * move.arc.sweep_rad + others_sq);
+        return arc_of(from, move, axes).length(others_sq);
     }
     double length = 0.0;
     const int parts = move.shape == MoveShape::bezier ? chords : 1;

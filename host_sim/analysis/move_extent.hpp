@@ -15,12 +15,12 @@ struct AxisBox {
     void add(unsigned axis, double from, double to) noexcept;
 };
 
-/// Adds a move to a box. Lines are exact; arcs are, up to the change of their radius; of a Bezier segment it is the box
-/// of its control points, which may be larger than the move.
+/// Adds a move to a box. Lines and arcs are exact, helices and arcs of several turns, too; of a Bezier segment it is
+/// the box of its control points, which may be larger than the move.
 void add_extent(const PerAxis<Position>& from, const PathElement<double>& move, int axes, AxisBox& box) noexcept;
 
-/// Length over the first `axes` axes of which `counts` is true [mm]. Arcs up to the change of their radius; Bezier
-/// segments within 0.1 %.
+/// Length over the first `axes` axes of which `counts` is true [mm]; of an arc x, y and z always count. Bezier segments
+/// within 0.1 %.
 [[nodiscard]] double move_length(const PerAxis<Position>& from, const PathElement<double>& move, int axes,
                                  const PerAxis<bool>& counts) noexcept;
 

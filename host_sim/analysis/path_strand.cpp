@@ -18,14 +18,6 @@ constexpr int parts_of_bezier = 24;
 constexpr std::size_t block = 12; // places
 constexpr int steps = 6;          // of Gauss and Newton, each squares the error
 
-Vector3 linear(const PerAxis<Position>& place, int axes) {
-    Vector3 out{};
-    for (unsigned k = 0; k < 3 && k < static_cast<unsigned>(axes); ++k) {
-        out[k] = to_mm(place[k]);
-    }
-    return out;
-}
-
 } // namespace
 
 PathStrand::PathStrand(const PerAxis<Position>& from, const PathElement<double>& move, int axes) : axes_(axes) {
@@ -43,8 +35,7 @@ PathStrand::PathStrand(const PerAxis<Position>& from, const PathElement<double>&
         control_[k][static_cast<unsigned>(degree_)] = to_mm(move.to[k]);
     }
     if (move.shape == MoveShape::arc) {
-        arc_.emplace(linear(from, axes), linear(move.to, axes), linear(move.arc.centre, axes), move.arc.normal,
-                     move.arc.sweep_rad);
+        arc_ = arc_of(from, move, axes);
         parts_ = std::clamp(static_cast<int>(std::fabs(arc_->angle()) / part_of_arc), 8, most_parts);
     }
     prepare();

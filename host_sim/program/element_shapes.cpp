@@ -53,8 +53,80 @@ double ProgrammedArc::extent(std::size_t k) const noexcept {
     return 2.0 * std::fmax(radius_from_, radius_to_) * turning + std::fabs(rise_ * axis_[k]);
 }
 
-double ProgrammedArc::length() const noexcept {
-    return std::hypot(std::fmax(radius_from_, radius_to_) * angle_, rise_, radius_to_ - radius_from_);
+double ProgrammedArc::slope(std::size_t k, double w) const noexcept {
+    const double cosine = std::cos(angle_ * w);
+    const double sine = std::sin(angle_ * w);
+    const double growth = radius_to_ - radius_from_;
+    return growth * (cosine * x_[k] + sine * y_[k]) +
+           (radius_from_ + w * growth) * angle_ * (cosine * y_[k] - sine * x_[k]) + rise_ * axis_[k];
+}
+
+// The coordinate is a cosine on a slope. Between two zeros of the cosine its derivative is monotone, so that each half
+// turn has one extreme at most.
+ProgrammedArc::Range ProgrammedArc::range(std::size_t k) const noexcept {
+    constexpr int halvings = 30; // the coordinate is off by the square of what is left
+    constexpr double half_turn = std::numbers::pi;
+    Range out{at(0.0).point[k], at(0.0).point[k]};
+    const auto include = [&](double w) {
+        const double here = at(w).point[k];
+        out.low = std::fmin(out.low, here);
+        out.high = std::fmax(out.high, here);
+    };
+    include(1.0);
+    const double turned = std::fabs(angle_);
+    const double largest = std::copysign(1.0, angle_) * std::atan2(y_[k], x_[k]); // the angle where the cosine is
+    const double zero = std::fmod(half_turn / 2.0 + largest + 2.0 * half_turn, half_turn);
+    double begin = 0.0;
+    for (int n = 0; begin < 1.0; ++n) {
+        const double end = std::fmin((zero + n * half_turn) / turned, 1.0); // 1 where the arc does not turn
+        double low = begin;
+        double high = end;
+        const bool rises = slope(k, low) > 0.0;
+        if (rises != (slope(k, high) > 0.0)) {
+            for (int i = 0; i < halvings; ++i) {
+                const double middle = 0.5 * (low + high);
+                ((slope(k, middle) > 0.0) == rises ? low : high) = middle;
+            }
+            include(low);
+        }
+        begin = end;
+    }
+    return out;
+}
+
+// Of the derivative by w.
+double ProgrammedArc::speed_sq(double radius, double others_sq) const noexcept {
+    const double growth = radius_to_ - radius_from_;
+    return growth * growth + radius * radius * angle_ * angle_ + rise_ * rise_ + others_sq;
+}
+
+// By Simpson's rule: the speed depends on the radius alone.
+double ProgrammedArc::length(double others_sq) const noexcept {
+    constexpr int parts = 32;
+    double sum = 0.0;
+    for (int i = 0; i <= parts; ++i) {
+        const double weight = i == 0 || i == parts ? 1.0 : i % 2 == 0 ? 2.0 : 4.0;
+        const double radius = radius_from_ + (radius_to_ - radius_from_) * i / parts;
+        sum += weight * std::sqrt(speed_sq(radius, others_sq));
+    }
+    return sum / (3.0 * parts);
+}
+
+// The cube of the speed over the area of the first two derivatives.
+double ProgrammedArc::least_radius(double others_sq) const noexcept {
+    constexpr int parts = 32;
+    const double growth = radius_to_ - radius_from_;
+    const double angle_sq = angle_ * angle_;
+    double least = 1e30;
+    for (int i = 0; i <= parts; ++i) {
+        const double radius = radius_from_ + growth * i / parts;
+        const double speed = speed_sq(radius, others_sq);
+        const double second = angle_sq * (radius * radius * angle_sq + 4.0 * growth * growth);
+        const double both = growth * radius * angle_sq;
+        const double area_sq = speed * second - both * both;
+        least = area_sq > 0.0 ? std::fmin(least, speed * std::sqrt(speed / area_sq)) : least;
+    }
+    return least;
 }
 
 ProgrammedArc::Cylindrical ProgrammedArc::polar(const Vector3& point) const noexcept {
@@ -84,6 +156,17 @@ CurveState ProgrammedArc::at(double w) const noexcept {
         state.second[k] = 2.0 * growth * angle_ * along - radius * angle_ * angle_ * radial;
     }
     return state;
+}
+
+ProgrammedArc arc_of(const PerAxis<Position>& from, const PathElement<double>& move, int axes) noexcept {
+    const auto linear = [axes](const PerAxis<Position>& place) {
+        Vector3 out{};
+        for (unsigned k = 0; k < 3 && k < static_cast<unsigned>(axes); ++k) {
+            out[k] = to_mm(place[k]);
+        }
+        return out;
+    };
+    return {linear(from), linear(move.to), linear(move.arc.centre), move.arc.normal, move.arc.sweep_rad};
 }
 
 CurveState rational_state(const BezierPiece<double>& piece, double t) noexcept {

@@ -4,6 +4,7 @@
 
 #include "host_sim/program/hermite_pieces.hpp"
 
+#include "splinefeed/s1_blended_path/path_element.hpp"
 #include "splinefeed/splines/bezier_piece.hpp"
 
 #include <vector>
@@ -25,7 +26,17 @@ public:
     [[nodiscard]] double mismatch() const noexcept { return mismatch_; }
     /// The largest distance from `from` along axis k. [mm]
     [[nodiscard]] double extent(std::size_t k) const noexcept;
-    [[nodiscard]] double length() const noexcept;
+    /// The smallest and the largest coordinate of axis k. [mm] Cost: each half turn takes some microseconds.
+    struct Range {
+        double low = 0.0;
+        double high = 0.0;
+    };
+    [[nodiscard]] Range range(std::size_t k) const noexcept;
+    /// Length [mm], to 1e-6 of itself where the radius stays above a tenth of what it changes.
+    /// @param others_sq  the square of what further axes go meanwhile, in proportion
+    [[nodiscard]] double length(double others_sq = 0.0) const noexcept;
+    /// The smallest radius of curvature. [mm] @param others_sq  as above
+    [[nodiscard]] double least_radius(double others_sq = 0.0) const noexcept;
     /// @param w  0 to 1
     [[nodiscard]] CurveState at(double w) const noexcept;
 
@@ -37,6 +48,9 @@ public:
     [[nodiscard]] Cylindrical polar(const Vector3& point) const noexcept;
 
 private:
+    [[nodiscard]] double slope(std::size_t k, double w) const noexcept;
+    [[nodiscard]] double speed_sq(double radius, double others_sq) const noexcept;
+
     Vector3 centre_;
     Vector3 axis_;
     Vector3 x_{}; // from the centre to the start
@@ -48,6 +62,9 @@ private:
     double height_ = 0.0; // of the start above the centre
     double rise_ = 0.0;
 };
+
+/// The arc that a move is. @pre its shape is an arc
+[[nodiscard]] ProgrammedArc arc_of(const PerAxis<Position>& from, const PathElement<double>& move, int axes) noexcept;
 
 /// A rational Bezier segment: axes 0 to 2 of the piece are x w, y w, z w, axis 3 is w.
 [[nodiscard]] CurveState rational_state(const BezierPiece<double>& piece, double t) noexcept;

@@ -86,3 +86,41 @@ TEST_CASE("a program with exact stops is the sum of its moves") {
     CHECK(time.seconds() - before ==
           Approx(rest_to_rest_s(20.0 * std::numbers::pi, std::sqrt(a * 10.0), a, 0.0)).epsilon(0.01));
 }
+
+TEST_CASE("An arc of many turns is as long as they are, and no sharper than one") {
+    MachineSettings machine;
+    machine.axes = 4;
+    machine.max_feed_mm_s = 100.0;
+    machine.axis[3].rotary = true;
+    const double a = 1000.0 / std::sqrt(2.0);
+    for (const double turns : {0.5, 1.0, 7.25, 300.0}) {
+        for (const double rise : {0.0, 40.0}) {
+            for (const double growth : {0.0, 5.0}) {
+                ExactStopTime time(machine);
+                time.start({position_from_mm(10.0)});
+                PathElement<double> arc;
+                arc.shape = MoveShape::arc;
+                const double sweep = 2.0 * std::numbers::pi * turns;
+                const double radius = 10.0 + growth;
+                arc.to = {position_from_mm(radius * std::cos(sweep)), position_from_mm(radius * std::sin(sweep)),
+                          position_from_mm(rise)};
+                arc.arc.normal = {0.0, 0.0, 1.0};
+                arc.arc.sweep_rad = sweep;
+                time.move(arc);
+                double length = 0.0;
+                const int steps = static_cast<int>(1000.0 * turns);
+                for (int i = 0; i < steps; ++i) {
+                    const double middle = 10.0 + growth * (i + 0.5) / steps;
+                    length += std::hypot(middle * sweep, growth, rise) / steps;
+                }
+                CAPTURE(turns, rise, growth);
+                // The radius of a helix is larger than that of its circle.
+                const double slope = rise / sweep;
+                const double least = 10.0 + slope * slope / 10.0;
+                const double speed = std::fmin(100.0, std::sqrt(a * least));
+                CHECK(time.seconds() ==
+                      Approx(rest_to_rest_s(length, speed, a, 0.0)).epsilon(growth > 0.0 ? 0.02 : 1e-6));
+            }
+        }
+    }
+}
