@@ -88,8 +88,11 @@ void ElementWriter::move(const Move& move) {
     } else if (move.feed_mm_s > 0.0) {
         file_->format(R"(, "feed_mm_s": {})", move.feed_mm_s);
     }
-    file_->format(R"(, "mode": "{}", "tolerance_mm": {}{}}})", mode_name(element.mode), element.tolerance_mm,
-                  line_member(move.line));
+    file_->format(R"(, "mode": "{}", "tolerance_mm": {})", mode_name(element.mode), element.tolerance_mm);
+    if (element.chain_tolerance_mm < element.tolerance_mm) {
+        file_->format(R"(, "chain_tolerance_mm": {})", element.chain_tolerance_mm);
+    }
+    file_->format("{}}}", line_member(move.line));
     here_ = element.to;
     ++elements_;
 }

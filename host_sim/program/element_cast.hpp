@@ -33,6 +33,7 @@ template <Scalar To, Scalar From>
         }
     }
     out.tolerance_mm = number(element.tolerance_mm);
+    out.chain_tolerance_mm = number(element.chain_tolerance_mm);
     out.feed_mm_s = number(element.feed_mm_s);
     out.max_feed_mm_s = number(element.max_feed_mm_s);
     return out;

@@ -26,9 +26,10 @@ constexpr double fastest_feed = 10000.0;
 constexpr double longest_dwell_s = 86400.0;
 
 /// What an element may say; others are passed over unless they look like a misprint of these.
-constexpr std::array<std::string_view, 15> known_keys{"type",  "from",           "to",          "feed_mm_s", "rapid",
-                                                      "mode",  "tolerance_mm",   "line_number", "centre",    "axis",
-                                                      "angle", "control_points", "weights",     "knots",     "order"};
+constexpr std::array<std::string_view, 16> known_keys{
+    "type",           "from",         "to",          "feed_mm_s", "rapid", "chain_tolerance_mm",
+    "mode",           "tolerance_mm", "line_number", "centre",    "axis",  "angle",
+    "control_points", "weights",      "knots",       "order"};
 
 class Reader {
 public:
@@ -86,6 +87,8 @@ private:
         const bool rapid = flag_in(element, "rapid", false);
         move.feed_mm_s = rapid ? 0.0 : feed(element);
         move.tolerance_mm = tolerance(element, rapid);
+        move.chain_tolerance_mm =
+            rapid ? move.tolerance_mm : stated_tolerance(element, "chain_tolerance_mm", move.tolerance_mm);
         const json type = element.value("type", json("line"));
         const std::string shape = type.is_string() ? type.get<std::string>() : "";
         if (shape == "line") {
@@ -200,11 +203,16 @@ private:
     }
 
     [[nodiscard]] double tolerance(const json& element, bool rapid) const {
-        const double stated = number_in(element, "tolerance_mm", tolerances_.programmed_mm);
-        if (!(stated >= 0.0 && stated <= largest_tolerance_mm)) {
-            refuse(fmt::format("\"tolerance_mm\" is {}; it must lie between 0 and {}", stated, largest_tolerance_mm));
-        }
+        const double stated = stated_tolerance(element, "tolerance_mm", tolerances_.programmed_mm);
         return rapid ? tolerances_.rapid_mm : stated;
+    }
+
+    static double stated_tolerance(const json& element, const char* key, double otherwise) {
+        const double stated = number_in(element, key, otherwise);
+        if (!(stated >= 0.0 && stated <= largest_tolerance_mm)) {
+            refuse(fmt::format("\"{}\" is {}; it must lie between 0 and {}", key, stated, largest_tolerance_mm));
+        }
+        return stated;
     }
 
     // What happens between two elements: the machine stands there.

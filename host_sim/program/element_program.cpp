@@ -49,6 +49,7 @@ PathElement<double> ElementProgram::element(std::size_t move) const noexcept {
     out.stop_at_end = of.stop_at_end;
     out.to = of.to;
     out.tolerance_mm = of.tolerance_mm;
+    out.chain_tolerance_mm = of.chain_tolerance_mm;
     out.feed_mm_s = of.feed_mm_s;
     if (of.shape == MoveShape::arc) {
         out.arc = arcs_[of.detail];

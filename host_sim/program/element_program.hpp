@@ -23,6 +23,7 @@ public:
         std::uint32_t detail = 0;  ///< index of its arc or its Bezier points
         PerAxis<Position> to{};
         double tolerance_mm = 0.0;
+        double chain_tolerance_mm = 0.0;
         double feed_mm_s = 0.0; ///< 0: the machine's
     };
     struct Dwell {

@@ -83,6 +83,7 @@ private:
         }
         if (random_.below(3) == 0) {
             e["tolerance_mm"] = random_.below(4) == 0 ? 0.0 : std::pow(10.0, random_.between(-3, 0));
+            e["chain_tolerance_mm"] = random_.below(4) == 0 ? 0.0 : std::pow(10.0, random_.between(-4, 0));
         }
         if (random_.below(10) == 0) {
             e["mode"] = random_.below(2) == 0 ? "exact_path" : "exact_stop";

@@ -74,8 +74,8 @@ TEST_CASE("path modes", "[program][interpreter]") {
     CHECK(move("X4").element.tolerance_mm == 0.0);
     CHECK(move("G61.1 X5").element.mode == PathMode::exact_stop);
     CHECK(move("G64 P0.05 X6").element.tolerance_mm == Approx(0.05));
-    CHECK(move("X7").chain_tolerance_mm == Approx(0.05));
-    CHECK(move("G64 P0.05 Q0.02 X8").chain_tolerance_mm == Approx(0.02));
+    CHECK(move("X7").element.chain_tolerance_mm == Approx(0.05));
+    CHECK(move("G64 P0.05 Q0.02 X8").element.chain_tolerance_mm == Approx(0.02));
     CHECK(move("G64 X9").element.tolerance_mm == Approx(0.01));
     CHECK(move("G64 P0 X10").element.mode == PathMode::exact_path);
     CHECK(move("G20 G64 P0.01 X1").element.tolerance_mm == Approx(0.254));

@@ -93,7 +93,7 @@ void Interpreter<S>::fill_manner(MoveKind move, ProgramItem<S>& out) const noexc
     const bool blends = how.mode == PathMode::continuous;
     const bool rapid = move == MoveKind::rapid || move == MoveKind::home;
     element.tolerance_mm = !blends ? S{} : to_scalar<S>(rapid ? rapid_tolerance() : how.tolerance_mm);
-    out.chain_tolerance_mm = blends ? to_scalar<S>(how.chain_tolerance_mm) : S{};
+    element.chain_tolerance_mm = rapid ? element.tolerance_mm : to_scalar<S>(how.chain_tolerance_mm);
 }
 
 template <Scalar S>

@@ -35,7 +35,6 @@ struct ProgramItem {
     ProbeCondition probe{};
     std::uint32_t home_axes = 0; ///< MoveKind::home: bit k for axis k of the machine
     PathElement<S> element{};    ///< feed_mm_s as the feed plan counts it: ProgramSettings::rotary_axes
-    S chain_tolerance_mm{};      ///< Q of G64: for chains of short moves
     Decimal feed{};              ///< F as programmed, in mm/min or degrees/min, also if only rotary axes move
 
     Decimal dwell_s{};

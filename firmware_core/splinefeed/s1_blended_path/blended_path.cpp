@@ -69,7 +69,8 @@ Status BlendedPath<S>::measure(const PerAxis<Position>& from, const PathElement<
             return Error::position_out_of_range;
         }
     }
-    if (!(element.tolerance_mm >= S{} && element.tolerance_mm <= literal<S>(most_tolerance_mm))) {
+    if (!(element.tolerance_mm >= S{} && element.tolerance_mm <= literal<S>(most_tolerance_mm)) ||
+        !(element.chain_tolerance_mm >= S{})) {
         return Error::tolerance_out_of_range;
     }
     return out.set(from, element, axes);

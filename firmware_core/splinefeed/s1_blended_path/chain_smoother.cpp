@@ -75,7 +75,8 @@ void ChainSmoother<S>::begin(const PathElement<S>& element, std::uint32_t index,
     points_.start(from);
     front_ = 0;
     closed_ = left_out_ = false;
-    tolerance_ = scale2(element.tolerance_mm, -chord_unit_log2);
+    tolerance_ = tolerance_of(element);
+    spare_ = scale2(element.tolerance_mm, -chord_unit_log2) - tolerance_;
     PerAxis<S> direction{};
     const S length = length_to(element.to, direction);
     if (element.shape != MoveShape::line || element.mode == PathMode::exact_stop || !(tolerance_ > S{}) ||
@@ -104,7 +105,7 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
     PerAxis<S> direction{};
     const S length = length_to(element.to, direction);
     if (element.shape != MoveShape::line || !end_.passes_end() || element.tolerance_mm != end_.tolerance_mm ||
-        !(length < literal<S>(longest))) {
+        tolerance_of(element) != tolerance_ || !(length < literal<S>(longest))) {
         return false;
     }
     const bool same_feed = element.feed_mm_s == end_.feed_mm_s && element.max_feed_mm_s == end_.max_feed_mm_s;
@@ -319,7 +320,7 @@ void ChainSmoother<S>::pass_line(PathElement<S>& out) noexcept {
         exact = exact && !(absolute(points_[front_].moved[k]) > S{});
     }
     const S share = !exact ? literal<S>(of_joint) : merged(front_ + 1) ? literal<S>(rest) : from_integer<S>(1);
-    out.tolerance_mm = scale2(share * tolerance_, chord_unit_log2);
+    out.tolerance_mm = scale2(share * tolerance_ + spare_, chord_unit_log2);
     ++front_;
     points_.cut(front_);
     out.to = points_[front_].place;
@@ -340,7 +341,7 @@ bool ChainSmoother<S>::pass_piece(PathElement<S>& out) noexcept {
     out.shape = MoveShape::bezier;
     out.joined = !first;
     const S all = merged(to) ? literal<S>(rest) * tolerance_ : tolerance_;
-    out.tolerance_mm = scale2(larger(all - limit, literal<S>(of_joint) * tolerance_), chord_unit_log2);
+    out.tolerance_mm = scale2(larger(all - limit, literal<S>(of_joint) * tolerance_) + spare_, chord_unit_log2);
     const bool ends = closed_ && to == points_.last();
     for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
         out.to[k] =

@@ -18,8 +18,9 @@ struct IndexedMove {
 
 /// Passes moves on, but for chains: lines in continuous mode that meet in small angles. A chain becomes quintics that
 /// join each other with direction and curvature (`joined`), each within the tolerance of the programmed lines, which is
-/// checked before it is passed on. What is left of the tolerance is that of the joints at the ends of the chain. Where
-/// not even one line becomes a quintic, it stays a line, and the chain ends there.
+/// checked before it is passed on; that is chain_tolerance_mm, if it is less than tolerance_mm. What is left of the
+/// latter is that of the joints at the ends of the chain. Where not even one line becomes a quintic, it stays a line,
+/// and the chain ends there.
 ///
 /// Class: G2 along a chain; no curvature at its ends. Look-ahead: 64 points; what is passed on does not depend on the
 /// times of the calls. Memory: a ring of 72 points. Cost per point: 13 steps of smoothing, and about 50 points of a
@@ -45,6 +46,9 @@ public:
 private:
     enum class Kind : std::uint8_t { nothing, single, chain };
 
+    [[nodiscard]] static S tolerance_of(const PathElement<S>& element) noexcept {
+        return scale2(smaller(element.tolerance_mm, element.chain_tolerance_mm), -chord_unit_log2);
+    }
     [[nodiscard]] bool goes_on(const PathElement<S>& element) const noexcept;
     [[nodiscard]] bool too_short(S length) const noexcept;
     [[nodiscard]] bool may_leave_out(const PathElement<S>& element) const noexcept;
@@ -74,6 +78,7 @@ private:
     bool left_out_ = false;      // the end of end_ is no point of its own
     bool merged_before_ = false; // the last point, had that place not been left out
     S tolerance_{};              // of the chain, in chord units
+    S spare_{};                  // what its joints have beyond that
     std::uint64_t front_ = 0;    // the point that was passed on last
     std::uint64_t span_ = 8;     // lines of the last quintic
     std::uint64_t chains_ = 0;

@@ -42,8 +42,10 @@ struct PathElement {
     ArcShape<S> arc{};       ///< of an arc
     BezierShape<S> bezier{}; ///< of a Bezier segment
     S tolerance_mm{};        ///< largest distance between the path and the moves, both ways; 0: the path is exact
-    S feed_mm_s{};           ///< programmed feed; 0: the machine's
-    S max_feed_mm_s{};       ///< upper limit for every feed override; 0: none
+    /// The same where short lines are joined into one curve; above tolerance_mm it is that; 0: they are not joined.
+    S chain_tolerance_mm = from_integer<S>(100);
+    S feed_mm_s{};     ///< programmed feed; 0: the machine's
+    S max_feed_mm_s{}; ///< upper limit for every feed override; 0: none
 
     /// Whether its end may be rounded.
     [[nodiscard]] bool passes_end() const noexcept { return mode == PathMode::continuous && !stop_at_end; }
