@@ -57,6 +57,9 @@ PathDeviation::PathDeviation(const MachineSettings& settings, double joint_mm, d
 
 void PathDeviation::start(const PerAxis<Position>& position) {
     here_ = whole_end_ = position;
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        reached_mm_[k] = to_mm(position[k]);
+    }
 }
 
 void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
@@ -156,14 +159,24 @@ PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, con
     return best;
 }
 
+// Where no segment follows the move, the path stands.
 double PathDeviation::from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const {
-    double best = 1e150;
+    constexpr double none = 1e150;
+    double best = none;
     for (const Segment& segment : segments_) {
         if (segment.first <= move && move <= segment.last && segment.strand.at_least_sq(point, set) < best * best) {
             best = std::fmin(best, segment.strand.distance(point, set));
         }
     }
-    return best;
+    if (best < none) {
+        return best;
+    }
+    double sum = 0.0;
+    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+        const double apart = reached_mm_[set.axis[n]] - point[set.axis[n]];
+        sum += apart * apart;
+    }
+    return std::sqrt(sum);
 }
 
 void PathDeviation::found(unsigned set, const Found& found) {
@@ -213,10 +226,8 @@ void PathDeviation::measure_move(std::uint64_t index) {
     const int parts = strand.straight() ? parts_of_line : strand.parts();
     for (unsigned s = 0; s < sets_.size(); ++s) {
         for (int i = index == 0 ? 0 : 1; i <= parts && sets_[s].count > 0; ++i) {
-            const double distance = from_segments(strand.at(i / static_cast<double>(parts)), sets_[s], index);
-            if (distance < 1e149) {
-                found(s, {distance, allowed(index), index});
-            }
+            found(s,
+                  {from_segments(strand.at(i / static_cast<double>(parts)), sets_[s], index), allowed(index), index});
         }
     }
 }
@@ -241,6 +252,7 @@ void PathDeviation::accept(std::size_t kept, std::uint64_t last) {
         pending_.front().last = last;
         segments_.push_back(std::move(pending_.front()));
         pending_.pop_front();
+        reached_mm_ = segments_.back().strand.at(1.0);
         measure_segment(segments_.back());
     }
 }

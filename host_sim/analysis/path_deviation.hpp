@@ -47,7 +47,7 @@ public:
     template <Scalar S>
     void segment(const CurveSegment<S>& segment);
     /// The path is complete: what is left of the moves is measured. Without this call moves that the path did not reach
-    /// are not.
+    /// are not. A path without a segment stands at its start.
     void finish();
 
     [[nodiscard]] const Place& linear() const noexcept { return largest_[0]; }
@@ -97,6 +97,7 @@ private:
     double joint_mm_;
     double rounding_;
     std::array<AxisSet, 2> sets_{}; // linear, rotary
+    PerAxis<double> reached_mm_{};  // the end of the last segment, first the start
     PerAxis<Position> here_{};
     std::deque<Move> moves_;       // from oldest_
     std::deque<Segment> segments_; // those that the moves from measured_ may have

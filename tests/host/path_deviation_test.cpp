@@ -126,6 +126,23 @@ TEST_CASE("a path that leaves the moves, skips one or stays short of the end is 
     CHECK(excess({first, second, segment_of({{10, 5}, {5, 5.021}, {0, 5}}, 2)}) == Approx(0.0105));
 }
 
+TEST_CASE("moves of which the path has nothing are noticed, but for those shorter than rounding") {
+    const auto excess = [](const std::vector<std::pair<double, double>>& places) {
+        PathDeviation deviation(machine_of(2, 2), 0.0, 0.0);
+        deviation.start({position_from_mm(10.0), position_from_mm(5.0)});
+        for (const auto& [x, y] : places) {
+            deviation.move(line_to(x, y, 0.01), 7);
+        }
+        deviation.finish();
+        return deviation.excess() ? deviation.excess()->place.distance : 0.0;
+    };
+    CHECK(excess({}) == 0.0);
+    CHECK(excess({{10.0, 5.0}}) == 0.0);
+    CHECK(excess({{10.0, 5.00015}, {10.0001, 5.00015}}) == 0.0);
+    CHECK(excess({{10.0, 8.0}}) == Approx(3.0));
+    CHECK(excess({{10.0, 5.0001}, {13.0, 9.0}, {10.0, 5.0}}) == Approx(5.0));
+}
+
 TEST_CASE("the tolerance of a joint is the smaller one of its moves, and none where the machine stops") {
     const auto kept = [](double before, double after, PathMode mode, double joint) {
         PathDeviation deviation(machine_of(2, 2), joint, 0.0);
@@ -208,6 +225,65 @@ TEST_CASE("a move shorter than rounding is left out, and its tolerance with it")
         deviation.finish();
         CHECK(deviation.excess().has_value() == stops);
     }
+}
+
+TEST_CASE("chains keep their own tolerance, and corners beside them that of their moves") {
+    struct Off {
+        double chain = 0.0;
+        double corner = 0.0;
+        std::uint64_t chains = 0;
+    };
+    // A wave of lines of 0.1 mm, and at its end a corner of 90 degrees.
+    const auto off = [](double tolerance, double chain_tolerance) {
+        std::vector<PathElement<double>> moves;
+        for (int i = 1; i <= 300; ++i) {
+            moves.push_back(line_to(0.1 * i, 0.3 * std::sin(0.25 * i), tolerance));
+        }
+        const double y = 0.3 * std::sin(75.0);
+        moves.push_back(line_to(40.0, y, tolerance));
+        moves.push_back(line_to(40.0, y + 10.0, tolerance));
+        TolerancePath<double> path(2, 0.0);
+        PathDeviation wave(machine_of(2, 2), 0.0, 0.0);
+        PathDeviation all(machine_of(2, 2), 0.0, 0.0);
+        REQUIRE(path.start({}).ok());
+        wave.start({});
+        all.start({});
+        CurveSegment<double> segment;
+        std::size_t next = 0;
+        for (Pull pull = Pull::starved; pull != Pull::finished;) {
+            pull = path.next(segment);
+            if (pull == Pull::item) {
+                all.segment(segment);
+                if (segment.waypoint < 295) {
+                    wave.segment(segment);
+                }
+            } else if (pull == Pull::starved && next < moves.size()) {
+                PathElement<double>& move = moves[next++];
+                move.chain_tolerance_mm = chain_tolerance;
+                REQUIRE(path.push(move).ok());
+                all.move(move, 0);
+                wave.move(move, 0);
+            } else if (pull == Pull::starved) {
+                REQUIRE(path.finish().ok());
+            }
+        }
+        all.finish();
+        CHECK_FALSE(all.excess());
+        return Off{wave.linear().distance, all.linear().distance, path.counts().chains};
+    };
+    const Off both = off(0.02, 100.0); // the smaller one counts
+    CHECK(off(0.02, 0.02).chain == both.chain);
+    CHECK(both.chains == 1);
+    CHECK(both.chain > 0.006);
+    CHECK(both.corner == Approx(0.02).epsilon(0.01));
+    const Off fine = off(0.02, 0.004);
+    CHECK(fine.chains == 1);
+    CHECK(fine.chain <= 0.004);
+    CHECK(fine.chain > 0.001);
+    CHECK(fine.corner == Approx(0.02).epsilon(0.01));
+    const Off none = off(0.02, 0.0);
+    CHECK(none.chains == 0);
+    CHECK(none.corner == Approx(0.02).epsilon(0.01));
 }
 
 TEST_CASE("random programs keep their tolerances in every scalar") {
