@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/config/decimal_number.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -29,9 +30,9 @@ public:
             text_.remove_prefix(1);
             const double value = number(letter);
             if (const std::size_t axis = ToolRow::letters.find(letter); axis != std::string_view::npos) {
-                out.offset[axis] = {std::llround(value * static_cast<double>(Decimal::one))};
+                out.offset[axis] = decimal_of(value);
             } else if (letter == 'D') {
-                out.diameter = {std::llround(value * static_cast<double>(Decimal::one))};
+                out.diameter = decimal_of(value);
             } else if (letter == 'T') {
                 if (!(value >= 0.0 && value <= largest_tool) || value != std::floor(value)) {
                     refuse(fmt::format("T{} is no tool; its number is 0 to {}", value, largest_tool));

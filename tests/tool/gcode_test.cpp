@@ -263,3 +263,34 @@ TEST_CASE("Q of G64 bounds the chains of short moves, also by way of --elements"
     CHECK(fine["deviation_mm"]["distance"].get<double>() <= 0.003);
     CHECK(run("G64 P0.02 Q0")["chains"] == 0);
 }
+
+TEST_CASE("A real target refuses probe moves and homing within a program, before anything moves") {
+    const Tool tool;
+    const std::string target = "--target modbus-tcp://127.0.0.1:1";
+    const std::string begin = "G1 X10 F3000\n";
+    for (const int number : {2, 3, 4, 5}) {
+        const std::string word = "G38." + std::to_string(number);
+        CHECK(error_of(tool, begin + word + " Z-5 F100\nM2\n", target)
+                  .rfind("part.ngc:2: " + word + ": only the simulated machine probes within a program so far", 0) ==
+              0);
+        CHECK(seconds(tool, begin + word + " Z-5 F100\nM2\n") > 0.0);
+    }
+    CHECK(error_of(tool, begin + "G28\n", target + " --dialect marlin")
+              .rfind("part.ngc:2: G28: only the simulated machine homes within a program so far", 0) == 0);
+    CHECK(error_of(tool, begin + "$H\n", target + " --dialect grbl").rfind("part.ngc:2: $H: only the simulated", 0) ==
+          0);
+    // Left out: what is missing then is the drive.
+    tool.write("part.ngc", begin + "G28 X Y\n");
+    CHECK(tool("run part.ngc --dialect marlin --ignore G28 " + target).status == 1);
+}
+
+TEST_CASE("A line may be as long as lines are, and have a comment behind it") {
+    const Tool tool;
+    const auto line = [](std::size_t characters) {
+        std::string text = "G1 X10 F3000";
+        return text + std::string(characters - text.size(), ' ') + ";" + std::string(300, 'c') + "\n";
+    };
+    CHECK(seconds(tool, line(255)) > 0.0);
+    CHECK(seconds(tool, line(256)) > 0.0);
+    CHECK(error_of(tool, line(257)).rfind("part.ngc:1:257: ", 0) == 0);
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/gcode_moves.hpp"
 
+#include "host_sim/config/decimal_number.hpp"
 #include "host_sim/program/element_cast.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
@@ -10,7 +11,6 @@
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
@@ -19,14 +19,6 @@
 namespace splinefeed::host {
 
 namespace {
-
-double number(Decimal value) {
-    return static_cast<double>(value.raw) / static_cast<double>(Decimal::one);
-}
-
-Decimal decimal(double value) {
-    return {std::llround(value * static_cast<double>(Decimal::one))};
-}
 
 ProgramSettings program_settings(const GcodeSettings& from, const MachineTools* tools) {
     ProgramSettings out;
@@ -38,8 +30,8 @@ ProgramSettings program_settings(const GcodeSettings& from, const MachineTools* 
     out.dialect = from.dialect;
     out.block_delete = from.block_delete;
     out.optional_pause = from.optional_stop;
-    out.default_tolerance_mm = decimal(from.tolerance_mm);
-    out.rapid_tolerance_mm = decimal(from.rapid_tolerance_mm);
+    out.default_tolerance_mm = decimal_of(from.tolerance_mm);
+    out.rapid_tolerance_mm = decimal_of(from.rapid_tolerance_mm);
     out.ignored = from.ignored.data();
     out.ignored_count = from.ignored.size();
     out.tools = tools;
@@ -52,7 +44,7 @@ std::string_view without_comment(std::string_view text, std::size_t longest) {
         return text;
     }
     bool inside = false;
-    for (std::size_t i = 0; i < longest; ++i) {
+    for (std::size_t i = 0; i <= longest; ++i) { // a line may end where the comment begins
         inside = text[i] == '(' || (inside && text[i] != ')');
         if (text[i] == ';' && !inside) {
             return text.substr(0, i);
@@ -91,6 +83,7 @@ private:
     void take_event(SourceStep<S>& out);
     void take_spindle(SourceStep<S>& out);
     void require_possible(EventKind kind) const;
+    void require_possible(MoveKind kind) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
 
     const GcodeSettings* settings_;
@@ -200,7 +193,7 @@ void GcodeMoves<S>::take(SourceStep<S>& out) {
         break;
     case ItemKind::dwell:
         out.kind = StepKind::dwell;
-        out.dwell_s = number(item_.dwell_s);
+        out.dwell_s = number_of(item_.dwell_s);
         break;
     case ItemKind::event:
         out.kind = StepKind::event;
@@ -211,6 +204,9 @@ void GcodeMoves<S>::take(SourceStep<S>& out) {
 
 template <Scalar S>
 void GcodeMoves<S>::take_move(SourceStep<S>& out) const {
+    if (!settings_->simulated) {
+        require_possible(item_.move);
+    }
     out.element = item_.element;
     out.rapid = item_.move == MoveKind::rapid || item_.move == MoveKind::home;
     if (out.rapid) {
@@ -229,7 +225,7 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     }
     out.action.kind = event.kind;
     out.action.number = event.number;
-    out.action.value = number(event.value);
+    out.action.value = number_of(event.value);
     out.action.text.assign(event.text);
     out.action.spindle.reset();
     if (ProgramSpindle::is_of(event.kind)) {
@@ -239,7 +235,7 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
                                                            : nullptr;
     if (event.kind == EventKind::input_wait) { // inputs of the simulated machine are low, and stay so
         const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
-        out.dwell_s = met ? 0.0 : number(event.value);
+        out.dwell_s = met ? 0.0 : number_of(event.value);
         interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
     }
 }
@@ -295,6 +291,25 @@ void GcodeMoves<S>::require_possible(EventKind kind) const {
                          fmt::format("{}: only the simulated machine does this so far; take it out of the program, or "
                                      "add its word to --ignore",
                                      action_name(kind)));
+    }
+}
+
+// A probe and a switch that nobody watches would be run into.
+template <Scalar S>
+void GcodeMoves<S>::require_possible(MoveKind kind) const {
+    if (kind == MoveKind::probe) {
+        const int number = 2 + (item_.probe.away ? 2 : 0) + (item_.probe.required ? 0 : 1);
+        throw InputError(file_, item_.line, std::uint64_t{0},
+                         fmt::format("G38.{}: only the simulated machine probes within a program so far; take it out, "
+                                     "and let --probe end a run of its own at the contact (GPIO lines)",
+                                     number));
+    }
+    if (kind == MoveKind::home) {
+        const bool grbl = settings_->dialect == Dialect::grbl;
+        throw InputError(file_, item_.line, std::uint64_t{0},
+                         fmt::format("{}: only the simulated machine homes within a program so far; begin the run with "
+                                     "--home, and {}",
+                                     grbl ? "$H" : "G28", grbl ? "take it out" : "--ignore G28"));
     }
 }
 
