@@ -181,7 +181,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     check->add_option("-m,--machine", typed.machine,
                       "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");
     check->add_option("--tolerance", job.run.path.curve.tolerance,
-                      "MM: of G64 without P, 0 to 100 (default: the machine file's)");
+                      "MM: of G64 without P, and of a program without G64, 0 to 100 (default: the machine file's)");
     add_gcode_options(*check, job);
     check->add_option("--scalar", typed.scalar,
                       "fixed, float or double: number type of the computation (default fixed); float not with a jerk "
@@ -232,7 +232,8 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
     CLI::App app("splinefeed turns waypoints and G-code into smooth motion.", "splinefeed");
     app.set_help_flag("-h,--help", "print this help; options of a command: splinefeed run --help");
     app.set_version_flag("--version", "splinefeed " SPLINEFEED_VERSION);
-    app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses);
+    app.footer(std::string("Example: splinefeed run part.csv -m three_axis.toml --trace trace.csv\n") + exit_statuses +
+               " check: 1 the program has problems.");
     app.require_subcommand(0, 1);
     app.allow_extras();
     describe_commands(app, job, typed);
@@ -288,11 +289,13 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
                                                   : Command::curve;
     job.run.motion.enforce = job.command == Command::run;
     check_target(job.run.target);
-    if ((job.run.options.home || job.run.options.probe) && job.run.target == "sim") {
-        throw UsageError(
-            fmt::format("--{} is for machines with switches or drives, and the simulated one has none; name "
-                        "yours with --target",
-                        job.run.options.home ? "home" : "probe"));
+    if (job.run.target == "sim" && job.run.options.home) {
+        throw UsageError("--home is for machines with switches or drives, and the simulated one has none: of G-code "
+                         "--position says where it stands; name your machine with --target");
+    }
+    if (job.run.target == "sim" && job.run.options.probe) {
+        throw UsageError("--probe is for machines with switches, and the simulated one has none; name yours with "
+                         "--target");
     }
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));

@@ -92,7 +92,8 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     if (executes) {
         app.add_option("--target", job.run.target,
                        "sim: the simulated machine in this process (default); " + target_help());
-        app.add_flag("--home", job.run.options.home, "find the references of the axes before the program begins")
+        app.add_flag("--home", job.run.options.home,
+                     "find the references of the axes before the program begins; not of sim")
             ->disable_flag_override();
         app.add_flag("--probe", job.run.options.probe,
                      "end the run where the probe touches (gpio://); exit status 1 if it never does")

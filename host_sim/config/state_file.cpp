@@ -5,6 +5,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/json_text.hpp"
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/config/decimal_number.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -21,15 +22,10 @@ constexpr std::size_t largest_file = 1U << 16U;
 constexpr double largest_mm = 1048576.0;
 constexpr int state_version = 1;
 
-// Decimals of that size are exact as doubles.
-double number(Decimal value) {
-    return static_cast<double>(value.raw) / static_cast<double>(Decimal::one);
-}
-
 Json numbers(const PerAxis<Decimal>& values, std::size_t axes) {
     Json json = Json::array();
     for (std::size_t k = 0; k < axes; ++k) {
-        json.push_back(number(values[k]));
+        json.push_back(number_of(values[k]));
     }
     return json;
 }
@@ -52,7 +48,7 @@ public:
         return json.get<double>();
     }
     [[nodiscard]] Decimal decimal(const nlohmann::json& json, const char* key) const {
-        return {std::llround(value(json, key) * static_cast<double>(Decimal::one))};
+        return decimal_of(value(json, key));
     }
     [[nodiscard]] const nlohmann::json& member(const nlohmann::json& json, const char* key) const {
         const auto found = json.is_object() ? json.find(key) : json.end();
@@ -116,11 +112,24 @@ private:
     std::size_t axes_;
 };
 
+// What cannot be told is an error: to begin with 0 would be a guess.
+bool is_there(const std::string& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::none) {
+        throw InputError(path, 0, fmt::format("cannot be read: {}; name a file that can be", error.message()));
+    }
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (!std::filesystem::exists(status) && !folder.empty() && !std::filesystem::is_directory(folder, error)) {
+        throw InputError(path, 0, "there is no such folder; name a file in a folder that exists");
+    }
+    return std::filesystem::exists(status);
+}
+
 } // namespace
 
 std::optional<MachineState> read_state_file(const std::string& path, const std::vector<std::string>& axes) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) {
+    if (!is_there(path)) {
         return std::nullopt;
     }
     const nlohmann::json json = parse_json(read_text_file(path, largest_file), path);
@@ -142,7 +151,7 @@ void write_state_file(const std::string& path, const std::vector<std::string>& a
     json["work_systems"] = Json::array();
     for (const WorkSystem& system : state.offsets.systems) {
         json["work_systems"].push_back(
-            Json{{"origin_mm", numbers(system.origin, axes.size())}, {"rotation_deg", number(system.rotation_deg)}});
+            Json{{"origin_mm", numbers(system.origin, axes.size())}, {"rotation_deg", number_of(system.rotation_deg)}});
     }
     json["active"] = state.offsets.active;
     json["g92_mm"] = numbers(state.offsets.g92, axes.size());

@@ -18,7 +18,8 @@ struct MachineState {
     friend bool operator==(const MachineState&, const MachineState&) = default;
 };
 
-/// Nothing: there is no such file. Throws InputError where it is another machine's, or no state file.
+/// Nothing: there is no such file. Throws InputError where it is another machine's, or no state file, and where it
+/// could not be kept: its folder is none.
 /// @param axes  the machine's
 [[nodiscard]] std::optional<MachineState> read_state_file(const std::string& path,
                                                           const std::vector<std::string>& axes);

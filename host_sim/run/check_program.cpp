@@ -3,10 +3,10 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/output/program_report_text.hpp"
+#include "host_sim/output/standard_output.hpp"
 #include "host_sim/planning/move_sources.hpp"
 #include "host_sim/run/run_machine.hpp"
 
-#include <cstdio>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -67,12 +67,6 @@ private:
     std::vector<std::string> problems_;
 };
 
-void print(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-        throw OutputError("standard output: the report cannot be written; keep its reader running to the end");
-    }
-}
-
 template <Scalar S>
 int check_with(const RunArguments& arguments) {
     const RunMachine of(arguments.machine, *arguments.path.format);
@@ -94,7 +88,7 @@ int check_with(const RunArguments& arguments) {
     Survey survey(of.machine, input.name());
     survey.read(input);
     if (!survey.problems().empty()) {
-        print(text(survey.report(), of.machine, survey.problems(), 0.0));
+        print_whole(text(survey.report(), of.machine, survey.problems(), 0.0), "the report");
         return 1;
     }
     ProgramReport report(of.machine);
@@ -106,8 +100,10 @@ int check_with(const RunArguments& arguments) {
     Outputs outputs(arguments.outputs, input.curve_name(), false, of.machine);
     Motion<S> motion(motion_arguments, of.machine, *limits, input, path_limits, outputs);
     const std::string stopped = motion.run(std::nullopt);
-    print(text(report, of.machine, stopped.empty() ? std::vector<std::string>{} : std::vector<std::string>{stopped},
-               motion.summary().cycle_time_s));
+    print_whole(text(report, of.machine,
+                     stopped.empty() ? std::vector<std::string>{} : std::vector<std::string>{stopped},
+                     motion.summary().cycle_time_s),
+                "the report");
     return stopped.empty() ? 0 : 1;
 }
 

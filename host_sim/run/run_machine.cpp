@@ -44,8 +44,11 @@ RunMachine::RunMachine(const std::string& file, const InputFormat& format)
     }
 }
 
-MachineState RunMachine::state(const std::string& state, const std::string& position) const {
+MachineState RunMachine::state(const std::string& state, const std::string& position, bool homed) const {
     MachineState out = (state.empty() ? std::nullopt : read_state_file(state, axes)).value_or(MachineState{});
+    if (homed) {
+        out.position_mm = {};
+    }
     if (position.empty()) {
         return out;
     }
@@ -57,6 +60,10 @@ MachineState RunMachine::state(const std::string& state, const std::string& posi
             (comma == std::string_view::npos) != last) {
             throw UsageError(fmt::format("--position {}: it must be a number for each axis, {}", in_quotes(position),
                                          fmt::join(axes, ",")));
+        }
+        if (!position_representable(out.position_mm[k])) {
+            throw UsageError(fmt::format("--position {}: {} is out of range; a position must lie within +-1048576 mm",
+                                         in_quotes(position), axes[k]));
         }
         rest.remove_prefix(last ? rest.size() : comma + 1);
     }

@@ -20,7 +20,8 @@ struct RunMachine {
 
     /// Where the machine stands, and its offsets. Throws InputError and UsageError.
     /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says
-    [[nodiscard]] MachineState state(const std::string& state, const std::string& position) const;
+    /// @param homed  it finds its references first: then it stands at 0, whatever the state says
+    [[nodiscard]] MachineState state(const std::string& state, const std::string& position, bool homed = false) const;
 
     MachineDescription machine;
     double max_feed_mm_s = 0.0;    ///< as the file states it

@@ -5,6 +5,7 @@
 #include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/output/outputs.hpp"
+#include "host_sim/output/standard_output.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/path_tee.hpp"
@@ -92,10 +93,7 @@ void print(const Summary& summary, SummaryKind kind) {
     if (kind == SummaryKind::none) {
         return;
     }
-    const std::string text = kind == SummaryKind::json ? to_json(summary) : to_text(summary);
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-        throw OutputError("standard output: the summary cannot be written; keep its reader running to the end");
-    }
+    print_whole(kind == SummaryKind::json ? to_json(summary) : to_text(summary), "the summary");
 }
 
 /// The limits with segments that the lines carry: those of the machine file, or longer ones. Then nothing is lost but
@@ -154,7 +152,7 @@ int move_machine(const RunArguments& arguments) {
     }
     MotionArguments motion_arguments = arguments.motion;
     motion_arguments.state = arguments.motion.enforce ? arguments.state : std::string(); // plan changes nothing
-    motion_arguments.begins = of.state(arguments.state, arguments.position);
+    motion_arguments.begins = of.state(arguments.state, arguments.position, arguments.options.home);
     input.begin_at(motion_arguments.begins);
     warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);

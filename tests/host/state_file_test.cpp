@@ -67,6 +67,23 @@ TEST_CASE("What is no state of this machine is refused, not taken for offsets of
     }
 }
 
+TEST_CASE("A state that may be there and cannot be read is an error, and no state of 0") {
+    const TemporaryFolder folder;
+    const auto refusal = [&](const std::string& file) {
+        return refusal_of([&] { static_cast<void>(read_state_file(file, xyz)); });
+    };
+    const std::string file = folder.file("state.json");
+    write_state_file(file, xyz, {});
+    CHECK(refusal(file + "/state.json") ==
+          file + "/state.json: there is no such folder; name a file in a folder that exists");
+    CHECK(refusal(folder.file("none") + "/state.json").find("/none/state.json: there is no such folder") !=
+          std::string::npos);
+    const std::string long_name = folder.file(std::string(300, 's'));
+    CHECK(refusal(long_name).rfind(long_name + ": cannot be read: ", 0) == 0);
+    CHECK(refusal(folder.file("")).find(": cannot be read") != std::string::npos);
+    CHECK(refusal("state_of_nobody.json") == "accepted");
+}
+
 TEST_CASE("A file that cannot be replaced stays as it is") {
     CHECK(refusal_of<std::runtime_error>([] {
               replace_durably("/no/such/folder/state.json", "{}");

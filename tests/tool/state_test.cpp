@@ -40,9 +40,33 @@ TEST_CASE("A wrong state, position or program leaves the state as it is") {
     CHECK(tool.holds_only("a.ngc s.json"));
     CHECK(tool("run a.ngc --position 1,2").error.find("it must be a number for each axis, x,y,z") != std::string::npos);
     CHECK(tool("run a.ngc --position 1,2,3,4").status == 2);
+    for (const char* const command : {"run", "plan", "check"}) {
+        const Call far = tool(std::string(command) + " a.ngc --position 0,-1e9,0");
+        CHECK(far.status == 2);
+        CHECK(far.error ==
+              "splinefeed: --position '0,-1e9,0': y is out of range; a position must lie within +-1048576 mm\n");
+    }
+    CHECK(tool("run a.ngc --state s.json/s.json").error ==
+          "s.json/s.json: there is no such folder; name a file in a folder that exists\n");
     tool.write("p.csv", "0,0\n1,1\n");
     CHECK(tool("run p.csv --state s.json").error.find("--state and --position are for programs in G-code") !=
           std::string::npos);
+}
+
+TEST_CASE("A machine that homes first stands at 0, or where --position says, and no longer where the state has it") {
+    const Tool tool;
+    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
+                         "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 20]\n");
+    tool.write("far.ngc", "G0 X15\nM2\n");
+    tool.write("on.ngc", "G91 G0 X10\nM2\n");
+    REQUIRE(tool("run far.ngc -m m.toml --state s.json --quiet").status == 0);
+    const std::string target = "run on.ngc -m m.toml --state s.json --target modbus-tcp://127.0.0.1:1 ";
+    CHECK(tool(target).status == 2);            // 25 mm
+    CHECK(tool(target + "--home").status == 1); // nothing but the drive is missing
+    CHECK(tool(target + "--home --position 15").status == 2);
+    const Call simulated = tool("run on.ngc -m m.toml --home");
+    CHECK(simulated.status == 2);
+    CHECK(simulated.error.rfind("splinefeed: --home is for machines with switches or drives", 0) == 0);
 }
 
 TEST_CASE("A crash while the state is written leaves the old one or the new one") {
