@@ -9,4 +9,8 @@ void PlaceText::add(std::string_view axis, double mm, bool online) {
     text_ += fmt::format(" {}={:.{}f}{}", axis, mm, decimals_, online ? "" : " (when it was last heard)");
 }
 
+std::string on_line(std::uint64_t line) {
+    return line > 0 ? fmt::format(", on line {}", line) : std::string();
+}
+
 } // namespace splinefeed::host

@@ -2,6 +2,7 @@
 // PlaceText: the positions of the axes, as they are stated at the end of the message that ends a run.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -22,5 +23,8 @@ private:
     std::string text_;
     int decimals_;
 };
+
+/// ", on line 12"; empty where the line is 0, unknown.
+[[nodiscard]] std::string on_line(std::uint64_t line);
 
 } // namespace splinefeed::host

@@ -25,7 +25,7 @@ struct ProgramSummary {
     double dwell_s = 0.0;     ///< as programmed
     std::uint64_t events = 0; ///< all of them
     std::vector<Event> first_events;
-    std::uint64_t line = 0; ///< of the last move that was begun; 0: unknown
+    std::uint64_t line = 0; ///< of the last move or dwell that was begun, where the machine stands; 0: unknown
 
     [[nodiscard]] bool empty() const noexcept { return dwells == 0 && events == 0 && line == 0; }
 };

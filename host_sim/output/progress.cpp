@@ -30,35 +30,36 @@ std::string bar(double fraction) {
 } // namespace
 
 Progress::Progress(const Options& options)
-    : waypoints_(options.waypoints), descriptor_(options.descriptor),
-      shown_(!options.quiet && isatty(options.descriptor) == 1), start_(Clock::now()), next_(start_ + redraw_period) {}
+    : all_(options.all), descriptor_(options.descriptor), shown_(!options.quiet && isatty(options.descriptor) == 1),
+      start_(Clock::now()), next_(start_ + redraw_period) {}
 
-std::string Progress::text(std::uint64_t waypoints, std::optional<std::uint64_t> all, double motion_s, double wall_s) {
-    std::string line;
-    if (all && *all > 0) {
-        const double fraction = std::min(static_cast<double>(waypoints) / static_cast<double>(*all), 1.0);
-        line = bar(fraction) + fmt::format("{} of {} waypoints", waypoints, *all);
-    } else {
-        line = fmt::format("{} waypoints", waypoints);
+std::string Progress::text(std::uint64_t done, std::optional<std::uint64_t> all, std::uint64_t line, double motion_s,
+                           double wall_s) {
+    const bool known = all && *all > 0;
+    std::string text;
+    if (known) {
+        text = bar(std::min(static_cast<double>(done) / static_cast<double>(*all), 1.0));
     }
+    const std::string count = known ? fmt::format("{} of {}", done, *all) : fmt::format("{}", done);
+    text += line > 0 ? fmt::format("line {}, move {}", line, count) : fmt::format("{} waypoints", count);
     if (wall_s > 0.0) {
-        line += fmt::format(" ({:.0f}/s)", static_cast<double>(waypoints) / wall_s);
+        text += fmt::format(" ({:.0f}/s)", static_cast<double>(done) / wall_s);
     }
-    line += fmt::format(", {:.1f} s planned", motion_s);
-    if (line.size() > line_width) {
-        line.resize(line_width);
+    text += fmt::format(", {:.1f} s planned", motion_s);
+    if (text.size() > line_width) {
+        text.resize(line_width);
     }
-    return line;
+    return text;
 }
 
-void Progress::redraw(std::uint64_t waypoints, double motion_s) {
+void Progress::redraw(std::uint64_t done, std::uint64_t line, double motion_s) {
     const Clock::time_point now = Clock::now();
     if (now < next_) {
         return;
     }
     next_ = now + redraw_period;
     const double wall_s = std::chrono::duration<double>(now - start_).count();
-    show(descriptor_, fmt::format("\r{}\x1b[K", text(waypoints, waypoints_, motion_s, wall_s)));
+    show(descriptor_, fmt::format("\r{}\x1b[K", text(done, all_, line, motion_s, wall_s)));
     drawn_ = true;
 }
 

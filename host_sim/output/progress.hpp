@@ -11,13 +11,13 @@ namespace splinefeed::host {
 
 struct ProgressOptions {
     bool quiet = false;
-    std::optional<std::uint64_t> waypoints = std::nullopt; ///< total number, if it is known
-    int descriptor = 2;                                    ///< standard error
+    std::optional<std::uint64_t> all = std::nullopt; ///< number of waypoints or moves, if it is known
+    int descriptor = 2;                              ///< standard error
 };
 
-/// Shows the waypoints read, the seconds of motion planned and their rate, at most ten times a second, and erases the
-/// line at the end. Writes nothing if the descriptor is not a terminal. Cost of update(): a look at the clock at every
-/// 64th call, nothing else between redraws.
+/// Shows the waypoints read - of a program its line and its moves -, their rate and the seconds of motion planned, at
+/// most ten times a second, and erases the line at the end. Writes nothing if the descriptor is not a terminal. Cost of
+/// update(): a look at the clock at every 64th call, nothing else between redraws.
 class Progress {
 public:
     using Options = ProgressOptions;
@@ -27,24 +27,25 @@ public:
     Progress& operator=(const Progress&) = delete;
     ~Progress() { finish(); }
 
-    void update(std::uint64_t waypoints, double motion_s) {
+    /// @param line  of a program, where the motion is, and `done` are the moves up to there; 0: `done` are waypoints
+    void update(std::uint64_t done, std::uint64_t line, double motion_s) {
         if (shown_ && (calls_++ & 63U) == 0U) {
-            redraw(waypoints, motion_s);
+            redraw(done, line, motion_s);
         }
     }
     /// Erases the line; nothing is drawn afterwards.
     void finish() noexcept;
 
     /// The text of the line, at most 79 characters.
-    [[nodiscard]] static std::string text(std::uint64_t waypoints, std::optional<std::uint64_t> all, double motion_s,
-                                          double wall_s);
+    [[nodiscard]] static std::string text(std::uint64_t done, std::optional<std::uint64_t> all, std::uint64_t line,
+                                          double motion_s, double wall_s);
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    void redraw(std::uint64_t waypoints, double motion_s);
+    void redraw(std::uint64_t done, std::uint64_t line, double motion_s);
 
-    std::optional<std::uint64_t> waypoints_;
+    std::optional<std::uint64_t> all_;
     int descriptor_;
     bool shown_;
     bool drawn_ = false;

@@ -44,7 +44,7 @@ Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& de
 
 template <Scalar S>
 void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
-    Progress progress({.quiet = quiet_, .waypoints = waypoints});
+    Progress progress({.quiet = quiet_, .all = waypoints});
     FeedSegment segment;
     for (;;) {
         operate();
@@ -60,6 +60,7 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
             keep_state();
         }
         if (dwells) {
+            come_to(steps_.line());
             if (!execute(segment)) {
                 break;
             }
@@ -79,7 +80,7 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
             if (report_ != nullptr) {
                 report_->moved(segment.waypoint, segment.duration_ticks / (ticks_per_us * 1e6), share_.bound());
             }
-            progress.update(feeder_.rows(), machine_.cycle_time_s());
+            progress.update(line_ > 0 ? passed_ : feeder_.rows(), line_, machine_.cycle_time_s());
         } else if (trajectory_.state() == Pull::held) {
             if (!stand()) {
                 break;
@@ -140,7 +141,6 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     } else if (trajectory_.activity() == Activity::held && trajectory_.state() == Pull::held && !held_by_target_) {
         stopped_ = "held, and no event resumes it";
     }
-    keep_state();
     machine_.finish();
     optimum_.finish();
     require_tolerance();
@@ -153,13 +153,16 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
                                                                                             : std::string());
     }
     if (target_ == nullptr) {
+        keep_state();
         return stopped_.empty() ? stopped_ : stopped_ + where();
     }
     // Whatever ended the run: the drives come to rest at the end of what they have.
     if (!target_->finish()) {
+        keep_places();
         stopped_ = target_->ending();
         return stopped_;
     }
+    keep_state();
     return stopped_.empty() ? stopped_ : stopped_ + target_->where();
 }
 
@@ -242,7 +245,17 @@ void Motion<S>::pass(std::uint32_t row) {
     }
     row_ = row;
     feeder_.passed(row);
-    line_ = input_->gcode() != nullptr ? feeder_.line_of_row(row) : 0;
+    passed_ = feeder_.whole_row(row) + 1;
+    come_to(feeder_.line_of_row(row));
+}
+
+// A line of a program.
+template <Scalar S>
+void Motion<S>::come_to(std::uint64_t line) {
+    if (input_->gcode() == nullptr) {
+        return;
+    }
+    line_ = line;
     if (outputs_->trace() != nullptr) {
         outputs_->trace()->set_line(line_);
     }
@@ -259,6 +272,18 @@ void Motion<S>::keep_state() {
     }
     if (segments_ > 0) {
         kept_.position_mm = machine_.position_mm();
+    }
+    write_state_file(state_, input_->axes(), kept_);
+}
+
+// The drives did not come to the end of the plan.
+template <Scalar S>
+void Motion<S>::keep_places() {
+    if (state_.empty()) {
+        return;
+    }
+    for (const RunTarget::AxisPlace& at : target_->places()) {
+        kept_.position_mm[at.axis] = at.mm;
     }
     write_state_file(state_, input_->axes(), kept_);
 }
@@ -305,7 +330,7 @@ bool Motion<S>::execute(FeedSegment& segment) {
         return false;
     }
     share_.segment(segment);
-    if (target_ != nullptr && !target_->submit(segment)) {
+    if (target_ != nullptr && !target_->submit(segment, line_)) {
         stopped_ = target_->ending();
         return false;
     }
@@ -362,7 +387,7 @@ std::string Motion<S>::where() const {
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         place.add(description_->axis_name[k], position[k]);
     }
-    return place.text() + fmt::format(", {:.6f} s after its start", machine_.cycle_time_s());
+    return place.text() + fmt::format(", {:.6f} s after its start", machine_.cycle_time_s()) + on_line(line_);
 }
 
 template class Motion<double>;

@@ -79,7 +79,9 @@ private:
     void keep_failure(const std::exception_ptr& failure);
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
     void pass(std::uint32_t row);
+    void come_to(std::uint64_t line);
     void keep_state();
+    void keep_places();
     void require_tolerance();
     [[nodiscard]] std::string excess() const;
     [[nodiscard]] ToleranceSummary tolerance_summary() const;
@@ -112,7 +114,8 @@ private:
     Clock::duration planning_{};
     std::string stopped_;              // why the run stopped before its end
     std::optional<std::uint32_t> row_; // of the last segment
-    std::uint64_t line_ = 0;           // of that row; 0: unknown
+    std::uint64_t passed_ = 0;         // moves up to it, of a program
+    std::uint64_t line_ = 0;           // of that row or of the dwell behind it, of a program; 0: unknown
     std::uint64_t segments_ = 0;
     std::uint64_t rests_ = 0; // number of instants at which all axes stood still
     bool read_all_ = false;

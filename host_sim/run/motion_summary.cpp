@@ -69,7 +69,7 @@ Summary Motion<S>::summary() const {
         summary.tolerance = tolerance_summary();
     }
     summary.program = steps_.summary();
-    summary.program.line = line_;
+    summary.program.line = target_ != nullptr && target_->line() > 0 ? target_->line() : line_;
     summary.limit_share = share_.shares();
     summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
     summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};

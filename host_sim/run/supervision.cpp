@@ -3,6 +3,7 @@
 
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/output_file.hpp"
+#include "host_sim/output/place_text.hpp"
 
 #include "splinefeed/hal/rt/clock.hpp"
 
@@ -37,13 +38,14 @@ bool Supervision::room() const noexcept {
     return ring_.empty() || (ring_.room() > 0 && ahead < hand_over_us * static_cast<std::uint64_t>(ticks_per_us));
 }
 
-bool Supervision::submit(const FeedSegment& segment) {
+bool Supervision::submit(const FeedSegment& segment, std::uint64_t line) {
     while (!over() && !room()) {
         system_clock().sleep_us(poll_every_us);
     }
     if (over()) {
         return false;
     }
+    begin_line(line);
     pushed_ticks_ += segment.duration_ticks;
     ++pushed_;
     ring_.push(segment);
@@ -118,6 +120,26 @@ void Supervision::tend_spindle(std::uint64_t executed) {
     }
 }
 
+void Supervision::begin_line(std::uint64_t line) {
+    const std::lock_guard lock(lines_mutex_);
+    if (lines_.empty() || lines_.back().line != line) {
+        lines_.push_back({line, pushed_});
+    }
+}
+
+std::uint64_t Supervision::line() const {
+    const std::lock_guard lock(lines_mutex_);
+    return lines_.empty() ? 0 : lines_.front().line;
+}
+
+// The machine is in the segment behind those that were executed.
+void Supervision::come_to(std::uint64_t executed) {
+    const std::lock_guard lock(lines_mutex_);
+    while (lines_.size() > 1 && lines_[1].segment <= executed) {
+        lines_.pop_front();
+    }
+}
+
 std::string Supervision::with_trouble(const std::string& ending) const {
     if (spindle_trouble_.empty()) {
         return ending;
@@ -179,6 +201,7 @@ std::string Supervision::supervise() {
         hand_over();
         const hal::PortState state = target_->port().poll();
         const hal::PortPhase phase = state.phase;
+        come_to(state.executed - before);
         const std::uint64_t now_us = system_clock().now_us();
         if (phase == hal::PortPhase::fault) {
             end_spindle();
@@ -225,7 +248,8 @@ void Supervision::work() noexcept {
         }
         end_spindle();
         ending_ = with_trouble(ending_);
-        where_ = began_ ? target_->where() : std::string();
+        places_ = began_ ? target_->places() : std::vector<RunTarget::AxisPlace>{};
+        where_ = began_ ? target_->where() + on_line(line()) : std::string();
         for (const std::string& what : {began_ ? target_->finish() : std::string(), spindle_standstill()}) {
             ending_ += what.empty() || ending_.empty() ? what : "; " + what;
         }

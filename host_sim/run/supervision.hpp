@@ -11,9 +11,11 @@
 
 #include <array>
 #include <atomic>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 namespace splinefeed::host {
 
@@ -44,7 +46,8 @@ public:
 
     /// Passes a segment on, as soon as there is room for it. The first one defines where the axes stand. false: the run
     /// is over.
-    [[nodiscard]] bool submit(const FeedSegment& segment);
+    /// @param line  of the program, that the segment comes from; 0: unknown
+    [[nodiscard]] bool submit(const FeedSegment& segment, std::uint64_t line = 0);
     /// No more segments come: waits until everything is executed. false: the run ended before; ending() says why.
     [[nodiscard]] bool finish();
     /// Whether submit() would return without waiting.
@@ -59,6 +62,10 @@ public:
     [[nodiscard]] const std::string& ending() const noexcept { return ending_; }
     /// "; the machine stands at ..." @pre as above
     [[nodiscard]] const std::string& where() const noexcept { return where_; }
+    /// The line of the program on which the machine stands; 0: unknown. @pre as above
+    [[nodiscard]] std::uint64_t line() const;
+    /// Where the axes stand; empty: nothing has moved. @pre as above
+    [[nodiscard]] const std::vector<RunTarget::AxisPlace>& places() const noexcept { return places_; }
     void describe(Summary& summary) const { target_->describe(summary); }
 
 private:
@@ -69,6 +76,8 @@ private:
     void obey();
     void hand_over();
     void tend_spindle(std::uint64_t executed);
+    void begin_line(std::uint64_t line);
+    void come_to(std::uint64_t executed);
     void end_spindle();
     [[nodiscard]] std::string spindle_standstill() const;
     [[nodiscard]] std::string with_trouble(const std::string& ending) const;
@@ -87,6 +96,12 @@ private:
     };
     mutable std::mutex turn_mutex_;
     std::optional<DueTurn> due_turn_; // protected by it
+    struct LineBegin {
+        std::uint64_t line = 0;
+        std::uint64_t segment = 0; // its first one
+    };
+    mutable std::mutex lines_mutex_;
+    std::deque<LineBegin> lines_; // protected by it; from the line where the machine is
     std::atomic<std::uint64_t> taken_ticks_{0};
     std::atomic<bool> hold_asked_{false};
     std::atomic<bool> complete_{false}; // no more segments come
@@ -100,6 +115,7 @@ private:
     bool began_ = false;
     std::string ending_; // empty: everything was executed
     std::string where_;
+    std::vector<RunTarget::AxisPlace> places_;
     std::thread thread_;
 };
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace splinefeed::host {
 
@@ -73,7 +74,15 @@ public:
     /// Called before the process ends without destructors: leaves drives and lines in their final state.
     virtual void release() noexcept = 0;
 
-    /// "; the machine stands at x=1.0000 y=2.0000 mm", as reported by the drives.
+    /// Where an axis of the machine stands, as its drive reports it or, if it does not answer, last did.
+    struct AxisPlace {
+        unsigned axis = 0;
+        double mm = 0.0;
+        bool online = true;
+    };
+    /// Empty: nothing has moved.
+    [[nodiscard]] virtual std::vector<AxisPlace> places() const { return {}; }
+    /// "; the machine stands at x=1.0000 y=2.0000 mm": the same as a text.
     [[nodiscard]] virtual std::string where() const = 0;
     /// Adds its data about the run.
     virtual void describe(Summary& summary) const = 0;

@@ -56,7 +56,7 @@ const std::string erase = "\r\x1b[K";
 void work(Progress& progress, std::chrono::milliseconds time) {
     const auto end = std::chrono::steady_clock::now() + time;
     for (std::uint64_t i = 0; std::chrono::steady_clock::now() < end; ++i) {
-        progress.update(i, 1.5);
+        progress.update(i, 0, 1.5);
     }
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("a run too short to draw leaves no trace") {
     }
     {
         Progress progress({.descriptor = terminal.descriptor()});
-        progress.update(1, 1.0);
+        progress.update(1, 0, 1.0);
     }
     CHECK(terminal.shown().empty());
 }
@@ -133,9 +133,12 @@ TEST_CASE("what is no terminal gets nothing") {
 }
 
 TEST_CASE("the line says how far it is") {
-    CHECK(Progress::text(50, 200, 1.25, 2.0) == "[###.........]  25 %  50 of 200 waypoints (25/s), 1.2 s planned");
-    CHECK(Progress::text(50, std::nullopt, 10.0, 0.0) == "50 waypoints, 10.0 s planned");
-    CHECK(Progress::text(7, 5, 0.0, 0.0).find("[############] 100 %") == 0);
-    CHECK(Progress::text(0, 0, 0.0, 0.0) == "0 waypoints, 0.0 s planned");
-    CHECK(Progress::text(1000000000000U, 1000000000000U, 1e9, 1e-3).size() <= 79);
+    CHECK(Progress::text(50, 200, 0, 1.25, 2.0) == "[###.........]  25 %  50 of 200 waypoints (25/s), 1.2 s planned");
+    CHECK(Progress::text(50, std::nullopt, 0, 10.0, 0.0) == "50 waypoints, 10.0 s planned");
+    CHECK(Progress::text(7, 5, 0, 0.0, 0.0).find("[############] 100 %") == 0);
+    CHECK(Progress::text(0, 0, 0, 0.0, 0.0) == "0 waypoints, 0.0 s planned");
+    CHECK(Progress::text(1000000000000U, 1000000000000U, 0, 1e9, 1e-3).size() <= 79);
+    CHECK(Progress::text(50, 200, 1234, 1.25, 2.0) ==
+          "[###.........]  25 %  line 1234, move 50 of 200 (25/s), 1.2 s planned");
+    CHECK(Progress::text(50, std::nullopt, 7, 10.0, 0.0) == "line 7, move 50, 10.0 s planned");
 }

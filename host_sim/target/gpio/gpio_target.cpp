@@ -298,6 +298,14 @@ std::string GpioTarget::fault() const {
                : "the e-stop was pressed: the drives were disabled";
 }
 
+std::vector<RunTarget::AxisPlace> GpioTarget::places() const {
+    std::vector<AxisPlace> out;
+    for (int k = 0; began_ && k < machine_->settings.axes; ++k) {
+        out.push_back({static_cast<unsigned>(k), mover_.position(k)});
+    }
+    return out;
+}
+
 std::string GpioTarget::where() const {
     if (!began_) {
         return "; nothing was moved";
@@ -308,8 +316,8 @@ std::string GpioTarget::where() const {
                           "stands is not known (find the references again); the last steps were those to"
                         : "; drives are off, and where the machine stands is not known (find the "
                           "references again); the last steps were those to");
-    for (int k = 0; k < machine_->settings.axes; ++k) {
-        place.add(machine_->axis_name[static_cast<unsigned>(k)], mover_.position(k));
+    for (const AxisPlace& at : places()) {
+        place.add(machine_->axis_name[at.axis], at.mm);
     }
     return place.text();
 }

@@ -85,8 +85,8 @@ std::string PvtTarget::fault() const {
     return drive_sentence(table_, port_, *port_.failure()) + unconfirmed_drives(stopped());
 }
 
-std::string PvtTarget::where() const {
-    PlaceText place;
+std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
+    std::vector<AxisPlace> out;
     for (std::size_t i = 0; i < port_.drives(); ++i) {
         const DriveReport report = port_.report(i);
         const DriveWiring& wiring = port_.wiring(i);
@@ -96,9 +96,17 @@ std::string PvtTarget::where() const {
                 const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
                 // One that is away went on to where all were to stop.
                 const bool online = hal::system_clock().now_us() - report.answered_us < stale_us;
-                place.add(machine_->axis_name[axis], counts / machine_->settings.axis[axis].steps_per_mm, online);
+                out.push_back({axis, counts / machine_->settings.axis[axis].steps_per_mm, online});
             }
         }
+    }
+    return out;
+}
+
+std::string PvtTarget::where() const {
+    PlaceText place;
+    for (const AxisPlace& at : places()) {
+        place.add(machine_->axis_name[at.axis], at.mm, at.online);
     }
     return place.text();
 }

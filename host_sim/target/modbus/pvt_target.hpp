@@ -31,6 +31,7 @@ public:
     void check(const MachineDescription& machine, double segment_us) const override {
         check_pvt_range(machine, segment_us);
     }
+    [[nodiscard]] std::vector<AxisPlace> places() const override;
     [[nodiscard]] std::string where() const override;
     void describe(Summary& summary) const override;
 

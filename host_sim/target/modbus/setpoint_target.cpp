@@ -158,12 +158,19 @@ std::string SetpointTarget::fault() const {
     return sentence(port_.trouble()) + unconfirmed_drives(stopped());
 }
 
+std::vector<RunTarget::AxisPlace> SetpointTarget::places() const {
+    std::vector<AxisPlace> out;
+    for (std::size_t i = 0; i < table_.drives.size(); ++i) {
+        const auto axis = static_cast<unsigned>(axis_of(i));
+        out.push_back({axis, port_.position_counts(i) / machine_->settings.axis[axis].steps_per_mm, port_.online(i)});
+    }
+    return out;
+}
+
 std::string SetpointTarget::where() const {
     PlaceText place;
-    for (std::size_t i = 0; i < table_.drives.size(); ++i) {
-        const std::size_t axis = axis_of(i);
-        place.add(machine_->axis_name[axis], port_.position_counts(i) / machine_->settings.axis[axis].steps_per_mm,
-                  port_.online(i));
+    for (const AxisPlace& at : places()) {
+        place.add(machine_->axis_name[at.axis], at.mm, at.online);
     }
     return place.text();
 }

@@ -36,6 +36,7 @@ public:
         check_register_ranges(table_, machine, port_.period_us());
     }
     [[nodiscard]] std::string note() const override;
+    [[nodiscard]] std::vector<AxisPlace> places() const override;
     [[nodiscard]] std::string where() const override;
     void describe(Summary& summary) const override;
 
