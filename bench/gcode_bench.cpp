@@ -22,6 +22,8 @@ public:
     bool write(std::int32_t, Decimal) noexcept override { return true; }
     [[nodiscard]] bool read(std::string_view, Decimal&) const noexcept override { return false; }
     bool write(std::string_view, Decimal) noexcept override { return true; }
+    void forget(std::int32_t) noexcept override {}
+    void forget(std::string_view) noexcept override {}
 };
 
 enum Kind { lines, slicer, arcs, expressions };

@@ -31,12 +31,14 @@ public:
         values_[static_cast<unsigned>(number - 1)] = value;
         return true;
     }
+    void forget(std::int32_t number) noexcept override { write(number, {}); }
     [[nodiscard]] bool read(std::string_view name, Decimal& out) const noexcept override {
         return read(static_cast<std::int32_t>(name.size()), out);
     }
     bool write(std::string_view name, Decimal value) noexcept override {
         return write(static_cast<std::int32_t>(name.size()), value);
     }
+    void forget(std::string_view name) noexcept override { forget(static_cast<std::int32_t>(name.size())); }
 
 private:
     std::array<Decimal, 30> values_{};

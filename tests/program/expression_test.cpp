@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/gcode.hpp"
+
 #include "support/rounds.hpp"
+#include <limits>
 
 #include <cmath>
 #include <random>
@@ -123,6 +125,28 @@ TEST_CASE("random expressions agree with double", "[program][expression]") {
     }
 }
 
+TEST_CASE("results at the end of the range, and beyond", "[program][expression]") {
+    GcodeRun<double> run;
+    run.run("#1=[92000000*100] #2=[0-92000000*100]");
+    for (const char* const function : {"fix", "fup", "round"}) {
+        CHECK(value_of(run, std::string(function) + "[#1]") == 9.2e9);
+        CHECK(value_of(run, std::string(function) + "[#2]") == -9.2e9);
+        CHECK(value_of(run, std::string(function) + "[#1 - 0.5]") >= 9.2e9 - 1.0);
+        CHECK(value_of(run, std::string(function) + "[#2 + 0.5]") <= -9.2e9 + 1.0);
+    }
+    CHECK(value_of(run, "abs[#2]") == 9.2e9);
+    CHECK(value_of(run, "-#2") == 9.2e9);
+    CHECK(value_of(run, "[#2 mod -1]") == 0.0);
+    for (const char* const text : {"[#1 + 0.000000001]", "[#2 - 0.000000001]", "[#2 * 1.1]", "[#1 / 0.5]", "exp[22.95]",
+                                   "[96000 ** 2]", "[#2 - 20000000]", "[#2 - #1]"}) {
+        value_of(run, text, Error::result_out_of_range);
+    }
+    run.table().write(9, {std::numeric_limits<std::int64_t>::min()}); // a memory may hold anything
+    for (const char* const text : {"abs[#9]", "fix[#9]", "-#9", "[#9 mod -1]"}) {
+        value_of(run, text, Error::number_out_of_range);
+    }
+}
+
 TEST_CASE("wrong expressions are refused where they are wrong", "[program][expression]") {
     GcodeRun<double> run;
     value_of(run, "[1+2", Error::bracket_missing, 5);
@@ -179,6 +203,17 @@ TEST_CASE("parameters of the control", "[program][expression]") {
     CHECK(value_of(run, "#<_z>") == -27.0);
     CHECK(value_of(run, "#5163") == 3.0);
     CHECK(value_of(run, "#<_coord_system>") == 550.0);
+    run.run("F600 G20");
+    CHECK(value_of(run, "#<_feed>") == 600.0); // as it was stated, like LinuxCNC
+    run.run("F10 G21");
+    CHECK(value_of(run, "#<_feed>") == 10.0);
+    CHECK(run.interpreter().modal().feed == Decimal::from_integer(254));
+    run.run("G20\nG93 F2");
+    CHECK(value_of(run, "#<_feed>") == 2.0); // no length
+    run.run("G94 G21 F100");
+    CHECK(value_of(run, "#<_feed>") == 100.0);
+    run.run("#7=#<_line>");
+    CHECK(value_of(run, "#7") == 11.0); // its own
     run.run("#5221=12\nG54 G53 G0 X0\nG20");
     CHECK(std::fabs(value_of(run, "#5422") + 27.0 / 25.4) < 1e-9);
     CHECK(run.interpreter().offsets().systems[0].origin[0] == Decimal::from_integer(12));

@@ -170,6 +170,13 @@ TEST_CASE("probing", "[program][interpreter]") {
     CHECK(run.last("G0 X#5061 Y#5070 Z#5063") == "rapid 0 1 -2");
     CHECK(run.run("G38.5 Z-9").back().probe.away);
     CHECK(run.push("G38.3 Z-9").error == Error::probe_too_short);
+    // As in LinuxCNC the result has the units of the program that probed, and stays as it is.
+    run.run("G20 G38.3 Z1\nG21");
+    CHECK(run.last("G0 Z#5063") == "rapid 0 1 1");
+    run.run("G38.3 Z20\nG20");
+    CHECK(run.last("G0 Z[#5063 / 10]") == "rapid 0 1 50.8");
+    run.run("#5063=7");
+    CHECK(run.last("G0 Z#5063") == "rapid 0 1 177.8");
 }
 
 TEST_CASE("events, in the order of execution", "[program][interpreter]") {
@@ -192,6 +199,8 @@ TEST_CASE("events, in the order of execution", "[program][interpreter]") {
     CHECK(run.text("M1\nM60") ==
           event(EventKind::optional_pause, " stop 1 0") + "\n" + event(EventKind::pallet_pause, " stop 60 0"));
     CHECK(run.text("M61 Q7").find(event(EventKind::tool_set, " stop 7 0")) == 0);
+    CHECK(run.text("M5 S500") == event(EventKind::spindle_stop, " stop 0 0") + "\n" +
+                                     event(EventKind::spindle_speed, " stop 0 500")); // never turns at 500
     CHECK(run.text("M5 M9 X9 M30") == event(EventKind::spindle_stop, " stop 0 0") + "\n" +
                                           event(EventKind::coolant_off, " stop 0 0") + "\nrapid 9 0 0\n" +
                                           event(EventKind::program_end, " stop 30 0"));
@@ -210,7 +219,9 @@ TEST_CASE("Marlin's words", "[program][interpreter]") {
           "home 0 0 0 0\n" + event(EventKind::offsets_changed) +
               "\nfeed 1 0 0 2\nfeed 1 0 0 1\nfeed 2 0 0 1.5\nfeed 2 0 0 2");
     CHECK(run.text("M117 Layer 3; x") == event(EventKind::printer, " 117 0 Layer 3"));
-    CHECK(run.text("G4 S2\nG4 P500") == "dwell 2\ndwell 0.5");
+    run.run("M3 S1000");
+    CHECK(run.text("G4 S2\nG4 P500\nM0 S5") == "dwell 2\ndwell 0.5\n" + event(EventKind::pause, " stop 0 0"));
+    CHECK(run.interpreter().modal().speed == Decimal::from_integer(1000)); // those are seconds
     CHECK(run.text("N3 G0 X5*" + std::to_string('N' ^ '3' ^ ' ' ^ 'G' ^ '0' ^ ' ' ^ 'X' ^ '5'), 4) == "feed 5 0 0 2");
     CHECK(run.push("N3 G0 X6*1").error == Error::checksum_wrong);
     CHECK(run.push("G10").error == Error::firmware_retraction_unsupported);

@@ -17,7 +17,7 @@ namespace splinefeed_test {
 
 using namespace splinefeed;
 
-/// Parameters in a map.
+/// Parameters in a map; it has no room for #<full>.
 class MapTable final : public ParameterTable {
 public:
     [[nodiscard]] bool read(std::int32_t number, Decimal& out) const noexcept override {
@@ -35,8 +35,18 @@ public:
         return found != names_.end();
     }
     bool write(std::string_view name, Decimal value) noexcept override {
-        names_[plain(name)] = value;
+        const std::string key = plain(name);
+        if (key == "full") {
+            return false;
+        }
+        names_[key] = value;
         return true;
+    }
+    void forget(std::int32_t number) noexcept override { numbers_.erase(number); }
+    void forget(std::string_view name) noexcept override { names_.erase(plain(name)); }
+
+    friend bool operator==(const MapTable& a, const MapTable& b) {
+        return a.numbers_ == b.numbers_ && a.names_ == b.names_;
     }
 
 private:
@@ -44,7 +54,7 @@ private:
         std::string out;
         for (const char c : name) {
             if (c != ' ' && c != '\t') {
-                out += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+                out += lower_case(c);
             }
         }
         return out;

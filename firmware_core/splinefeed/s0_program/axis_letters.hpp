@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/s0_program/program_settings.hpp"
+#include "splinefeed/s0_program/text_cursor.hpp"
 
 namespace splinefeed {
 
@@ -13,7 +14,7 @@ class AxisLetters {
 public:
     explicit constexpr AxisLetters(const ProgramSettings& settings) noexcept : count_(settings.axes) {
         for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
-            letters_[k] = static_cast<int>(k) < count_ ? static_cast<char>(settings.letters[k] - 'A' + 'a') : '\0';
+            letters_[k] = static_cast<int>(k) < count_ ? lower_case(settings.letters[k]) : '\0';
             bits_ |= static_cast<int>(k) < count_ ? 1U << (static_cast<unsigned>(letters_[k] - 'a') % 32U) : 0U;
         }
     }

@@ -41,22 +41,26 @@ void BlockInterpreter::start(const PerAxis<Position>& position) noexcept {
     }
     emitted_ = place_.machine;
     frame_changed();
-    nurbs_.abandon();
-    plan_ = {};
-    stage_ = all_done;
+    drop_block();
 }
 
 void BlockInterpreter::restart() noexcept {
     modal_ = ModalState::at_start(settings_);
     cycle_words_ = {};
-    nurbs_.abandon();
-    plan_ = {};
-    stage_ = all_done;
+    drop_block();
     percent_ = any_block_ = ended_ = false;
     emitted_ = place_.machine;
     if (evaluator_ != nullptr) {
         evaluator_->discard();
     }
+}
+
+// What is left of the block, and a NURBS that has not been ended.
+void BlockInterpreter::drop_block() noexcept {
+    nurbs_.abandon();
+    plan_ = {};
+    stage_ = all_done;
+    in_pieces_ = false;
 }
 
 void BlockInterpreter::restore(const WorkOffsets& offsets) noexcept {
@@ -80,32 +84,42 @@ PerAxis<Position> BlockInterpreter::position() const noexcept {
 
 void BlockInterpreter::report_probe(bool contact, const PerAxis<Position>& contact_at,
                                     const PerAxis<Position>& stands_at) noexcept {
+    AxisPoint at{};
     for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
-        probe_at_[k] = to_decimal(contact_at[k]);
+        at[k] = to_decimal(contact_at[k]);
         place_.machine[k] = to_decimal(stands_at[k]);
     }
-    probe_at_ = frame_.to_program(probe_at_);
-    probe_contact_ = contact;
+    set_probe(contact, frame_.to_program(at));
     emitted_ = place_.machine;
     frame_changed();
+}
+
+void BlockInterpreter::set_probe(bool contact, const AxisPoint& program) noexcept {
+    for (int k = 0; k < letters_.count(); ++k) {
+        const Decimal value = program[static_cast<unsigned>(k)];
+        results_.probe_at[static_cast<unsigned>(k)] =
+            letters_.kind(k) == AxisKind::rotary ? value : modal_.in_units(value);
+    }
+    results_.probe_contact = contact;
 }
 
 BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_number) noexcept {
     if (ended_) {
         return {};
     }
-    if (stage_ != all_done) {
+    if (stage_ != all_done || in_pieces_) {
         return {Error::block_pending, 0, 0};
     }
     LineKind kind = LineKind::block;
-    BlockStatus status = reader_.read(text, *this, block_, kind);
     line_ = line_number;
+    BlockStatus status = reader_.read(text, *this, block_, kind);
     plan_ = {};
     sub_step_ = 0;
     offsets_changed_ = false;
     if (status.ok() && kind == LineKind::percent) {
         status = execute_percent();
     } else if (status.ok() && kind == LineKind::homing) {
+        any_block_ = true;
         plan_homing(0);
         stage_ = 0;
     } else if (status.ok() && kind == LineKind::block) {
@@ -138,7 +152,6 @@ BlockStatus BlockInterpreter::execute_percent() noexcept {
 }
 
 BlockStatus BlockInterpreter::execute() noexcept {
-    any_block_ = true;
     BlockUse use;
     if (const BlockStatus status = find_use(block_, modal_, letters_, settings_.dialect, use); !status.ok()) {
         return status;
@@ -146,11 +159,11 @@ BlockStatus BlockInterpreter::execute() noexcept {
     const ModalState modal = modal_;
     const Place place = place_;
     const CycleWords cycle_words = cycle_words_;
-    const bool nurbs_open = nurbs_.is_open();
+    const Results results = results_;
+    const NurbsCurve::Progress nurbs = nurbs_.progress();
     BlockStatus status;
     const bool changes_frame = block_.has(CodeGroup::non_modal) || block_.has(CodeGroup::tool_length) ||
-                               block_.has(CodeGroup::work_system) || block_.has(CodeGroup::stop) ||
-                               block_.has(CodeGroup::tool_change) ||
+                               block_.has(CodeGroup::work_system) || block_.has(CodeGroup::tool_change) ||
                                (evaluator_ != nullptr && evaluator_->has_assignments());
     const auto run = [&] {
         status = execute_words(use);
@@ -172,12 +185,11 @@ BlockStatus BlockInterpreter::execute() noexcept {
         modal_ = modal;
         place_ = place;
         cycle_words_ = cycle_words;
-        if (!nurbs_open) {
-            nurbs_.abandon();
-        }
-        ended_ = false;
+        results_ = results;
+        nurbs_.go_back(nurbs);
         return status;
     }
+    any_block_ = true;
     stage_ = 0;
     return {};
 }
@@ -222,13 +234,8 @@ BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
     if (const BlockStatus status = plan_motion(use, before); !status.ok()) {
         return status;
     }
-    if (const std::int16_t code = block_.code(CodeGroup::stop); code == 2 || code == 30) {
-        ended_ = true;
-        modal_.end_program(settings_);
-        frame_.offsets().active = 0;
-        frame_changed();
-    }
-    return {};
+    const bool ends_within = nurbs_.is_open() && block_.has(CodeGroup::stop); // G5.2 of this block
+    return ends_within ? block_.at(Error::nurbs_not_ended, CodeGroup::stop) : BlockStatus{};
 }
 
 } // namespace splinefeed

@@ -41,14 +41,15 @@ public:
     /// Cost, with the items: about 0.25 us on x86-64 for a line, 0.5 us for an arc (bench/gcode_bench); on a Cortex-M4F
     /// 7,000 to 8,000 instructions for a line, 15,000 for an arc (tests/arm/gcode_proof.sh).
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
-    /// Whether M2, M30 or the closing % has been executed.
+    /// Whether M2, M30 or the closing % has been executed: of M2 and M30, when next() has given the motion of the
+    /// block.
     [[nodiscard]] bool has_ended() const noexcept { return ended_; }
 
     /// After the machine has executed a probe move: where the contact was, and where the machine stands now. Without
     /// it the contact counts as found at the end of the move.
     void report_probe(bool contact, const PerAxis<Position>& contact_at, const PerAxis<Position>& stands_at) noexcept;
     /// After the machine has executed M66: the input's value, -1 after the time-out.
-    void report_input(Decimal value) noexcept { input_ = value; }
+    void report_input(Decimal value) noexcept { results_.input = value; }
     /// Where the last move ends, in machine coordinates.
     [[nodiscard]] PerAxis<Position> position() const noexcept;
 
@@ -70,10 +71,17 @@ private:
 
     static constexpr std::uint8_t all_done = 255; // a stage behind the last
 
-    /// What a block may change and an error puts back.
+    // What a block may change and an error puts back; beside these the modes, the cycle, the NURBS and the frame.
     struct Place {
         AxisPoint program{}; // the master: moves do not accumulate errors of rotations
         AxisPoint machine{};
+    };
+    /// What motion has left for later blocks.
+    struct Results {
+        PlanePoint spline_out{}; // how G5 left its last end: P and Q
+        AxisPoint probe_at{};    // in the units that the program had then, as in LinuxCNC
+        Decimal input{};         // of M66
+        bool probe_contact = false;
     };
 
     BlockStatus execute() noexcept;
@@ -94,18 +102,21 @@ private:
     BlockStatus plan_arc() noexcept;
     BlockStatus plan_cycle(const ModalState& before) noexcept;
     BlockStatus plan_spline(const ModalState& before) noexcept;
-    BlockStatus plan_nurbs(const ModalState& before) noexcept;
+    BlockStatus plan_nurbs() noexcept;
     BlockStatus end_nurbs() noexcept;
-    BlockStatus require_feed(bool new_in_block) const noexcept;
+    BlockStatus require_feed() const noexcept;
     BlockStatus find_end(AxisPoint& program, AxisPoint& machine) const noexcept;
     BlockStatus move_to(const AxisPoint& program, const AxisPoint& machine) noexcept;
     [[nodiscard]] BlockStatus check_reach(const AxisPoint& from, const AxisPoint& to) const noexcept;
     [[nodiscard]] Decimal axis_value(int axis) const noexcept;
     [[nodiscard]] bool has_axis(int axis) const noexcept { return block_.has(letters_.letter(axis)); }
     [[nodiscard]] SpacePoint space(const AxisPoint& point) const noexcept;
+    void drop_block() noexcept;
+    void set_probe(bool contact, const AxisPoint& program) noexcept;
 
     // Steps: block_steps.cpp.
     [[nodiscard]] bool next_event(ProgramStep& out) noexcept;
+    [[nodiscard]] bool end_program() noexcept;
     [[nodiscard]] bool next_motion(ProgramStep& out) noexcept;
     void fill_move(ProgramStep& out, const AxisPoint& to) noexcept;
     [[nodiscard]] bool next_in_cycle(ProgramStep& out) noexcept;
@@ -123,17 +134,17 @@ private:
     CycleWords cycle_words_{};
     NurbsCurve nurbs_{};
     std::variant<CannedCycle, BezierPlan> series_{}; // of plan_: a cycle, or a spline
-    PlanePoint spline_out_{};                        // how G5 left its last end: P and Q
-    AxisPoint probe_at_{};
-    Decimal input_{};
+    Results results_{};
     std::uint32_t line_ = 0;
     std::uint8_t stage_ = 0;    // of the block, in the order of execution
     std::uint8_t sub_step_ = 0; // of its motion
-    bool probe_contact_ = false;
     bool offsets_changed_ = false;
     bool percent_ = false; // the first line was %
     bool any_block_ = false;
     bool ended_ = false;
+
+protected:
+    bool in_pieces_ = false; // Interpreter<S> gives the last step in several items
 };
 
 } // namespace splinefeed

@@ -13,15 +13,11 @@ constexpr bool is_letter(char c) noexcept {
     return c >= 'a' && c <= 'z';
 }
 
-constexpr char upper(char c) noexcept {
-    return static_cast<char>(c - 'a' + 'A');
-}
-
 } // namespace
 
 bool BlockReader::has_axes(const Block& block) const noexcept {
     for (int k = 0; k < settings_->axes; ++k) {
-        if (block.has(static_cast<char>(settings_->letters[static_cast<unsigned>(k)] - 'A' + 'a'))) {
+        if (block.has(lower_case(settings_->letters[static_cast<unsigned>(k)]))) {
             return true;
         }
     }
@@ -130,13 +126,13 @@ Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control,
         return {};
     }
     if (letter == 'g' || letter == 'm') {
-        const Status status = add_code(letter, value, text, column, out);
+        const Status status = add_code(letter, value, column, out);
         if (!status.ok()) {
             text = word; // the word is wrong, not what follows it
         }
         return status;
     }
-    if (is_ignored(upper(letter), value)) {
+    if (is_ignored(upper_case(letter), value)) {
         ignored_word_ = true;
         return {};
     }
@@ -171,8 +167,8 @@ Status BlockReader::read_value(TextCursor& text, const BlockInterpreter& control
     return status;
 }
 
-Status BlockReader::add_code(char letter, Decimal value, TextCursor& text, std::size_t column, Block& out) noexcept {
-    if (is_ignored(upper(letter), value)) {
+Status BlockReader::add_code(char letter, Decimal value, std::size_t column, Block& out) noexcept {
+    if (is_ignored(upper_case(letter), value)) {
         ignored_code_ = true;
         return {};
     }
@@ -194,7 +190,6 @@ Status BlockReader::add_code(char letter, Decimal value, TextCursor& text, std::
         return Error::modal_group_conflict;
     }
     out.set_code(info.group, code, column);
-    static_cast<void>(text);
     return {};
 }
 

@@ -34,7 +34,7 @@ private:
     Status read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept;
     static Status read_comment(TextCursor& text, Block& out) noexcept;
     static Status read_checksum(TextCursor& text) noexcept;
-    Status add_code(char letter, Decimal value, TextCursor& text, std::size_t column, Block& out) noexcept;
+    Status add_code(char letter, Decimal value, std::size_t column, Block& out) noexcept;
     [[nodiscard]] bool has_axes(const Block& block) const noexcept;
     [[nodiscard]] bool has_others(const Block& block) const noexcept;
     [[nodiscard]] bool is_ignored(char letter, Decimal value) const noexcept;

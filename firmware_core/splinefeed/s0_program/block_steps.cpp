@@ -15,12 +15,14 @@ enum Stage : std::uint8_t {
     input_output,
     tool_change,
     spindle,
+    speed_at_rest,
     coolant,
     override_mode,
     printer,
     dwell,
     offsets_changed,
     motion,
+    ending,
     stop,
 };
 
@@ -82,12 +84,13 @@ bool BlockInterpreter::next_event(ProgramStep& out) noexcept {
                                                               : EventKind::message;
         event.text = block_.text();
         return block_.comment() != CommentKind::none;
-    case speed:
+    case speed: // but behind M5: a spindle that is to stop takes no other speed before
+    case speed_at_rest:
         event.kind = EventKind::spindle_speed;
         event.stops = true;
         event.value = modal_.speed;
-        return block_.has('s') && !block_.has(CodeGroup::printer) &&
-               !(settings_.dialect == Dialect::marlin && block_.code(CodeGroup::non_modal) == 40);
+        return states_speed(block_, settings_.dialect) &&
+               (block_.code(CodeGroup::spindle) == 5) == (stage_ == speed_at_rest);
     case tool_select:
         event.kind = EventKind::tool_select;
         event.number = modal_.selected_tool;
@@ -118,6 +121,7 @@ bool BlockInterpreter::next_event(ProgramStep& out) noexcept {
         fill_printer(block_, event);
         return block_.has(CodeGroup::printer) && event.number != 82 && event.number != 83;
     case offsets_changed: event.kind = EventKind::offsets_changed; return offsets_changed_;
+    case ending: event.kind = EventKind::offsets_changed; return end_program();
     case stop: {
         const std::int16_t code = block_.code(CodeGroup::stop);
         event.stops = true;
@@ -132,11 +136,28 @@ bool BlockInterpreter::next_event(ProgramStep& out) noexcept {
     }
 }
 
+// M2 and M30, behind the motion of their block: it is made in the modes and the frame of the program. True: the work
+// system in effect is another one.
+bool BlockInterpreter::end_program() noexcept {
+    const std::int16_t code = block_.code(CodeGroup::stop);
+    if (code != 2 && code != 30) {
+        return false;
+    }
+    ended_ = true;
+    modal_.end_program(settings_);
+    if (frame_.offsets().active == 0) {
+        return false;
+    }
+    frame_.offsets().active = 0;
+    frame_changed();
+    return true;
+}
+
 Pull BlockInterpreter::next_step(ProgramStep& out) noexcept {
     for (; stage_ <= stop; ++stage_) {
         if (stage_ == motion) {
             if (next_motion(out)) {
-                if (plan_.kind == PlanKind::none && !ended_ && !block_.has(CodeGroup::stop)) {
+                if (plan_.kind == PlanKind::none && !block_.has(CodeGroup::stop)) {
                     stage_ = all_done; // the next call need not look
                 }
                 return Pull::item;

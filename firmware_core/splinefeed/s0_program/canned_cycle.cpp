@@ -11,7 +11,6 @@ namespace {
 constexpr Decimal peck_clearance{254 * (Decimal::one / 1000)}; // 0.01 inch above the last peck
 constexpr std::int32_t most_repeats = 100000;
 constexpr std::int64_t most_pecks = 100000;
-constexpr Decimal longest_row = Decimal::from_integer(1 << 20);
 
 } // namespace
 
@@ -87,7 +86,7 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
         return block.at(Error::cycle_below_depth, block.has('r') ? 'r' : normal);
     }
     for (const Decimal step : {first_step_, second_step_}) {
-        if (detail::magnitude(step.raw) > static_cast<std::uint64_t>(longest_row.raw / repeats_)) {
+        if (detail::magnitude(step.raw) > static_cast<std::uint64_t>(largest_position.raw / repeats_)) {
             return block.at(Error::move_too_long, block.has('l') ? 'l' : plane.axes[0]);
         }
     }

@@ -7,6 +7,11 @@
 
 namespace splinefeed {
 
+/// Whether a motion word is that of a cycle. @param motion  ten times the G word
+[[nodiscard]] constexpr bool is_cycle(std::int16_t motion) noexcept {
+    return motion == 730 || (motion > 800 && motion <= 890);
+}
+
 /// What a cycle does next. A lift is a rapid before the cycle proper: it is blended as other moves are.
 enum class CycleStep : std::uint8_t { lift, rapid, feed, dwell, spindle_stop, spindle_start, finished };
 

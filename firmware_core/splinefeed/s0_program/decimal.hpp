@@ -11,11 +11,12 @@ namespace splinefeed {
 struct Decimal {
     static constexpr int digits = 9;
     static constexpr std::int64_t one = 1'000'000'000;
+    static constexpr std::int64_t largest_raw = 9'200'000'000 * one; ///< of what is computed
     std::int64_t raw = 0;
 
     [[nodiscard]] static constexpr Decimal from_integer(std::int32_t value) noexcept { return {value * one}; }
     [[nodiscard]] constexpr Decimal operator-() const noexcept { return {-raw}; }
-    /// Sums of words never overflow: the reader limits them to +-1e8. @pre the result is within +-9.2e9
+    /// Sums of words never overflow: the reader limits them to +-1e8. @pre the result is within +-largest_raw
     friend constexpr Decimal operator+(Decimal a, Decimal b) noexcept { return {a.raw + b.raw}; }
     friend constexpr Decimal operator-(Decimal a, Decimal b) noexcept { return {a.raw - b.raw}; }
     constexpr Decimal& operator+=(Decimal other) noexcept { return *this = *this + other; }
@@ -28,7 +29,13 @@ struct Decimal {
 /// division.
 [[nodiscard]] detail::Checked product_quotient(std::int64_t a, std::int64_t b, std::uint64_t c) noexcept;
 
-/// The nearest position. @pre |value| is at most 2^20
+/// Of a coordinate of the machine, and of offsets: sums of them and of a place do not overflow. [mm or degrees]
+inline constexpr Decimal largest_position = Decimal::from_integer(1 << 20);
+[[nodiscard]] constexpr bool is_position(Decimal value) noexcept {
+    return value <= largest_position && value >= -largest_position;
+}
+
+/// The nearest position. @pre is_position(value)
 [[nodiscard]] Position to_position(Decimal value) noexcept;
 /// The nearest Decimal.
 [[nodiscard]] Decimal to_decimal(Position position) noexcept;

@@ -120,11 +120,13 @@ private:
             } else if (!table_.read(number, out)) {
                 out = {};
             }
-            return {};
-        }
-        if (!system_.read(name, out) && !table_.read(name, out)) {
+        } else if (!system_.read(name, out) && !table_.read(name, out)) {
             text_ = start;
             return Error::parameter_unset;
+        }
+        if (out.raw > Decimal::largest_raw || out.raw < -Decimal::largest_raw) { // a table may hold anything
+            text_ = start;
+            return Error::number_out_of_range;
         }
         return {};
     }
@@ -205,27 +207,51 @@ Status Expression::assignment(TextCursor& text, const BlockInterpreter& control)
         return status;
     }
     Decimal unused;
-    if (next.number > 0 ? SystemParameters::owns(next.number) && !SystemParameters::can_write(next.number)
+    const bool owned = SystemParameters::owns(next.number);
+    if (next.number > 0 ? owned && !SystemParameters::can_write(next.number)
                         : SystemParameters(control).read(next.name, unused)) {
         text = start;
         return Error::parameter_read_only;
+    }
+    if (owned && !is_position(next.value)) {
+        text = start;
+        return Error::position_out_of_range;
     }
     ++count_;
     return {};
 }
 
-Status Expression::commit(BlockInterpreter& control) noexcept {
-    Status status;
-    for (int i = 0; i < count_ && status.ok(); ++i) {
-        const Assignment& of = assignments_[static_cast<unsigned>(i)];
-        const bool written =
-            of.number > 0 ? (SystemParameters::owns(of.number) ? SystemParameters::write(control, of.number, of.value)
-                                                               : table_->write(of.number, of.value))
-                          : table_->write(of.name, of.value);
-        status = written ? Status{} : Status(Error::parameter_storage_full);
+// False: there is no room for it.
+bool Expression::write(Assignment& of, BlockInterpreter& control) noexcept {
+    if (SystemParameters::owns(of.number)) {
+        SystemParameters::write(control, of.number, of.value);
+        return true;
     }
-    count_ = 0;
-    return status;
+    of.was_set = of.number > 0 ? table_->read(of.number, of.before) : table_->read(of.name, of.before);
+    return of.number > 0 ? table_->write(of.number, of.value) : table_->write(of.name, of.value);
+}
+
+void Expression::take_back(const Assignment& of) noexcept {
+    if (SystemParameters::owns(of.number)) {
+        return; // the interpreter does that
+    }
+    if (!of.was_set) {
+        of.number > 0 ? table_->forget(of.number) : table_->forget(of.name);
+    } else {
+        static_cast<void>(of.number > 0 ? table_->write(of.number, of.before) : table_->write(of.name, of.before));
+    }
+}
+
+Status Expression::commit(BlockInterpreter& control) noexcept {
+    int done = 0;
+    while (done < count_ && write(assignments_[static_cast<unsigned>(done)], control)) {
+        ++done;
+    }
+    const bool complete = done == count_;
+    for (count_ = 0; !complete && done > 0;) {
+        take_back(assignments_[static_cast<unsigned>(--done)]);
+    }
+    return complete ? Status{} : Status(Error::parameter_storage_full);
 }
 
 } // namespace splinefeed

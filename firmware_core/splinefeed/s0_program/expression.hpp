@@ -10,9 +10,9 @@ namespace splinefeed {
 
 /// Evaluates [ ], + - * / ** MOD AND OR XOR EQ NE GT GE LT LE, SIN COS TAN ASIN ACOS ATAN[]/[] SQRT ABS EXP LN ROUND
 /// FIX FUP EXISTS, #1, ##1, #[...], `#<name>`, by integers alone: the same digits on every target. Angles are in
-/// degrees. Values lie within +-9.2e9 and have a resolution of 1e-9; each operation is rounded to nearest, functions
-/// are within 2e-9 of the exact value of their rounded argument, EXP and ** also within 1e-15 of themselves. EQ and NE
-/// take values that differ by less than 1e-6 as equal.
+/// degrees. Values lie within +-9.2e9 (Decimal::largest_raw) and have a resolution of 1e-9; each operation is rounded
+/// to nearest, functions are within 2e-9 of the exact value of their rounded argument, EXP and ** also within 1e-15 of
+/// themselves. EQ and NE take values that differ by less than 1e-6 as equal.
 class Expression final : public WordEvaluator {
 public:
     static constexpr int most_assignments = 16; ///< of a block
@@ -32,7 +32,12 @@ private:
         std::int32_t number = 0; // 0: by name
         std::string_view name{}; // as the line has it
         Decimal value{};
+        Decimal before{}; // while the block is committed
+        bool was_set = false;
     };
+
+    bool write(Assignment& of, BlockInterpreter& control) noexcept;
+    void take_back(const Assignment& of) noexcept;
 
     ParameterTable* table_;
     std::array<Assignment, most_assignments> assignments_{};

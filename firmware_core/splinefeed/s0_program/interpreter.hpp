@@ -41,7 +41,6 @@ private:
     [[nodiscard]] S space_length(const ProgramStep& step) const noexcept;
 
     RationalPieces<S> pieces_{};
-    bool in_pieces_ = false;    // next() goes on with pieces_
     bool pieces_begun_ = false; // the next piece is not the first
     S pieces_feed_{};
     AxisPoint pieces_to_{};

@@ -23,8 +23,15 @@ void ModalState::end_program(const ProgramSettings& settings) noexcept {
     incremental = false;
     inverse_time = false;
     feed = {};
+    feed_in_inches = false;
     motion = settings.dialect == Dialect::grbl ? std::int16_t{0} : std::int16_t{10};
     spindle = SpindleState::stopped;
+}
+
+bool states_speed(const Block& block, Dialect dialect) noexcept {
+    const bool is_time =
+        dialect == Dialect::marlin && (block.code(CodeGroup::non_modal) == 40 || block.has(CodeGroup::stop));
+    return block.has('s') && !block.has(CodeGroup::printer) && !is_time;
 }
 
 BlockStatus ModalState::apply(const Block& block, const ProgramSettings& settings) noexcept {
@@ -32,12 +39,13 @@ BlockStatus ModalState::apply(const Block& block, const ProgramSettings& setting
     if (const std::int16_t mode = block.code(CodeGroup::feed_mode); mode != Block::no_code) {
         const bool inverse = mode == 930;
         feed = inverse == inverse_time ? feed : Decimal{};
+        feed_in_inches = feed_in_inches && inverse == inverse_time;
         inverse_time = inverse;
     }
     if (const BlockStatus status = apply_feed(block); !status.ok()) {
         return status;
     }
-    if (block.has('s') && !block.has(CodeGroup::printer)) {
+    if (states_speed(block, settings.dialect)) {
         if (block.value('s').raw < 0) {
             return block.at(Error::speed_negative, 's');
         }
@@ -85,6 +93,7 @@ BlockStatus ModalState::apply_feed(const Block& block) noexcept {
         return block.at(Error::feed_out_of_range, 'f');
     }
     feed = value;
+    feed_in_inches = inches && !inverse_time;
     return {};
 }
 

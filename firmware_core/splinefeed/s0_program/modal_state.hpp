@@ -23,13 +23,14 @@ struct ModalState {
     bool extruder_incremental = false; ///< M83
     bool centre_absolute = false;      ///< G90.1
     bool inverse_time = false;         ///< G93
+    bool feed_in_inches = false;       ///< F was
     bool retract_to_r = false;         ///< G99
     PathMode path_mode = PathMode::continuous;
     SpindleState spindle = SpindleState::stopped;
     std::int32_t selected_tool = 0;
     Decimal tolerance_mm{};
     Decimal chain_tolerance_mm{};
-    Decimal feed{};  ///< mm/min or degrees/min; 0: none yet
+    Decimal feed{};  ///< mm/min or degrees/min; G93: 1/min; 0: none yet
     Decimal speed{}; ///< 1/min
 
     /// Before the first block.
@@ -40,12 +41,24 @@ struct ModalState {
     [[nodiscard]] Decimal in_mm(Decimal value) const noexcept {
         return inches ? Decimal{product_quotient(value.raw, 254, 10).raw} : value;
     }
+    /// A length in mm in the units of the program.
+    [[nodiscard]] Decimal in_units(Decimal mm) const noexcept { return inches ? in_inches(mm) : mm; }
+    /// F as the program states it: the units may have changed since.
+    [[nodiscard]] Decimal feed_word() const noexcept { return feed_in_inches ? in_inches(feed) : feed; }
     /// Takes over the modes of a block: all but offsets and motion. Errors as BlockInterpreter::push.
     BlockStatus apply(const Block& block, const ProgramSettings& settings) noexcept;
 
+    friend constexpr bool operator==(const ModalState&, const ModalState&) noexcept = default;
+
 private:
+    // Exact for what in_mm() made.
+    [[nodiscard]] static Decimal in_inches(Decimal mm) noexcept { return {product_quotient(mm.raw, 10, 254).raw}; }
     BlockStatus apply_feed(const Block& block) noexcept;
     BlockStatus apply_path_mode(const Block& block, const ProgramSettings& settings) noexcept;
 };
+
+/// Whether the block states a speed of the spindle: S of printers is also a temperature, or the time of a dwell or a
+/// pause.
+[[nodiscard]] bool states_speed(const Block& block, Dialect dialect) noexcept;
 
 } // namespace splinefeed

@@ -6,7 +6,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr Decimal farthest = Decimal::from_integer(1 << 20);
 constexpr Decimal longest = Decimal::from_integer(65536);
 
 bool is_feed_motion(std::int16_t motion) noexcept {
@@ -58,7 +57,7 @@ BlockStatus BlockInterpreter::check_reach(const AxisPoint& from, const AxisPoint
     for (int k = 0; k < letters_.count(); ++k) {
         const auto n = static_cast<unsigned>(k);
         const Decimal way = to[n] - from[n];
-        const bool far = to[n] > farthest || to[n] < -farthest;
+        const bool far = !is_position(to[n]);
         if (far || way > longest || way < -longest) {
             const Error error = far ? Error::position_out_of_range : Error::move_too_long;
             return has_axis(k) ? block_.at(error, letters_.letter(k)) : BlockStatus{error, 0, 0};
@@ -76,8 +75,8 @@ BlockStatus BlockInterpreter::move_to(const AxisPoint& program, const AxisPoint&
     return {};
 }
 
-BlockStatus BlockInterpreter::require_feed(bool new_in_block) const noexcept {
-    if (modal_.inverse_time && new_in_block && !block_.has('f')) {
+BlockStatus BlockInterpreter::require_feed() const noexcept {
+    if (modal_.inverse_time && !block_.has('f')) {
         return block_.at(Error::inverse_feed_missing, CodeGroup::motion);
     }
     return modal_.feed.raw > 0 ? BlockStatus{} : block_.at(Error::feed_missing, CodeGroup::motion);
@@ -100,14 +99,14 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
         return {};
     }
     modal_.motion = use.motion;
-    const bool is_cycle = use.motion == 730 || (use.motion > 800 && use.motion <= 890);
-    cycle_words_.begun = cycle_words_.begun && is_cycle;
-    if (is_cycle && modal_.inverse_time) {
+    const bool cycle = is_cycle(use.motion);
+    cycle_words_.begun = cycle_words_.begun && cycle;
+    if (cycle && modal_.inverse_time) {
         return block_.at(Error::inverse_feed_cycle, CodeGroup::motion);
     }
     const bool rapid = settings_.dialect == Dialect::marlin ? modal_.feed.raw == 0 && use.motion == 0 : use.motion == 0;
     if (is_feed_motion(use.motion) && !rapid) {
-        if (const BlockStatus status = require_feed(true); !status.ok()) {
+        if (const BlockStatus status = require_feed(); !status.ok()) {
             return status;
         }
     }
@@ -118,8 +117,8 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     case 30: return plan_arc();
     case 50:
     case 51: return plan_spline(before);
-    case 52: return plan_nurbs(before);
-    default: return is_cycle ? plan_cycle(before) : plan_straight();
+    case 52: return plan_nurbs();
+    default: return cycle ? plan_cycle(before) : plan_straight();
     }
 }
 
@@ -141,8 +140,7 @@ BlockStatus BlockInterpreter::plan_straight() noexcept {
         plan_.probe = {modal_.motion >= 384, (modal_.motion & 1) == 0};
         plan_.stops_before = true;
         plan_.stop_at_end = true;
-        probe_at_ = program; // unless report_probe says otherwise
-        probe_contact_ = true;
+        set_probe(true, program); // unless report_probe says otherwise
     }
     return move_to(program, machine);
 }
@@ -179,7 +177,7 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     plan_.kind = PlanKind::arc;
     plan_.arc = {space(frame_.to_machine(centre)), modal_.plane, arc.sweep_deg};
     for (const Decimal value : plan_.arc.centre) {
-        if (value > farthest || value < -farthest) {
+        if (!is_position(value)) {
             return block_.at(Error::position_out_of_range, CodeGroup::motion);
         }
     }

@@ -8,53 +8,54 @@
 namespace splinefeed {
 
 void NurbsCurve::begin(int order, const SpacePoint& start, Decimal weight) noexcept {
-    degree_ = order - 1;
-    count_ = 0;
-    piece_ = 0;
-    open_ = true;
-    finished_ = false;
-    lightest_ = heaviest_ = weight;
+    now_.degree = order - 1;
+    now_.count = 0;
+    now_.piece = 0;
+    now_.open = true;
+    now_.finished = false;
+    now_.lightest = now_.heaviest = weight;
     add(start, weight);
 }
 
 void NurbsCurve::add(const SpacePoint& point, Decimal weight) noexcept {
-    points_[static_cast<unsigned>(count_ % window)] = {point, weight};
-    lightest_ = weight < lightest_ ? weight : lightest_;
-    heaviest_ = weight > heaviest_ ? weight : heaviest_;
-    ++count_;
+    points_[static_cast<unsigned>(now_.count % window)] = {point, weight};
+    now_.lightest = weight < now_.lightest ? weight : now_.lightest;
+    now_.heaviest = weight > now_.heaviest ? weight : now_.heaviest;
+    ++now_.count;
 }
 
 bool NurbsCurve::finish() noexcept {
-    finished_ = count_ > degree_;
-    return finished_;
+    now_.finished = now_.count > now_.degree;
+    return now_.finished;
 }
 
 std::int32_t NurbsCurve::knot(std::int32_t index) const noexcept {
-    const std::int32_t last = finished_ ? count_ - degree_ : index; // before the end is known it is far away
-    const std::int32_t inner = index - degree_;
+    const std::int32_t last =
+        now_.finished ? now_.count - now_.degree : index; // before the end is known it is far away
+    const std::int32_t inner = index - now_.degree;
     return inner < 0 ? 0 : inner > last ? last : inner;
 }
 
 bool NurbsCurve::next(BezierPlan& out) noexcept {
-    const std::int32_t known = finished_ ? count_ - degree_ : count_ - 2 * degree_ + 1;
-    if (!open_ || piece_ >= known) {
-        open_ = open_ && !finished_;
+    const std::int32_t known = now_.finished ? now_.count - now_.degree : now_.count - 2 * now_.degree + 1;
+    if (!now_.open || now_.piece >= known) {
+        now_.open = now_.open && !now_.finished;
         return false;
     }
-    const int d = degree_;
+    const int d = now_.degree;
     // The control points of the piece; homogeneous where weights differ: numbers are below 2^20 mm and weights 1.
     std::int64_t heaviest = 0;
     bool equal = true;
     for (int i = 0; i <= d; ++i) {
-        const std::int64_t weight = at(piece_ + i).weight.raw;
+        const std::int64_t weight = at(now_.piece + i).weight.raw;
         heaviest = weight > heaviest ? weight : heaviest;
-        equal = equal && weight == at(piece_).weight.raw;
+        equal = equal && weight == at(now_.piece).weight.raw;
     }
-    const SpacePoint& origin = at(piece_).place;
+    const SpacePoint& origin = at(now_.piece).place;
     for (int i = 0; i <= d; ++i) {
         std::array<std::int64_t, std::size_t{4} * most_order> work{};
         for (int j = 0; j <= d; ++j) {
-            const Point& point = at(piece_ + j);
+            const Point& point = at(now_.piece + j);
             const std::int64_t weight =
                 equal ? Decimal::one
                       : product_quotient(point.weight.raw, Decimal::one, static_cast<std::uint64_t>(heaviest)).raw;
@@ -66,10 +67,10 @@ bool NurbsCurve::next(BezierPlan& out) noexcept {
             work[static_cast<unsigned>(4 * j) + 3] = weight;
         }
         for (int r = 1; r <= d; ++r) {
-            const std::int32_t t = piece_ + (r > d - i ? 1 : 0);
+            const std::int32_t t = now_.piece + (r > d - i ? 1 : 0);
             for (int j = d; j >= r; --j) {
-                const std::int32_t low = knot(piece_ + j);
-                const std::int32_t high = knot(piece_ + j + d + 1 - r);
+                const std::int32_t low = knot(now_.piece + j);
+                const std::int32_t high = knot(now_.piece + j + d + 1 - r);
                 for (unsigned k = 0; k < 4; ++k) {
                     std::int64_t& to = work[static_cast<unsigned>(4 * j) + k];
                     const std::int64_t from = work[static_cast<unsigned>(4 * (j - 1)) + k];
@@ -89,7 +90,7 @@ bool NurbsCurve::next(BezierPlan& out) noexcept {
     }
     out.degree = d;
     out.rational = !equal;
-    ++piece_;
+    ++now_.piece;
     return true;
 }
 

@@ -13,25 +13,37 @@ public:
     static constexpr int least_order = 3;
     static constexpr int most_order = 6;
 
-    [[nodiscard]] bool is_open() const noexcept { return open_; }
-    [[nodiscard]] int order() const noexcept { return degree_ + 1; }
-    /// Points so far, with the start.
-    [[nodiscard]] std::int32_t points() const noexcept { return count_; }
+    [[nodiscard]] bool is_open() const noexcept { return now_.open; }
+    [[nodiscard]] int order() const noexcept { return now_.degree + 1; }
 
     void begin(int order, const SpacePoint& start, Decimal weight) noexcept;
-    /// The next control point, in machine coordinates. @pre has_room(); weight > 0
+    /// The next control point, in machine coordinates. @pre weight > 0
     void add(const SpacePoint& point, Decimal weight) noexcept;
     /// No more points. False: there are fewer than the order.
     [[nodiscard]] bool finish() noexcept;
     /// Whether the weight is within a factor of 64 of all others: what curves are computed with.
     [[nodiscard]] bool accepts(Decimal weight) const noexcept {
-        return weight.raw <= 64 * lightest_.raw && 64 * weight.raw >= heaviest_.raw;
+        return weight.raw <= 64 * now_.lightest.raw && 64 * weight.raw >= now_.heaviest.raw;
     }
-    void abandon() noexcept { open_ = false; }
+    void abandon() noexcept { now_.open = false; }
     /// The next piece; false: none is known yet, or all have been made (then is_open() is false).
     bool next(BezierPlan& out) noexcept;
     /// The last control point.
-    [[nodiscard]] SpacePoint last() const noexcept { return at(count_ - 1).place; }
+    [[nodiscard]] SpacePoint last() const noexcept { return at(now_.count - 1).place; }
+
+    /// Where the curve is, but for the points: those that next() needs stay when one is added.
+    struct Progress {
+        Decimal lightest{};
+        Decimal heaviest{};
+        int degree = 2;
+        std::int32_t count = 0; // points so far, with the start
+        std::int32_t piece = 0; // the next one
+        bool open = false;
+        bool finished = false;
+    };
+    [[nodiscard]] const Progress& progress() const noexcept { return now_; }
+    /// Takes back what was done since; none of begin(), add() and finish() has been followed by next().
+    void go_back(const Progress& progress) noexcept { now_ = progress; }
 
 private:
     struct Point {
@@ -46,13 +58,7 @@ private:
     [[nodiscard]] std::int32_t knot(std::int32_t index) const noexcept;
 
     std::array<Point, window> points_{};
-    Decimal lightest_{};
-    Decimal heaviest_{};
-    int degree_ = 2;
-    std::int32_t count_ = 0;
-    std::int32_t piece_ = 0; // the next one
-    bool open_ = false;
-    bool finished_ = false;
+    Progress now_{};
 };
 
 } // namespace splinefeed

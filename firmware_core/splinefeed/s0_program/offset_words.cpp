@@ -87,14 +87,11 @@ BlockStatus BlockInterpreter::set_offsets() noexcept {
     return check_offsets(CodeGroup::non_modal);
 }
 
-// Offsets as large as the machine: sums of them and of a place do not overflow.
 BlockStatus BlockInterpreter::check_offsets(CodeGroup group) noexcept {
-    constexpr Decimal most = Decimal::from_integer(1 << 20);
     const auto is_far = [&](const AxisPoint& point) {
         bool far = false;
         for (int k = 0; k < letters_.count(); ++k) {
-            const Decimal value = point[static_cast<unsigned>(k)];
-            far = far || value > most || value < -most;
+            far = far || !is_position(point[static_cast<unsigned>(k)]);
         }
         return far;
     };

@@ -28,9 +28,11 @@ constexpr FunctionRow functions[] = {
     FunctionRow{"fup", Function::fup},   FunctionRow{"exists", Function::exists},
 };
 
+// Symmetric and below the range of the integers: signs change, and parts are cut off or rounded up, without overflow.
 Status checked(detail::Checked result, Decimal& out) noexcept {
     out.raw = result.raw;
-    return result.fits ? Status{} : Status(Error::result_out_of_range);
+    const bool fits = result.fits && result.raw <= Decimal::largest_raw && result.raw >= -Decimal::largest_raw;
+    return fits ? Status{} : Status(Error::result_out_of_range);
 }
 
 Status divide(Decimal a, Decimal b, Decimal& out) noexcept {
@@ -78,8 +80,7 @@ Status apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept {
         if (!result.has_value()) {
             return result.error();
         }
-        out = *result;
-        return {};
+        return checked({result->raw, true}, out);
     }
     case Operator::times: return checked(product_quotient(a.raw, b.raw, static_cast<std::uint64_t>(Decimal::one)), out);
     case Operator::divided: return divide(a, b, out);
@@ -147,8 +148,7 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
         if (!result.has_value()) {
             return result.error();
         }
-        out = *result;
-        return {};
+        return checked({result->raw, true}, out);
     }
     case Function::ln:
         if (x.raw <= 0) {
@@ -156,11 +156,9 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
         }
         out = logarithm(x);
         return {};
-    case Function::round: {
-        const detail::Checked sum = detail::checked_sum(x.raw, x.raw < 0 ? -(Decimal::one / 2) : Decimal::one / 2);
-        out.raw = sum.raw / Decimal::one * Decimal::one;
+    case Function::round:
+        out.raw = (x.raw + (x.raw < 0 ? -(Decimal::one / 2) : Decimal::one / 2)) / Decimal::one * Decimal::one;
         return {};
-    }
     case Function::fix: out = floor_of(x); return {};
     case Function::fup: out = -floor_of(-x); return {};
     case Function::atan:

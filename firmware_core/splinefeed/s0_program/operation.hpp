@@ -66,7 +66,8 @@ struct FunctionRow {
     return {value ? Decimal::one : 0};
 }
 
-/// Errors: division_by_zero, power_invalid, result_out_of_range.
+/// Arguments and results are within +-Decimal::largest_raw. Errors: division_by_zero, power_invalid,
+/// result_out_of_range.
 Status apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept;
 
 /// All but atan and exists. Errors: arc_function_argument, root_of_negative, logarithm_argument, result_out_of_range.

@@ -19,6 +19,9 @@ public:
     /// has no value.
     [[nodiscard]] virtual bool read(std::string_view name, Decimal& out) const noexcept = 0;
     virtual bool write(std::string_view name, Decimal value) noexcept = 0;
+    /// It has no value any more: a block that wrote it is refused.
+    virtual void forget(std::int32_t number) noexcept = 0;
+    virtual void forget(std::string_view name) noexcept = 0;
 
 protected:
     ~ParameterTable() = default;

@@ -13,7 +13,7 @@ enum class EventKind : std::uint8_t {
     message,           ///< (MSG,text): show `text` to the operator
     print,             ///< (PRINT,text): write `text` to the standard output; #1 and `#<name>` are left to the host
     debug,             ///< (DEBUG,text): the same, to the operator
-    spindle_speed,     ///< S: `value` in revolutions per minute
+    spindle_speed,     ///< S: `value` in revolutions per minute; behind M5, if that is in the block
     spindle_clockwise, ///< M3; `value`: the speed [1/min]. Motion waits until it is reached
     spindle_counterclockwise, ///< M4
     spindle_stop,             ///< M5
@@ -39,7 +39,7 @@ enum class EventKind : std::uint8_t {
     pallet_pause,             ///< M60
     program_end,              ///< M2 (`number` 2), M30 (30) or the closing % (0)
     printer,                  ///< a heater or a fan: M104 M106 M107 M109 M140 M190 ...: `number`, its S as `value`
-    offsets_changed,          ///< G10, G28.1, G30.1, G92 ...: Interpreter::offsets() is to be stored
+    offsets_changed,          ///< G10, G28.1, G55, G92, M2 ...: Interpreter::offsets() is to be stored
 };
 
 /// How M66 waits.

@@ -34,7 +34,7 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
         return block_.at(Error::spline_end_missing, CodeGroup::motion);
     }
     const PlanePoint start = has_start ? PlanePoint{modal_.in_mm(block_.value('i')), modal_.in_mm(block_.value('j'))}
-                                       : PlanePoint{-spline_out_.first, -spline_out_.second};
+                                       : PlanePoint{-results_.spline_out.first, -results_.spline_out.second};
     if (!cubic && start.first.raw == 0 && start.second.raw == 0) {
         return block_.at(Error::spline_offset_missing, 'i');
     }
@@ -56,8 +56,8 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
     spline.points[0] = space(place_.machine);
     spline.points[1] = at(place_.program, start);
     if (cubic) {
-        spline_out_ = {modal_.in_mm(block_.value('p')), modal_.in_mm(block_.value('q'))};
-        spline.points[2] = at(program, spline_out_);
+        results_.spline_out = {modal_.in_mm(block_.value('p')), modal_.in_mm(block_.value('q'))};
+        spline.points[2] = at(program, results_.spline_out);
     }
     spline.points[static_cast<unsigned>(spline.degree)] = space(machine);
     plan_.kind = PlanKind::bezier;
@@ -72,8 +72,7 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
     return move_to(program, machine);
 }
 
-BlockStatus BlockInterpreter::plan_nurbs(const ModalState& before) noexcept {
-    static_cast<void>(before);
+BlockStatus BlockInterpreter::plan_nurbs() noexcept {
     const int x = letters_.index('x');
     const int y = letters_.index('y');
     if (modal_.plane != Plane::xy || x < 0 || y < 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Axes are numbered X Y Z A B C U V W. Lengths are in mm, but those that
-// follow the program (#5061, #5420) in its units.
+// Axes are numbered X Y Z A B C U V W. Lengths are in mm, but #5401 and #5420 ff. in the units of the program, and
+// #5061 ff. in those that it had when it probed.
 #include "splinefeed/s0_program/system_parameters.hpp"
 
 namespace splinefeed {
@@ -70,7 +70,7 @@ Decimal SystemParameters::of_axis(const AxisPoint& point, std::int32_t index) co
 
 Decimal SystemParameters::in_units(Decimal value, std::int32_t index) const noexcept {
     const bool length = index < 3 || index > 5;
-    return interpreter_->modal_.inches && length ? Decimal{product_quotient(value.raw, 10, 254).raw} : value;
+    return length ? interpreter_->modal_.in_units(value) : value;
 }
 
 Decimal SystemParameters::read(std::int32_t number) const noexcept {
@@ -78,8 +78,8 @@ Decimal SystemParameters::read(std::int32_t number) const noexcept {
     const WorkOffsets& offsets = interpreter_->frame_.offsets();
     switch (place.block) {
     case probe_block:
-        return place.index == 9 ? whole(interpreter_->probe_contact_ ? 1 : 0)
-                                : in_units(of_axis(interpreter_->probe_at_, place.index), place.index);
+        return place.index == 9 ? whole(interpreter_->results_.probe_contact ? 1 : 0)
+                                : of_axis(interpreter_->results_.probe_at, place.index);
     case g28_block: return of_axis(offsets.g28, place.index);
     case g30_block: return of_axis(offsets.g30, place.index);
     case g92_block:
@@ -93,7 +93,7 @@ Decimal SystemParameters::read(std::int32_t number) const noexcept {
         const std::int32_t index = (place.index - 1) % system_step;
         return index == 9 ? system.rotation_deg : of_axis(system.origin, index);
     }
-    case input_number: return interpreter_->input_;
+    case input_number: return interpreter_->results_.input;
     case tool_block:
         return place.index == 0 ? whole(offsets.tool_number)
                                 : in_units(of_axis(offsets.tool, place.index - 1), place.index - 1);
@@ -102,11 +102,7 @@ Decimal SystemParameters::read(std::int32_t number) const noexcept {
     }
 }
 
-bool SystemParameters::write(BlockInterpreter& interpreter, std::int32_t number, Decimal value) noexcept {
-    constexpr Decimal most = Decimal::from_integer(1 << 20);
-    if (!can_write(number) || value > most || value < -most) {
-        return false;
-    }
+void SystemParameters::write(BlockInterpreter& interpreter, std::int32_t number, Decimal value) noexcept {
     const Number place = number_of(number);
     WorkOffsets& offsets = interpreter.frame_.offsets();
     const auto set_axis = [&](AxisPoint& point, std::int32_t index) {
@@ -116,16 +112,16 @@ bool SystemParameters::write(BlockInterpreter& interpreter, std::int32_t number,
         }
     };
     if (place.block == input_number) {
-        interpreter.input_ = value;
-        return true;
+        interpreter.results_.input = value;
+        return;
     }
     if (place.block == probe_block) { // programs clear it before they probe
         if (place.index == 9) {
-            interpreter.probe_contact_ = value.raw != 0;
+            interpreter.results_.probe_contact = value.raw != 0;
         } else {
-            set_axis(interpreter.probe_at_, place.index);
+            set_axis(interpreter.results_.probe_at, place.index);
         }
-        return true;
+        return;
     }
     if (place.block != system_block) {
         set_axis(place.block == g28_block ? offsets.g28 : offsets.g30, place.index);
@@ -140,7 +136,6 @@ bool SystemParameters::write(BlockInterpreter& interpreter, std::int32_t number,
         interpreter.frame_changed();
     }
     interpreter.offsets_changed_ = true;
-    return true;
 }
 
 bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept {
@@ -178,8 +173,7 @@ bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept 
         }
     }
     if (is("feed"sv)) {
-        out = interpreter_->modal_.inches ? Decimal{product_quotient(interpreter_->modal_.feed.raw, 10, 254).raw}
-                                          : interpreter_->modal_.feed;
+        out = interpreter_->modal_.feed_word();
     } else if (is("rpm"sv)) {
         out = interpreter_->modal_.speed;
     } else if (is("line"sv)) {

@@ -19,8 +19,8 @@ public:
     /// False: it is none of the control's names.
     [[nodiscard]] bool read(std::string_view name, Decimal& out) const noexcept;
     [[nodiscard]] static bool can_write(std::int32_t number) noexcept;
-    /// False: it cannot be written, or the value is out of range.
-    static bool write(BlockInterpreter& interpreter, std::int32_t number, Decimal value) noexcept;
+    /// @pre can_write(number), is_position(value)
+    static void write(BlockInterpreter& interpreter, std::int32_t number, Decimal value) noexcept;
 
 private:
     [[nodiscard]] Decimal of_axis(const AxisPoint& point, std::int32_t index) const noexcept;

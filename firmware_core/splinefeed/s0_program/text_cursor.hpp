@@ -7,13 +7,21 @@
 
 namespace splinefeed {
 
+/// ASCII, whatever the locale.
+[[nodiscard]] constexpr char lower_case(char c) noexcept {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+[[nodiscard]] constexpr char upper_case(char c) noexcept {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
 /// Goes through a line character by character. Spaces and tabs count nowhere but in comments, and case does not.
 class TextCursor {
 public:
     constexpr explicit TextCursor(std::string_view text) noexcept : text_(text) { skip(); }
 
     /// The character in lower case; 0 at the end.
-    [[nodiscard]] constexpr char peek() const noexcept { return at_ < text_.size() ? lower(text_[at_]) : '\0'; }
+    [[nodiscard]] constexpr char peek() const noexcept { return at_ < text_.size() ? lower_case(text_[at_]) : '\0'; }
     /// The one after it.
     [[nodiscard]] constexpr char peek_second() const noexcept {
         TextCursor other = *this;
@@ -65,9 +73,6 @@ public:
     }
 
 private:
-    [[nodiscard]] static constexpr char lower(char c) noexcept {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
     constexpr void skip() noexcept {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) {
             ++at_;

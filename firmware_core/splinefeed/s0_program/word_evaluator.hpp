@@ -22,7 +22,8 @@ public:
     virtual Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept = 0;
     /// Whether commit() has something to do.
     [[nodiscard]] virtual bool has_assignments() const noexcept = 0;
-    /// Gives the parameters of the block their values.
+    /// Gives the parameters of the block their values. After an error none has its value, but for those of the
+    /// interpreter, which puts them back itself.
     virtual Status commit(BlockInterpreter& control) noexcept = 0;
     /// Forgets the assignments of a block that is not executed.
     virtual void discard() noexcept = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/word_use.hpp"
 
+#include "splinefeed/s0_program/canned_cycle.hpp"
 #include "splinefeed/s0_program/decimal_text.hpp"
 
 namespace splinefeed {
@@ -9,10 +10,6 @@ namespace {
 
 constexpr std::uint32_t axis_bits = Block::bits("xyzabcuvw");
 constexpr std::uint32_t no_cycle_bits = Block::bits("abcuvwe");
-
-bool is_cycle(std::int16_t motion) noexcept {
-    return motion == 730 || (motion > 800 && motion <= 890);
-}
 
 bool is_arc(std::int16_t motion) noexcept {
     return motion == 20 || motion == 30;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/gcode/parameter_memory.hpp"
 
+#include "splinefeed/s0_program/text_cursor.hpp"
+
 #include <algorithm>
 
 namespace splinefeed::host {
@@ -12,7 +14,7 @@ std::string normalized(std::string_view name) {
     std::string out;
     for (const char c : name) {
         if (c != ' ' && c != '\t') {
-            out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+            out += lower_case(c);
         }
     }
     return out;
@@ -70,6 +72,20 @@ bool ParameterMemory::write(std::string_view name, Decimal value) noexcept {
         return true;
     } catch (...) {
         return false;
+    }
+}
+
+void ParameterMemory::forget(std::int32_t number) noexcept {
+    if (number >= 0 && number <= largest_number) {
+        numbered_[static_cast<std::size_t>(number)] = {};
+    }
+}
+
+void ParameterMemory::forget(std::string_view name) noexcept {
+    try {
+        const std::string key = normalized(name);
+        (is_global(key) ? global_ : named_).erase(key);
+    } catch (...) { // out of memory: the name stays
     }
 }
 

@@ -21,6 +21,8 @@ public:
     bool write(std::int32_t number, Decimal value) noexcept override;
     [[nodiscard]] bool read(std::string_view name, Decimal& out) const noexcept override;
     bool write(std::string_view name, Decimal value) noexcept override;
+    void forget(std::int32_t number) noexcept override;
+    void forget(std::string_view name) noexcept override;
 
     /// A call begins: #1 to #30 are its arguments, and names without a leading _ are its own.
     void enter(const std::vector<Decimal>& arguments);
