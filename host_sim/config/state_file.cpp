@@ -47,9 +47,6 @@ public:
         }
         return json.get<double>();
     }
-    [[nodiscard]] Decimal decimal(const nlohmann::json& json, const char* key) const {
-        return decimal_of(value(json, key));
-    }
     [[nodiscard]] const nlohmann::json& member(const nlohmann::json& json, const char* key) const {
         const auto found = json.is_object() ? json.find(key) : json.end();
         if (!json.is_object() || found == json.end()) {
@@ -68,7 +65,7 @@ public:
         const nlohmann::json& found = list(json, key, axes_);
         PerAxis<Decimal> out{};
         for (std::size_t k = 0; k < axes_; ++k) {
-            out[k] = decimal(found[k], key);
+            out[k] = decimal_of(value(found[k], key));
         }
         return out;
     }
@@ -90,7 +87,7 @@ public:
         const nlohmann::json& systems = list(json_, "work_systems", work_systems);
         for (std::size_t i = 0; i < systems.size(); ++i) {
             out.offsets.systems[i].origin = point(systems[i], "origin_mm");
-            out.offsets.systems[i].rotation_deg = decimal(member(systems[i], "rotation_deg"), "rotation_deg");
+            out.offsets.systems[i].rotation_deg = decimal_of(value(member(systems[i], "rotation_deg"), "rotation_deg"));
         }
         out.offsets.active = whole("active", 0, work_systems - 1);
         out.offsets.g92 = point(json_, "g92_mm");

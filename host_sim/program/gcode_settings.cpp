@@ -5,6 +5,8 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
 
+#include "splinefeed/s0_program/text_cursor.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -24,8 +26,7 @@ bool is_letter(char c) {
 IgnoredWord ignored_word(std::string_view word) {
     IgnoredWord out;
     std::string upper(word);
-    std::transform(upper.begin(), upper.end(), upper.begin(),
-                   [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+    std::transform(upper.begin(), upper.end(), upper.begin(), upper_case);
     out.letter = upper.empty() ? '\0' : upper.front();
     if (upper.size() == 1 && is_letter(out.letter)) {
         return out;

@@ -3,6 +3,8 @@
 
 #include "host_sim/base/input_stream.hpp"
 
+#include "splinefeed/s0_program/text_cursor.hpp"
+
 #include <array>
 #include <istream>
 
@@ -57,7 +59,7 @@ const InputFormat* input_format(std::string_view name) noexcept {
 const InputFormat* format_of_suffix(std::string_view suffix) noexcept {
     std::string padded = " ";
     for (const char c : suffix) {
-        padded += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        padded += lower_case(c);
     }
     padded += ' ';
     for (const InputFormat& format : formats) {

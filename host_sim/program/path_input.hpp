@@ -64,13 +64,13 @@ public:
     void limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noexcept;
     /// Of a program in G-code: where the machine stands, and its offsets.
     void begin_at(const MachineState& state);
+    /// Of a program in G-code: the machine's spindle, which must outlive this. Call it before anything is read.
+    void use_spindle(const std::optional<SpindleDescription>& spindle) noexcept;
     /// Of a program in G-code: wrong lines are left out, and told to `problems` (null: they end the program).
     void collect_problems(std::vector<std::string>* problems) noexcept;
     /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.
     [[nodiscard]] bool lines_within_tolerance() const noexcept { return lines_within_tolerance_; }
-    /// Whether the path follows moves within a tolerance: one of the three above.
-    /// Of a program in G-code: the machine's spindle, which must outlive this. Call it before anything is read.
-    void use_spindle(const std::optional<SpindleDescription>& spindle) noexcept;
+    /// Whether the path follows moves within a tolerance: such lines, elements or a program in G-code.
     [[nodiscard]] bool within_tolerance() const noexcept { return gcode_ || elements_ || lines_within_tolerance_; }
     [[nodiscard]] const PathTolerances& tolerances() const noexcept { return tolerances_; }
     /// Number of waypoints from which the segments were computed; 0: none, or not known.

@@ -5,6 +5,8 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/config/decimal_number.hpp"
 
+#include "splinefeed/s0_program/text_cursor.hpp"
+
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -26,7 +28,7 @@ public:
     bool read(std::int32_t& tool, ToolRow& out) {
         tool = -1;
         for (skip(); !text_.empty() && text_.front() != ';'; skip()) {
-            const char letter = text_.front() >= 'a' ? static_cast<char>(text_.front() - 'a' + 'A') : text_.front();
+            const char letter = upper_case(text_.front());
             text_.remove_prefix(1);
             const double value = number(letter);
             if (const std::size_t axis = ToolRow::letters.find(letter); axis != std::string_view::npos) {
@@ -104,7 +106,7 @@ bool MachineTools::find(std::int32_t tool, ToolOffset& out) const noexcept {
     out = {};
     out.diameter = found->second.diameter;
     for (std::size_t k = 0; k < axes_->size(); ++k) {
-        const char letter = static_cast<char>((*axes_)[k].front() - 'a' + 'A');
+        const char letter = upper_case((*axes_)[k].front());
         if (const std::size_t at = ToolRow::letters.find(letter); at != std::string_view::npos) {
             out.offset[k] = found->second.offset[at];
         }

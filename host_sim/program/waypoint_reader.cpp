@@ -7,6 +7,8 @@
 
 #include "host_sim/config/path_tolerances.hpp"
 
+#include "splinefeed/s0_program/text_cursor.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
@@ -36,8 +38,7 @@ std::string_view trimmed(std::string_view text) {
 
 std::string lower(std::string_view text) {
     std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::transform(out.begin(), out.end(), out.begin(), lower_case);
     return out;
 }
 

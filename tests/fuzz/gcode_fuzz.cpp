@@ -74,12 +74,14 @@ void run(std::string_view text, const ProgramSettings& settings, bool evaluates)
         const std::string line(text.substr(0, end));
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
         const WorkOffsets offsets = interpreter.offsets();
+        const ModalState modal = interpreter.modal();
         const BlockStatus status = interpreter.push(line, ++number);
         if (!status.ok()) {
             if (status.column > line.size() + 1 || describe(status.error) == std::string("unknown error")) {
                 fail("a place or an error that is none", line);
             }
-            if (!(interpreter.offsets() == offsets) || interpreter.position() != at) {
+            if (!(interpreter.offsets() == offsets) || !(interpreter.modal() == modal) ||
+                interpreter.position() != at) {
                 fail("a refused line changed something", line);
             }
             continue;

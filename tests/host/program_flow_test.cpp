@@ -80,6 +80,43 @@ TEST_CASE("Loops, also within one another, with break and continue") {
           " 1 2 9");
 }
 
+TEST_CASE("A jump out of several loops ends all of them") {
+    // break, continue and the end of an outer loop from within an inner one, of each kind
+    CHECK(run("G91\no1 repeat [2]\no2 repeat [3]\nG0 X1\no1 continue\no2 endrepeat\no1 endrepeat\nG90 X9") == " 1 2 9");
+    CHECK(run("G91\no1 repeat [2]\no2 repeat [3]\nG0 X1\no1 break\no2 endrepeat\no1 endrepeat\nG90 X9") == " 1 9");
+    CHECK(run("#1=0\no1 while [#1 LT 2]\n#1=[#1+1]\no2 repeat [3]\nG0 X#1\no1 continue\no2 endrepeat\no1 endwhile\n"
+              "o3 repeat [2]\nG91 X5\no3 endrepeat") == " 1 2 7 12");
+    CHECK(run("#1=0\no1 do\n#1=[#1+1]\no2 repeat [9]\no3 repeat [9]\nG0 X#1\no1 continue\no3 endrepeat\n"
+              "o2 endrepeat\no1 while [#1 LT 3]\nX9") == " 1 2 3 9");
+    CHECK(run("o1 sub\no2 repeat [3]\no3 repeat [3]\no1 return [7]\no3 endrepeat\no2 endrepeat\no1 endsub\n"
+              "o4 repeat [2]\no1 call\nG91 G0 X#<_value>\no4 endrepeat") == " 7 14");
+    CHECK(run("#1=0\no1 repeat [2]\no2 repeat [2]\no3 if [#1 EQ 1]\no2 break\no3 endif\n#1=[#1+1]\nG0 X#1\n"
+              "o2 endrepeat\no1 endrepeat") == " 1");
+}
+
+TEST_CASE("A number may stand for several structures, one after the other") {
+    CHECK(run("#1=0\no9 if [1]\no1 do\n#1=[#1+1]\nG0 X#1\no1 while [#1 LT 2]\no1 while [#1 LT 4]\n#1=[#1+1]\nX#1\n"
+              "o1 endwhile\no1 if [1]\nX9\no1 endif\no9 endif") == " 1 2 3 4 9");
+}
+
+TEST_CASE("A subprogram in a block that runs is defined where the program comes to it") {
+    const std::string either = "\no1 if [#1 EQ 1]\no2 sub\nG0 X1\no3 if [#1 GT 5]\no2 return\no3 endif\nX2\no2 endsub\n"
+                               "o1 else\no2 sub\no4 repeat [2]\nG91 G0 X5\no4 endrepeat\no2 endsub\no1 endif\no2 call";
+    CHECK(run("#1=1" + either) == " 1 2");
+    CHECK(run("#1=2" + either) == " 5 10");
+    CHECK(run("o1 repeat [3]\no2 sub\nG91 G0 X1\no2 endsub\no2 call\no1 endrepeat") == " 1 2 3");
+}
+
+TEST_CASE("A jump costs the same in a long block") {
+    // Looking for the ends of these loops line by line would take an hour.
+    std::string program = "#1=0\no1 sub\no4 do\no4 while [0]\n";
+    for (int i = 0; i < 100'000; ++i) {
+        program += "(line)\n";
+    }
+    program += "o2 while [#1 LT 100000]\n#1=[#1+1]\no3 if [#1 GT 0]\no2 continue\no3 endif\no2 endwhile\no1 endsub\n";
+    CHECK(run(program + "o1 call\nG0 X7") == " 7");
+}
+
 TEST_CASE("Subprograms have parameters of their own, and may call themselves") {
     CHECK(run("o100 sub\nG0 X#1\n#1=50\no100 endsub\n#1=7\no100 call [3]\no100 call [4] [5]\nG0 X#1\nM2") ==
           " 3 4 7 end");
@@ -97,6 +134,13 @@ TEST_CASE("Wrong O words are told with line and column") {
     says("G0 X1\no1 call", "p.ngc:2:2: there is no subprogram o1");
     says("o1 if [1]", "p.ngc:1:1: o1 has no end");
     says("o1 endif", "p.ngc:1:2: o1 has no begin");
+    says("o1 while [1]\no2 if [1]\no1 endwhile\no2 endif",
+         "p.ngc:3:2: o1 has no begin, or o2 of line 2 has no end before it");
+    says("o1 if [1]\no2 while [1]\no1 endif", "p.ngc:3:2: o1 has no begin, or o2 of line 2 has no end before it");
+    says("o1 if [1]\no2 else\no1 endif", "p.ngc:2:2: o2 has no begin, or o1 of line 1 has no end before it");
+    says("o1 if [1]\no2 break\no1 endif", "p.ngc:2:2: there is no loop o2 around this line");
+    says("o1 repeat [1]\no2 sub\no1 break\no2 endsub\no1 endrepeat", "p.ngc:3:2: there is no loop o1 around");
+    says("o1 if [1]\no#1 repeat [1]\no1 endif", "p.ngc:2:2: only call takes an expression");
     says("o1 hop", "p.ngc:1:4: an O word has a number or a <name>");
     says("o sub", "p.ngc:1:1: an O word has a number or a <name>");
     says("o1 break", "p.ngc:1:2: o1 has no begin");

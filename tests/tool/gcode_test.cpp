@@ -222,6 +222,8 @@ TEST_CASE("The simulated spindle takes its time at standstill, and has the speed
     const std::string program = "G1 X10 F3000\nS10000 M3\nX20\nM5\nX30\nM2\n";
     const double waiting_s = seconds(tool, program, "-m spindle.toml");
     CHECK(waiting_s == Approx(seconds(tool, "G61.1\n" + program, "-m plain.toml") + 4.0).margin(0.01));
+    const std::string stops = "G1 X10 F3000\nS10000 M3\nX20\nM5 S0\nX30\nS20000 M3\nM5 S10000\nM2\n"; // S is for later
+    CHECK(seconds(tool, stops, "-m spindle.toml") == Approx(waiting_s + 8.0).margin(0.01));
     CHECK(
         error_of(tool, "S30000 M3\nG1 X10 F3000\nM2\n", "-m spindle.toml") ==
         "part.ngc:1: the spindle would turn with S30000; S must be above 0 to 20000, as [spindle] of the machine file "

@@ -30,6 +30,18 @@ TEST_CASE("A run begins where the one before ended, with its offsets") {
     CHECK(json::parse(tool.read("e.json"))["elements"][0]["from"] == json({1.0, 2.0, 3.0}));
 }
 
+TEST_CASE("A run ends with G54 in effect, a run without M2 as it is") {
+    const Tool tool;
+    tool.write("a.ngc", "G10 L2 P2 X100\nG55 G0 X10 M30\n");
+    REQUIRE(tool("run a.ngc --state s.json --quiet").status == 0);
+    const json ended = json::parse(tool.read("s.json"));
+    CHECK(ended["position_mm"][0] == 110.0);
+    CHECK(ended["active"] == 0);
+    tool.write("b.ngc", "G55 G0 X10\n");
+    REQUIRE(tool("run b.ngc --state s.json --quiet").status == 0);
+    CHECK(json::parse(tool.read("s.json"))["active"] == 1);
+}
+
 TEST_CASE("A wrong state, position or program leaves the state as it is") {
     const Tool tool;
     tool.write("a.ngc", "G10 L2 P1 X1\nG0 X10\nG1 Y1\n"); // no F

@@ -10,6 +10,7 @@
 
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
+#include "splinefeed/s0_program/text_cursor.hpp"
 
 #include <fmt/format.h>
 #include <limits>
@@ -24,7 +25,7 @@ ProgramSettings program_settings(const GcodeSettings& from, const MachineTools* 
     ProgramSettings out;
     out.axes = static_cast<int>(from.axes.size());
     for (std::size_t k = 0; k < from.axes.size(); ++k) {
-        out.letters[k] = static_cast<char>(from.axes[k].front() - 'a' + 'A');
+        out.letters[k] = upper_case(from.axes[k].front());
     }
     out.rotary_axes = from.rotary_axes;
     out.dialect = from.dialect;

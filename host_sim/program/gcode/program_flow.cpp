@@ -57,48 +57,6 @@ bool ProgramFlow::condition(const FlowWord& word, const SourceLine& line) {
     return value(line.text, at, line).raw != 0;
 }
 
-// The next line of the frame with the label and one of the kinds.
-std::size_t ProgramFlow::find(std::size_t from, const std::string& label, std::initializer_list<FlowKind> kinds,
-                              const SourceLine& line) const {
-    const Code& code = *frames_.back().code;
-    for (std::size_t i = from; i < code.size(); ++i) {
-        if (has_flow_word(code[i].text)) {
-            const FlowWord word = word_of(code[i]);
-            if (word.label == label && std::find(kinds.begin(), kinds.end(), word.kind) != kinds.end()) {
-                return i;
-            }
-        }
-    }
-    fail(line, 0, fmt::format("o{} has no end", label));
-}
-
-std::size_t ProgramFlow::find_back(const std::string& label, FlowKind kind, const SourceLine& line) const {
-    const Frame& frame = frames_.back();
-    for (std::size_t i = frame.at; i-- > 0;) {
-        if (has_flow_word((*frame.code)[i].text)) {
-            const FlowWord word = word_of((*frame.code)[i]);
-            if (word.label == label && word.kind == kind) {
-                return i;
-            }
-        }
-    }
-    fail(line, 0, fmt::format("o{} has no begin", label));
-}
-
-// Whether a while is the end of a do.
-bool ProgramFlow::ends_do(const FlowWord& word) const {
-    const Frame& frame = frames_.back();
-    for (std::size_t i = 0; i + 1 < frame.at; ++i) {
-        if (has_flow_word((*frame.code)[i].text)) {
-            const FlowWord other = word_of((*frame.code)[i]);
-            if (other.label == word.label && other.kind == FlowKind::do_) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
 // A block of the input is read to its end before it runs: loops go back, and conditions go forward.
 void ProgramFlow::begin(const FlowWord& word, const SourceLine& line) {
     switch (word.kind) {
@@ -111,7 +69,8 @@ void ProgramFlow::begin(const FlowWord& word, const SourceLine& line) {
             fail(line, word.label_at, "only call takes an expression as its number");
         }
         collects_ = true;
-        block_ = std::make_shared<Code>(1, line);
+        block_ = std::make_shared<FlowBlock>(++blocks_);
+        block_->add(line, word);
         block_label_ = word.label;
         block_kind_ = word.kind;
         break;
@@ -124,11 +83,12 @@ ProgramFlow::Step ProgramFlow::collect(SourceLine& line) {
     if (block_->size() + kept_ >= most_lines) {
         fail(line, 0, fmt::format("subprograms and loops have more than {} lines", most_lines));
     }
-    block_->push_back(line);
     if (!has_flow_word(line.text)) {
+        block_->add(line);
         return Step::nothing;
     }
     const FlowWord word = word_of(line);
+    block_->add(line, word);
     const FlowKind end = block_kind_ == FlowKind::sub      ? FlowKind::endsub
                          : block_kind_ == FlowKind::if_    ? FlowKind::endif
                          : block_kind_ == FlowKind::repeat ? FlowKind::endrepeat
@@ -138,9 +98,11 @@ ProgramFlow::Step ProgramFlow::collect(SourceLine& line) {
         return Step::nothing;
     }
     collects_ = false;
+    if (const FlowBlock::Problem problem = block_->link(); !problem.text.empty()) {
+        fail(block_->line(problem.line), problem.at, problem.text);
+    }
     if (block_kind_ == FlowKind::sub) {
-        kept_ += block_->size();
-        subs_[block_label_] = block_;
+        keep(block_label_, {block_, block_->number(), 0});
     } else {
         frames_.push_back({block_, 0, false, {}});
     }
@@ -148,13 +110,38 @@ ProgramFlow::Step ProgramFlow::collect(SourceLine& line) {
     return Step::nothing;
 }
 
+// In the place of one that had the same number.
+void ProgramFlow::keep(const std::string& label, const Sub& sub) {
+    Sub& place = subs_[label];
+    kept_ -= place.code ? place.code->size() : 0;
+    kept_ += sub.code->size();
+    place = sub;
+}
+
 // A subprogram within a block that runs.
-void ProgramFlow::define(const FlowWord& word, const SourceLine& line) {
+void ProgramFlow::define(const FlowBlock::Place& place, const SourceLine& line) {
+    const FlowBlock& code = *frames_.back().code;
+    const auto known = subs_.find(place.word.label);
+    if (known == subs_.end() || known->second.source != code.number() || known->second.line != place.begin) {
+        if (kept_ + (place.end - place.begin) >= most_lines) {
+            fail(line, 0, fmt::format("subprograms and loops have more than {} lines", most_lines));
+        }
+        auto part = std::make_shared<const FlowBlock>(code.part(place.begin, ++blocks_));
+        keep(place.word.label, {std::move(part), code.number(), place.begin});
+    }
+    go_to(place.end + 1);
+}
+
+// Within the frame. Repeats that are left end.
+void ProgramFlow::go_to(std::size_t line) {
     Frame& frame = frames_.back();
-    const std::size_t end = find(frame.at, word.label, {FlowKind::endsub}, line);
-    const auto from = frame.code->begin() + static_cast<std::ptrdiff_t>(frame.at) - 1;
-    subs_[word.label] = std::make_shared<const Code>(from, frame.code->begin() + static_cast<std::ptrdiff_t>(end) + 1);
-    frame.at = end + 1;
+    const auto leaves = [&](const Repeat& loop) {
+        return line <= loop.begin || line > frame.code->place(loop.begin)->end;
+    };
+    while (!frame.repeats.empty() && leaves(frame.repeats.back())) {
+        frame.repeats.pop_back();
+    }
+    frame.at = line;
 }
 
 void ProgramFlow::execute_call(const FlowWord& word, const SourceLine& line) {
@@ -175,7 +162,7 @@ void ProgramFlow::execute_call(const FlowWord& word, const SourceLine& line) {
         arguments.push_back(value(line.text, at, line));
     }
     parameters_->enter(arguments);
-    frames_.push_back({sub->second, 1, true, {}});
+    frames_.push_back({sub->second.code, 1, true, {}});
 }
 
 void ProgramFlow::leave_sub(const FlowWord& word, const SourceLine& line) {
@@ -194,92 +181,72 @@ void ProgramFlow::leave_sub(const FlowWord& word, const SourceLine& line) {
     parameters_->write("_value_returned", Decimal::from_integer(has_value ? 1 : 0));
 }
 
-void ProgramFlow::execute_if(const FlowWord& word, const SourceLine& line) {
-    Frame& frame = frames_.back();
-    bool taken = condition(word, line);
-    const SourceLine* here = &line;
+void ProgramFlow::execute_if(const FlowBlock::Place& place, const SourceLine& line) {
+    const FlowBlock& code = *frames_.back().code;
+    const FlowBlock::Place* at = &place;
+    bool taken = condition(place.word, line);
     while (!taken) {
-        frame.at = find(frame.at, word.label, {FlowKind::elseif, FlowKind::else_, FlowKind::endif}, *here) + 1;
-        here = &(*frame.code)[frame.at - 1];
-        const FlowWord next = word_of(*here);
-        taken = next.kind != FlowKind::elseif || condition(next, *here);
+        const std::size_t next = at->next;
+        go_to(next + 1);
+        at = code.place(next);
+        taken = at->word.kind != FlowKind::elseif || condition(at->word, code.line(next));
     }
 }
 
-void ProgramFlow::execute_repeat(const FlowWord& word, const SourceLine& line) {
-    Frame& frame = frames_.back();
-    std::size_t at = word.rest;
+void ProgramFlow::execute_repeat(const FlowBlock::Place& place, const SourceLine& line) {
+    std::size_t at = place.word.rest;
     if (at >= line.text.size() || line.text[at] != '[') {
         fail(line, std::min(at, line.text.size()), "repeat needs a number in brackets, like [5]");
     }
     const std::int64_t count = value(line.text, at, line).raw / Decimal::one;
     if (count <= 0) {
-        frame.at = find(frame.at, word.label, {FlowKind::endrepeat}, line) + 1;
+        go_to(place.end + 1);
     } else {
-        frame.loops.push_back({word.label, count});
+        frames_.back().repeats.push_back({place.begin, count});
     }
 }
 
-void ProgramFlow::execute(const FlowWord& word, const SourceLine& line) {
-    Frame& frame = frames_.back();
-    const std::size_t here = frame.at - 1;
-    const auto drop_loop = [&] {
-        const auto same = [&](const Loop& loop) {
-            return loop.label == word.label;
-        };
-        frame.loops.erase(std::remove_if(frame.loops.begin(), frame.loops.end(), same), frame.loops.end());
-    };
-    switch (word.kind) {
-    case FlowKind::sub: define(word, line); break;
+void ProgramFlow::end_repeat(const FlowBlock::Place& place) {
+    Repeat& repeat = frames_.back().repeats.back();
+    go_to(--repeat.left > 0 ? place.begin + 1 : place.end + 1);
+}
+
+void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line) {
+    const FlowBlock& code = *frames_.back().code;
+    switch (place.word.kind) {
+    case FlowKind::sub: define(place, line); break;
     case FlowKind::endsub:
-    case FlowKind::return_: leave_sub(word, line); break;
-    case FlowKind::call: execute_call(word, line); break;
-    case FlowKind::if_: execute_if(word, line); break;
+    case FlowKind::return_: leave_sub(place.word, line); break;
+    case FlowKind::call: execute_call(place.word, line); break;
+    case FlowKind::if_: execute_if(place, line); break;
     case FlowKind::elseif:
-    case FlowKind::else_: frame.at = find(frame.at, word.label, {FlowKind::endif}, line) + 1; break;
+    case FlowKind::else_: go_to(place.end + 1); break; // behind a branch that was taken
     case FlowKind::endif:
     case FlowKind::do_: break;
     case FlowKind::while_:
-        if (ends_do(word)) {
-            frame.at = condition(word, line) ? find_back(word.label, FlowKind::do_, line) + 1 : frame.at;
-        } else if (!condition(word, line)) {
-            frame.at = find(frame.at, word.label, {FlowKind::endwhile}, line) + 1;
+        if (code.place(place.begin)->word.kind == FlowKind::do_) {
+            if (condition(place.word, line)) {
+                go_to(place.begin + 1);
+            }
+        } else if (!condition(place.word, line)) {
+            go_to(place.end + 1);
         }
         break;
-    case FlowKind::endwhile: frame.at = find_back(word.label, FlowKind::while_, line); break;
-    case FlowKind::repeat: execute_repeat(word, line); break;
-    case FlowKind::endrepeat:
-        if (frame.loops.empty() || frame.loops.back().label != word.label) {
-            fail(line, word.label_at, fmt::format("o{} has no begin", word.label));
-        }
-        if (--frame.loops.back().left > 0) {
-            frame.at = find_back(word.label, FlowKind::repeat, line) + 1;
-        } else {
-            frame.loops.pop_back();
-        }
-        break;
-    case FlowKind::break_:
-        frame.at = find(here + 1, word.label, {FlowKind::endwhile, FlowKind::endrepeat, FlowKind::while_}, line) + 1;
-        drop_loop();
-        break;
-    case FlowKind::continue_:
-        frame.at = find(here + 1, word.label, {FlowKind::endwhile, FlowKind::endrepeat, FlowKind::while_}, line);
-        break;
+    case FlowKind::endwhile: go_to(place.begin); break;
+    case FlowKind::repeat: execute_repeat(place, line); break;
+    case FlowKind::endrepeat: end_repeat(place); break;
+    case FlowKind::break_: go_to(code.place(place.begin)->end + 1); break;
+    case FlowKind::continue_: go_to(code.place(place.begin)->end); break;
     }
 }
 
 ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
-    const bool from_memory = !frames_.empty() && !collects_;
-    if (from_memory) {
-        Frame& frame = frames_.back();
-        if (frame.at >= frame.code->size()) {
-            frames_.pop_back();
-            return Step::nothing;
-        }
-        out = (*frame.code)[frame.at++];
-    } else if (!lines_->next(out)) {
+    if (in_memory()) {
+        return next_in_memory(out);
+    }
+    if (!lines_->next(out)) {
         if (collects_) {
-            fail(block_->front(), 0, fmt::format("o{} has no end", block_label_));
+            fail(block_->line(0), 0, fmt::format("o{} has no end", block_label_));
         }
         return Step::end;
     }
@@ -298,13 +265,33 @@ ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
     if (!out.whole) {
         throw InputError(file_, out.number, cut_line);
     }
-    if (++jumps_ > most_jumps) {
-        fail(out, 0, fmt::format("the program has executed {} O words; does it ever end?", most_jumps));
-    }
-    const FlowWord word = word_of(out);
-    const SourceLine line = out; // the frame that it came from may go
-    from_memory ? execute(word, line) : begin(word, line);
+    count_word(out);
+    begin(word_of(out), out);
     return Step::nothing;
+}
+
+ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
+    Frame& frame = frames_.back();
+    if (frame.at >= frame.code->size()) {
+        frames_.pop_back();
+        return Step::nothing;
+    }
+    const std::shared_ptr<const FlowBlock> code = frame.code; // the frame may go
+    const std::size_t at = frame.at++;
+    const FlowBlock::Place* const place = code->place(at);
+    out = code->line(at);
+    if (place == nullptr) {
+        return Step::line;
+    }
+    count_word(out);
+    execute(*place, code->line(at));
+    return Step::nothing;
+}
+
+void ProgramFlow::count_word(const SourceLine& line) {
+    if (++words_ > most_words) {
+        fail(line, 0, fmt::format("the program has executed {} O words; does it ever end?", most_words));
+    }
 }
 
 } // namespace splinefeed::host

@@ -2,7 +2,7 @@
 // ProgramFlow: the lines of a program in the order in which they are executed: subprograms, conditions, loops.
 #pragma once
 
-#include "host_sim/program/gcode/flow_word.hpp"
+#include "host_sim/program/gcode/flow_block.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
 #include "host_sim/program/source_line.hpp"
 
@@ -19,7 +19,7 @@ namespace splinefeed::host {
 class ProgramFlow {
 public:
     static constexpr std::size_t most_lines = 1'000'000;    ///< kept in memory
-    static constexpr std::uint64_t most_jumps = 10'000'000; ///< O words executed
+    static constexpr std::uint64_t most_words = 10'000'000; ///< O words executed
     static constexpr std::size_t deepest = 30;              ///< calls within calls
     static constexpr std::int32_t most_arguments = 30;
 
@@ -40,34 +40,38 @@ public:
     [[nodiscard]] bool in_memory() const noexcept { return !frames_.empty() && !collects_; }
 
 private:
-    using Code = std::vector<SourceLine>;
-
-    struct Loop {
-        std::string label;
-        std::int64_t left = 0; // of a repeat
+    struct Repeat {
+        std::size_t begin = 0; // its line
+        std::int64_t left = 0;
     };
     /// A block that is executed from memory.
     struct Frame {
-        std::shared_ptr<const Code> code;
+        std::shared_ptr<const FlowBlock> code;
         std::size_t at = 0;
-        bool called = false; // it has parameters of its own
-        std::vector<Loop> loops;
+        bool called = false;         // it has parameters of its own
+        std::vector<Repeat> repeats; // those around `at`
+    };
+    struct Sub {
+        std::shared_ptr<const FlowBlock> code;
+        std::uint64_t source = 0; // where it was read: number of the block, and line in it
+        std::size_t line = 0;
     };
 
     Step collect(SourceLine& line);
     void begin(const FlowWord& word, const SourceLine& line);
-    void execute(const FlowWord& word, const SourceLine& line);
-    void execute_if(const FlowWord& word, const SourceLine& line);
+    Step next_in_memory(SourceLine& out);
+    void count_word(const SourceLine& line);
+    void execute(const FlowBlock::Place& place, const SourceLine& line);
+    void execute_if(const FlowBlock::Place& place, const SourceLine& line);
     void execute_call(const FlowWord& word, const SourceLine& line);
-    void execute_repeat(const FlowWord& word, const SourceLine& line);
+    void execute_repeat(const FlowBlock::Place& place, const SourceLine& line);
+    void end_repeat(const FlowBlock::Place& place);
     void leave_sub(const FlowWord& word, const SourceLine& line);
-    void define(const FlowWord& word, const SourceLine& line);
-    [[nodiscard]] bool ends_do(const FlowWord& word) const;
+    void define(const FlowBlock::Place& place, const SourceLine& line);
+    void keep(const std::string& label, const Sub& sub);
+    void go_to(std::size_t line);
     [[nodiscard]] FlowWord word_of(const SourceLine& line) const;
     [[nodiscard]] std::string label_of(const FlowWord& word, const SourceLine& line);
-    [[nodiscard]] std::size_t find(std::size_t from, const std::string& label, std::initializer_list<FlowKind> kinds,
-                                   const SourceLine& line) const;
-    [[nodiscard]] std::size_t find_back(const std::string& label, FlowKind kind, const SourceLine& line) const;
     [[nodiscard]] Decimal value(std::string_view text, std::size_t& at, const SourceLine& line);
     [[nodiscard]] bool condition(const FlowWord& word, const SourceLine& line);
     [[noreturn]] void fail(const SourceLine& line, std::size_t at, std::string_view text) const;
@@ -77,15 +81,16 @@ private:
     WordEvaluator* evaluator_;
     const BlockInterpreter* system_;
     ParameterMemory* parameters_;
-    std::map<std::string, std::shared_ptr<const Code>> subs_;
+    std::map<std::string, Sub> subs_;
     std::vector<Frame> frames_;
     bool begun_ = false;    // there was a block: a number of the program would have come before it
     bool collects_ = false; // a block is read to its end
-    std::shared_ptr<Code> block_;
+    std::shared_ptr<FlowBlock> block_;
     std::string block_label_;
     FlowKind block_kind_ = FlowKind::sub;
     std::size_t kept_ = 0; // lines of subprograms
-    std::uint64_t jumps_ = 0;
+    std::uint64_t words_ = 0;
+    std::uint64_t blocks_ = 0; // that have been read
 };
 
 } // namespace splinefeed::host

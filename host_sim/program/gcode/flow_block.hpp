@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// FlowBlock: lines that are executed from memory, and where their O words lead.
+#pragma once
+
+#include "host_sim/program/gcode/flow_word.hpp"
+#include "host_sim/program/source_line.hpp"
+
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// A subprogram, a condition or a loop, from its first word to its last one. Each word of it knows the others that it
+/// belongs to, so that a jump costs the same however long the block is. Lines are counted from 0.
+class FlowBlock {
+public:
+    static constexpr std::size_t deepest = 1000; ///< structures within one another
+
+    /// An O word and its structure.
+    struct Place {
+        FlowWord word;
+        std::size_t begin = 0; ///< first line of the structure; of break and continue: of the loop that they name
+        std::size_t end = 0;   ///< its last line, but not of break and continue
+        std::size_t next = 0;  ///< of if and elseif: the next elseif, else or endif
+    };
+
+    /// What is wrong with the order of the words.
+    struct Problem {
+        std::size_t line = 0;
+        std::size_t at = 0; ///< offset in the line
+        std::string text;   ///< empty: nothing is wrong
+    };
+
+    explicit FlowBlock(std::uint64_t number) noexcept : number_(number) {}
+
+    void add(SourceLine line);
+    void add(SourceLine line, FlowWord word);
+    /// Finds where the words lead, after the last line.
+    [[nodiscard]] Problem link();
+
+    /// Tells blocks apart, those that are gone, too.
+    [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
+    [[nodiscard]] std::size_t size() const noexcept { return lines_.size(); }
+    [[nodiscard]] const SourceLine& line(std::size_t at) const { return lines_[at]; }
+    /// Null: the line has no O word.
+    [[nodiscard]] const Place* place(std::size_t at) const {
+        return place_of_[at] > 0 ? &places_[place_of_[at] - 1] : nullptr;
+    }
+    /// A part of it, from a word to the end of its structure. @pre link() has found nothing wrong
+    [[nodiscard]] FlowBlock part(std::size_t from, std::uint64_t number) const;
+
+private:
+    [[nodiscard]] Place& known(std::size_t line) { return places_[place_of_[line] - 1]; }
+    /// The word at the line ends the innermost structure, or is a branch of it. False: that is another one.
+    [[nodiscard]] bool close(std::size_t line, FlowKind begin);
+    [[nodiscard]] bool branch(std::size_t line);
+    [[nodiscard]] bool leave(std::size_t line);
+    [[nodiscard]] bool enter(std::size_t line);
+
+    std::uint64_t number_;
+    std::vector<SourceLine> lines_;
+    std::vector<std::uint32_t> place_of_; // of each line, from 1; 0: none
+    std::vector<Place> places_;
+    std::vector<std::size_t> open_; // first lines of the structures around a line, while it is linked
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Any O words, with blocks between them: a program goes on, ends, or is refused at one of its lines; what is executed
+// are its lines; a call leaves the parameters of its caller as they were.
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/program/gcode/program_flow.hpp"
+
+#include "splinefeed/s0_program/expression.hpp"
+#include "splinefeed/s0_program/interpreter.hpp"
+
+#include "fuzz/bytes.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+class TextLines final : public SourceLines {
+public:
+    explicit TextLines(const std::vector<std::string>& lines) : lines_(&lines) {}
+    bool next(SourceLine& out) override {
+        if (at_ == lines_->size()) {
+            return false;
+        }
+        out.text = (*lines_)[at_];
+        out.number = ++at_;
+        return true;
+    }
+
+private:
+    const std::vector<std::string>* lines_;
+    std::size_t at_ = 0;
+};
+
+[[noreturn]] void fail(const char* what, const std::string& line) {
+    std::fprintf(stderr, "%s: %s\n", what, line.c_str());
+    std::abort();
+}
+
+/// Each byte is a part of a line: programs that run, and jump, are common among these.
+std::string text_of_parts(splinefeed_test::Bytes bytes) {
+    static constexpr std::string_view parts[] = {"o1 ",
+                                                 "o2 ",
+                                                 "o3 ",
+                                                 "o<a> ",
+                                                 "o#2 ",
+                                                 "o[#1] ",
+                                                 "sub\n",
+                                                 "endsub\n",
+                                                 "call\n",
+                                                 "return\n",
+                                                 "if ",
+                                                 "elseif ",
+                                                 "else\n",
+                                                 "endif\n",
+                                                 "while ",
+                                                 "endwhile\n",
+                                                 "do\n",
+                                                 "repeat ",
+                                                 "endrepeat\n",
+                                                 "break\n",
+                                                 "continue\n",
+                                                 "[1]\n",
+                                                 "[0]\n",
+                                                 "[#1 LT 3]\n",
+                                                 "[#2 GT 1]\n",
+                                                 "[2]\n",
+                                                 "[#1]\n",
+                                                 "#1=[#1+1]\n",
+                                                 "#2=[#2+#1]\n",
+                                                 "#2=1\n",
+                                                 "G0 X#1\n",
+                                                 "\n",
+                                                 "call [1] [#1]\n",
+                                                 "endsub [#1]\n",
+                                                 "return [3]\n",
+                                                 "#<b>=#1\n",
+                                                 "#1=#<b>\n",
+                                                 "#1=#<_value>\n",
+                                                 "M2\n",
+                                                 "%\n",
+                                                 "O100 (PART)\n",
+                                                 "N7 o2 ",
+                                                 "(x)\n",
+                                                 "[",
+                                                 "]",
+                                                 "#31=[#31+1]\n",
+                                                 "[#31 LT 9]\n",
+                                                 "G91 X1\n"};
+    std::string text;
+    while (bytes.left > 0 && text.size() < 100'000) {
+        text += parts[bytes.take() % std::size(parts)];
+    }
+    return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        lines.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return lines;
+}
+
+void run(const std::vector<std::string>& text) {
+    constexpr int most_steps = 4'000; // loops without an end would only take time
+    TextLines lines(text);
+    ParameterMemory parameters;
+    Expression expression(parameters);
+    const ProgramSettings settings;
+    Interpreter<double> interpreter(settings, &expression);
+    interpreter.start({});
+    ProgramFlow flow(lines, "p", expression, interpreter, parameters);
+    SourceLine line;
+    ProgramItem<double> item;
+    for (int steps = 0; steps < most_steps && !interpreter.has_ended(); ++steps) {
+        const ProgramFlow::Step step = flow.next(line);
+        if (step == ProgramFlow::Step::end) {
+            return;
+        }
+        if (step == ProgramFlow::Step::nothing) {
+            continue;
+        }
+        if (line.number == 0 || line.number > text.size() || text[line.number - 1] != line.text) {
+            fail("a line that the program does not have", line.text);
+        }
+        if (interpreter.push(line.text, static_cast<std::uint32_t>(line.number)).ok()) {
+            while (interpreter.next(item) == Pull::item) {
+            }
+        }
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    splinefeed_test::Bytes bytes{data, size};
+    const bool as_text = (bytes.take() & 1U) != 0;
+    const std::vector<std::string> lines =
+        lines_of(as_text ? std::string(reinterpret_cast<const char*>(bytes.data), bytes.left) : text_of_parts(bytes));
+    try {
+        run(lines);
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        if (what.rfind("p:", 0) != 0 || std::atoi(what.c_str() + 2) < 1 ||
+            std::atoi(what.c_str() + 2) > static_cast<int>(lines.size())) {
+            fail("an error without its line", what);
+        }
+    }
+    return 0;
+}
