@@ -174,3 +174,14 @@ TEST_CASE("a circle of weights", "[program][nurbs]") {
         CHECK(item.element.joined == (&item != &items.front()));
     }
 }
+
+TEST_CASE("a curve ends at its last point, whatever its weight", "[program][nurbs]") {
+    for (const std::string weight : {"0.5", "0.7", "3", "1.1"}) {
+        for (int angle = 0; angle < 90; angle += 7) {
+            CAPTURE(weight, angle);
+            GcodeRun<double> run;
+            run.run("G10 L2 P2 R" + std::to_string(angle) + "\nG55 F5\nG5.2 X1 Y1\nX3 Y1.3 P" + weight + "\nG5.3");
+            CHECK(run.items().back().element.to == run.interpreter().position());
+        }
+    }
+}

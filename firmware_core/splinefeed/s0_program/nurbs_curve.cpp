@@ -88,6 +88,9 @@ bool NurbsCurve::next(BezierPlan& out) noexcept {
         }
         out.weights[static_cast<unsigned>(i)] = {weight};
     }
+    if (now_.finished && now_.piece + 1 == known) {
+        out.points[static_cast<unsigned>(d)] = last(); // without the rounding of its weight: there the program stands
+    }
     out.degree = d;
     out.rational = !equal;
     ++now_.piece;
