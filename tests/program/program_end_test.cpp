@@ -32,6 +32,20 @@ TEST_CASE("a block with M2 is executed before the program ends", "[program][end]
     CHECK(ended("G5.2 X1 Y1\nX2 Y0 P2\nG5.3\nM2") != "");
 }
 
+TEST_CASE("offsets that a block assigns hold behind it", "[program][end]") {
+    for (const std::string block :
+         {"G1 X1", "G2 X2 I1", "G81 X1 Y1 Z-3 R1 L2", "G86 X1 Z-3 R1 P1", "G28 X1", "G4 P1"}) {
+        CAPTURE(block);
+        const std::string assigned = "#5241=99 #5250=15 #5230=9 #1=2";
+        CHECK(ended(block + " " + assigned + "\nG0 X1") == ended(block + "\n" + assigned + "\nG0 X1"));
+        CHECK(ended(block + " " + assigned + " M2") == ended(block + "\n#5241=99 #5250=15 #5230=9\nM2"));
+    }
+    GcodeRun<double> run;
+    REQUIRE(run.interpreter().push("G0 X1 #5221=5", 1).ok());
+    run.interpreter().start({}); // an abort
+    CHECK(run.last("G0 X1") == "rapid 1 0 0");
+}
+
 TEST_CASE("the end of the program leaves G54, and tells", "[program][end]") {
     GcodeRun<double> run;
     run.run("G10 L2 P2 X10\nG55 G0 X1");

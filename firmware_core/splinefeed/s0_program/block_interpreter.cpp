@@ -50,17 +50,25 @@ void BlockInterpreter::restart() noexcept {
     drop_block();
     percent_ = any_block_ = ended_ = false;
     emitted_ = place_.machine;
-    if (evaluator_ != nullptr) {
-        evaluator_->discard();
-    }
 }
 
 // What is left of the block, and a NURBS that has not been ended.
 void BlockInterpreter::drop_block() noexcept {
     nurbs_.abandon();
-    plan_ = {};
+    plan_.clear();
     stage_ = all_done;
     in_pieces_ = false;
+    discard_assignments();
+}
+
+bool BlockInterpreter::assigns() const noexcept {
+    return evaluator_ != nullptr && evaluator_->has_assignments();
+}
+
+void BlockInterpreter::discard_assignments() noexcept {
+    if (evaluator_ != nullptr) {
+        evaluator_->discard();
+    }
 }
 
 void BlockInterpreter::restore(const WorkOffsets& offsets) noexcept {
@@ -113,13 +121,14 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
     LineKind kind = LineKind::block;
     line_ = line_number;
     BlockStatus status = reader_.read(text, *this, block_, kind);
-    plan_ = {};
+    plan_.clear();
     sub_step_ = 0;
     offsets_changed_ = false;
     if (status.ok() && kind == LineKind::percent) {
         status = execute_percent();
     } else if (status.ok() && kind == LineKind::homing) {
         any_block_ = true;
+        plan_.manner = {};
         plan_homing(0);
         stage_ = 0;
     } else if (status.ok() && kind == LineKind::block) {
@@ -128,11 +137,9 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
     if (!status.ok()) {
         status.length = word_length(text, status.column);
         block_.clear();
-        plan_ = {};
+        plan_.clear();
         stage_ = all_done;
-    }
-    if (evaluator_ != nullptr) {
-        evaluator_->discard();
+        discard_assignments();
     }
     return status;
 }
@@ -163,12 +170,11 @@ BlockStatus BlockInterpreter::execute() noexcept {
     const NurbsCurve::Progress nurbs = nurbs_.progress();
     BlockStatus status;
     const bool changes_frame = block_.has(CodeGroup::non_modal) || block_.has(CodeGroup::tool_length) ||
-                               block_.has(CodeGroup::work_system) || block_.has(CodeGroup::tool_change) ||
-                               (evaluator_ != nullptr && evaluator_->has_assignments());
+                               block_.has(CodeGroup::work_system) || block_.has(CodeGroup::tool_change);
     const auto run = [&] {
         status = execute_words(use);
-        if (status.ok() && evaluator_ != nullptr && evaluator_->has_assignments()) {
-            const Status written = evaluator_->commit(*this);
+        if (status.ok() && assigns()) {
+            const Status written = evaluator_->commit();
             status = written.ok() ? BlockStatus{} : BlockStatus{written.error(), 0, 0};
         }
     };

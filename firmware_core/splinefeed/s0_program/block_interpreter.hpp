@@ -39,7 +39,7 @@ public:
     /// live until the next push(): messages refer to it. @pre next() has returned starved, else: block_pending
     /// @param line_number  of the source, for the items
     /// Cost, with the items: about 0.25 us on x86-64 for a line, 0.5 us for an arc (bench/gcode_bench); on a Cortex-M4F
-    /// 7,000 to 8,000 instructions for a line, 15,000 for an arc (tests/arm/gcode_proof.sh).
+    /// 5,000 to 6,000 instructions for a line, 14,000 for an arc (tests/arm/gcode_proof.sh).
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
     /// Whether M2, M30 or the closing % has been executed: of M2 and M30, when next() has given the motion of the
     /// block.
@@ -56,7 +56,7 @@ public:
 protected:
     /// Whether the block has steps left, or may have.
     [[nodiscard]] bool has_steps() const noexcept { return stage_ != all_done; }
-    [[nodiscard]] Pull next_step(ProgramStep& out) noexcept;
+    [[nodiscard]] Pull next_step(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
     [[nodiscard]] const MoveManner& manner() const noexcept { return plan_.manner; }
     [[nodiscard]] const WorkFrame& frame() const noexcept { return frame_; }
@@ -112,14 +112,18 @@ private:
     [[nodiscard]] bool has_axis(int axis) const noexcept { return block_.has(letters_.letter(axis)); }
     [[nodiscard]] SpacePoint space(const AxisPoint& point) const noexcept;
     void drop_block() noexcept;
+    void discard_assignments() noexcept;
+    [[nodiscard]] bool assigns() const noexcept;
     void set_probe(bool contact, const AxisPoint& program) noexcept;
 
     // Steps: block_steps.cpp.
-    [[nodiscard]] bool next_event(ProgramStep& out) noexcept;
+    [[nodiscard]] bool event_is_due() noexcept;
+    void fill_event(ProgramEvent& event) const noexcept;
+    [[nodiscard]] bool finish_assignments() noexcept;
     [[nodiscard]] bool end_program() noexcept;
-    [[nodiscard]] bool next_motion(ProgramStep& out) noexcept;
+    [[nodiscard]] bool next_motion(ProgramStep& out, ProgramEvent& event) noexcept;
     void fill_move(ProgramStep& out, const AxisPoint& to) noexcept;
-    [[nodiscard]] bool next_in_cycle(ProgramStep& out) noexcept;
+    [[nodiscard]] bool next_in_cycle(ProgramStep& out, ProgramEvent& event) noexcept;
 
     ProgramSettings settings_;
     AxisLetters letters_;

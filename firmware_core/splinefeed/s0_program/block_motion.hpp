@@ -48,6 +48,15 @@ struct BlockMotion {
     AxisPoint way{}; ///< of line_by_way: where the first line ends
     AxisPoint to{};
     ArcPlan arc{};
+
+    /// No motion; what the shapes do not have stays as it is.
+    void clear() noexcept {
+        kind = PlanKind::none;
+        move = MoveKind::feed;
+        probe = {};
+        stops_before = stop_at_end = false;
+        home_axes = 0;
+    }
 };
 
 } // namespace splinefeed

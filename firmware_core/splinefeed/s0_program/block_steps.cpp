@@ -22,6 +22,7 @@ enum Stage : std::uint8_t {
     dwell,
     offsets_changed,
     motion,
+    assigning,
     ending,
     stop,
 };
@@ -40,17 +41,18 @@ void fill_input_output(const Block& block, ProgramEvent& event) noexcept {
     case 65: event.kind = EventKind::output_off; break;
     default:
         event.kind = EventKind::input_wait;
-        event.stops = true;
         event.analog = block.has('e');
         event.wait = static_cast<InputWait>(integer_of(block, 'l'));
         event.value = block.value('q');
         event.number = integer_of(block, event.analog ? 'e' : 'p');
         return;
     }
+    event.stops = false;
     event.number = integer_of(block, 'p');
 }
 
 void fill_override(const Block& block, ProgramEvent& event) noexcept {
+    event.stops = false;
     switch (block.code(CodeGroup::override_mode)) {
     case 48: event.kind = EventKind::overrides_on; return;
     case 49: event.kind = EventKind::overrides_off; return;
@@ -74,70 +76,102 @@ void fill_printer(const Block& block, ProgramEvent& event) noexcept {
 
 } // namespace
 
-// The event of the present stage; false: it has none.
-bool BlockInterpreter::next_event(ProgramStep& out) noexcept {
-    ProgramEvent& event = out.event;
+// Whether the present stage has an event.
+bool BlockInterpreter::event_is_due() noexcept {
     switch (stage_) {
-    case comment:
-        event.kind = block_.comment() == CommentKind::print   ? EventKind::print
-                     : block_.comment() == CommentKind::debug ? EventKind::debug
-                                                              : EventKind::message;
-        event.text = block_.text();
-        return block_.comment() != CommentKind::none;
+    case comment: return block_.comment() != CommentKind::none;
     case speed: // but behind M5: a spindle that is to stop takes no other speed before
     case speed_at_rest:
-        event.kind = EventKind::spindle_speed;
-        event.stops = true;
-        event.value = modal_.speed;
         return states_speed(block_, settings_.dialect) &&
                (block_.code(CodeGroup::spindle) == 5) == (stage_ == speed_at_rest);
-    case tool_select:
-        event.kind = EventKind::tool_select;
-        event.number = modal_.selected_tool;
-        return block_.has('t') && !block_.has(CodeGroup::printer);
-    case input_output: fill_input_output(block_, event); return block_.has(CodeGroup::input_output);
-    case tool_change:
-        event.kind = block_.code(CodeGroup::tool_change) == 6 ? EventKind::tool_change : EventKind::tool_set;
-        event.stops = true;
-        event.number = frame_.offsets().tool_number;
-        return block_.has(CodeGroup::tool_change);
-    case spindle: {
-        const std::int16_t code = block_.code(CodeGroup::spindle);
-        event.kind = code == 3   ? EventKind::spindle_clockwise
-                     : code == 4 ? EventKind::spindle_counterclockwise
-                                 : EventKind::spindle_stop;
-        event.stops = true;
-        event.value = code == 5 ? Decimal{} : modal_.speed;
-        return code != Block::no_code;
+    case tool_select: return block_.has('t') && !block_.has(CodeGroup::printer);
+    case input_output: return block_.has(CodeGroup::input_output);
+    case tool_change: return block_.has(CodeGroup::tool_change);
+    case spindle: return block_.has(CodeGroup::spindle);
+    case coolant: return block_.has(CodeGroup::coolant);
+    case override_mode: return block_.has(CodeGroup::override_mode);
+    case printer: {
+        const std::int16_t code = block_.code(CodeGroup::printer);
+        return code != Block::no_code && code != 82 && code != 83;
     }
-    case coolant: {
-        const std::int16_t code = block_.code(CodeGroup::coolant);
-        event.kind = code == 7 ? EventKind::mist_on : code == 8 ? EventKind::flood_on : EventKind::coolant_off;
-        event.stops = true;
-        return code != Block::no_code;
-    }
-    case override_mode: fill_override(block_, event); return block_.has(CodeGroup::override_mode);
-    case printer:
-        fill_printer(block_, event);
-        return block_.has(CodeGroup::printer) && event.number != 82 && event.number != 83;
-    case offsets_changed: event.kind = EventKind::offsets_changed; return offsets_changed_;
-    case ending: event.kind = EventKind::offsets_changed; return end_program();
+    case offsets_changed: return offsets_changed_;
+    case assigning: return finish_assignments();
+    case ending: return end_program();
     case stop: {
         const std::int16_t code = block_.code(CodeGroup::stop);
-        event.stops = true;
-        event.number = code == Block::no_code ? 0 : code;
-        event.kind = ended_      ? EventKind::program_end
-                     : code == 0 ? EventKind::pause
-                     : code == 1 ? EventKind::optional_pause
-                                 : EventKind::pallet_pause;
         return ended_ || (code != Block::no_code && (code != 1 || settings_.optional_pause));
     }
     default: return false;
     }
 }
 
-// M2 and M30, behind the motion of their block: it is made in the modes and the frame of the program. True: the work
-// system in effect is another one.
+void BlockInterpreter::fill_event(ProgramEvent& event) const noexcept {
+    event = {};
+    event.stops = true;
+    switch (stage_) {
+    case comment:
+        event.kind = block_.comment() == CommentKind::print   ? EventKind::print
+                     : block_.comment() == CommentKind::debug ? EventKind::debug
+                                                              : EventKind::message;
+        event.stops = false;
+        event.text = block_.text();
+        break;
+    case tool_select:
+        event.kind = EventKind::tool_select;
+        event.stops = false;
+        event.number = modal_.selected_tool;
+        break;
+    case input_output: fill_input_output(block_, event); break;
+    case tool_change:
+        event.kind = block_.code(CodeGroup::tool_change) == 6 ? EventKind::tool_change : EventKind::tool_set;
+        event.number = frame_.offsets().tool_number;
+        break;
+    case spindle: {
+        const std::int16_t code = block_.code(CodeGroup::spindle);
+        event.kind = code == 3   ? EventKind::spindle_clockwise
+                     : code == 4 ? EventKind::spindle_counterclockwise
+                                 : EventKind::spindle_stop;
+        event.value = code == 5 ? Decimal{} : modal_.speed;
+        break;
+    }
+    case coolant: {
+        const std::int16_t code = block_.code(CodeGroup::coolant);
+        event.kind = code == 7 ? EventKind::mist_on : code == 8 ? EventKind::flood_on : EventKind::coolant_off;
+        break;
+    }
+    case override_mode: fill_override(block_, event); break;
+    case printer: fill_printer(block_, event); break;
+    case offsets_changed:
+    case assigning:
+    case ending:
+        event.kind = EventKind::offsets_changed;
+        event.stops = false;
+        break;
+    case stop: {
+        const std::int16_t code = block_.code(CodeGroup::stop);
+        event.number = code == Block::no_code ? 0 : code;
+        event.kind = ended_      ? EventKind::program_end
+                     : code == 0 ? EventKind::pause
+                     : code == 1 ? EventKind::optional_pause
+                                 : EventKind::pallet_pause;
+        break;
+    }
+    default: // the two of the speed
+        event.kind = EventKind::spindle_speed;
+        event.value = modal_.speed;
+    }
+}
+
+// Behind the motion of a block, which is made in the modes and the frame before, it assigns parameters of the control,
+// and M2 and M30 end the program. True: offsets are others.
+bool BlockInterpreter::finish_assignments() noexcept {
+    offsets_changed_ = false;
+    if (assigns()) {
+        evaluator_->finish(*this);
+    }
+    return offsets_changed_;
+}
+
 bool BlockInterpreter::end_program() noexcept {
     const std::int16_t code = block_.code(CodeGroup::stop);
     if (code != 2 && code != 30) {
@@ -153,11 +187,11 @@ bool BlockInterpreter::end_program() noexcept {
     return true;
 }
 
-Pull BlockInterpreter::next_step(ProgramStep& out) noexcept {
+Pull BlockInterpreter::next_step(ProgramStep& out, ProgramEvent& event) noexcept {
     for (; stage_ <= stop; ++stage_) {
         if (stage_ == motion) {
-            if (next_motion(out)) {
-                if (plan_.kind == PlanKind::none && !block_.has(CodeGroup::stop)) {
+            if (next_motion(out, event)) {
+                if (plan_.kind == PlanKind::none && !block_.has(CodeGroup::stop) && !assigns()) {
                     stage_ = all_done; // the next call need not look
                 }
                 return Pull::item;
@@ -178,10 +212,10 @@ Pull BlockInterpreter::next_step(ProgramStep& out) noexcept {
             ++stage_;
             return Pull::item;
         }
-        out.event = {};
-        if (next_event(out)) {
+        if (event_is_due()) {
+            fill_event(event);
             out.kind = ItemKind::event;
-            out.stops_before = out.event.stops;
+            out.stops_before = event.stops;
             ++stage_;
             return Pull::item;
         }
@@ -205,7 +239,7 @@ void BlockInterpreter::fill_move(ProgramStep& out, const AxisPoint& to) noexcept
     ++sub_step_;
 }
 
-bool BlockInterpreter::next_motion(ProgramStep& out) noexcept {
+bool BlockInterpreter::next_motion(ProgramStep& out, ProgramEvent& event) noexcept {
     switch (plan_.kind) {
     case PlanKind::none: return false;
     case PlanKind::line_by_way:
@@ -223,25 +257,24 @@ bool BlockInterpreter::next_motion(ProgramStep& out) noexcept {
     case PlanKind::arc:
         fill_move(out, plan_.to);
         out.shape = MoveShape::arc;
-        out.arc = plan_.arc;
+        out.arc = &plan_.arc;
         plan_.kind = PlanKind::none;
         return true;
     case PlanKind::bezier:
         fill_move(out, plan_.to);
         out.shape = MoveShape::bezier;
-        if (const BezierPlan* spline = std::get_if<BezierPlan>(&series_); spline != nullptr) {
-            out.bezier = *spline;
-        }
+        out.bezier = std::get_if<BezierPlan>(&series_);
         plan_.kind = PlanKind::none;
         return true;
     case PlanKind::nurbs: {
-        if (!nurbs_.next(out.bezier)) {
+        BezierPlan& piece = series_.emplace<BezierPlan>();
+        if (!nurbs_.next(piece)) {
             return false;
         }
+        out.bezier = &piece;
         AxisPoint to = emitted_;
         for (unsigned k = 0; k < 2; ++k) {
-            to[static_cast<unsigned>(letters_.index("xy"[k]))] =
-                out.bezier.points[static_cast<unsigned>(out.bezier.degree)][k];
+            to[static_cast<unsigned>(letters_.index("xy"[k]))] = piece.points[static_cast<unsigned>(piece.degree)][k];
         }
         fill_move(out, to);
         out.shape = MoveShape::bezier;
@@ -249,10 +282,10 @@ bool BlockInterpreter::next_motion(ProgramStep& out) noexcept {
     }
     case PlanKind::cycle: break;
     }
-    return next_in_cycle(out);
+    return next_in_cycle(out, event);
 }
 
-bool BlockInterpreter::next_in_cycle(ProgramStep& out) noexcept {
+bool BlockInterpreter::next_in_cycle(ProgramStep& out, ProgramEvent& event) noexcept {
     AxisPoint at{};
     CannedCycle* cycle = std::get_if<CannedCycle>(&series_);
     const CycleStep step = cycle != nullptr ? cycle->next(at) : CycleStep::finished;
@@ -277,12 +310,12 @@ bool BlockInterpreter::next_in_cycle(ProgramStep& out) noexcept {
     case CycleStep::spindle_start:
         out.kind = ItemKind::event;
         out.stops_before = true;
-        out.event = {};
-        out.event.stops = true;
-        out.event.value = modal_.speed;
-        out.event.kind = step == CycleStep::spindle_stop             ? EventKind::spindle_stop
-                         : modal_.spindle == SpindleState::clockwise ? EventKind::spindle_clockwise
-                                                                     : EventKind::spindle_counterclockwise;
+        event = {};
+        event.stops = true;
+        event.value = modal_.speed;
+        event.kind = step == CycleStep::spindle_stop             ? EventKind::spindle_stop
+                     : modal_.spindle == SpindleState::clockwise ? EventKind::spindle_clockwise
+                                                                 : EventKind::spindle_counterclockwise;
         return true;
     case CycleStep::finished: break;
     }

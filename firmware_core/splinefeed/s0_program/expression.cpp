@@ -222,10 +222,9 @@ Status Expression::assignment(TextCursor& text, const BlockInterpreter& control)
 }
 
 // False: there is no room for it.
-bool Expression::write(Assignment& of, BlockInterpreter& control) noexcept {
+bool Expression::write(Assignment& of) noexcept {
     if (SystemParameters::owns(of.number)) {
-        SystemParameters::write(control, of.number, of.value);
-        return true;
+        return true; // finish() does that
     }
     of.was_set = of.number > 0 ? table_->read(of.number, of.before) : table_->read(of.name, of.before);
     return of.number > 0 ? table_->write(of.number, of.value) : table_->write(of.name, of.value);
@@ -233,7 +232,7 @@ bool Expression::write(Assignment& of, BlockInterpreter& control) noexcept {
 
 void Expression::take_back(const Assignment& of) noexcept {
     if (SystemParameters::owns(of.number)) {
-        return; // the interpreter does that
+        return;
     }
     if (!of.was_set) {
         of.number > 0 ? table_->forget(of.number) : table_->forget(of.name);
@@ -242,16 +241,26 @@ void Expression::take_back(const Assignment& of) noexcept {
     }
 }
 
-Status Expression::commit(BlockInterpreter& control) noexcept {
+Status Expression::commit() noexcept {
     int done = 0;
-    while (done < count_ && write(assignments_[static_cast<unsigned>(done)], control)) {
+    while (done < count_ && write(assignments_[static_cast<unsigned>(done)])) {
         ++done;
     }
     const bool complete = done == count_;
-    for (count_ = 0; !complete && done > 0;) {
+    while (!complete && done > 0) {
         take_back(assignments_[static_cast<unsigned>(--done)]);
     }
     return complete ? Status{} : Status(Error::parameter_storage_full);
+}
+
+void Expression::finish(BlockInterpreter& control) noexcept {
+    for (int i = 0; i < count_; ++i) {
+        const Assignment& of = assignments_[static_cast<unsigned>(i)];
+        if (SystemParameters::owns(of.number)) {
+            SystemParameters::write(control, of.number, of.value);
+        }
+    }
+    count_ = 0;
 }
 
 } // namespace splinefeed

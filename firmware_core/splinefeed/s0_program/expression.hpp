@@ -24,7 +24,8 @@ public:
     Status value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept override;
     Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept override;
     [[nodiscard]] bool has_assignments() const noexcept override { return count_ > 0; }
-    Status commit(BlockInterpreter& control) noexcept override;
+    Status commit() noexcept override;
+    void finish(BlockInterpreter& control) noexcept override;
     void discard() noexcept override { count_ = 0; }
 
 private:
@@ -36,7 +37,7 @@ private:
         bool was_set = false;
     };
 
-    bool write(Assignment& of, BlockInterpreter& control) noexcept;
+    bool write(Assignment& of) noexcept;
     void take_back(const Assignment& of) noexcept;
 
     ParameterTable* table_;

@@ -49,7 +49,7 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
         return has_ended() ? Pull::finished : Pull::starved;
     }
     ProgramStep step;
-    const Pull pull = next_step(step);
+    const Pull pull = next_step(step, out.event);
     if (pull != Pull::item) {
         return pull;
     }
@@ -58,8 +58,8 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
     out.stops_before = step.stops_before;
     if (step.kind == ItemKind::move) {
         fill_move(step, out);
-        if (step.shape == MoveShape::bezier && step.bezier.rational) {
-            pieces_.begin(step.bezier);
+        if (step.shape == MoveShape::bezier && step.bezier->rational) {
+            pieces_.begin(*step.bezier);
             in_pieces_ = true;
             pieces_begun_ = false;
             piece_end_ = {};
@@ -72,8 +72,6 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
         }
     } else if (step.kind == ItemKind::dwell) {
         out.dwell_s = step.dwell_s;
-    } else {
-        out.event = step.event;
     }
     return Pull::item;
 }
@@ -109,7 +107,7 @@ void Interpreter<S>::fill_move(const ProgramStep& step, ProgramItem<S>& out) con
     }
     if (step.shape == MoveShape::arc) {
         fill_arc(step, out);
-    } else if (step.shape == MoveShape::bezier && !step.bezier.rational) {
+    } else if (step.shape == MoveShape::bezier && !step.bezier->rational) {
         fill_bezier(step, out);
     }
     const bool rapid = step.move == MoveKind::rapid || step.move == MoveKind::home;
@@ -124,13 +122,13 @@ void Interpreter<S>::fill_arc(const ProgramStep& step, ProgramItem<S>& out) cons
     const std::array<int, 3> axes{letters().index('x'), letters().index('y'), letters().index('z')};
     for (unsigned k = 0; k < 3; ++k) {
         if (axes[k] >= 0) {
-            arc.centre[static_cast<unsigned>(axes[k])] = to_position(step.arc.centre[k]);
+            arc.centre[static_cast<unsigned>(axes[k])] = to_position(step.arc->centre[k]);
         }
     }
     // The normal in x, y, z of the machine, by the rotation of the work system.
     const SineCosine& turn = frame().rotation();
     std::array<std::int64_t, 3> normal{};
-    switch (step.arc.plane) {
+    switch (step.arc->plane) {
     case Plane::yz: normal = {turn.cosine, turn.sine, 0}; break;
     case Plane::zx: normal = {-turn.sine, turn.cosine, 0}; break;
     case Plane::xy: normal = {0, 0, std::int64_t{1} << sine_bits}; break;
@@ -143,13 +141,13 @@ void Interpreter<S>::fill_arc(const ProgramStep& step, ProgramItem<S>& out) cons
         arc.normal[static_cast<unsigned>(places[k])] =
             scalar_of_q32<S>((value + (std::int64_t{1} << 29)) >> (sine_bits - 32));
     }
-    arc.sweep_rad = scalar_of_q32<S>(radians_q32(step.arc.sweep_deg));
+    arc.sweep_rad = scalar_of_q32<S>(radians_q32(step.arc->sweep_deg));
 }
 
 template <Scalar S>
 void Interpreter<S>::fill_bezier(const ProgramStep& step, ProgramItem<S>& out) const noexcept {
     BezierShape<S>& bezier = out.element.bezier;
-    bezier.degree = step.bezier.degree;
+    bezier.degree = step.bezier->degree;
     bezier.points = {};
     for (unsigned k = 0; k < 3; ++k) {
         const int axis = letters().index("xyz"[k]);
@@ -159,7 +157,7 @@ void Interpreter<S>::fill_bezier(const ProgramStep& step, ProgramItem<S>& out) c
         const Position from = to_position(step.from[static_cast<unsigned>(axis)]);
         for (unsigned i = 1; i <= static_cast<unsigned>(bezier.degree); ++i) {
             bezier.points[static_cast<unsigned>(axis)][i] =
-                distance<S>(from, to_position(step.bezier.points[i][k]), chord_unit_log2);
+                distance<S>(from, to_position(step.bezier->points[i][k]), chord_unit_log2);
         }
     }
 }
@@ -211,26 +209,26 @@ S Interpreter<S>::space_length(const ProgramStep& step) const noexcept {
     }
     if (step.shape == MoveShape::bezier) { // between its chord and its polygon
         S polygon{};
-        for (unsigned i = 0; i < static_cast<unsigned>(step.bezier.degree); ++i) {
+        for (unsigned i = 0; i < static_cast<unsigned>(step.bezier->degree); ++i) {
             std::array<S, 3> leg{};
             for (unsigned k = 0; k < 3; ++k) {
-                leg[k] = length_mm<S>(step.bezier.points[i][k], step.bezier.points[i + 1][k]);
+                leg[k] = length_mm<S>(step.bezier->points[i][k], step.bezier->points[i + 1][k]);
             }
             polygon += norm(leg.data(), 3);
         }
         return scale2(polygon + norm(way.data(), 3), -1);
     }
     if (step.shape == MoveShape::arc) {
-        const auto normal = static_cast<unsigned>(step.arc.plane);
+        const auto normal = static_cast<unsigned>(step.arc->plane);
         std::array<S, 3> arm{};
         for (unsigned k = 0; k < 3; ++k) {
             if (axes[k] >= 0) {
-                arm[k] = length_mm<S>(step.arc.centre[k], step.from[static_cast<unsigned>(axes[k])]);
+                arm[k] = length_mm<S>(step.arc->centre[k], step.from[static_cast<unsigned>(axes[k])]);
             }
         }
         // The centre is on the level of the start, so the arm lies in the plane; the rise is across it.
         const S rise = axes[normal] >= 0 && (normal == 2 || !frame().is_turned()) ? way[normal] : S{};
-        const S angle = absolute(scalar_of_q32<S>(radians_q32(step.arc.sweep_deg)));
+        const S angle = absolute(scalar_of_q32<S>(radians_q32(step.arc->sweep_deg)));
         const std::array<S, 2> legs{product_up_to(norm(arm.data(), 3), angle, literal<S>(0x1p29)), rise};
         return norm(legs.data(), 2);
     }
@@ -239,8 +237,20 @@ S Interpreter<S>::space_length(const ProgramStep& step) const noexcept {
 
 template <Scalar S>
 S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
-    bool space = false;
+    bool space = step.shape != MoveShape::line;
     bool others = false;
+    for (int axis = 0; axis < letters().count(); ++axis) {
+        const auto k = static_cast<unsigned>(axis);
+        const bool moves = step.from[k] != step.to[k];
+        const bool linear = letters().kind(axis) == AxisKind::linear;
+        space = space || (moves && linear);
+        others = others || (moves && !linear);
+    }
+    const MoveManner& how = manner();
+    const S per_second = smaller(to_scalar<S>(how.feed, 60), literal<S>(0x1p30));
+    if (!how.inverse_time && !others) {
+        return clamped(per_second);
+    }
     PerAxis<S> second{};
     PerAxis<S> rotary{};
     PerAxis<S> extruder{};
@@ -249,23 +259,11 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
     for (int axis = 0; axis < letters().count(); ++axis) {
         const auto k = static_cast<unsigned>(axis);
         const AxisKind kind = letters().kind(axis);
-        if (step.from[k] == step.to[k]) {
-            continue;
+        if (kind != AxisKind::linear) {
+            const S way = length_mm<S>(step.from[k], step.to[k]);
+            (kind == AxisKind::second_linear ? second : kind == AxisKind::rotary ? rotary : extruder)[k] = way;
+            (plan_counts(axis) ? counted_by_plan : left_by_plan)[k] = way;
         }
-        if (kind == AxisKind::linear) {
-            space = true;
-            continue;
-        }
-        others = true;
-        const S way = length_mm<S>(step.from[k], step.to[k]);
-        (kind == AxisKind::second_linear ? second : kind == AxisKind::rotary ? rotary : extruder)[k] = way;
-        (plan_counts(axis) ? counted_by_plan : left_by_plan)[k] = way;
-    }
-    space = space || step.shape != MoveShape::line;
-    const MoveManner& how = manner();
-    const S per_second = smaller(to_scalar<S>(how.feed, 60), literal<S>(0x1p30));
-    if (!how.inverse_time && !others) {
-        return clamped(per_second);
     }
     const S in_space = space_length(step);
     const S in_second = norm(second.data(), max_axes);

@@ -17,10 +17,9 @@ struct ProgramStep {
     std::uint32_t home_axes = 0;
     AxisPoint from{};
     AxisPoint to{};
-    ArcPlan arc{};
-    BezierPlan bezier{};
+    const ArcPlan* arc = nullptr; // until the next step
+    const BezierPlan* bezier = nullptr;
     Decimal dwell_s{};
-    ProgramEvent event{};
 };
 
 } // namespace splinefeed

@@ -18,13 +18,14 @@ public:
     /// A value that begins with #, [ or the name of a function. After an error the cursor is at the character that is
     /// wrong.
     virtual Status value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept = 0;
-    /// "#1 = value", from the #. It is kept until commit(): values in a block are those before the block.
+    /// "#1 = value", from the #. It is kept until commit() and finish(): values in a block are those before the block.
     virtual Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept = 0;
-    /// Whether commit() has something to do.
+    /// Whether finish() may have something to do, and before it commit().
     [[nodiscard]] virtual bool has_assignments() const noexcept = 0;
-    /// Gives the parameters of the block their values. After an error none has its value, but for those of the
-    /// interpreter, which puts them back itself.
-    virtual Status commit(BlockInterpreter& control) noexcept = 0;
+    /// Gives the parameters of the program that the block assigns their values. After an error none has its value.
+    virtual Status commit() noexcept = 0;
+    /// The same for those of the interpreter, behind the motion of the block: it is made with the offsets before.
+    virtual void finish(BlockInterpreter& control) noexcept = 0;
     /// Forgets the assignments of a block that is not executed.
     virtual void discard() noexcept = 0;
 
