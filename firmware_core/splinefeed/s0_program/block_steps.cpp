@@ -267,14 +267,14 @@ bool BlockInterpreter::next_motion(ProgramStep& out, ProgramEvent& event) noexce
         plan_.kind = PlanKind::none;
         return true;
     case PlanKind::nurbs: {
-        BezierPlan& piece = series_.emplace<BezierPlan>();
-        if (!nurbs_.next(piece)) {
+        BezierPlan* const piece = std::get_if<BezierPlan>(&series_); // plan_nurbs() has put it there
+        if (piece == nullptr || !nurbs_.next(*piece)) {
             return false;
         }
-        out.bezier = &piece;
+        out.bezier = piece;
         AxisPoint to = emitted_;
         for (unsigned k = 0; k < 2; ++k) {
-            to[static_cast<unsigned>(letters_.index("xy"[k]))] = piece.points[static_cast<unsigned>(piece.degree)][k];
+            to[static_cast<unsigned>(letters_.index("xy"[k]))] = piece->points[static_cast<unsigned>(piece->degree)][k];
         }
         fill_move(out, to);
         out.shape = MoveShape::bezier;

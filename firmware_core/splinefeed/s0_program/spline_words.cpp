@@ -96,6 +96,7 @@ BlockStatus BlockInterpreter::plan_nurbs() noexcept {
         return block_.at(Error::nurbs_order_invalid, 'l');
     }
     if (fresh) {
+        series_.emplace<BezierPlan>();
         nurbs_.begin(order, space(place_.machine), has_point ? Decimal{Decimal::one} : weight);
     }
     plan_.kind = PlanKind::nurbs;
