@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <stdexcept>
 #include <utility>
 
 namespace splinefeed::host {
@@ -63,7 +64,10 @@ void ProgramSteps<S>::happen(double time_s) {
 
 template <Scalar S>
 void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
-    while (pending_.passed(segment.waypoint) != nullptr) {
+    while (const PendingStep* const step = pending_.passed(segment.waypoint)) {
+        if (step->stops) {
+            throw std::logic_error(fmt::format("the motion has passed line {} without standing for it", step->line));
+        }
         happen(time_s);
     }
     row_ = segment.waypoint;

@@ -30,7 +30,8 @@ public:
 
     /// Whether nothing is waiting.
     [[nodiscard]] bool empty() const noexcept { return pending_.empty(); }
-    /// The next segment is executed: events that it leaves behind happen.
+    /// The next segment is executed: events that it leaves behind happen. Throws std::logic_error if one of them is a
+    /// step that the machine has to stand for, and it has not: nothing is ever left out.
     void begin(const FeedSegment& segment, double time_s);
     /// The machine stands at `position_mm`: steps that are due happen. Returns whether it has to stand for one more
     /// segment.
