@@ -218,6 +218,9 @@ void Supervision::await_planner() noexcept {
 }
 
 void Supervision::work() noexcept {
+    const auto add = [this](const std::string& what) {
+        ending_ += what.empty() || ending_.empty() ? what : "; " + what;
+    };
     try {
         ending_ = supervise();
         if (spindle_ != nullptr && spindle_trouble_.empty()) {
@@ -226,14 +229,13 @@ void Supervision::work() noexcept {
         end_spindle();
         ending_ = with_trouble(ending_);
         where_ = began_ ? target_->where() : std::string();
-        for (const std::string& what : {began_ ? target_->finish() : std::string(), spindle_standstill()}) {
-            ending_ += what.empty() || ending_.empty() ? what : "; " + what;
-        }
+        add(began_ ? target_->finish() : std::string());
     } catch (const std::exception& error) {
         end_spindle();
         target_->quick_stop();
-        ending_ = error.what();
+        add(error.what());
     }
+    add(spindle_standstill());
     const std::string sentence =
         (ending_.empty() ? std::string("interrupted while outputs were written; the motion was complete") : ending_) +
         where_;

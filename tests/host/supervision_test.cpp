@@ -67,6 +67,11 @@ public:
     void release() noexcept override { said("release"); }
     [[nodiscard]] std::string where() const override { return "; there"; }
     void describe(Summary& /*summary*/) const override {}
+    void update() override {
+        if (breaks) {
+            throw std::runtime_error("it broke");
+        }
+    }
 
     void said(const std::string& what) {
         const std::lock_guard lock(mutex_);
@@ -84,6 +89,7 @@ public:
     std::atomic<bool> takes{true};
     std::atomic<bool> halts{true};
     std::atomic<bool> stops{true};
+    std::atomic<bool> breaks{false};
     std::atomic<hal::PortPhase> phase{hal::PortPhase::running};
     std::atomic<std::uint64_t> executed{0};
 
@@ -388,4 +394,19 @@ TEST_CASE("a program whose spindle does not come to a standstill has not succeed
     REQUIRE(supervision.submit(segment(0)));
     CHECK_FALSE(supervision.finish());
     CHECK(supervision.ending() == "the spindle did not confirm that it stands and may still turn; there");
+}
+
+TEST_CASE("a spindle that may still turn is told whatever ended the run", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    TalkingSpindle spindle(target);
+    Supervision supervision(target, signals, &spindle);
+    spindle.is_still = false;
+    REQUIRE(supervision.submit(segment(0)));
+    target.breaks = true;
+    REQUIRE(comes([&] { return supervision.over(); }));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "it broke; the spindle did not confirm that it stands and may still turn");
+    const Told told = target.told();
+    CHECK(std::find(told.begin(), told.end(), "spindle ends") < std::find(told.begin(), told.end(), "quick stop"));
 }
