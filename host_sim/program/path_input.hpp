@@ -69,8 +69,9 @@ public:
     /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.
     [[nodiscard]] bool lines_within_tolerance() const noexcept { return lines_within_tolerance_; }
     /// Whether the path follows moves within a tolerance: one of the three above.
-    /// Of a program in G-code: the machine's spindle, which must outlive this. Call it before anything is read.
-    void use_spindle(const std::optional<SpindleDescription>& spindle) noexcept;
+    /// Of a program in G-code: the machine's spindle and lines, which must outlive this. Call it before anything is
+    /// read.
+    void use_outputs(const std::optional<SpindleDescription>& spindle, const ProgramLines& lines) noexcept;
     [[nodiscard]] bool within_tolerance() const noexcept { return gcode_ || elements_ || lines_within_tolerance_; }
     [[nodiscard]] const PathTolerances& tolerances() const noexcept { return tolerances_; }
     /// Number of waypoints from which the segments were computed; 0: none, or not known.

@@ -2,6 +2,7 @@
 #include "host_sim/run/program_steps.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/target/program_outputs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,9 @@ void ProgramSteps<S>::happen(double time_s) {
         return;
     }
     const ProgramAction& action = step.action;
+    if (orders_ != nullptr && !action.spindle && ProgramOutputs::is_of(action)) {
+        orders_->order(action, false);
+    }
     if (step.offsets != nullptr) {
         offsets_ = step.offsets;
         offsets_changed_ = true;
@@ -75,15 +79,15 @@ void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
 
 // The machine stands until the spindle turns as the step says.
 template <Scalar S>
-bool ProgramSteps<S>::waits_for_spindle(const PendingStep& step) {
-    if (spindle_ == nullptr || !step.action.spindle) {
+bool ProgramSteps<S>::waits_for_order(const PendingStep& step) {
+    if (orders_ == nullptr || !step.action.spindle) {
         return false;
     }
     if (!ordered_) {
-        spindle_->order_spindle(*step.action.spindle);
+        orders_->order(step.action, true);
         ordered_ = true;
     }
-    return !spindle_->spindle_reached();
+    return !orders_->carried_out();
 }
 
 template <Scalar S>
@@ -92,7 +96,7 @@ bool ProgramSteps<S>::stands(const PerAxis<double>& position_mm, double time_s) 
         if (left_ticks_ > 0) {
             return true;
         }
-        if (waits_for_spindle(*step)) {
+        if (waits_for_order(*step)) {
             return true;
         }
         if (std::exchange(ordered_, false)) {

@@ -5,7 +5,7 @@
 #include "host_sim/output/program_summary.hpp"
 #include "host_sim/planning/element_feeder.hpp"
 #include "host_sim/run/pending_steps.hpp"
-#include "host_sim/run/spindle_orders.hpp"
+#include "host_sim/run/program_orders.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -21,9 +21,9 @@ class ProgramSteps {
 public:
     /// @param tells  messages of the program go to standard error
     /// `limits` must outlive it.
-    /// @param spindle  gets the orders for a real spindle; null: there is none
-    ProgramSteps(const MotionLimits<S>& limits, bool tells, SpindleOrders* spindle = nullptr)
-        : limits_(&limits), spindle_(spindle), tells_(tells) {}
+    /// @param orders  gets what is for real outputs; null: there are none
+    ProgramSteps(const MotionLimits<S>& limits, bool tells, ProgramOrders* orders = nullptr)
+        : limits_(&limits), orders_(orders), tells_(tells) {}
 
     /// What the feeder has read.
     void add(const typename ElementFeeder<S>::Pushed& pushed);
@@ -53,11 +53,11 @@ public:
 
 private:
     void happen(double time_s);
-    [[nodiscard]] bool waits_for_spindle(const PendingStep& step);
+    [[nodiscard]] bool waits_for_order(const PendingStep& step);
 
     const MotionLimits<S>* limits_;
-    SpindleOrders* spindle_;
-    bool ordered_ = false; // the first step's order is with the spindle, and not carried out
+    ProgramOrders* orders_;
+    bool ordered_ = false; // the machine stands for the first step's order
     PendingSteps pending_;
     PerAxis<Position> start_{};
     PerAxis<Position> place_{}; // where the last move that was read ends

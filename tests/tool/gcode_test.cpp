@@ -227,3 +227,25 @@ TEST_CASE("A real target without an inverter refuses a spindle before anything m
         error.rfind("part.ngc:1: spindle_speed: the machine file has no spindle for this; name its frequency inverter",
                     0) == 0);
 }
+
+TEST_CASE("A real target refuses coolant and outputs that the machine file does not name before anything moves") {
+    const Tool tool;
+    const std::string target = "--target modbus-tcp://127.0.0.1:1";
+    CHECK(error_of(tool, "M8\nG1 X10 F3000\nM2\n", target) ==
+          "part.ngc:1: flood_on: the machine file has no line for this; name it in [coolant.flood], or add the word to "
+          "--ignore\n");
+    CHECK(
+        error_of(tool, "G1 X10 F3000\nM9\nM2\n", target) ==
+        "part.ngc:2: coolant_off: the machine file has no coolant; name its line in [coolant.mist] or [coolant.flood], "
+        "or add the word to --ignore\n");
+    CHECK(error_of(tool, "G1 X10 F3000\nM62 P3\nX20\nM2\n", target) ==
+          "part.ngc:2: output_on_with_motion: the machine file has no output 3; name its line in [[output]] with "
+          "number = "
+          "3, or add the word to --ignore\n");
+}
+
+TEST_CASE("A dwell behind a message takes its time") {
+    const Tool tool;
+    const double without_s = seconds(tool, "G64\nG1 X10 F3000\nG4 P2\nX20\nM2\n", "");
+    CHECK(seconds(tool, "G64\nG1 X10 F3000\n(MSG,a)\nS100\nG4 P2\nX20\nM2\n", "") == Approx(without_s).margin(1e-6));
+}

@@ -90,7 +90,7 @@ private:
     void take_move(SourceStep<S>& out) const;
     void take_event(SourceStep<S>& out);
     void take_spindle(SourceStep<S>& out);
-    void require_possible(EventKind kind) const;
+    void require_possible(const ProgramEvent& event) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
 
     const GcodeSettings* settings_;
@@ -220,7 +220,7 @@ template <Scalar S>
 void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     const ProgramEvent& event = item_.event;
     if (!settings_->simulated) {
-        require_possible(event.kind);
+        require_possible(event);
     }
     out.action.kind = event.kind;
     out.action.number = event.number;
@@ -260,10 +260,13 @@ void GcodeMoves<S>::take_spindle(SourceStep<S>& out) {
     }
 }
 
-// What is not built for real machines is refused, rather than left out.
+// What the machine has no output for is refused, rather than left out.
 template <Scalar S>
-void GcodeMoves<S>::require_possible(EventKind kind) const {
-    switch (kind) {
+void GcodeMoves<S>::require_possible(const ProgramEvent& event) const {
+    static const ProgramLines none;
+    const ProgramLines& lines = settings_->lines != nullptr ? *settings_->lines : none;
+    std::string missing;
+    switch (event.kind) {
     case EventKind::message:
     case EventKind::print:
     case EventKind::debug:
@@ -281,16 +284,44 @@ void GcodeMoves<S>::require_possible(EventKind kind) const {
         if (settings_->spindle != nullptr && settings_->spindle->vfd) {
             return;
         }
-        throw InputError(file_, line_.number, std::uint64_t{0},
-                         fmt::format("{}: the machine file has no spindle for this; name its frequency inverter, vfd = "
-                                     "\"modbus-rtu://...\" in [spindle], or add the word to --ignore",
-                                     action_name(kind)));
+        missing = "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\" in [spindle]";
+        break;
+    case EventKind::mist_on:
+        if (lines.mist) {
+            return;
+        }
+        missing = "line for this; name it in [coolant.mist]";
+        break;
+    case EventKind::flood_on:
+        if (lines.flood) {
+            return;
+        }
+        missing = "line for this; name it in [coolant.flood]";
+        break;
+    case EventKind::coolant_off:
+        if (lines.mist || lines.flood) {
+            return;
+        }
+        missing = "coolant; name its line in [coolant.mist] or [coolant.flood]";
+        break;
+    case EventKind::output_on_with_motion:
+    case EventKind::output_off_with_motion:
+    case EventKind::output_on:
+    case EventKind::output_off:
+        if (lines.output(event.number) != nullptr) {
+            return;
+        }
+        missing = fmt::format("output {}; name its line in [[output]] with number = {}", event.number, event.number);
+        break;
     default:
         throw InputError(file_, line_.number, std::uint64_t{0},
                          fmt::format("{}: only the simulated machine does this so far; take it out of the program, or "
                                      "add its word to --ignore",
-                                     action_name(kind)));
+                                     action_name(event.kind)));
     }
+    throw InputError(
+        file_, line_.number, std::uint64_t{0},
+        fmt::format("{}: the machine file has no {}, or add the word to --ignore", action_name(event.kind), missing));
 }
 
 template <Scalar S>
