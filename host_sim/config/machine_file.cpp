@@ -54,7 +54,7 @@ public:
         path(root, machine.settings, machine.tolerances);
         step(root, machine.step);
         machine.spindle = read_spindle(check_, root);
-        machine.lines = read_program_lines(check_, root);
+        machine.lines = read_program_lines(check_, root, machine.spindle);
         axes(root, machine);
         machine.tolerances.sharpest = sharpest_corner(machine.settings);
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {

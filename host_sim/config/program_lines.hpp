@@ -14,6 +14,20 @@ struct SwitchedLine {
     bool on_level = true;
 };
 
+struct SensedLine {
+    hal::gpio::LineBit line; ///< of ProgramLines::chips
+    bool active_level = true;
+};
+
+/// A spindle that lines switch on and off; its speed is set elsewhere.
+struct SpindleLines {
+    SwitchedLine enable;                  ///< it turns
+    std::optional<SwitchedLine> reverse;  ///< it turns counterclockwise; none: M4 is refused
+    std::optional<SensedLine> at_speed{}; ///< it has its speed
+    double spin_up_s = 0.0;               ///< from standstill to its speed: the motion waits for so long at least
+    double spin_down_s = 0.0;             ///< from its speed to standstill
+};
+
 /// A digital output of M62 to M65.
 struct DigitalOutput {
     static constexpr int most = 63; ///< largest number

@@ -107,6 +107,7 @@ void Supervision::tend_outputs(std::uint64_t executed) {
             orders_.pop_front();
         }
     }
+    outputs_->update();
     if (obeyed_ > 0 || !trouble_.empty()) {
         return;
     }

@@ -22,6 +22,12 @@ public:
 
     /// Carries out what an event asks for. @pre the machine has what it acts on
     void act(const ProgramAction& action);
+    /// Called each millisecond, by the thread that calls act().
+    void update() {
+        if (spindle_ != nullptr) {
+            spindle_->update();
+        }
+    }
     /// Whether the spindle has carried out its last order: the motion waits for that.
     [[nodiscard]] bool spindle_reached() const { return spindle_ == nullptr || spindle_->reached(); }
     /// Stops the spindle, turns the coolant off, and makes the outputs safe, for good.

@@ -2,7 +2,7 @@
 #include "host_sim/target/gpio/gpio_switches.hpp"
 
 #include "host_sim/config/machine_file.hpp"
-#include "recording_writer.hpp"
+#include "recorded_chips.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;
@@ -34,25 +34,11 @@ max_acceleration_mm_s2 = 1000
 
 /// Bits: chip 0 has mist, flood and door, chip 1 the clamp.
 struct Bench {
-    Bench() : machine(parse_machine(machine_text, "m.toml")) {
-        GpioSwitches::Writers made;
-        for (const hal::gpio::ChipLines& lines : machine.lines.chips) {
-            auto writer = std::make_unique<RecordingWriter>();
-            std::uint64_t levels = 0;
-            for (std::size_t i = 0; i < lines.outputs.size(); ++i) {
-                levels |= std::uint64_t{lines.outputs[i].safe_level ? 1U : 0U} << i;
-            }
-            writer->begin_with(levels);
-            chips.push_back(writer.get());
-            made.push_back(std::move(writer));
-        }
-        switches = std::make_unique<GpioSwitches>(machine.lines, std::move(made));
-    }
-    [[nodiscard]] std::uint64_t levels(std::size_t chip) const { return chips[chip]->rows().back().levels; }
+    [[nodiscard]] std::uint64_t levels(std::size_t chip) const { return chips.chip[chip]->rows().back().levels; }
 
-    MachineDescription machine;
-    std::vector<RecordingWriter*> chips;
-    std::unique_ptr<GpioSwitches> switches;
+    MachineDescription machine = parse_machine(machine_text, "m.toml");
+    RecordedChips chips{machine.lines};
+    std::unique_ptr<GpioSwitches> switches = std::make_unique<GpioSwitches>(machine.lines, chips.all);
 };
 
 constexpr std::uint64_t mist = 1;
@@ -64,7 +50,7 @@ constexpr std::uint64_t clamp = 1;
 
 TEST_CASE("Coolant and outputs are lines with a level each, and safe at the end", "[switches]") {
     Bench bench;
-    REQUIRE(bench.chips.size() == 2);
+    REQUIRE(bench.chips.chip.size() == 2);
     CHECK(bench.machine.lines.chips[1].outputs[0].safe_level); // the clamp
     bench.switches->act(EventKind::mist_on, 0);
     CHECK(bench.levels(0) == (mist | flood_off));
@@ -84,22 +70,22 @@ TEST_CASE("Coolant and outputs are lines with a level each, and safe at the end"
     bench.switches->end();
     CHECK(bench.levels(0) == flood_off);
     CHECK(bench.levels(1) == clamp);
-    const std::size_t calls = bench.chips[0]->rows().size();
+    const std::size_t calls = bench.chips.chip[0]->rows().size();
     bench.switches->act(EventKind::mist_on, 0);
     bench.switches->end();
-    CHECK(bench.chips[0]->rows().size() == calls);
+    CHECK(bench.chips.chip[0]->rows().size() == calls);
     CHECK(bench.switches->trouble().empty());
 }
 
 TEST_CASE("A line that cannot be set is trouble that names it; the other chip becomes safe", "[switches]") {
     Bench bench;
     bench.switches->act(EventKind::output_off, 0);
-    bench.chips[0]->fail_after(1);
+    bench.chips.chip[0]->fail_after(1);
     bench.switches->act(EventKind::flood_on, 0);
     CHECK(bench.switches->trouble() == "/dev/gpiochip0 line 5 cannot be set: No such device");
-    const std::size_t calls = bench.chips[0]->rows().size();
+    const std::size_t calls = bench.chips.chip[0]->rows().size();
     bench.switches->act(EventKind::mist_on, 0);
-    CHECK(bench.chips[0]->rows().size() == calls);
+    CHECK(bench.chips.chip[0]->rows().size() == calls);
     bench.switches->end();
     CHECK(bench.levels(0) == flood_off); // it was tried
     CHECK(bench.levels(1) == clamp);

@@ -281,10 +281,11 @@ void GcodeMoves<S>::require_possible(const ProgramEvent& event) const {
     case EventKind::spindle_clockwise:
     case EventKind::spindle_counterclockwise:
     case EventKind::spindle_stop:
-        if (settings_->spindle != nullptr && settings_->spindle->vfd) {
+        if (settings_->spindle != nullptr && settings_->spindle->is_controlled()) {
             return;
         }
-        missing = "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\" in [spindle]";
+        missing = "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
+                  "enable = { line = ... }, in [spindle]";
         break;
     case EventKind::mist_on:
         if (lines.mist) {

@@ -231,6 +231,17 @@ def judge(out):
     for line, levels in ((coolant, [0, 1, 0]), (output, [1, 0, 1])):
         program.check([level for level, _ in program.switched(line)] == levels, f"line {line} has {program.switched(line)}")
 
+    spindle = number["DOOR"]
+    program = whole(run("spindle_lines"))
+    program.switches(spindle, (0, 0), (1, 10), (0, 30))
+    on_us = next((event.t_us for event in program.sets if event.number == spindle and event.value == 1), 0)
+    next_us = next((edge.t_us for edge in program.edges if edge.t_us > on_us and edge.line == "step"), on_us)
+    program.check(next_us - on_us > 490_000, f"it cuts {next_us - on_us} us after the spindle was on, and its speed came after 500000")
+    program = run("spindle_estop")
+    program.ended(1, "the e-stop was pressed: the drives were disabled")
+    program.safe()
+    program.check([level for level, _ in program.switched(spindle)] == [0, 1, 0], f"the spindle is {program.switched(spindle)}")
+
     if os.path.exists(f"{out}/square.status"):
         for name in ("square", "star", "fixed", "busy"):
             whole(run(name))
