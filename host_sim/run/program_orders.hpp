@@ -14,6 +14,8 @@ public:
     virtual void order(const ProgramAction& action, bool standing) = 0;
     /// Whether all orders are carried out, and the spindle has its speed.
     [[nodiscard]] virtual bool carried_out() const = 0;
+    /// Whether the spindle is known to stand.
+    [[nodiscard]] virtual bool spindle_stands() const = 0;
 
 protected:
     ProgramOrders() = default;

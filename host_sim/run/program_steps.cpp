@@ -77,17 +77,44 @@ void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
     row_ = segment.waypoint;
 }
 
-// The machine stands until the spindle turns as the step says.
+// The machine stands until it has come to the step's place, the spindle turns as the step says, and the user wants to
+// go on.
 template <Scalar S>
 bool ProgramSteps<S>::waits_for_order(const PendingStep& step) {
-    if (orders_ == nullptr || !step.action.spindle) {
+    const bool asks = host::waits_for_user(step.action.kind);
+    if (orders_ == nullptr || !(step.action.spindle || asks)) {
         return false;
     }
     if (!ordered_) {
         orders_->order(step.action, true);
         ordered_ = true;
+        asked_ = Asked::no;
     }
-    return !orders_->carried_out();
+    return !orders_->carried_out() || (asks && waits_for_user(step));
+}
+
+// Nobody shall reach for a tool that turns.
+template <Scalar S>
+bool ProgramSteps<S>::waits_for_user(const PendingStep& step) {
+    const ProgramAction& action = step.action;
+    const bool tool = action.kind == EventKind::tool_change;
+    const std::string what = tool ? fmt::format("line {}: M6, change to tool {}", step.line, action.number)
+                                  : fmt::format("line {}: {}", step.line,
+                                                action.kind == EventKind::pause            ? "M0"
+                                                : action.kind == EventKind::optional_pause ? "M1"
+                                                                                           : "M60");
+    if (asked_ != Asked::user && tool && !orders_->spindle_stands()) {
+        if (asked_ == Asked::no) {
+            fmt::print(stderr, "splinefeed: {}: wait until the spindle stands\n", what);
+            asked_ = Asked::spindle;
+        }
+        return true;
+    }
+    if (asked_ != Asked::user) {
+        pause_.ask(what);
+        asked_ = Asked::user;
+    }
+    return !pause_.answered();
 }
 
 template <Scalar S>

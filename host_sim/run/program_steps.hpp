@@ -6,6 +6,7 @@
 #include "host_sim/planning/element_feeder.hpp"
 #include "host_sim/run/pending_steps.hpp"
 #include "host_sim/run/program_orders.hpp"
+#include "host_sim/run/user_pause.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -21,9 +22,10 @@ class ProgramSteps {
 public:
     /// @param tells  messages of the program go to standard error
     /// `limits` must outlive it.
-    /// @param orders  gets what is for real outputs; null: there are none
-    ProgramSteps(const MotionLimits<S>& limits, bool tells, ProgramOrders* orders = nullptr)
-        : limits_(&limits), orders_(orders), tells_(tells) {}
+    /// @param orders  gets what is for real outputs; null: there are none, and nobody waits for a user
+    /// @param terminal  of the user, as in UserPause
+    ProgramSteps(const MotionLimits<S>& limits, bool tells, ProgramOrders* orders = nullptr, int terminal = -1)
+        : limits_(&limits), orders_(orders), pause_(terminal), tells_(tells) {}
 
     /// What the feeder has read.
     void add(const typename ElementFeeder<S>::Pushed& pushed);
@@ -44,6 +46,9 @@ public:
     void at_start(FeedSegment& segment) const noexcept;
     [[nodiscard]] bool moved() const noexcept { return row_.has_value(); }
 
+    /// The user's signal to go on.
+    void go_on() noexcept { pause_.go_on(); }
+
     /// The offsets as the motion has come to them; null: the program has not changed them.
     [[nodiscard]] const WorkOffsets* offsets() const noexcept { return offsets_.get(); }
     /// Whether they changed since the last call.
@@ -54,10 +59,14 @@ public:
 private:
     void happen(double time_s);
     [[nodiscard]] bool waits_for_order(const PendingStep& step);
+    [[nodiscard]] bool waits_for_user(const PendingStep& step);
 
     const MotionLimits<S>* limits_;
     ProgramOrders* orders_;
     bool ordered_ = false; // the machine stands for the first step's order
+    UserPause pause_;
+    enum class Asked { no, spindle, user };
+    Asked asked_ = Asked::no; // what the machine stands for, as the user was told
     PendingSteps pending_;
     PerAxis<Position> start_{};
     PerAxis<Position> place_{}; // where the last move that was read ends

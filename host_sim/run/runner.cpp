@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 #include <optional>
 #include <span>
+#include <unistd.h>
 
 namespace splinefeed::host {
 
@@ -154,6 +155,7 @@ int move_machine(const RunArguments& arguments) {
     }
     MotionArguments motion_arguments = arguments.motion;
     motion_arguments.state = arguments.motion.enforce ? arguments.state : std::string(); // plan changes nothing
+    motion_arguments.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
     motion_arguments.begins = of.state(arguments.state, arguments.position);
     input.begin_at(motion_arguments.begins);
     warn(input, arguments.motion.quiet);

@@ -53,6 +53,7 @@ public:
     [[nodiscard]] bool over() const noexcept { return over_.load(); }
     void order(const ProgramAction& action, bool standing) override;
     [[nodiscard]] bool carried_out() const override;
+    [[nodiscard]] bool spindle_stands() const override { return outputs_ == nullptr || outputs_->spindle_stands(); }
     /// Whether the plan has to be held, and ends there.
     [[nodiscard]] bool hold_asked() const noexcept { return hold_asked_.load(); }
     [[nodiscard]] UserSteering take_steering() noexcept { return signals_->take_steering(); }

@@ -15,9 +15,11 @@ public:
         told += std::string(action_name(action.kind)) + (standing ? "! " : " ");
     }
     [[nodiscard]] bool carried_out() const override { return reached; }
+    [[nodiscard]] bool spindle_stands() const override { return stands; }
 
     std::string told;
     bool reached = false;
+    bool stands = true;
 };
 
 struct Bench {
@@ -30,7 +32,7 @@ struct Bench {
         step.stops = stops;
         step.line = row + 1;
         step.action.kind = kind;
-        if (stops) {
+        if (stops && !waits_for_user(kind)) {
             step.action.spindle = SpindleTurn{1, 1000.0};
         }
         SourceStep<double> move;
@@ -93,4 +95,32 @@ TEST_CASE("A motion that passes a step without standing for it does not go on") 
     bench.begin(0);
     CHECK_THROWS_WITH(bench.begin(1), "the motion has passed line 1 without standing for it");
     CHECK(bench.orders.told.empty());
+}
+
+TEST_CASE("A pause begins when the machine has come to its place, and ends when the user says so") {
+    Bench bench;
+    bench.add(EventKind::pause, 0, 10.0, true);
+    bench.add(EventKind::tool_change, 0, 10.0, true);
+    bench.begin(0);
+    PerAxis<double> here{};
+    here[0] = 10.0;
+    CHECK(bench.steps.stands(here, 0.0));
+    CHECK(bench.orders.told == "stop! ");
+    bench.steps.go_on(); // nobody has been asked yet
+    bench.orders.reached = true;
+    CHECK(bench.steps.stands(here, 0.0));
+    CHECK(bench.steps.stands(here, 0.0));
+    CHECK(bench.steps.summary().events == 0);
+    bench.orders.stands = false;
+    bench.steps.go_on();
+    CHECK(bench.steps.stands(here, 0.0)); // now for the tool
+    CHECK(bench.orders.told == "stop! change_tool! ");
+    CHECK(bench.steps.summary().events == 1);
+    bench.steps.go_on(); // the spindle still turns
+    CHECK(bench.steps.stands(here, 0.0));
+    bench.orders.stands = true;
+    CHECK(bench.steps.stands(here, 0.0));
+    bench.steps.go_on();
+    CHECK_FALSE(bench.steps.stands(here, 0.0));
+    CHECK(bench.steps.summary().events == 2);
 }

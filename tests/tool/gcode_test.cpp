@@ -249,3 +249,14 @@ TEST_CASE("A dwell behind a message takes its time") {
     const double without_s = seconds(tool, "G64\nG1 X10 F3000\nG4 P2\nX20\nM2\n", "");
     CHECK(seconds(tool, "G64\nG1 X10 F3000\n(MSG,a)\nS100\nG4 P2\nX20\nM2\n", "") == Approx(without_s).margin(1e-6));
 }
+
+TEST_CASE("A tool change stops the spindle, as in LinuxCNC") {
+    const Tool tool;
+    tool.write("spindle.toml", "[path]\nmax_feed_mm_s = 100\n[spindle]\nmax_rpm = 20000\nramp_s = 4\n[[axis]]\nname = "
+                               "'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n");
+    const double on_s = seconds(tool, "S10000 M3\nG1 X10 F3000\nM0\nX20\nM2\n", "-m spindle.toml");
+    const double changed_s = seconds(tool, "S10000 M3\nG1 X10 F3000\nT2 M6\nX20\nM2\n", "-m spindle.toml");
+    CHECK(changed_s == Approx(on_s + 2.0).margin(0.01));
+    CHECK(seconds(tool, "S10000 M3\nG1 X10 F3000\nT2 M6\nS5000\nX20\nM2\n", "-m spindle.toml") ==
+          Approx(changed_s).margin(0.01));
+}

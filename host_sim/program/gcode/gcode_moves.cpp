@@ -89,7 +89,7 @@ private:
     void take(SourceStep<S>& out);
     void take_move(SourceStep<S>& out) const;
     void take_event(SourceStep<S>& out);
-    void take_spindle(SourceStep<S>& out);
+    void take_spindle(SourceStep<S>& out, EventKind kind);
     void require_possible(const ProgramEvent& event) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
 
@@ -228,7 +228,9 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     out.action.text.assign(event.text);
     out.action.spindle.reset();
     if (ProgramSpindle::is_of(event.kind)) {
-        take_spindle(out);
+        take_spindle(out, event.kind);
+    } else if (event.kind == EventKind::tool_change) {
+        take_spindle(out, EventKind::spindle_stop); // as in LinuxCNC
     }
     out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
                                                            : nullptr;
@@ -241,11 +243,11 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
 
 // A real spindle is waited for at standstill; the simulated one takes its time.
 template <Scalar S>
-void GcodeMoves<S>::take_spindle(SourceStep<S>& out) {
+void GcodeMoves<S>::take_spindle(SourceStep<S>& out, EventKind kind) {
     if (settings_->spindle == nullptr) {
         return;
     }
-    const std::string problem = spindle_.take(out.action.kind, out.action.value, *settings_->spindle);
+    const std::string problem = spindle_.take(kind, out.action.value, *settings_->spindle);
     if (!problem.empty()) {
         report(InputError(file_, line_.number, std::uint64_t{0}, problem));
     }
@@ -272,6 +274,10 @@ void GcodeMoves<S>::require_possible(const ProgramEvent& event) const {
     case EventKind::debug:
     case EventKind::tool_select:
     case EventKind::tool_set:
+    case EventKind::tool_change:
+    case EventKind::pause:
+    case EventKind::optional_pause:
+    case EventKind::pallet_pause:
     case EventKind::program_end:
     case EventKind::overrides_on:
     case EventKind::feed_override:
