@@ -16,6 +16,15 @@ constexpr std::string_view a_line =
 
 } // namespace
 
+std::string GpioMapLines::chip_path(const TomlChecker& check, const toml::node& node) {
+    std::string path = check.text(node, "chip");
+    if (path.size() < 2 || path.front() != '/') {
+        check.fail(node,
+                   fmt::format("chip is {}; it must be its whole path, like \"/dev/gpiochip1\"", in_quotes(path)));
+    }
+    return path;
+}
+
 std::string GpioMapLines::name(const toml::node& node, std::string_view key) const {
     std::string name = check_.text(node, key);
     if (name.size() > longest_name) {
@@ -30,6 +39,17 @@ unsigned GpioMapLines::offset(const toml::node& node, std::string_view key) cons
 }
 
 GpioMapLines::Wanted GpioMapLines::wanted(const toml::node& node, std::string_view key) const {
+    Wanted line = wanted_line(node, key);
+    if (line.chip.empty()) {
+        check_.fail(node,
+                    fmt::format("{} names no chip; write it as {{ chip = \"/dev/gpiochip0\", name = ... }}, or name "
+                                "the chip of all lines, chip = \"/dev/gpiochip0\" in [lines]",
+                                key));
+    }
+    return line;
+}
+
+GpioMapLines::Wanted GpioMapLines::wanted_line(const toml::node& node, std::string_view key) const {
     Wanted wanted{default_chip_, {}};
     if (node.is_integer()) {
         wanted.line.offset = offset(node, key);
@@ -45,11 +65,7 @@ GpioMapLines::Wanted GpioMapLines::wanted(const toml::node& node, std::string_vi
     }
     check_.require_known(*table, {"chip", "offset", "name"}, key);
     if (const toml::node* given = table->get("chip")) {
-        wanted.chip = check_.text(*given, "chip");
-        if (wanted.chip.size() < 2 || wanted.chip.front() != '/') {
-            check_.fail(*given, fmt::format("chip is {}; it must be its whole path, like \"/dev/gpiochip1\"",
-                                            in_quotes(wanted.chip)));
-        }
+        wanted.chip = chip_path(check_, *given);
     }
     if (const toml::node* given = table->get("offset")) {
         wanted.line.offset = offset(*given, "offset");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GpioMapLines: the lines of a map file, each used once, grouped by chip. For gpio_map.
+// GpioMapLines: the lines of a map file or a machine file, each used once, grouped by chip.
 #pragma once
 
 #include "host_sim/base/toml_checker.hpp"
@@ -13,10 +13,10 @@
 
 namespace splinefeed::host {
 
-/// Fills LineMap::chips. Its members throw InputError, with the line of the error.
+/// Fills the list of chips of a LineMap, or of ProgramLines. Its members throw InputError, with the line of the error.
 class GpioMapLines {
 public:
-    /// @param chip  chip of lines for which the file names none
+    /// @param chip  chip of lines for which the file names none; empty: each has to name one
     GpioMapLines(const TomlChecker& check, std::string chip, std::vector<hal::gpio::ChipLines>& chips)
         : check_(check), default_chip_(std::move(chip)), chips_(chips) {}
 
@@ -25,6 +25,9 @@ public:
     hal::gpio::LineBit output(const toml::node& node, std::string_view key, bool safe_level);
     /// Inputs may share a line if all name it in the same way and have the same bias.
     hal::gpio::LineBit input(const toml::node& node, std::string_view key, hal::gpio::Bias bias);
+
+    /// The whole path of a chip.
+    [[nodiscard]] static std::string chip_path(const TomlChecker& check, const toml::node& node);
 
 private:
     struct Wanted {
@@ -40,6 +43,7 @@ private:
     [[nodiscard]] std::string name(const toml::node& node, std::string_view key) const;
     [[nodiscard]] unsigned offset(const toml::node& node, std::string_view key) const;
     [[nodiscard]] Wanted wanted(const toml::node& node, std::string_view key) const;
+    [[nodiscard]] Wanted wanted_line(const toml::node& node, std::string_view key) const;
     void require_unused(const toml::node& node, std::string_view key, const Wanted& line);
     std::size_t chip_index(const std::string& chip);
     template <class Request>

@@ -5,6 +5,7 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/base/toml_checker.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/program_lines_section.hpp"
 #include "host_sim/config/spindle_section.hpp"
 #include "host_sim/config/target_address.hpp"
 
@@ -33,7 +34,9 @@ public:
     explicit MachineReader(const std::string& file) : file_(file), check_(file) {}
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
-        check_.require_known(root, {"name", "sample_period_us", "drives_at_end", "path", "step", "spindle", "axis"},
+        check_.require_known(root,
+                             {"name", "sample_period_us", "drives_at_end", "path", "step", "spindle", "lines",
+                              "coolant", "output", "axis"},
                              "the machine file");
         MachineDescription machine;
         machine.file = file_;
@@ -51,6 +54,7 @@ public:
         path(root, machine.settings, machine.tolerances);
         step(root, machine.step);
         machine.spindle = read_spindle(check_, root);
+        machine.lines = read_program_lines(check_, root, machine.spindle);
         axes(root, machine);
         machine.tolerances.sharpest = sharpest_corner(machine.settings);
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {

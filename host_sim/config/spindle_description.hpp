@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// SpindleDescription: the spindle of a machine: its speeds, and the frequency inverter (VFD) that turns it.
+// SpindleDescription: the spindle of a machine: its speeds, and the frequency inverter (VFD) or the lines that turn it.
 #pragma once
 
+#include "host_sim/config/program_lines.hpp"
 #include "host_sim/config/target_address.hpp"
 
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
@@ -21,14 +22,23 @@ struct SpindleDescription {
     double rpm_per_hz = 60.0;         ///< of the VFD's output: 60 for a motor of two poles, 30 for one of four
     double ramp_s = 0.0;              ///< from standstill to max_rpm, as the simulated machine counts it
     double at_speed_timeout_s = 10.0; ///< a spindle that takes longer ends the run
-    std::optional<Vfd> vfd{};         ///< nothing: real targets have no spindle
+    std::optional<Vfd> vfd{};
+    std::optional<SpindleLines> lines{}; ///< neither vfd nor lines: real targets have no spindle
 
+    [[nodiscard]] bool is_controlled() const noexcept { return vfd || lines; }
     /// How long the simulated machine waits for a change of speed; speeds have the sign of their direction.
     [[nodiscard]] double change_s(double from_rpm, double to_rpm) const noexcept {
+        if (lines) {
+            const bool turns_round = from_rpm * to_rpm < 0.0;
+            return to_rpm == 0.0 || from_rpm * to_rpm > 0.0
+                       ? 0.0
+                       : lines->spin_up_s + (turns_round ? lines->spin_down_s : 0.0);
+        }
         return ramp_s * (to_rpm > from_rpm ? to_rpm - from_rpm : from_rpm - to_rpm) / max_rpm;
     }
     [[nodiscard]] bool reverses() const noexcept {
-        return !vfd || !vfd->profile.steps_of(hal::modbus::DriveCommand::reverse).empty();
+        return lines ? lines->reverse.has_value()
+                     : !vfd || !vfd->profile.steps_of(hal::modbus::DriveCommand::reverse).empty();
     }
 };
 

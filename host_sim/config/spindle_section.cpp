@@ -52,7 +52,9 @@ std::optional<SpindleDescription> read_spindle(const TomlChecker& check, const t
         return std::nullopt;
     }
     const toml::table& table = check.table(*node, "spindle");
-    check.require_known(table, {"max_rpm", "min_rpm", "ramp_s", "vfd", "rpm_per_hz", "at_speed_timeout_s"},
+    check.require_known(table,
+                        {"max_rpm", "min_rpm", "ramp_s", "vfd", "rpm_per_hz", "at_speed_timeout_s", "enable", "reverse",
+                         "at_speed", "spin_up_s", "spin_down_s"},
                         "[spindle]");
     SpindleDescription spindle;
     const auto take = [&](std::string_view key, const NumberRange& range, double& out) {

@@ -14,7 +14,10 @@ enum class ModbusException : std::uint8_t {
     illegal_address = 2,
     illegal_value = 3,
     device_failure = 4,
+    acknowledge = 5,
     busy = 6,
+    gateway_path = 10,
+    gateway_target = 11,
 };
 
 /// A drive of one or several axes. Its time is that of its own clock, and passes only in advance().

@@ -30,7 +30,7 @@ VfdDrive::VfdDrive(DriveProfile profile, const VfdDriveParameters& parameters)
     : profile_(std::move(profile)), parameters_(parameters), registers_(profile_) {}
 
 double VfdDrive::speed_hz() const {
-    const FieldIndex field = profile_.index_of(profile_.field_of(FieldRole::target_velocity)->name);
+    const FieldIndex field = profile_.index_of(FieldRole::target_velocity);
     return static_cast<double>(physical_of(profile_.fields[field], registers_.raw(field))) / one;
 }
 
@@ -76,7 +76,7 @@ DriveState VfdDrive::state() const {
 }
 
 void VfdDrive::refresh() {
-    const FieldIndex output = profile_.index_of(profile_.field_of(FieldRole::actual_velocity)->name);
+    const FieldIndex output = profile_.index_of(FieldRole::actual_velocity);
     registers_.set(output, raw_of(profile_.fields[output], std::llround(std::fabs(output_hz_) * one)).raw);
     const DriveState now = state();
     for (const StateTest& test : profile_.states) {
@@ -86,8 +86,8 @@ void VfdDrive::refresh() {
         const bool done = direction_ != 0 && std::fabs(output_hz_ - direction_ * speed_hz()) < near_hz;
         registers_.set(profile_.done->field, put_test(registers_.raw(profile_.done->field), *profile_.done, done));
     }
-    if (const RegisterField* const code = profile_.field_of(FieldRole::fault_code); code != nullptr) {
-        registers_.set(profile_.index_of(code->name), faulted_ ? 1 : 0);
+    if (const FieldIndex code = profile_.index_of(FieldRole::fault_code); code != no_field) {
+        registers_.set(code, faulted_ ? 1 : 0);
     }
 }
 

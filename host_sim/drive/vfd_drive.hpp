@@ -26,6 +26,7 @@ public:
     /// Thousandths of a period of the output, summed with the sign of the direction.
     [[nodiscard]] double position_counts(int /*axis*/) const override { return periods_ * 1000.0; }
 
+    [[nodiscard]] const hal::modbus::DriveProfile& profile() const noexcept { return profile_; }
     /// With the sign of the direction. [Hz]
     [[nodiscard]] double output_hz() const noexcept { return output_hz_; }
     /// 1, -1 or 0: as it was told last.

@@ -51,24 +51,50 @@ void ElementFeeder<S>::push(SourceStep<S>& step, Pushed& pushed) {
     ++moves_;
 }
 
+// Then its steps are due: the path does not leave the end of the move before it has the next one.
+template <Scalar S>
+void ElementFeeder<S>::push_held(Pushed& pushed) {
+    holds_ = false;
+    push(held_, pushed);
+    due_ = behind_.size();
+}
+
+template <Scalar S>
+void ElementFeeder<S>::take_due(Pushed& pushed) {
+    step_ = std::move(behind_.front().step);
+    pushed.row = behind_.front().row;
+    pushed.step = &step_;
+    behind_.pop_front();
+    --due_;
+}
+
 // The next step of the program; false: it has ended.
 template <Scalar S>
 bool ElementFeeder<S>::take(Pushed& pushed) {
+    if (due_ > 0) {
+        take_due(pushed);
+        return true;
+    }
     if (!program_->next(step_)) {
         return false;
     }
+    pushed.row = row_;
     if (step_.kind == StepKind::nothing) {
         return true;
     }
-    if (holds_ && step_.stops) {
+    if (holds_ && (step_.stops || behind_.size() == most_behind)) {
         held_.element.stop_at_end = held_.programmed.stop_at_end = true;
     }
     if (step_.kind != StepKind::move) {
-        if (holds_) {
-            holds_ = false;
-            push(held_, pushed);
+        if (!holds_) {
+            pushed.step = &step_;
+            return true;
         }
-        pushed.step = &step_;
+        behind_.push_back({std::move(step_), row_});
+        if (held_.element.stop_at_end) {
+            push_held(pushed);
+            take_due(pushed);
+        }
         return true;
     }
     limit_tolerance(step_);
@@ -87,7 +113,7 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
     }
     here_ = step_.element.to;
     if (holds_) {
-        push(held_, pushed);
+        push_held(pushed);
     }
     std::swap(held_, step_);
     holds_ = true;
@@ -98,13 +124,11 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
 template <Scalar S>
 bool ElementFeeder<S>::release(Pushed& pushed) {
     pushed = {};
-    if (!holds_) {
+    if (!holds_ || due_ > 0) {
         return false;
     }
-    holds_ = false;
     held_.element.stop_at_end = held_.programmed.stop_at_end = true;
-    push(held_, pushed);
-    pushed.row = row_;
+    push_held(pushed);
     return true;
 }
 
@@ -125,7 +149,7 @@ bool ElementFeeder<S>::more(Pushed& pushed) {
         return false;
     }
     try {
-        if (failure_ != nullptr) {
+        if (failure_ != nullptr && due_ == 0) {
             std::rethrow_exception(std::exchange(failure_, nullptr));
         }
         if (!started_) {
@@ -142,12 +166,10 @@ bool ElementFeeder<S>::more(Pushed& pushed) {
             return true;
         }
         if (take(pushed)) {
-            pushed.row = row_;
             return true;
         }
         if (holds_) {
-            holds_ = false;
-            push(held_, pushed);
+            push_held(pushed);
             return true;
         }
         finish();
@@ -155,8 +177,7 @@ bool ElementFeeder<S>::more(Pushed& pushed) {
     } catch (...) {
         if (holds_ && pushed.move == nullptr) { // the path ends with the move that waits
             failure_ = std::current_exception();
-            holds_ = false;
-            push(held_, pushed);
+            push_held(pushed);
             return true;
         }
         if (!finished_) {

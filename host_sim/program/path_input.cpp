@@ -182,9 +182,10 @@ void PathInput::limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noex
     }
 }
 
-void PathInput::use_spindle(const std::optional<SpindleDescription>& spindle) noexcept {
+void PathInput::use_outputs(const std::optional<SpindleDescription>& spindle, const ProgramLines& lines) noexcept {
     if (gcode_) {
         gcode_->spindle = spindle ? &*spindle : nullptr;
+        gcode_->lines = &lines;
     }
 }
 

@@ -64,8 +64,9 @@ public:
     void limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noexcept;
     /// Of a program in G-code: where the machine stands, and its offsets.
     void begin_at(const MachineState& state);
-    /// Of a program in G-code: the machine's spindle, which must outlive this. Call it before anything is read.
-    void use_spindle(const std::optional<SpindleDescription>& spindle) noexcept;
+    /// Of a program in G-code: the machine's spindle and lines, which must outlive this. Call it before anything is
+    /// read.
+    void use_outputs(const std::optional<SpindleDescription>& spindle, const ProgramLines& lines) noexcept;
     /// Of a program in G-code: wrong lines are left out, and told to `problems` (null: they end the program).
     void collect_problems(std::vector<std::string>* problems) noexcept;
     /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.

@@ -24,6 +24,12 @@ struct ProgramAction {
     std::optional<SpindleTurn> spindle{}; ///< the motion waits until a real spindle turns like this
 };
 
+/// M0, M1, M60 and M6: the machine stands until the user says that it may go on.
+[[nodiscard]] constexpr bool waits_for_user(EventKind kind) noexcept {
+    return kind == EventKind::pause || kind == EventKind::optional_pause || kind == EventKind::pallet_pause ||
+           kind == EventKind::tool_change;
+}
+
 /// "spindle_clockwise", "stop", ...: the words of element files and reports.
 [[nodiscard]] const char* action_name(EventKind kind) noexcept;
 

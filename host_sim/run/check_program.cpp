@@ -82,7 +82,7 @@ int check_with(const RunArguments& arguments) {
         throw UsageError("check reads the program twice; give it a file");
     }
     input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
-    input.use_spindle(of.machine.spindle);
+    input.use_outputs(of.machine.spindle, of.machine.lines);
     input.begin_at(of.state(arguments.state, arguments.position));
     const auto text = arguments.summary == SummaryKind::json ? check_json : check_text;
     Survey survey(of.machine, input.name());

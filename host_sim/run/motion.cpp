@@ -29,7 +29,7 @@ Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& de
       input_(&input), outputs_(&outputs), state_(arguments.state), kept_(arguments.begins), report_(arguments.report),
       target_(target), deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>),
       exact_stop_(description.settings), optimum_(description.settings, to_double(limits.refinement.direction_jump)),
-      share_(description.settings), steps_(limits, !arguments.quiet, target),
+      share_(description.settings), steps_(limits, !arguments.quiet, target, arguments.terminal),
       program_(outputs.elements(), arguments.report), feeder_(input),
       tee_(feeder_, input.name(),
            {.limits = &path_limits,
@@ -206,6 +206,7 @@ void Motion<S>::obey_target() {
         trajectory_.hold();
         break;
     case UserSteering::resume:
+        steps_.go_on();
         held_by_user_ = false;
         if (!held_by_target_) {
             trajectory_.resume();

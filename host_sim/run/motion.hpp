@@ -30,6 +30,7 @@ struct MotionArguments {
     bool enforce = true;             ///< the simulated machine stops if a limit is broken
     bool quiet = false;              ///< writes nothing on standard error
     std::string state;               ///< file that keeps offsets and position; empty: none
+    int terminal = -1;               ///< of a user who is asked to go on; -1: none
     MachineState begins;             ///< as the run begins
     ProgramReport* report = nullptr; ///< gets the moves of a program and their times; null: nobody does
 };

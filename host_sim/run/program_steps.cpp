@@ -2,10 +2,12 @@
 #include "host_sim/run/program_steps.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/target/program_outputs.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <stdexcept>
 #include <utility>
 
 namespace splinefeed::host {
@@ -46,6 +48,9 @@ void ProgramSteps<S>::happen(double time_s) {
         return;
     }
     const ProgramAction& action = step.action;
+    if (orders_ != nullptr && !action.spindle && ProgramOutputs::is_of(action)) {
+        orders_->order(action, false);
+    }
     if (step.offsets != nullptr) {
         offsets_ = step.offsets;
         offsets_changed_ = true;
@@ -63,23 +68,53 @@ void ProgramSteps<S>::happen(double time_s) {
 
 template <Scalar S>
 void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
-    while (pending_.passed(segment.waypoint) != nullptr) {
+    while (const PendingStep* const step = pending_.passed(segment.waypoint)) {
+        if (step->stops) {
+            throw std::logic_error(fmt::format("the motion has passed line {} without standing for it", step->line));
+        }
         happen(time_s);
     }
     row_ = segment.waypoint;
 }
 
-// The machine stands until the spindle turns as the step says.
+// The machine stands until it has come to the step's place, the spindle turns as the step says, and the user wants to
+// go on.
 template <Scalar S>
-bool ProgramSteps<S>::waits_for_spindle(const PendingStep& step) {
-    if (spindle_ == nullptr || !step.action.spindle) {
+bool ProgramSteps<S>::waits_for_order(const PendingStep& step) {
+    const bool asks = host::waits_for_user(step.action.kind);
+    if (orders_ == nullptr || !(step.action.spindle || asks)) {
         return false;
     }
     if (!ordered_) {
-        spindle_->order_spindle(*step.action.spindle);
+        orders_->order(step.action, true);
         ordered_ = true;
+        asked_ = Asked::no;
     }
-    return !spindle_->spindle_reached();
+    return !orders_->carried_out() || (asks && waits_for_user(step));
+}
+
+// Nobody shall reach for a tool that turns.
+template <Scalar S>
+bool ProgramSteps<S>::waits_for_user(const PendingStep& step) {
+    const ProgramAction& action = step.action;
+    const bool tool = action.kind == EventKind::tool_change;
+    const std::string what = tool ? fmt::format("line {}: M6, change to tool {}", step.line, action.number)
+                                  : fmt::format("line {}: {}", step.line,
+                                                action.kind == EventKind::pause            ? "M0"
+                                                : action.kind == EventKind::optional_pause ? "M1"
+                                                                                           : "M60");
+    if (asked_ != Asked::user && tool && !orders_->spindle_stands()) {
+        if (asked_ == Asked::no) {
+            fmt::print(stderr, "splinefeed: {}: wait until the spindle stands\n", what);
+            asked_ = Asked::spindle;
+        }
+        return true;
+    }
+    if (asked_ != Asked::user) {
+        pause_.ask(what);
+        asked_ = Asked::user;
+    }
+    return !pause_.answered();
 }
 
 template <Scalar S>
@@ -88,7 +123,7 @@ bool ProgramSteps<S>::stands(const PerAxis<double>& position_mm, double time_s) 
         if (left_ticks_ > 0) {
             return true;
         }
-        if (waits_for_spindle(*step)) {
+        if (waits_for_order(*step)) {
             return true;
         }
         if (std::exchange(ordered_, false)) {

@@ -5,7 +5,8 @@
 #include "host_sim/output/program_summary.hpp"
 #include "host_sim/planning/element_feeder.hpp"
 #include "host_sim/run/pending_steps.hpp"
-#include "host_sim/run/spindle_orders.hpp"
+#include "host_sim/run/program_orders.hpp"
+#include "host_sim/run/user_pause.hpp"
 
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -21,16 +22,18 @@ class ProgramSteps {
 public:
     /// @param tells  messages of the program go to standard error
     /// `limits` must outlive it.
-    /// @param spindle  gets the orders for a real spindle; null: there is none
-    ProgramSteps(const MotionLimits<S>& limits, bool tells, SpindleOrders* spindle = nullptr)
-        : limits_(&limits), spindle_(spindle), tells_(tells) {}
+    /// @param orders  gets what is for real outputs; null: there are none, and nobody waits for a user
+    /// @param terminal  of the user, as in UserPause
+    ProgramSteps(const MotionLimits<S>& limits, bool tells, ProgramOrders* orders = nullptr, int terminal = -1)
+        : limits_(&limits), orders_(orders), pause_(terminal), tells_(tells) {}
 
     /// What the feeder has read.
     void add(const typename ElementFeeder<S>::Pushed& pushed);
 
     /// Whether nothing is waiting.
     [[nodiscard]] bool empty() const noexcept { return pending_.empty(); }
-    /// The next segment is executed: events that it leaves behind happen.
+    /// The next segment is executed: events that it leaves behind happen. Throws std::logic_error if one of them is a
+    /// step that the machine has to stand for, and it has not: nothing is ever left out.
     void begin(const FeedSegment& segment, double time_s);
     /// The machine stands at `position_mm`: steps that are due happen. Returns whether it has to stand for one more
     /// segment.
@@ -43,6 +46,9 @@ public:
     void at_start(FeedSegment& segment) const noexcept;
     [[nodiscard]] bool moved() const noexcept { return row_.has_value(); }
 
+    /// The user's signal to go on.
+    void go_on() noexcept { pause_.go_on(); }
+
     /// The offsets as the motion has come to them; null: the program has not changed them.
     [[nodiscard]] const WorkOffsets* offsets() const noexcept { return offsets_.get(); }
     /// Whether they changed since the last call.
@@ -52,11 +58,15 @@ public:
 
 private:
     void happen(double time_s);
-    [[nodiscard]] bool waits_for_spindle(const PendingStep& step);
+    [[nodiscard]] bool waits_for_order(const PendingStep& step);
+    [[nodiscard]] bool waits_for_user(const PendingStep& step);
 
     const MotionLimits<S>* limits_;
-    SpindleOrders* spindle_;
-    bool ordered_ = false; // the first step's order is with the spindle, and not carried out
+    ProgramOrders* orders_;
+    bool ordered_ = false; // the machine stands for the first step's order
+    UserPause pause_;
+    enum class Asked { no, spindle, user };
+    Asked asked_ = Asked::no; // what the machine stands for, as the user was told
     PendingSteps pending_;
     PerAxis<Position> start_{};
     PerAxis<Position> place_{}; // where the last move that was read ends

@@ -12,7 +12,7 @@
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/supervision.hpp"
 #include "host_sim/target/run_target.hpp"
-#include "host_sim/targets/spindle_table.hpp"
+#include "host_sim/targets/output_table.hpp"
 #include "host_sim/targets/target_table.hpp"
 
 #include <algorithm>
@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 #include <optional>
 #include <span>
+#include <unistd.h>
 
 namespace splinefeed::host {
 
@@ -146,12 +147,13 @@ int move_machine(const RunArguments& arguments) {
     }
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
     input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
-    input.use_spindle(machine.spindle);
+    input.use_outputs(machine.spindle, machine.lines);
     if (input.gcode() == nullptr && !(arguments.state.empty() && arguments.position.empty())) {
         throw UsageError("--state and --position are for programs in G-code; other inputs begin at their first point");
     }
     MotionArguments motion_arguments = arguments.motion;
     motion_arguments.state = arguments.motion.enforce ? arguments.state : std::string(); // plan changes nothing
+    motion_arguments.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
     motion_arguments.begins = of.state(arguments.state, arguments.position, arguments.options.home);
     input.begin_at(motion_arguments.begins);
     warn(input, arguments.motion.quiet);
@@ -161,14 +163,14 @@ int move_machine(const RunArguments& arguments) {
         waypoints = pass<S>(input, {.limits = &path_limits});
     }
     std::unique_ptr<RunTarget> target;
-    std::unique_ptr<RunSpindle> spindle;
+    std::unique_ptr<ProgramOutputs> program_outputs;
     std::optional<Supervision> supervision;
     if (signals) {
         target = target_kind(arguments.target).make(arguments.target, machine, arguments.options);
         limits = fitted<S>(machine, *target, arguments.motion.quiet);
         target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
-        spindle = input.gcode() != nullptr ? make_spindle(machine, arguments.target) : nullptr;
-        supervision.emplace(*target, *signals, spindle.get());
+        program_outputs = input.gcode() != nullptr ? make_outputs(machine, arguments.target) : nullptr;
+        supervision.emplace(*target, *signals, program_outputs.get());
     }
     Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
     Motion<S> motion(motion_arguments, machine, *limits, input, path_limits, outputs,

@@ -73,47 +73,48 @@ void Supervision::obey() {
     obeyed_us_ = system_clock().now_us();
     obeyed_ = asked;
     if (asked > 1) {
-        end_spindle();
+        end_outputs();
         target_->quick_stop();
     } else {
         target_->hold();
     }
 }
 
-void Supervision::order_spindle(const SpindleTurn& turn) {
-    const std::lock_guard lock(turn_mutex_);
+void Supervision::order(const ProgramAction& action, bool standing) {
     constexpr std::uint64_t stood = 2; // a port may take a segment before its last step is made
-    due_turn_ = {turn, pushed_ + stood};
+    const std::lock_guard lock(order_mutex_);
+    orders_.push_back({action, pushed_ + (standing ? stood : 0)});
 }
 
-bool Supervision::spindle_reached() const {
-    const std::lock_guard lock(turn_mutex_);
-    return !due_turn_ && spindle_->reached();
+bool Supervision::carried_out() const {
+    const std::lock_guard lock(order_mutex_);
+    return orders_.empty() && (outputs_ == nullptr || outputs_->spindle_reached());
 }
 
-void Supervision::end_spindle() {
-    if (spindle_ != nullptr) {
-        spindle_->end();
+void Supervision::end_outputs() {
+    if (outputs_ != nullptr) {
+        outputs_->end();
     }
 }
 
-// Orders whose place the machine has reached; and the spindle's own trouble, which holds the motion.
-void Supervision::tend_spindle(std::uint64_t executed) {
-    if (spindle_ == nullptr) {
+// Orders whose place the machine has reached; and the outputs' own trouble, which holds the motion.
+void Supervision::tend_outputs(std::uint64_t executed) {
+    if (outputs_ == nullptr) {
         return;
     }
     {
-        const std::lock_guard lock(turn_mutex_);
-        if (due_turn_ && obeyed_ == 0 && executed >= due_turn_->after) {
-            spindle_->order(due_turn_->turn.direction, due_turn_->turn.rpm);
-            due_turn_.reset();
+        const std::lock_guard lock(order_mutex_);
+        while (obeyed_ == 0 && !orders_.empty() && executed >= orders_.front().after) {
+            outputs_->act(orders_.front().action);
+            orders_.pop_front();
         }
     }
-    if (obeyed_ > 0 || !spindle_trouble_.empty()) {
+    outputs_->update();
+    if (obeyed_ > 0 || !trouble_.empty()) {
         return;
     }
-    spindle_trouble_ = spindle_->trouble();
-    if (!spindle_trouble_.empty()) {
+    trouble_ = outputs_->trouble();
+    if (!trouble_.empty()) {
         obeyed_ = 1;
         obeyed_us_ = system_clock().now_us();
         target_->hold();
@@ -141,27 +142,27 @@ void Supervision::come_to(std::uint64_t executed) {
 }
 
 std::string Supervision::with_trouble(const std::string& ending) const {
-    if (spindle_trouble_.empty()) {
+    if (trouble_.empty()) {
         return ending;
     }
     constexpr std::string_view begin = "interrupted: ";
     const bool prefixed = ending.compare(0, begin.size(), begin) == 0;
     const std::string rest = prefixed ? ending.substr(begin.size()) : ending;
-    return rest.empty() ? spindle_trouble_ : spindle_trouble_ + "; " + rest;
+    return rest.empty() ? trouble_ : trouble_ + "; " + rest;
 }
 
-// A spindle that has ended comes to a standstill by its own ramp; a further signal does not wait for it.
+// A spindle that was ended comes to a standstill by its own ramp; a further signal does not wait for it.
 std::string Supervision::spindle_standstill() const {
-    if (spindle_ == nullptr) {
+    if (outputs_ == nullptr) {
         return {};
     }
     const int signals = SignalWatch::interrupts();
     const std::uint64_t until_us =
-        system_clock().now_us() + static_cast<std::uint64_t>(spindle_->stop_timeout_s() * us_per_s);
-    while (!spindle_->stands() && system_clock().now_us() < until_us && SignalWatch::interrupts() == signals) {
+        system_clock().now_us() + static_cast<std::uint64_t>(outputs_->spindle_stop_timeout_s() * us_per_s);
+    while (!outputs_->spindle_stands() && system_clock().now_us() < until_us && SignalWatch::interrupts() == signals) {
         system_clock().sleep_us(poll_every_us);
     }
-    return spindle_->stands() ? std::string() : "the spindle did not confirm that it stands and may still turn";
+    return outputs_->spindle_stands() ? std::string() : "the spindle did not confirm that it stands and may still turn";
 }
 
 void Supervision::hand_over() {
@@ -204,7 +205,7 @@ std::string Supervision::supervise() {
         come_to(state.executed - before);
         const std::uint64_t now_us = system_clock().now_us();
         if (phase == hal::PortPhase::fault) {
-            end_spindle();
+            end_outputs();
             return target_->fault();
         }
         if (phase == hal::PortPhase::halted) {
@@ -215,12 +216,12 @@ std::string Supervision::supervise() {
         }
         if (obeyed_ == 1 && now_us > obeyed_us_ + halt_us) {
             obeyed_ = 2;
-            end_spindle();
+            end_outputs();
             target_->quick_stop();
         } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
             return "interrupted, but not every drive has confirmed that it stands";
         }
-        tend_spindle(state.executed - before);
+        tend_outputs(state.executed - before);
     }
 }
 
@@ -241,23 +242,25 @@ void Supervision::await_planner() noexcept {
 }
 
 void Supervision::work() noexcept {
+    const auto add = [this](const std::string& what) {
+        ending_ += what.empty() || ending_.empty() ? what : "; " + what;
+    };
     try {
         ending_ = supervise();
-        if (spindle_ != nullptr && spindle_trouble_.empty()) {
-            spindle_trouble_ = spindle_->trouble();
+        end_outputs();
+        if (outputs_ != nullptr && trouble_.empty()) {
+            trouble_ = outputs_->trouble();
         }
-        end_spindle();
         ending_ = with_trouble(ending_);
         places_ = began_ ? target_->places() : std::vector<RunTarget::AxisPlace>{};
         where_ = began_ ? target_->where() + on_line(line()) : std::string();
-        for (const std::string& what : {began_ ? target_->finish() : std::string(), spindle_standstill()}) {
-            ending_ += what.empty() || ending_.empty() ? what : "; " + what;
-        }
+        add(began_ ? target_->finish() : std::string());
     } catch (const std::exception& error) {
-        end_spindle();
+        end_outputs();
         target_->quick_stop();
-        ending_ = error.what();
+        add(error.what());
     }
+    add(spindle_standstill());
     const std::string sentence =
         (ending_.empty() ? std::string("interrupted while outputs were written; the motion was complete") : ending_) +
         where_;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "host_sim/base/signal_watch.hpp"
-#include "host_sim/run/spindle_orders.hpp"
-#include "host_sim/target/run_spindle.hpp"
+#include "host_sim/run/program_orders.hpp"
+#include "host_sim/target/program_outputs.hpp"
 #include "host_sim/target/run_target.hpp"
 
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
@@ -13,7 +13,6 @@
 #include <atomic>
 #include <deque>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -26,17 +25,18 @@ namespace splinefeed::host {
 /// If the run ends early and the planner does not return within stall_s because an output is blocked, the thread ends
 /// the process with the run's message and exit status 1. After the end of a run a signal does this at once.
 ///
-/// A spindle ends before anything else when a drive is in fault and at the second request, and whenever the motion has
-/// ended. Its own trouble stops all axes on the path, as the first request does, and the run ends.
-class Supervision final : public SpindleOrders {
+/// The outputs of the program - spindle, coolant, digital outputs - end before anything else when a drive is in fault
+/// and at the second request, and whenever the motion has ended. Their own trouble stops all axes on the path, as the
+/// first request does, and the run ends.
+class Supervision final : public ProgramOrders {
 public:
     /// How far the planner may be ahead of the port. [us] More would only delay a hold.
     static constexpr std::uint64_t hand_over_us = 10'000;
     static constexpr int stall_s = 2;
 
-    /// No thread runs before the first segment. All arguments must outlive it. @param spindle  null: there is none
-    Supervision(RunTarget& target, SignalWatch& signals, RunSpindle* spindle = nullptr)
-        : target_(&target), signals_(&signals), spindle_(spindle) {}
+    /// No thread runs before the first segment. All arguments must outlive it. @param outputs  null: there are none
+    Supervision(RunTarget& target, SignalWatch& signals, ProgramOutputs* outputs = nullptr)
+        : target_(&target), signals_(&signals), outputs_(outputs) {}
     Supervision(const Supervision&) = delete;
     Supervision& operator=(const Supervision&) = delete;
     /// If the run is not over: stops the axes as after the first signal, and waits for the end.
@@ -53,8 +53,9 @@ public:
     /// Whether submit() would return without waiting.
     [[nodiscard]] bool room() const noexcept;
     [[nodiscard]] bool over() const noexcept { return over_.load(); }
-    void order_spindle(const SpindleTurn& turn) override;
-    [[nodiscard]] bool spindle_reached() const override;
+    void order(const ProgramAction& action, bool standing) override;
+    [[nodiscard]] bool carried_out() const override;
+    [[nodiscard]] bool spindle_stands() const override { return outputs_ == nullptr || outputs_->spindle_stands(); }
     /// Whether the plan has to be held, and ends there.
     [[nodiscard]] bool hold_asked() const noexcept { return hold_asked_.load(); }
     [[nodiscard]] UserSteering take_steering() noexcept { return signals_->take_steering(); }
@@ -75,27 +76,27 @@ private:
     [[nodiscard]] std::string supervise();
     void obey();
     void hand_over();
-    void tend_spindle(std::uint64_t executed);
+    void tend_outputs(std::uint64_t executed);
     void begin_line(std::uint64_t line);
     void come_to(std::uint64_t executed);
-    void end_spindle();
+    void end_outputs();
     [[nodiscard]] std::string spindle_standstill() const;
     [[nodiscard]] std::string with_trouble(const std::string& ending) const;
     void await_planner() noexcept;
 
     RunTarget* target_;
     SignalWatch* signals_;
-    RunSpindle* spindle_;
+    ProgramOutputs* outputs_;
     std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
     SegmentRing ring_{segments_};
     std::uint64_t pushed_ticks_ = 0; // used by the planner only
     std::uint64_t pushed_ = 0;       // segments; likewise
-    struct DueTurn {
-        SpindleTurn turn;
+    struct DueOrder {
+        ProgramAction action;
         std::uint64_t after = 0; // so many segments
     };
-    mutable std::mutex turn_mutex_;
-    std::optional<DueTurn> due_turn_; // protected by it
+    mutable std::mutex order_mutex_;
+    std::deque<DueOrder> orders_; // protected by it
     struct LineBegin {
         std::uint64_t line = 0;
         std::uint64_t segment = 0; // its first one
@@ -110,7 +111,7 @@ private:
     // Used by the thread, and after over_ by any thread:
     int obeyed_ = 0; // number of requests to end that were obeyed
     std::uint64_t obeyed_us_ = 0;
-    std::string spindle_trouble_;
+    std::string trouble_; // of the outputs
     bool completed_ = false;
     bool began_ = false;
     std::string ending_; // empty: everything was executed

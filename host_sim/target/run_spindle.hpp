@@ -17,6 +17,8 @@ public:
 
     /// @param direction  1 clockwise, -1 counterclockwise, 0 not at all
     virtual void order(int direction, double rpm) = 0;
+    /// Called each millisecond, by the thread that orders.
+    virtual void update() {}
     /// Stops it for good.
     virtual void end() = 0;
     /// Whether the last order is carried out: it has its speed, or has taken the order to stop. Never after end().

@@ -65,6 +65,23 @@ TEST_CASE("A move waits until it is known whether the machine stops at its end")
     CHECK(without_pauses(steps_of("")) == "S");
 }
 
+TEST_CASE("What does not stop the machine does not hide what does") {
+    CHECK(without_pauses(steps_of("G1 X1 F600\n(MSG,a)\nG4 P1\nX3\n")) == "SMedm");
+    CHECK(without_pauses(steps_of("G1 X1 F600\nS100\n(MSG,a)\nM0\nX3\n")) == "SMeeem");
+    CHECK(without_pauses(steps_of("G1 X1 F600\nM64 P0\nX2\nM64 P1\nX3\n")) == "Smemem");
+    CHECK(without_pauses(steps_of("G1 X1 F600\nM64 P0\nM64 P1\n")) == "Smee");
+}
+
+TEST_CASE("Events behind a move that waits are bounded: the machine stops there, and they happen") {
+    std::string program = "G1 X1 F600\n";
+    std::string expected = "SM";
+    for (int i = 0; i < 1000; ++i) {
+        program += "M64 P0\n";
+        expected += 'e';
+    }
+    CHECK(without_pauses(steps_of(program + "G4 P1\nX3\n")) == expected + "dm");
+}
+
 TEST_CASE("A move that is released stops, and what comes behind it still finds its place") {
     CHECK(without_pauses(steps_of("G1 X1 F600\nX2\nX3\n", 3)).find('R') != std::string::npos);
     const std::string steps = without_pauses(steps_of("G1 X1 F600\nG4 P1\nX3\n", 2));

@@ -48,3 +48,13 @@ TEST_CASE("M4 needs an inverter that reverses") {
           "M4: the profile one-way has no command to reverse; use M3");
     CHECK(spindle.take(EventKind::spindle_clockwise, 5000.0, machine).empty());
 }
+
+TEST_CASE("M4 needs a line to reverse where the spindle is on lines") {
+    SpindleDescription machine{.max_rpm = 10000.0};
+    machine.lines.emplace();
+    ProgramSpindle spindle;
+    CHECK(spindle.take(EventKind::spindle_counterclockwise, 5000.0, machine) ==
+          "M4: the spindle has no line to reverse; name it in [spindle.reverse], or use M3");
+    machine.lines->reverse.emplace();
+    CHECK(spindle.take(EventKind::spindle_counterclockwise, 5000.0, machine).empty());
+}

@@ -57,3 +57,39 @@ TEST_CASE("A wrong spindle is refused with its line") {
     CHECK(refusal("max_rpm = 40000\nrpm_per_hz = 60\nvfd = 'modbus-tcp://h?profile=vfd-ls-ig5a'")
               .rfind("m.toml:6: max_rpm is 666.667 Hz by rpm_per_hz, which the register", 0) == 0);
 }
+
+TEST_CASE("A spindle on lines has its times, and is one of vfd and lines") {
+    const auto machine = parse_machine(with("max_rpm = 10000\nspin_up_s = 2\nenable = { line = 'ON' }\n"
+                                            "reverse = { line = 'REV', active = 'low' }\n"
+                                            "at_speed = { line = 3, active = 'low', bias = 'pull-up' }\n"
+                                            "[lines]\nchip = '/dev/gpiochip0'"),
+                                       "m.toml");
+    REQUIRE(machine.spindle->lines);
+    const SpindleLines& lines = *machine.spindle->lines;
+    CHECK(machine.spindle->is_controlled());
+    CHECK(machine.spindle->reverses());
+    CHECK(lines.spin_down_s == 2.0); // as it spins up
+    CHECK_FALSE(lines.reverse->on_level);
+    CHECK_FALSE(lines.at_speed->active_level);
+    REQUIRE(machine.lines.chips.size() == 1);
+    CHECK_FALSE(machine.lines.chips[0].outputs[0].safe_level);
+    CHECK(machine.lines.chips[0].outputs[1].safe_level);
+    CHECK(machine.lines.chips[0].inputs[0].bias == splinefeed::hal::gpio::Bias::pull_up);
+    CHECK(machine.spindle->change_s(0.0, 5000.0) == 2.0);
+    CHECK(machine.spindle->change_s(5000.0, 8000.0) == 0.0);
+    CHECK(machine.spindle->change_s(5000.0, -5000.0) == 4.0);
+    CHECK(machine.spindle->change_s(-5000.0, 0.0) == 0.0);
+
+    const std::string lines_at_end = "\n[lines]\nchip = '/dev/gpiochip0'";
+    CHECK(refusal("max_rpm = 1\nspin_up_s = 1") == "m.toml:5: spin_up_s is of a spindle on lines; name the line that "
+                                                   "turns it on, enable = { line = ... }, or leave it "
+                                                   "out");
+    CHECK(refusal("max_rpm = 1\nenable = { line = 1 }" + lines_at_end) ==
+          "m.toml:3: [spindle] has no spin_up_s; it must be the time from standstill to the speed, 0 to 600 s");
+    CHECK(
+        refusal("max_rpm = 1\nspin_up_s = 1\nenable = { line = 1 }\nvfd = 'modbus-rtu:///dev/ttyUSB0?profile=vfd-gs2'" +
+                lines_at_end) == "m.toml:7: [spindle] has vfd and enable; a spindle is turned by its inverter's "
+                                 "registers or by lines: leave one out");
+    CHECK_FALSE(
+        refusal("max_rpm = 1\nspin_up_s = 1\nenable = { line = 1 }\nreverse = { line = 1 }" + lines_at_end).empty());
+}

@@ -8,12 +8,6 @@
 
 using namespace splinefeed_test;
 
-namespace {
-
-using Told = std::vector<std::string>;
-
-} // namespace
-
 TEST_CASE("a run's segments reach the target in order, and then its end", "[supervision]") {
     SignalWatch signals({});
     TalkingTarget target;
@@ -217,82 +211,4 @@ TEST_CASE("a planner that leaves before the end has the axes held", "[supervisio
     const Told told = target.told();
     CHECK(std::count(told.begin(), told.end(), "hold") == 1);
     CHECK(target.phase == hal::PortPhase::halted);
-}
-
-TEST_CASE("a spindle gets its order when the machine has come to its place", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    TalkingSpindle spindle(target);
-    Supervision supervision(target, signals, &spindle);
-    target.executed = 1000; // on the way to the references
-    REQUIRE(supervision.submit(segment(0)));
-    supervision.order_spindle({1, 12000.0});
-    REQUIRE(comes([&] { return target.told().size() == 2; }));
-    target.executed = 1002; // the segment, and the first of standstill
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    CHECK(target.told() == Told{"prepare", "segment 0"});
-    target.executed = 1003;
-    CHECK(comes([&] { return target.told().back() == "spindle 1 12000"; }));
-    CHECK_FALSE(supervision.spindle_reached());
-    spindle.is_reached = true;
-    CHECK(supervision.spindle_reached());
-    CHECK(supervision.finish());
-    CHECK(target.told() == Told{"prepare", "segment 0", "spindle 1 12000", "complete", "spindle ends", "finish"});
-}
-
-TEST_CASE("trouble of a spindle holds the motion and ends the run", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    TalkingSpindle spindle(target);
-    Supervision supervision(target, signals, &spindle);
-    REQUIRE(supervision.submit(segment(0)));
-    spindle.is_still = false;
-    spindle.lost = true;
-    REQUIRE(comes([&] { return supervision.over(); }));
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() ==
-          "no answer; held; the spindle did not confirm that it stands and may still turn; there");
-    const Told told = target.told();
-    CHECK(std::find(told.begin(), told.end(), "hold") < std::find(told.begin(), told.end(), "spindle ends"));
-}
-
-TEST_CASE("a second signal and a fault end the spindle first of all", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    TalkingSpindle spindle(target);
-    Supervision supervision(target, signals, &spindle);
-    SECTION("the second signal") {
-        target.halts = false;
-        REQUIRE(supervision.submit(segment(0)));
-        REQUIRE(comes([&] { return target.told().size() == 2; }));
-        request(1);
-        REQUIRE(comes([&] { return target.told().back() == "hold"; }));
-        CHECK_FALSE(spindle.ended);
-        supervision.order_spindle({1, 12000.0}); // nothing is started any more
-        target.executed = 10;
-        request(2);
-        REQUIRE(comes([&] { return supervision.over(); }));
-        CHECK_FALSE(supervision.finish());
-        CHECK(target.told() == Told{"prepare", "segment 0", "hold", "spindle ends", "quick stop", "finish"});
-    }
-    SECTION("a fault") {
-        REQUIRE(supervision.submit(segment(0)));
-        REQUIRE(comes([&] { return target.told().size() == 2; }));
-        target.phase = hal::PortPhase::fault;
-        REQUIRE(comes([&] { return supervision.over(); }));
-        CHECK_FALSE(supervision.finish());
-        CHECK(target.told().at(2) == "spindle ends");
-        CHECK(supervision.ending() == "a fault; there");
-    }
-}
-
-TEST_CASE("a program whose spindle does not come to a standstill has not succeeded", "[supervision]") {
-    SignalWatch signals({});
-    TalkingTarget target;
-    TalkingSpindle spindle(target);
-    Supervision supervision(target, signals, &spindle);
-    spindle.is_still = false;
-    REQUIRE(supervision.submit(segment(0)));
-    CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() == "the spindle did not confirm that it stands and may still turn; there");
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// TalkingTarget and TalkingSpindle: what a supervision tells them, in order.
+// TalkingTarget: a target that says what it was told, for tests of Supervision.
 #pragma once
 
 #include "host_sim/run/supervision.hpp"
-
 #include "support/catch.hpp"
 
 #include <chrono>
 #include <mutex>
+#include <stdexcept>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -70,6 +71,11 @@ public:
     [[nodiscard]] std::vector<AxisPlace> places() const override { return {{1, 2.5, false}}; }
     [[nodiscard]] std::string where() const override { return "; there"; }
     void describe(Summary& /*summary*/) const override {}
+    void update() override {
+        if (breaks) {
+            throw std::runtime_error("it broke");
+        }
+    }
 
     void said(const std::string& what) {
         const std::lock_guard lock(mutex_);
@@ -87,6 +93,7 @@ public:
     std::atomic<bool> takes{true};
     std::atomic<bool> halts{true};
     std::atomic<bool> stops{true};
+    std::atomic<bool> breaks{false};
     std::atomic<hal::PortPhase> phase{hal::PortPhase::running};
     std::atomic<std::uint64_t> executed{0};
 
@@ -94,33 +101,6 @@ private:
     Port port_{*this};
     mutable std::mutex mutex_;
     std::vector<std::string> said_;
-};
-
-/// It says to the target what it was told.
-class TalkingSpindle final : public RunSpindle {
-public:
-    explicit TalkingSpindle(TalkingTarget& target) : target_(&target) {}
-
-    void order(int direction, double rpm) override {
-        target_->said("spindle " + std::to_string(direction) + " " + std::to_string(static_cast<int>(rpm)));
-    }
-    void end() override {
-        if (!ended.exchange(true)) {
-            target_->said("spindle ends");
-        }
-    }
-    [[nodiscard]] bool reached() const override { return is_reached; }
-    [[nodiscard]] bool stands() const override { return is_still; }
-    [[nodiscard]] std::string trouble() const override { return lost ? "no answer" : ""; }
-    [[nodiscard]] double stop_timeout_s() const override { return 0.05; }
-
-    std::atomic<bool> ended{false};
-    std::atomic<bool> is_reached{false};
-    std::atomic<bool> is_still{true};
-    std::atomic<bool> lost{false};
-
-private:
-    TalkingTarget* target_;
 };
 
 inline FeedSegment segment(std::uint32_t index) {
@@ -146,5 +126,7 @@ bool comes(Condition condition) {
     }
     return condition();
 }
+
+using Told = std::vector<std::string>;
 
 } // namespace splinefeed_test

@@ -133,7 +133,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
     }
     station.advance(now_us);
     const bool busy = happens(wire_.faults.exception);
-    ModbusException exception = busy ? ModbusException::busy : does(station.model(), read);
+    ModbusException exception = busy ? wire_.exception : does(station.model(), read);
     if (!busy && happens(wire_.faults.repeated)) {
         exception = does(station.model(), read);
     }

@@ -26,7 +26,7 @@ struct LineFaults {
     double lost_request = 0.0;
     double lost_answer = 0.0;
     double corrupt = 0.0;   ///< rtu: the frame's CRC; tcp: a bit of a written block that has a checksum of its own
-    double exception = 0.0; ///< the drive is busy
+    double exception = 0.0; ///< the wire's exception instead of an effect
     double repeated = 0.0;  ///< the request takes effect twice
     double stale = 0.0;     ///< an earlier answer comes instead
     double late = 0.0;      ///< the answer is late, by up to late_us
@@ -65,6 +65,7 @@ private:
 struct SimulatedWire {
     std::map<int, Station*> stations; ///< by unit
     LineFaults faults;
+    splinefeed::host::ModbusException exception = splinefeed::host::ModbusException::busy;
     Span faults_at{0, UINT64_MAX};  ///< when they may happen
     std::vector<Span> unplugged;    ///< nobody is connected
     std::uint64_t latency_us = 200; ///< there and back, beyond the line's rate; up to twice that

@@ -5,8 +5,10 @@
 #include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/vfd_drive.hpp"
 #include "ports/plant.hpp"
+#include "splinefeed/hal/modbus/profile/field_codec.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,20 @@ struct Bench {
     }
     void pass_ms(int duration_ms) {
         pass_ms(duration_ms, [] {});
+    }
+    /// By somebody else than the spindle: its registers, as the profile has them.
+    void turn_on(double hz) {
+        const DriveProfile profile = vfd->profile();
+        const auto write = [&](FieldIndex field, std::int64_t raw) {
+            const auto value = static_cast<std::uint16_t>(raw);
+            REQUIRE(vfd->write(profile.fields[field].address, std::span(&value, 1)) == ModbusException::none);
+        };
+        vfd->advance(plant.clock.now_us());
+        const FieldIndex speed = profile.index_of(FieldRole::target_velocity);
+        write(speed, raw_of(profile.fields[speed], std::llround(hz * (1 << physical_bits))).raw);
+        for (const CommandStep& step : profile.steps_of(DriveCommand::forward)) {
+            write(step.field, static_cast<std::int64_t>(step.value));
+        }
     }
 
     Plant plant;
@@ -176,32 +192,121 @@ TEST_CASE("Spindle: a lost inverter is no trouble while the spindle stands", "[s
     CHECK(bench.spindle->reached());
 }
 
-TEST_CASE("Spindle: a speed that is not reached in time, or is lost, is trouble, and it stops", "[spindle]") {
+TEST_CASE("Spindle: a speed that is not reached in time is trouble, and it stops", "[spindle]") {
     Bench bench("vfd-ls-ig5a", {.at_speed_timeout_ms = 1500});
     REQUIRE(bench.spindle->open().empty());
-    SECTION("not reached") {
-        bench.spindle->order({1, 300.0}); // takes 3 s
-        bench.pass_ms(1700);
-        CHECK(bench.spindle->trouble().rfind("the spindle has not reached its speed in", 0) == 0);
-        CHECK_FALSE(bench.spindle->reached());
-    }
-    SECTION("lost: the inverter was switched off and on") {
-        bench.spindle->order({1, 100.0});
-        bench.pass_ms(1300);
-        REQUIRE(bench.spindle->reached());
+    bench.spindle->order({1, 300.0}); // takes 3 s
+    bench.pass_ms(1400);
+    REQUIRE(bench.vfd->direction() == 1);
+    bench.pass_ms(300);
+    CHECK(bench.spindle->trouble().rfind("the spindle has not reached its speed in", 0) == 0);
+    CHECK_FALSE(bench.spindle->reached());
+    bench.pass_ms(300);
+    CHECK(bench.vfd->direction() == 0);
+}
+
+TEST_CASE("Spindle: a speed that is lost is trouble, and an inverter that comes back is stopped", "[spindle]") {
+    Bench bench("vfd-ls-ig5a");
+    REQUIRE(bench.spindle->open().empty());
+    bench.spindle->order({1, 100.0});
+    bench.pass_ms(1300);
+    REQUIRE(bench.spindle->reached());
+    SECTION("it was switched off and on") {
         bench.vfd->power_cycle();
         bench.pass_ms(400);
         CHECK(bench.spindle->trouble().rfind("the spindle has lost its speed", 0) == 0);
     }
     SECTION("a fault") {
-        bench.spindle->order({1, 100.0});
-        bench.pass_ms(1300);
         bench.vfd->trip();
         bench.pass_ms(200);
         CHECK(bench.spindle->trouble() == "the VFD is in fault, code 1");
+        bench.vfd->power_cycle();
     }
+    bench.turn_on(30.0); // by its panel
+    REQUIRE(bench.vfd->direction() == 1);
     bench.pass_ms(300);
     CHECK(bench.vfd->direction() == 0);
+}
+
+TEST_CASE("Spindle: a stop is repeated for as long as the inverter turns", "[spindle]") {
+    for (const std::string& name : vfd_profiles()) {
+        CAPTURE(name);
+        Bench bench(name);
+        REQUIRE(bench.spindle->open().empty());
+        bench.spindle->order({1, 100.0});
+        bench.pass_ms(1500);
+        REQUIRE(bench.spindle->reached());
+        bench.spindle->order({0, 0.0});
+        bench.pass_ms(300);
+        REQUIRE(bench.spindle->reached()); // the stop is acknowledged
+        bench.turn_on(100.0);
+        REQUIRE(bench.vfd->direction() == 1);
+        bench.pass_ms(200);
+        CHECK(bench.vfd->direction() == 0);
+        bench.pass_ms(3000);
+        CHECK(bench.spindle->stands());
+        bench.turn_on(100.0); // from standstill, too
+        bench.pass_ms(300);
+        CHECK(bench.vfd->direction() == 0);
+        bench.pass_ms(3000);
+        CHECK(bench.spindle->stands());
+        CHECK(bench.spindle->trouble().empty());
+    }
+}
+
+TEST_CASE("Spindle: off and on again in one direction does not wait for standstill", "[spindle]") {
+    Bench bench("vfd-yl620");
+    REQUIRE(bench.spindle->open().empty());
+    bench.spindle->order({1, 200.0});
+    bench.pass_ms(2500);
+    REQUIRE(bench.spindle->reached());
+    bench.spindle->order({0, 0.0});
+    bench.pass_ms(200);
+    REQUIRE(bench.vfd->direction() == 0);
+    bench.spindle->order({1, 200.0});
+    bench.pass_ms(700, [&] { REQUIRE(bench.vfd->output_hz() > 150.0); });
+    CHECK(bench.spindle->reached());
+}
+
+TEST_CASE("Spindle: a speed whose answer was lost is written again", "[spindle]") {
+    Bench bench("vfd-yl620");
+    REQUIRE(bench.spindle->open().empty());
+    bench.spindle->order({1, 100.0});
+    bench.pass_ms(1500);
+    REQUIRE(bench.spindle->reached());
+    bench.wire.faults.lost_answer = 1.0;
+    bench.spindle->order({1, 200.0});
+    bench.pass_ms(150); // the inverter has taken it
+    bench.wire.faults.lost_answer = 0.0;
+    bench.spindle->order({1, 100.0});
+    bench.pass_ms(3000);
+    CHECK(bench.spindle->reached());
+    CHECK(bench.vfd->output_hz() == Approx(100.0));
+}
+
+TEST_CASE("Spindle: an inverter or a gateway that is busy counts as one that does not answer", "[spindle]") {
+    const int code = GENERATE(5, 6, 0x0A, 0x0B);
+    CAPTURE(code);
+    Bench bench("vfd-gs2");
+    bench.wire.exception = static_cast<ModbusException>(code);
+    REQUIRE(bench.spindle->open().empty());
+    bench.spindle->order({1, 100.0});
+    bench.pass_ms(1500);
+    REQUIRE(bench.spindle->reached());
+    bench.wire.faults.exception = 1.0;
+    bench.pass_ms(700);
+    CHECK(bench.spindle->trouble().empty());
+    bench.wire.faults.exception = 0.2;
+    bench.pass_ms(3000);
+    CHECK(bench.spindle->trouble().empty());
+    bench.wire.faults.exception = 1.0;
+    bench.pass_ms(1500);
+    CHECK(bench.spindle->trouble() ==
+          "the VFD does not answer (exception " + std::string(exception_name(static_cast<std::uint8_t>(code))) + ")");
+    bench.wire.faults.exception = 0.0;
+    bench.pass_ms(3000);
+    CHECK(bench.vfd->direction() == 0);
+    CHECK(bench.spindle->stands());
 }
 
 TEST_CASE("Spindle: an inverter that does not answer or is in fault is refused", "[spindle]") {
@@ -216,14 +321,21 @@ TEST_CASE("Spindle: an inverter that does not answer or is in fault is refused",
     }
 }
 
-TEST_CASE("Spindle: an inverter that turns when the run begins is stopped", "[spindle]") {
-    Bench bench("vfd-yl620");
-    const std::uint16_t speed = 1000;
-    const std::uint16_t run = 0x12;
-    bench.vfd->advance(bench.plant.clock.now_us());
-    REQUIRE(bench.vfd->write(0x2001, std::span(&speed, 1)) == ModbusException::none);
-    REQUIRE(bench.vfd->write(0x2000, std::span(&run, 1)) == ModbusException::none);
-    REQUIRE(bench.spindle->open().empty());
-    bench.pass_ms(100);
-    CHECK(bench.vfd->direction() == 0);
+TEST_CASE("Spindle: an inverter that turns when the run begins is stopped, and stands when it does", "[spindle]") {
+    for (const std::string& name : vfd_profiles()) {
+        CAPTURE(name);
+        Bench bench(name);
+        bench.turn_on(100.0);
+        bench.pass_ms(1500);
+        REQUIRE(bench.vfd->output_hz() == Approx(100.0));
+        REQUIRE(bench.spindle->open().empty());
+        CHECK(bench.spindle->was_on());
+        bench.pass_ms(100);
+        CHECK(bench.vfd->direction() == 0);
+        CHECK_FALSE(bench.spindle->stands());
+        bench.spindle->order({1, 100.0}); // nobody knows which way it turns
+        bench.pass_ms(700, [&] { REQUIRE(bench.vfd->direction() == 0); });
+        bench.pass_ms(3000);
+        CHECK(bench.spindle->reached());
+    }
 }

@@ -296,3 +296,36 @@ TEST_CASE("A line may be as long as lines are, and have a comment behind it") {
     CHECK(seconds(tool, line(256)) > 0.0);
     CHECK(error_of(tool, line(257)).rfind("part.ngc:1:257: ", 0) == 0);
 }
+
+TEST_CASE("A real target refuses coolant and outputs that the machine file does not name before anything moves") {
+    const Tool tool;
+    const std::string target = "--target modbus-tcp://127.0.0.1:1";
+    CHECK(error_of(tool, "M8\nG1 X10 F3000\nM2\n", target) ==
+          "part.ngc:1: flood_on: the machine file has no line for this; name it in [coolant.flood], or add the word to "
+          "--ignore\n");
+    CHECK(
+        error_of(tool, "G1 X10 F3000\nM9\nM2\n", target) ==
+        "part.ngc:2: coolant_off: the machine file has no coolant; name its line in [coolant.mist] or [coolant.flood], "
+        "or add the word to --ignore\n");
+    CHECK(error_of(tool, "G1 X10 F3000\nM62 P3\nX20\nM2\n", target) ==
+          "part.ngc:2: output_on_with_motion: the machine file has no output 3; name its line in [[output]] with "
+          "number = "
+          "3, or add the word to --ignore\n");
+}
+
+TEST_CASE("A dwell behind a message takes its time") {
+    const Tool tool;
+    const double without_s = seconds(tool, "G64\nG1 X10 F3000\nG4 P2\nX20\nM2\n", "");
+    CHECK(seconds(tool, "G64\nG1 X10 F3000\n(MSG,a)\nS100\nG4 P2\nX20\nM2\n", "") == Approx(without_s).margin(1e-6));
+}
+
+TEST_CASE("A tool change stops the spindle, as in LinuxCNC") {
+    const Tool tool;
+    tool.write("spindle.toml", "[path]\nmax_feed_mm_s = 100\n[spindle]\nmax_rpm = 20000\nramp_s = 4\n[[axis]]\nname = "
+                               "'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n");
+    const double on_s = seconds(tool, "S10000 M3\nG1 X10 F3000\nM0\nX20\nM2\n", "-m spindle.toml");
+    const double changed_s = seconds(tool, "S10000 M3\nG1 X10 F3000\nT2 M6\nX20\nM2\n", "-m spindle.toml");
+    CHECK(changed_s == Approx(on_s + 2.0).margin(0.01));
+    CHECK(seconds(tool, "S10000 M3\nG1 X10 F3000\nT2 M6\nS5000\nX20\nM2\n", "-m spindle.toml") ==
+          Approx(changed_s).margin(0.01));
+}

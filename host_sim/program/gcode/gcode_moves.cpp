@@ -82,8 +82,8 @@ private:
     void take(SourceStep<S>& out);
     void take_move(SourceStep<S>& out) const;
     void take_event(SourceStep<S>& out);
-    void take_spindle(SourceStep<S>& out);
-    void require_possible(EventKind kind) const;
+    void take_spindle(SourceStep<S>& out, EventKind kind);
+    void require_possible(const ProgramEvent& event) const;
     void require_possible(MoveKind kind) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
 
@@ -222,7 +222,7 @@ template <Scalar S>
 void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     const ProgramEvent& event = item_.event;
     if (!settings_->simulated) {
-        require_possible(event.kind);
+        require_possible(event);
     }
     out.action.kind = event.kind;
     out.action.number = event.number;
@@ -230,7 +230,9 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     out.action.text.assign(event.text);
     out.action.spindle.reset();
     if (ProgramSpindle::is_of(event.kind)) {
-        take_spindle(out);
+        take_spindle(out, event.kind);
+    } else if (event.kind == EventKind::tool_change) {
+        take_spindle(out, EventKind::spindle_stop); // as in LinuxCNC
     }
     out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
                                                            : nullptr;
@@ -243,11 +245,11 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
 
 // A real spindle is waited for at standstill; the simulated one takes its time.
 template <Scalar S>
-void GcodeMoves<S>::take_spindle(SourceStep<S>& out) {
+void GcodeMoves<S>::take_spindle(SourceStep<S>& out, EventKind kind) {
     if (settings_->spindle == nullptr) {
         return;
     }
-    const std::string problem = spindle_.take(out.action.kind, out.action.value, *settings_->spindle);
+    const std::string problem = spindle_.take(kind, out.action.value, *settings_->spindle);
     if (!problem.empty()) {
         report(InputError(file_, line_.number, std::uint64_t{0}, problem));
     }
@@ -262,15 +264,22 @@ void GcodeMoves<S>::take_spindle(SourceStep<S>& out) {
     }
 }
 
-// What is not built for real machines is refused, rather than left out.
+// What the machine has no output for is refused, rather than left out.
 template <Scalar S>
-void GcodeMoves<S>::require_possible(EventKind kind) const {
-    switch (kind) {
+void GcodeMoves<S>::require_possible(const ProgramEvent& event) const {
+    static const ProgramLines none;
+    const ProgramLines& lines = settings_->lines != nullptr ? *settings_->lines : none;
+    std::string missing;
+    switch (event.kind) {
     case EventKind::message:
     case EventKind::print:
     case EventKind::debug:
     case EventKind::tool_select:
     case EventKind::tool_set:
+    case EventKind::tool_change:
+    case EventKind::pause:
+    case EventKind::optional_pause:
+    case EventKind::pallet_pause:
     case EventKind::program_end:
     case EventKind::overrides_on:
     case EventKind::feed_override:
@@ -280,19 +289,48 @@ void GcodeMoves<S>::require_possible(EventKind kind) const {
     case EventKind::spindle_clockwise:
     case EventKind::spindle_counterclockwise:
     case EventKind::spindle_stop:
-        if (settings_->spindle != nullptr && settings_->spindle->vfd) {
+        if (settings_->spindle != nullptr && settings_->spindle->is_controlled()) {
             return;
         }
-        throw InputError(file_, line_.number, std::uint64_t{0},
-                         fmt::format("{}: the machine file has no spindle for this; name its frequency inverter, vfd = "
-                                     "\"modbus-rtu://...\" in [spindle], or add the word to --ignore",
-                                     action_name(kind)));
+        missing = "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
+                  "enable = { line = ... }, in [spindle]";
+        break;
+    case EventKind::mist_on:
+        if (lines.mist) {
+            return;
+        }
+        missing = "line for this; name it in [coolant.mist]";
+        break;
+    case EventKind::flood_on:
+        if (lines.flood) {
+            return;
+        }
+        missing = "line for this; name it in [coolant.flood]";
+        break;
+    case EventKind::coolant_off:
+        if (lines.mist || lines.flood) {
+            return;
+        }
+        missing = "coolant; name its line in [coolant.mist] or [coolant.flood]";
+        break;
+    case EventKind::output_on_with_motion:
+    case EventKind::output_off_with_motion:
+    case EventKind::output_on:
+    case EventKind::output_off:
+        if (lines.output(event.number) != nullptr) {
+            return;
+        }
+        missing = fmt::format("output {}; name its line in [[output]] with number = {}", event.number, event.number);
+        break;
     default:
         throw InputError(file_, line_.number, std::uint64_t{0},
                          fmt::format("{}: only the simulated machine does this so far; take it out of the program, or "
                                      "add its word to --ignore",
-                                     action_name(kind)));
+                                     action_name(event.kind)));
     }
+    throw InputError(
+        file_, line_.number, std::uint64_t{0},
+        fmt::format("{}: the machine file has no {}, or add the word to --ignore", action_name(event.kind), missing));
 }
 
 // A probe and a switch that nobody watches would be run into.

@@ -28,7 +28,9 @@ std::string ProgramSpindle::take(EventKind kind, double rpm, const SpindleDescri
                            machine.max_rpm);
     }
     if (direction < 0 && !machine.reverses()) {
-        return fmt::format("M4: the profile {} has no command to reverse; use M3", machine.vfd->profile.name);
+        return machine.vfd
+                   ? fmt::format("M4: the profile {} has no command to reverse; use M3", machine.vfd->profile.name)
+                   : "M4: the spindle has no line to reverse; name it in [spindle.reverse], or use M3";
     }
     const double wanted = direction * rpm;
     change_s_ = machine.change_s(signed_rpm_, wanted);

@@ -19,6 +19,19 @@ trap 'rm -rf "$work"' EXIT
 sed 's/^steps_per_mm.*/steps_per_mm = 4/; s/^\(max_velocity_mm_s\|max_feed_mm_s\) .*/\1 = 200/; s/^max_acceleration_mm_s2.*/max_acceleration_mm_s2 = 3000/' \
     examples/three_axis.toml >"$work/machine.toml"
 sed 's/^name = "x"/&\ntravel_mm = [-10, 90]/' "$work/machine.toml" >"$work/short.toml"
+# Coolant and an output of a program, on lines beside those of the map.
+{
+    cat "$work/machine.toml"
+    printf '[lines]\nchip = "/dev/gpiochip0"\n[coolant.flood]\nline = "COOLANT"\n'
+    printf '[[output]]\nnumber = 3\nline = "SPINDLE"\nactive = "low"\n'
+} >"$work/outputs.toml"
+{
+    cat "$work/machine.toml"
+    printf '[lines]\nchip = "/dev/gpiochip0"\n[spindle]\nmax_rpm = 1000\nspin_up_s = 0.2\nenable = { line = "DOOR" }\n'
+    printf 'at_speed = { line = "RESUME" }\n'
+} >"$work/spindle.toml"
+printf 'G21 G90 G64\nG1 X10 F3000\nS500 M3\nX30\nM5\nX40\nM2\n' >"$work/spindle.ngc"
+printf 'G21 G90 G64\nM8\nG1 X20 F3000\nM62 P3\nX40 Y5\nM63 P3\nX60\nM9\nX80\nM2\n' >"$work/outputs.ngc"
 cp $vm/lines.toml examples/{square,star,path61}.csv "$work"
 printf 'x,y,z\n10,0,0\n70,40,10\n10,0,0\n' >"$work/there.csv"
 touch "$work/all"
@@ -48,7 +61,7 @@ if ((status == 0)); then
 elif ((status != 77)); then
     exit "$status"
 fi
-files=("$work"/{machine,short,lines}.toml "$work"/*.csv)
+files=("$work"/{machine,short,lines,outputs,spindle}.toml "$work"/*.{csv,ngc})
 export GPIO_VM_TIME=virtual
 $vm/run.sh $cache "$work/first" $vm/runs_guest.sh "${programs[0]}" "${files[@]}" "$work/all" &
 first=$!

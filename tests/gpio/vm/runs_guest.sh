@@ -100,6 +100,42 @@ moving
 kill -KILL $run
 ends
 
+# A program that switches lines; and an e-stop while they are on.
+machine=chips.toml
+sed "s|/dev/gpiochip0|$chip|" outputs.toml >chips.toml
+begin outputs outputs.ngc
+ends
+begin outputs_held outputs.ngc
+wait_for_line COOLANT 1 5
+wait_for_line SPINDLE 0 5
+kill -USR1 $run
+usleep 300000
+level SPINDLE >/out/held_output
+level COOLANT >/out/held_coolant
+kill -USR2 $run
+ends
+begin outputs_estop outputs.ngc
+wait_for_line COOLANT 1 5
+wait_for_line SPINDLE 0 5
+pull ESTOP up
+ends
+pull ESTOP down
+# A spindle on lines: it is at speed later than its time says; an e-stop while it turns.
+sed "s|/dev/gpiochip0|$chip|" spindle.toml >chips.toml
+begin spindle_lines spindle.ngc
+wait_for_line DOOR 1 5
+usleep 500000
+pull RESUME up
+ends
+begin spindle_estop spindle.ngc
+wait_for_line DOOR 1 5
+usleep 400000
+pull ESTOP up
+ends
+pull ESTOP down
+pull RESUME down
+machine=machine.toml
+
 # What is the same with any libgpiod.
 if [ -e all ]; then
     for program in square star; do

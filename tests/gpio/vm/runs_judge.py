@@ -18,6 +18,7 @@ AXES = "xyz"
 UNITS = 3 << 30  # of --segments, in a count
 JITTER_US = 150  # tolerated_late_us, and what a call takes in an emulated machine
 STEPS_PER_MM = 4
+NEAR_STEPS = 1  # a program's lines switch within a segment and a look: 2 ms at 50 mm/s are 0.4 steps
 
 SAFE_NUMBERS = []  # enable and the step lines, in the trace
 
@@ -53,6 +54,7 @@ class Run:
         self.status = int(self.read(f"{out}/{name}.status"))
         events = read_trace(f"{out}/{name}.trace") if os.path.exists(f"{out}/{name}.trace") else []
         self.edges = line_edges(events, wiring)
+        self.sets = [event for event in events if event.kind == "set"]
         self.last = {event.number: event.value for event in events if event.kind == "set"}
         segments = self.read(f"{out}/{name}.segments").splitlines()
         first = next((row.split(",") for row in segments if row[:1].isdigit()), None)
@@ -112,6 +114,22 @@ class Run:
         rest = [edge for edge in self.edges[at:] if edge.line == "step" and edge.value == 1]
         self.check(not complete or not rest, f"{len(rest)} steps more than planned")
         return made, at
+
+    def switched(self, number):
+        """[(level, x in steps)] of each change of a line that a program switches."""
+        levels = []
+        for event in self.sets:
+            if event.number == number and (not levels or levels[-1][0] != event.value):
+                x = follow([edge for edge in self.edges if edge.axis == "x" and edge.t_us <= event.t_us], "x").count
+                levels.append((event.value, x))
+        return levels
+
+    def switches(self, number, *meant):
+        """Levels and where; the first one is that before the run."""
+        seen = self.switched(number)
+        near = len(seen) == len(meant) and all(a == b and abs(x - STEPS_PER_MM * mm) <= NEAR_STEPS
+                                               for (a, x), (b, mm) in zip(seen, meant))
+        self.check(near, f"line {number} has levels and places {seen} steps, not {meant} mm")
 
     def distances(self):
         for axis in AXES:
@@ -199,6 +217,30 @@ def judge(out):
     for name in ("sigsegv", "sigkill"):
         run(name).check(runs[name].status in (128 + 11, 128 + 9), f"status {runs[name].status}")
     runs["sigsegv"].safe()
+
+    coolant, output = number["COOLANT"], number["SPINDLE"]
+    for name in ("outputs", "outputs_held"):
+        program = whole(run(name))
+        program.switches(coolant, (0, 0), (1, 0), (0, 60))
+        program.switches(output, (1, 0), (0, 20), (1, 40))
+    held = [Run.read(f"{out}/held_{what}").strip() for what in ("output", "coolant")]
+    runs["outputs_held"].check(held == ["0", "1"], f"in the hold output and coolant are {held}")
+    program = run("outputs_estop")
+    program.ended(1, "the e-stop was pressed: the drives were disabled")
+    program.safe()
+    for line, levels in ((coolant, [0, 1, 0]), (output, [1, 0, 1])):
+        program.check([level for level, _ in program.switched(line)] == levels, f"line {line} has {program.switched(line)}")
+
+    spindle = number["DOOR"]
+    program = whole(run("spindle_lines"))
+    program.switches(spindle, (0, 0), (1, 10), (0, 30))
+    on_us = next((event.t_us for event in program.sets if event.number == spindle and event.value == 1), 0)
+    next_us = next((edge.t_us for edge in program.edges if edge.t_us > on_us and edge.line == "step"), on_us)
+    program.check(next_us - on_us > 490_000, f"it cuts {next_us - on_us} us after the spindle was on, and its speed came after 500000")
+    program = run("spindle_estop")
+    program.ended(1, "the e-stop was pressed: the drives were disabled")
+    program.safe()
+    program.check([level for level, _ in program.switched(spindle)] == [0, 1, 0], f"the spindle is {program.switched(spindle)}")
 
     if os.path.exists(f"{out}/square.status"):
         for name in ("square", "star", "fixed", "busy"):

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/crash_guard.hpp"
 
-#include <algorithm>
-#include <array>
 #include <csignal>
 
 namespace splinefeed::hal::gpio {
@@ -29,8 +27,12 @@ extern "C" void make_lines_safe(int signal) {
 } // namespace
 
 CrashGuard::CrashGuard(std::span<OutputLines* const> chips) noexcept {
-    for (std::size_t i = 0; i < std::min(chips.size(), most_chips); ++i) {
-        guarded[i].store(chips[i]);
+    std::size_t given = 0;
+    for (std::size_t i = 0; i < most_chips && given < chips.size(); ++i) {
+        if (guarded[i].load() == nullptr) {
+            own_[i] = chips[given++];
+            guarded[i].store(own_[i]);
+        }
     }
     for (const int signal : crashes) {
         struct sigaction action {};
@@ -41,11 +43,19 @@ CrashGuard::CrashGuard(std::span<OutputLines* const> chips) noexcept {
 }
 
 CrashGuard::~CrashGuard() {
-    for (const int signal : crashes) {
-        static_cast<void>(std::signal(signal, SIG_DFL));
+    bool others = false;
+    for (std::size_t i = 0; i < most_chips; ++i) {
+        others = others || (own_[i] == nullptr && guarded[i].load() != nullptr);
     }
-    for (auto& lines : guarded) {
-        lines.store(nullptr);
+    for (const int signal : crashes) {
+        if (!others) {
+            static_cast<void>(std::signal(signal, SIG_DFL));
+        }
+    }
+    for (std::size_t i = 0; i < most_chips; ++i) {
+        if (own_[i] != nullptr) {
+            guarded[i].store(nullptr);
+        }
     }
 }
 

@@ -4,22 +4,26 @@
 
 #include "splinefeed/hal/gpio/output_lines.hpp"
 
+#include <array>
 #include <span>
 
 namespace splinefeed::hal::gpio {
 
 /// While an object exists, fatal signals (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGXCPU, SIGSYS) first set
-/// the lines to their safe levels. At most one object may exist. SIGKILL cannot be handled: the chip then decides what
-/// the lines do.
+/// the lines to their safe levels. Objects are made and destroyed by one thread. SIGKILL cannot be handled: the chip
+/// then decides what the lines do.
 class CrashGuard {
 public:
-    static constexpr std::size_t most_chips = 16;
+    static constexpr std::size_t most_chips = 16; ///< of all objects
 
-    /// @param chips  at most 16; must outlive the guard
+    /// @param chips  must outlive the guard
     explicit CrashGuard(std::span<OutputLines* const> chips) noexcept;
     CrashGuard(const CrashGuard&) = delete;
     CrashGuard& operator=(const CrashGuard&) = delete;
     ~CrashGuard();
+
+private:
+    std::array<OutputLines*, most_chips> own_{}; // null: not this object's
 };
 
 } // namespace splinefeed::hal::gpio

@@ -23,6 +23,20 @@ const char* describe(LinkFault fault) noexcept {
     return "";
 }
 
+std::string describe(const LinkAnswer& answer) {
+    return answer.fault == LinkFault::exception ? std::string("exception ") + exception_name(answer.exception)
+                                                : describe(answer.fault);
+}
+
+bool LinkAnswer::refused() const noexcept {
+    constexpr std::uint8_t acknowledge = 5;
+    constexpr std::uint8_t busy = 6;
+    constexpr std::uint8_t gateway_path = 10;
+    constexpr std::uint8_t gateway_target = 11;
+    return fault == LinkFault::exception && exception != acknowledge && exception != busy &&
+           exception != gateway_path && exception != gateway_target;
+}
+
 const char* exception_name(std::uint8_t code) noexcept {
     constexpr std::array<const char*, 12> names{
         "none", "illegal function",     "illegal address", "illegal value",         "device failure", "acknowledge",

@@ -29,10 +29,15 @@ struct LinkAnswer {
     std::uint64_t replied_us = 0;  ///< latest instant at which it began to answer
 
     [[nodiscard]] bool ok() const noexcept { return fault == LinkFault::none; }
+    /// Whether the device will never execute this request. Exceptions that say "later" (acknowledge, busy), and those
+    /// of a gateway that does not reach the device, are no refusals: like a time-out, they may pass.
+    [[nodiscard]] bool refused() const noexcept;
 };
 
 /// Text for messages: what went wrong and what to check.
 [[nodiscard]] const char* describe(LinkFault fault) noexcept;
+/// The same of an answer, short: "no answer in time ...", "exception busy".
+[[nodiscard]] std::string describe(const LinkAnswer& answer);
 /// Name of an exception code, for example "illegal address".
 [[nodiscard]] const char* exception_name(std::uint8_t code) noexcept;
 

@@ -218,14 +218,19 @@ struct DriveProfile {
     };
     std::vector<IdentityCheck> identity;
 
-    /// The field of a role, or nullptr. Cost: linear.
-    [[nodiscard]] const RegisterField* field_of(FieldRole role) const noexcept {
-        for (const RegisterField& field : fields) {
-            if (role != FieldRole::none && field.role == role) {
-                return &field;
+    /// Index of the field of a role, or no_field. Cost: linear.
+    [[nodiscard]] FieldIndex index_of(FieldRole role) const noexcept {
+        for (FieldIndex i = 0; role != FieldRole::none && i < fields.size(); ++i) {
+            if (fields[i].role == role) {
+                return i;
             }
         }
-        return nullptr;
+        return no_field;
+    }
+    /// The same field, or nullptr.
+    [[nodiscard]] const RegisterField* field_of(FieldRole role) const noexcept {
+        const FieldIndex index = index_of(role);
+        return index == no_field ? nullptr : &fields[index];
     }
     [[nodiscard]] FieldIndex index_of(std::string_view field_name) const noexcept {
         for (FieldIndex i = 0; i < fields.size(); ++i) {

@@ -20,9 +20,8 @@ constexpr std::uint64_t us_per_ms = 1000;
 
 VfdClient::VfdClient(VfdWiring wiring, const MakeLine& make, Clock& clock)
     : wiring_(std::move(wiring)), clock_(&clock), line_(make(wiring_.link, timing_of(wiring_.profile.link), clock)),
-      read_(wiring_.profile.fields.size()),
-      speed_(wiring_.profile.index_of(wiring_.profile.field_of(FieldRole::target_velocity)->name)),
-      output_(wiring_.profile.index_of(wiring_.profile.field_of(FieldRole::actual_velocity)->name)) {
+      read_(wiring_.profile.fields.size()), speed_(wiring_.profile.index_of(FieldRole::target_velocity)),
+      output_(wiring_.profile.index_of(FieldRole::actual_velocity)) {
     for (const RegisterField& field : wiring_.profile.fields) {
         written_.push_back(field.value);
     }
@@ -123,9 +122,9 @@ LinkAnswer VfdClient::read(VfdReading& out) {
         }
         reading.fault = reading.fault || holds(state.test, raw);
     }
-    const RegisterField* const code = profile.field_of(FieldRole::fault_code);
-    if (reading.fault && code != nullptr && code->readable()) {
-        if (!read_once(profile.index_of(code->name), reading.fault_code, answer)) {
+    const FieldIndex code = profile.index_of(FieldRole::fault_code);
+    if (reading.fault && code != no_field && profile.fields[code].readable()) {
+        if (!read_once(code, reading.fault_code, answer)) {
             return answer;
         }
     }

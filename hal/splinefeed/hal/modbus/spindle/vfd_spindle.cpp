@@ -51,14 +51,14 @@ std::string VfdSpindle::open() {
         }
     }
     if (!answer.ok()) {
-        return answer.fault == LinkFault::exception
-                   ? std::string("it refuses a stop or a reading: ") + exception_name(answer.exception)
-                   : std::string(describe(answer.fault));
+        return answer.refused() ? std::string("it refuses a stop or a reading: ") + exception_name(answer.exception)
+                                : describe(answer);
     }
     if (reading.fault) {
         return "it is in fault, code " + std::to_string(reading.fault_code) + ": reset it";
     }
     known_ = true;
+    turns_ = was_on_ = reading.output_hz >= still_hz;
     output_hz_ = reading.output_hz;
     answered_us_ = clock_->now_us();
     thread_ = clock_->start([this] { work(); });
@@ -151,20 +151,17 @@ bool VfdSpindle::took(const LinkAnswer& answer, const char* what) {
         answered_us_ = now_us;
         return true;
     }
-    last_fault_ = answer.fault;
-    if (answer.fault == LinkFault::exception) {
+    if (answer.refused()) {
         answered_us_ = now_us;
         fail(std::string("the VFD refuses ") + what + ": " + exception_name(answer.exception));
     } else if (now_us > answered_us_ + us_per_ms * settings_.lost_ms && (was_on() && !stands())) {
-        fail(std::string("the VFD does not answer (") + describe(answer.fault) + ")");
+        fail(std::string("the VFD does not answer (") + describe(answer) + ")");
     }
     return false;
 }
 
+// Again, where it stands in an order that it has not obeyed, or somebody else has turned it on.
 bool VfdSpindle::stop() {
-    if (known_ && told_.direction == 0) {
-        return true;
-    }
     known_ = took(client_.command(DriveCommand::stop), "a stop");
     if (known_) {
         told_ = {};
@@ -175,30 +172,28 @@ bool VfdSpindle::stop() {
 // One step at a time: the reading behind it says whether the next one may be made.
 void VfdSpindle::carry_out(const SpindleOrder& order, bool fresh) {
     if (order.direction == 0) {
-        known_ = known_ && !fresh; // an order to stop is always sent
-        static_cast<void>(stop());
+        if (fresh || !known_ || told_.direction != 0 || turns_) {
+            static_cast<void>(stop());
+        }
         return;
     }
     if (!known_ || told_.direction == -order.direction) {
         static_cast<void>(stop());
         return;
     }
-    bool stood = told_.direction == order.direction;
-    if (!stood) {
-        const std::lock_guard lock(mutex_);
-        stood = output_hz_ < still_hz;
-    }
-    if (!stood) {
+    if (turns_ && turned_ != order.direction) {
         return; // the other direction comes when it stands
     }
     if (told_.direction == order.direction && told_.hz == order.hz) {
         return;
     }
+    told_.hz = -1.0; // it may take what it does not confirm
     if (!took(client_.write_speed(order.hz), "the speed") || ended()) {
         return;
     }
     if (told_.direction != order.direction) {
-        known_ = false; // it may have taken what it does not confirm
+        known_ = false;
+        turned_ = order.direction;
         if (!took(client_.command(command_of(order.direction)), "to run")) {
             return;
         }
@@ -230,12 +225,14 @@ void VfdSpindle::step() {
 void VfdSpindle::judge(const SpindleOrder& order, const VfdReading& reading) {
     const bool taken = known_ && told_.direction == order.direction && told_.hz == order.hz;
     const bool near = std::fabs(reading.output_hz - order.hz) <= near_hz + near_share * order.hz;
+    turns_ = reading.output_hz >= still_hz;
+    turned_ = turns_ || told_.direction != 0 ? turned_ : 0;
     bool reached = false;
     {
         const std::lock_guard lock(mutex_);
         output_hz_ = reading.output_hz;
         if (seen_ == ordered_) { // else another order came meanwhile
-            stands_ = taken && order.direction == 0 && reading.output_hz < still_hz;
+            stands_ = taken && order.direction == 0 && !turns_;
             if (taken && (order.direction == 0 || (near && reading.done))) {
                 carried_out_ = seen_;
             }

@@ -23,7 +23,8 @@ struct VfdSpindleSettings {
 };
 
 /// Once the spindle has trouble, or end() was called, it is told to stop until it confirms, and it takes no order any
-/// more: a spindle that was stopped never turns again. A spindle is turned in the other direction only after it stood.
+/// more: a spindle that was stopped never turns again. A spindle that has to stand and turns is told to stop again with
+/// every reading. It is turned in the other direction only after it stood.
 ///
 /// All functions but open() may be called by any thread at any time.
 class VfdSpindle {
@@ -46,7 +47,7 @@ public:
     [[nodiscard]] bool reached() const;
     /// Whether the VFD has confirmed a stop, and since then that its output is off.
     [[nodiscard]] bool stands() const;
-    /// Whether it was told to turn since open().
+    /// Whether it turned at open(), or was told to turn since then.
     [[nodiscard]] bool was_on() const;
     /// Why the spindle is not as ordered; empty: it is, or may still become so.
     [[nodiscard]] std::string trouble() const;
@@ -79,13 +80,14 @@ private:
     std::string trouble_;
 
     // Used by the thread:
-    SpindleOrder told_;          // what the VFD has taken
+    SpindleOrder told_;          // what the VFD has taken; its speed is below 0 if that is unknown
     bool known_ = false;         // told_ is what it has
+    bool turns_ = true;          // by the last reading
+    int turned_ = 0;             // the direction in which it was told to turn since it stood; 0: unknown
     std::uint64_t seen_ = 0;     // the order in work
     std::uint64_t began_us_ = 0; // when
     std::uint64_t answered_us_ = 0;
     int slow_ = 0; // readings in a row far below the speed
-    LinkFault last_fault_ = LinkFault::none;
 
     std::atomic<bool> leaves_{false};
     std::unique_ptr<ClockThread> thread_;

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/config/program_lines_section.hpp"
+
+#include "host_sim/config/gpio_map_lines.hpp"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> line_levels{"low", "high"};
+constexpr std::array<std::string_view, 2> output_states{"off", "on"};
+constexpr std::array<std::string_view, 4> line_biases{"as-is", "disabled", "pull-up", "pull-down"};
+
+std::size_t choice_of(const TomlChecker& check, const toml::table& table, std::string_view key,
+                      std::span<const std::string_view> names, std::size_t otherwise) {
+    const toml::node* const node = table.get(key);
+    return node != nullptr ? check.choice(*node, key, names) : otherwise;
+}
+
+/// The line of a table with `line` and `active`.
+SwitchedLine switched_line(const TomlChecker& check, GpioMapLines& lines, const toml::table& table,
+                           const std::string& where, bool safe_on) {
+    SwitchedLine switched;
+    switched.on_level = choice_of(check, table, "active", line_levels, 1) == 1;
+    switched.line =
+        lines.output(check.required(table, "line", where, "a line"), "line of " + where, safe_on == switched.on_level);
+    return switched;
+}
+
+/// [OF.KEY], off where it is safe.
+std::optional<SwitchedLine> optional_line(const TomlChecker& check, GpioMapLines& lines, const toml::table& of,
+                                          std::string_view of_name, std::string_view key) {
+    const toml::node* const node = of.get(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    const std::string where = fmt::format("[{}.{}]", of_name, key);
+    const toml::table& table = check.table(*node, fmt::format("{}.{}", of_name, key));
+    check.require_known(table, {"line", "active"}, where);
+    return switched_line(check, lines, table, where, false);
+}
+
+DigitalOutput digital_output(const TomlChecker& check, GpioMapLines& lines, const toml::table& table,
+                             const ProgramLines& before) {
+    check.require_known(table, {"number", "line", "active", "safe"}, "[[output]]");
+    const toml::node& number = check.required(table, "number", "[[output]]", "the P of M62 to M65");
+    DigitalOutput output;
+    output.number = static_cast<int>(check.whole(number, "number", {0, DigitalOutput::most}));
+    if (before.output(output.number) != nullptr) {
+        check.fail(number, fmt::format("this is the second output {}; give each a number of its own", output.number));
+    }
+    output.safe_on = choice_of(check, table, "safe", output_states, 0) == 1;
+    output.line = switched_line(check, lines, table, fmt::format("output {}", output.number), output.safe_on);
+    return output;
+}
+
+SensedLine sensed_line(const TomlChecker& check, GpioMapLines& lines, const toml::node& node, std::string_view key) {
+    const std::string where = fmt::format("[spindle.{}]", key);
+    const toml::table& table = check.table(node, fmt::format("spindle.{}", key));
+    check.require_known(table, {"line", "active", "bias"}, where);
+    SensedLine sensed;
+    sensed.active_level = choice_of(check, table, "active", line_levels, 1) == 1;
+    sensed.line = lines.input(check.required(table, "line", where, "a line"), "line of " + where,
+                              static_cast<hal::gpio::Bias>(choice_of(check, table, "bias", line_biases, 0)));
+    return sensed;
+}
+
+std::optional<SpindleLines> spindle_lines(const TomlChecker& check, GpioMapLines& lines, const toml::table& table) {
+    constexpr NumberRange times{0.0, 600.0, "s"};
+    const auto enable = optional_line(check, lines, table, "spindle", "enable");
+    if (!enable) {
+        for (const std::string_view key : {"reverse", "at_speed", "spin_up_s", "spin_down_s"}) {
+            if (const toml::node* const node = table.get(key)) {
+                check.fail(*node, fmt::format("{} is of a spindle on lines; name the line that turns it on, enable = "
+                                              "{{ line = ... }}, or leave it out",
+                                              key));
+            }
+        }
+        return std::nullopt;
+    }
+    if (const toml::node* const vfd = table.get("vfd")) {
+        check.fail(*vfd, "[spindle] has vfd and enable; a spindle is turned by its inverter's registers or by lines: "
+                         "leave one out");
+    }
+    SpindleLines out;
+    out.enable = *enable;
+    out.reverse = optional_line(check, lines, table, "spindle", "reverse");
+    if (const toml::node* const node = table.get("at_speed")) {
+        out.at_speed = sensed_line(check, lines, *node, "at_speed");
+    }
+    out.spin_up_s = check.number(
+        check.required(table, "spin_up_s", "[spindle]", "the time from standstill to the speed, 0 to 600 s"),
+        "spin_up_s", times);
+    const toml::node* const down = table.get("spin_down_s");
+    out.spin_down_s = down != nullptr ? check.number(*down, "spin_down_s", times) : out.spin_up_s;
+    return out;
+}
+
+} // namespace
+
+ProgramLines read_program_lines(const TomlChecker& check, const toml::table& root,
+                                std::optional<SpindleDescription>& spindle) {
+    std::string chip;
+    if (const toml::node* const node = root.get("lines")) {
+        const toml::table& table = check.table(*node, "lines");
+        check.require_known(table, {"chip"}, "[lines]");
+        const toml::node& path = check.required(table, "chip", "[lines]", "the chip of lines that name none");
+        chip = GpioMapLines::chip_path(check, path);
+    }
+    ProgramLines out;
+    GpioMapLines lines(check, chip, out.chips);
+    if (const toml::node* const node = root.get("coolant")) {
+        const toml::table& coolant = check.table(*node, "coolant");
+        check.require_known(coolant, {"mist", "flood"}, "[coolant]");
+        out.mist = optional_line(check, lines, coolant, "coolant", "mist");
+        out.flood = optional_line(check, lines, coolant, "coolant", "flood");
+    }
+    if (spindle) {
+        spindle->lines = spindle_lines(check, lines, check.table(*root.get("spindle"), "spindle"));
+    }
+    for (const toml::table* const table : check.tables(root, "output")) {
+        out.outputs.push_back(digital_output(check, lines, *table, out));
+    }
+    return out;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/target/gpio/line_outputs.hpp"
+
+#include "host_sim/target/gpio/gpio_switches.hpp"
+#include "host_sim/target/gpio/line_spindle.hpp"
+
+namespace splinefeed::host {
+
+LineOutputs make_line_outputs(const MachineDescription& machine) {
+    if (machine.lines.empty()) {
+        return {};
+    }
+    const ProgramChips chips = open_program_chips(machine.lines);
+    LineOutputs out;
+    if (machine.spindle && machine.spindle->lines) {
+        out.spindle = std::make_unique<LineSpindle>(*machine.spindle->lines, machine.lines,
+                                                    machine.spindle->at_speed_timeout_s, chips);
+    }
+    out.switches = std::make_unique<GpioSwitches>(machine.lines, chips);
+    return out;
+}
+
+} // namespace splinefeed::host

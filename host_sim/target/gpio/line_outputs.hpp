@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// LineOutputs: what a program switches by GPIO lines in a run.
+#pragma once
+
+#include "host_sim/config/machine_description.hpp"
+#include "host_sim/target/run_spindle.hpp"
+#include "host_sim/target/run_switches.hpp"
+
+#include <memory>
+
+namespace splinefeed::host {
+
+/// Null: the machine has none on lines.
+struct LineOutputs {
+    std::unique_ptr<RunSpindle> spindle;
+    std::unique_ptr<RunSwitches> switches;
+};
+
+/// Requests the lines: all are as they are safe. Throws TargetError. `machine` must outlive them.
+[[nodiscard]] LineOutputs make_line_outputs(const MachineDescription& machine);
+
+} // namespace splinefeed::host

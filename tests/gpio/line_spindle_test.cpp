@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/target/gpio/line_spindle.hpp"
+
+#include "host_sim/config/machine_file.hpp"
+#include "recorded_chips.hpp"
+#include "support/catch.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+/// Passes only when a test says so.
+class SetClock final : public hal::Clock {
+public:
+    [[nodiscard]] std::uint64_t now_ns() const noexcept override { return ns; }
+    void sleep_until_ns(std::uint64_t /*instant_ns*/) noexcept override {}
+    [[nodiscard]] std::unique_ptr<hal::ClockThread> start(std::function<void()> /*work*/) override { return nullptr; }
+
+    std::uint64_t ns = 1'000'000'000;
+};
+
+std::string machine_with(const std::string& keys) {
+    return "[path]\nmax_feed_mm_s = 80\n[lines]\nchip = '/dev/gpiochip0'\n[spindle]\nmax_rpm = 10000\nspin_up_s = 2\n"
+           "spin_down_s = 3\nat_speed_timeout_s = 4\nenable = { line = 'ON', active = 'low' }\n" +
+           keys + "\n[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n";
+}
+
+struct Bench {
+    explicit Bench(const std::string& keys)
+        : machine(parse_machine(machine_with(keys), "m.toml")), chips(machine.lines),
+          spindle(*machine.spindle->lines, machine.lines, machine.spindle->at_speed_timeout_s, chips.all, clock) {}
+
+    void pass_ms(int ms) {
+        for (int i = 0; i < ms; ++i) {
+            clock.ns += 1'000'000;
+            spindle.update();
+        }
+    }
+    [[nodiscard]] std::uint64_t levels() const {
+        return chips.chip[0]->rows().empty() ? off : chips.chip[0]->rows().back().levels;
+    }
+    void at_speed(bool acts) { chips.inputs[0]->now = acts ? 1 : 0; }
+
+    static constexpr std::uint64_t off = 1; // the line that turns it on is low when it acts
+    static constexpr std::uint64_t reverse = 2;
+
+    SetClock clock;
+    MachineDescription machine;
+    RecordedChips chips;
+    LineSpindle spindle;
+};
+
+const std::string reverse_line = "reverse = { line = 'REV' }\n";
+const std::string at_speed_line = "at_speed = { line = 'OK' }\n";
+
+} // namespace
+
+TEST_CASE("A spindle on a line is on at once, and has its speed after its time", "[line spindle]") {
+    Bench bench("");
+    CHECK(bench.spindle.stands());
+    CHECK(bench.spindle.reached());
+    bench.spindle.order(1, 5000.0);
+    CHECK(bench.levels() == 0);
+    CHECK_FALSE(bench.spindle.reached());
+    CHECK_FALSE(bench.spindle.stands());
+    bench.pass_ms(1999);
+    CHECK_FALSE(bench.spindle.reached());
+    bench.pass_ms(1);
+    CHECK(bench.spindle.reached());
+    bench.spindle.order(1, 8000.0); // its speed is set elsewhere
+    CHECK(bench.spindle.reached());
+    bench.spindle.order(0, 0.0);
+    CHECK(bench.levels() == Bench::off);
+    CHECK(bench.spindle.reached());
+    CHECK_FALSE(bench.spindle.stands());
+    bench.spindle.order(1, 5000.0); // the same direction: it does not wait for standstill
+    bench.pass_ms(1);
+    CHECK(bench.levels() == 0);
+    bench.spindle.order(0, 0.0);
+    bench.pass_ms(2999);
+    CHECK_FALSE(bench.spindle.stands());
+    bench.pass_ms(1);
+    CHECK(bench.spindle.stands());
+    CHECK(bench.spindle.trouble().empty());
+}
+
+TEST_CASE("It stands before it turns in the other direction, and before its first turn", "[line spindle]") {
+    Bench bench(reverse_line);
+    bench.spindle.order(-1, 5000.0);
+    bench.pass_ms(2900); // it may have turned before the run
+    CHECK(bench.levels() == Bench::off);
+    bench.pass_ms(110);
+    CHECK(bench.levels() == (Bench::off | Bench::reverse)); // first the direction
+    bench.pass_ms(60);
+    CHECK(bench.levels() == Bench::reverse);
+    bench.pass_ms(2000);
+    REQUIRE(bench.spindle.reached());
+    bench.spindle.order(1, 5000.0);
+    CHECK(bench.levels() == (Bench::off | Bench::reverse));
+    bench.pass_ms(2990);
+    CHECK(bench.levels() == (Bench::off | Bench::reverse));
+    CHECK_FALSE(bench.spindle.reached());
+    bench.pass_ms(100);
+    CHECK(bench.levels() == 0);
+}
+
+TEST_CASE("The line at_speed is waited for, and its loss is trouble", "[line spindle]") {
+    Bench bench(at_speed_line);
+    bench.at_speed(true); // it cannot be right yet
+    bench.spindle.order(1, 5000.0);
+    bench.pass_ms(1000);
+    CHECK_FALSE(bench.spindle.reached());
+    bench.at_speed(false);
+    bench.pass_ms(2000);
+    CHECK_FALSE(bench.spindle.reached());
+    SECTION("it never acts") {
+        bench.pass_ms(3100);
+        CHECK(bench.spindle.trouble() ==
+              "the spindle has not reached its speed in 6 s: its line at_speed does not act");
+    }
+    SECTION("it acts, and is lost") {
+        bench.at_speed(true);
+        bench.pass_ms(1);
+        REQUIRE(bench.spindle.reached());
+        bench.at_speed(false);
+        bench.pass_ms(50); // a bounce
+        bench.at_speed(true);
+        bench.pass_ms(50);
+        CHECK(bench.spindle.trouble().empty());
+        bench.at_speed(false);
+        bench.pass_ms(110);
+        CHECK(bench.spindle.trouble() == "the spindle has lost its speed: its line at_speed does not act any more");
+    }
+    SECTION("it cannot be read") {
+        bench.chips.inputs[0]->now.reset();
+        bench.pass_ms(1);
+        CHECK(bench.spindle.trouble().rfind("the spindle's at_speed line cannot be read", 0) == 0);
+    }
+    CHECK(bench.levels() == Bench::off);
+    bench.spindle.order(1, 5000.0);
+    bench.pass_ms(100);
+    CHECK(bench.levels() == Bench::off);
+    CHECK_FALSE(bench.spindle.reached());
+}
+
+TEST_CASE("Once it was ended it is never turned on again", "[line spindle]") {
+    Bench bench("");
+    bench.spindle.order(1, 5000.0);
+    bench.pass_ms(2500);
+    bench.spindle.end();
+    CHECK(bench.levels() == Bench::off);
+    CHECK_FALSE(bench.spindle.stands());
+    bench.spindle.order(1, 5000.0);
+    bench.pass_ms(2990);
+    CHECK_FALSE(bench.spindle.stands());
+    bench.spindle.end();
+    bench.pass_ms(20);
+    CHECK(bench.levels() == Bench::off);
+    CHECK(bench.spindle.stands());
+    CHECK_FALSE(bench.spindle.reached());
+}
+
+TEST_CASE("A line of the spindle that cannot be set is trouble that names it", "[line spindle]") {
+    Bench bench("");
+    bench.chips.chip[0]->fail_after(1);
+    bench.spindle.order(1, 5000.0);
+    CHECK(bench.spindle.trouble() == "/dev/gpiochip0 ON cannot be set: No such device");
+    CHECK_FALSE(bench.spindle.reached());
+}

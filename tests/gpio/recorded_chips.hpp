@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The lines that a program switches, on chips that record, and inputs that act when a test says so.
+#pragma once
+
+#include "host_sim/target/gpio/program_chips.hpp"
+#include "recording_writer.hpp"
+
+namespace splinefeed_test {
+
+class SetInputs final : public splinefeed::hal::gpio::InputSource {
+public:
+    [[nodiscard]] std::optional<std::uint64_t> levels() noexcept override { return now; }
+    [[nodiscard]] int wait(std::span<splinefeed::hal::gpio::InputEvent> /*out*/,
+                           std::uint32_t /*timeout_us*/) noexcept override {
+        return 0;
+    }
+
+    std::optional<std::uint64_t> now = 0;
+};
+
+struct RecordedChips {
+    explicit RecordedChips(const splinefeed::host::ProgramLines& lines) {
+        for (const splinefeed::hal::gpio::ChipLines& of : lines.chips) {
+            auto writer = std::make_shared<RecordingWriter>();
+            std::uint64_t levels = 0;
+            for (std::size_t i = 0; i < of.outputs.size(); ++i) {
+                levels |= std::uint64_t{of.outputs[i].safe_level ? 1U : 0U} << i;
+            }
+            writer->begin_with(levels);
+            chip.push_back(writer.get());
+            all.writer.push_back(writer);
+            auto source = std::make_shared<SetInputs>();
+            inputs.push_back(source.get());
+            all.source.push_back(source);
+        }
+    }
+
+    splinefeed::host::ProgramChips all;
+    std::vector<RecordingWriter*> chip;
+    std::vector<SetInputs*> inputs;
+};
+
+} // namespace splinefeed_test

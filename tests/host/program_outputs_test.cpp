@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// ProgramOutputs under Supervision: when a spindle and switches get their orders, and when they end.
+#include "host_sim/target/program_outputs.hpp"
+
+#include "support/catch.hpp"
+#include "talking_target.hpp"
+
+#include <algorithm>
+
+using namespace splinefeed_test;
+
+namespace {
+
+class TalkingSwitches final : public RunSwitches {
+public:
+    explicit TalkingSwitches(TalkingTarget& target) : target_(&target) {}
+    void act(EventKind kind, std::int32_t number) override {
+        target_->said(std::string(action_name(kind)) + " " + std::to_string(number));
+    }
+    void end() noexcept override {
+        if (!ended.exchange(true)) {
+            target_->said("switches end");
+        }
+    }
+    [[nodiscard]] std::string trouble() const override { return lost ? "a line is lost" : ""; }
+
+    std::atomic<bool> ended{false};
+    std::atomic<bool> lost{false};
+
+private:
+    TalkingTarget* target_;
+};
+
+/// It says to the target what it was told.
+class TalkingSpindle final : public RunSpindle {
+public:
+    explicit TalkingSpindle(TalkingTarget& target) : target_(&target) {}
+
+    void order(int direction, double rpm) override {
+        target_->said("spindle " + std::to_string(direction) + " " + std::to_string(static_cast<int>(rpm)));
+    }
+    void end() override {
+        if (!ended.exchange(true)) {
+            target_->said("spindle ends");
+        }
+    }
+    [[nodiscard]] bool reached() const override { return is_reached; }
+    [[nodiscard]] bool stands() const override { return is_still; }
+    [[nodiscard]] std::string trouble() const override { return lost ? "no answer" : ""; }
+    [[nodiscard]] double stop_timeout_s() const override { return 0.05; }
+
+    std::atomic<bool> ended{false};
+    std::atomic<bool> is_reached{false};
+    std::atomic<bool> is_still{true};
+    std::atomic<bool> lost{false};
+
+private:
+    TalkingTarget* target_;
+};
+
+/// A machine with a spindle, or with switches.
+template <class Output>
+struct With {
+    explicit With(TalkingTarget& target) {
+        auto made = std::make_unique<Output>(target);
+        output = made.get();
+        if constexpr (std::is_same_v<Output, TalkingSpindle>) {
+            outputs = std::make_unique<ProgramOutputs>(std::move(made), nullptr);
+        } else {
+            outputs = std::make_unique<ProgramOutputs>(nullptr, std::move(made));
+        }
+    }
+    Output* output;
+    std::unique_ptr<ProgramOutputs> outputs;
+};
+
+ProgramAction turn(int direction, double rpm) {
+    ProgramAction action;
+    action.kind = EventKind::spindle_clockwise;
+    action.spindle = SpindleTurn{direction, rpm};
+    return action;
+}
+
+ProgramAction switching(EventKind kind, std::int32_t number = 0) {
+    ProgramAction action;
+    action.kind = kind;
+    action.number = number;
+    return action;
+}
+
+} // namespace
+
+TEST_CASE("a spindle gets its order when the machine has come to its place", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingSpindle> machine(target);
+    TalkingSpindle& spindle = *machine.output;
+    Supervision supervision(target, signals, machine.outputs.get());
+    target.executed = 1000; // on the way to the references
+    REQUIRE(supervision.submit(segment(0)));
+    supervision.order(turn(1, 12000.0), true);
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    target.executed = 1002; // the segment, and the first of standstill
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(target.told() == Told{"prepare", "segment 0"});
+    target.executed = 1003;
+    CHECK(comes([&] { return target.told().back() == "spindle 1 12000"; }));
+    CHECK_FALSE(supervision.carried_out());
+    spindle.is_reached = true;
+    CHECK(supervision.carried_out());
+    CHECK(supervision.finish());
+    CHECK(target.told() == Told{"prepare", "segment 0", "spindle 1 12000", "complete", "spindle ends", "finish"});
+}
+
+TEST_CASE("trouble of a spindle holds the motion and ends the run", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingSpindle> machine(target);
+    TalkingSpindle& spindle = *machine.output;
+    Supervision supervision(target, signals, machine.outputs.get());
+    REQUIRE(supervision.submit(segment(0)));
+    spindle.is_still = false;
+    spindle.lost = true;
+    REQUIRE(comes([&] { return supervision.over(); }));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() ==
+          "no answer; held; the spindle did not confirm that it stands and may still turn; there");
+    const Told told = target.told();
+    CHECK(std::find(told.begin(), told.end(), "hold") < std::find(told.begin(), told.end(), "spindle ends"));
+}
+
+TEST_CASE("a second signal and a fault end the spindle first of all", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingSpindle> machine(target);
+    TalkingSpindle& spindle = *machine.output;
+    Supervision supervision(target, signals, machine.outputs.get());
+    SECTION("the second signal") {
+        target.halts = false;
+        REQUIRE(supervision.submit(segment(0)));
+        REQUIRE(comes([&] { return target.told().size() == 2; }));
+        request(1);
+        REQUIRE(comes([&] { return target.told().back() == "hold"; }));
+        CHECK_FALSE(spindle.ended);
+        supervision.order(turn(1, 12000.0), true); // nothing is started any more
+        target.executed = 10;
+        request(2);
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK_FALSE(supervision.finish());
+        CHECK(target.told() == Told{"prepare", "segment 0", "hold", "spindle ends", "quick stop", "finish"});
+    }
+    SECTION("a fault") {
+        REQUIRE(supervision.submit(segment(0)));
+        REQUIRE(comes([&] { return target.told().size() == 2; }));
+        target.phase = hal::PortPhase::fault;
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK_FALSE(supervision.finish());
+        CHECK(target.told().at(2) == "spindle ends");
+        CHECK(supervision.ending() == "a fault; there");
+    }
+}
+
+TEST_CASE("a program whose spindle does not come to a standstill has not succeeded", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingSpindle> machine(target);
+    TalkingSpindle& spindle = *machine.output;
+    Supervision supervision(target, signals, machine.outputs.get());
+    spindle.is_still = false;
+    REQUIRE(supervision.submit(segment(0)));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "the spindle did not confirm that it stands and may still turn; there");
+}
+
+TEST_CASE("a spindle that may still turn is told whatever ended the run", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingSpindle> machine(target);
+    TalkingSpindle& spindle = *machine.output;
+    Supervision supervision(target, signals, machine.outputs.get());
+    spindle.is_still = false;
+    REQUIRE(supervision.submit(segment(0)));
+    target.breaks = true;
+    REQUIRE(comes([&] { return supervision.over(); }));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "it broke; the spindle did not confirm that it stands and may still turn");
+    const Told told = target.told();
+    CHECK(std::find(told.begin(), told.end(), "spindle ends") < std::find(told.begin(), told.end(), "quick stop"));
+}
+
+TEST_CASE("switches act in order when the machine has come to their place, and end with the run", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingSwitches> machine(target);
+    Supervision supervision(target, signals, machine.outputs.get());
+    REQUIRE(supervision.submit(segment(0)));
+    supervision.order(switching(EventKind::flood_on), false);
+    supervision.order(switching(EventKind::output_on, 3), false);
+    REQUIRE(supervision.submit(segment(1)));
+    supervision.order(switching(EventKind::coolant_off), false);
+    REQUIRE(comes([&] { return target.told().size() == 3; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(target.told().size() == 3);
+    CHECK_FALSE(supervision.carried_out());
+    target.executed = 1;
+    CHECK(comes([&] { return target.told().size() == 5; }));
+    target.executed = 2;
+    CHECK(comes([&] { return target.told().size() == 6; }));
+    CHECK(supervision.carried_out());
+    CHECK(supervision.finish());
+    CHECK(target.told() == Told{"prepare", "segment 0", "segment 1", "flood_on 0", "output_on 3", "coolant_off 0",
+                                "complete", "switches end", "finish"});
+}
+
+TEST_CASE("trouble of a line holds the motion and ends the run; nothing is switched after a signal", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingSwitches> machine(target);
+    Supervision supervision(target, signals, machine.outputs.get());
+    REQUIRE(supervision.submit(segment(0)));
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    SECTION("trouble") {
+        machine.output->lost = true;
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK_FALSE(supervision.finish());
+        CHECK(supervision.ending() == "a line is lost; held; there");
+        CHECK(target.told() == Told{"prepare", "segment 0", "hold", "switches end", "finish"});
+    }
+    SECTION("a signal") {
+        target.halts = false;
+        request(1);
+        REQUIRE(comes([&] { return target.told().back() == "hold"; }));
+        supervision.order(switching(EventKind::mist_on), false);
+        target.executed = 10;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        CHECK(target.told().back() == "hold"); // and what is on stays on, until the machine stands
+        target.phase = hal::PortPhase::halted;
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK(target.told() == Told{"prepare", "segment 0", "hold", "switches end", "finish"});
+    }
+    SECTION("a fault") {
+        target.phase = hal::PortPhase::fault;
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK(target.told() == Told{"prepare", "segment 0", "switches end", "finish"});
+    }
+}

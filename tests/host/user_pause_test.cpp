@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/run/user_pause.hpp"
+
+#include "support/catch.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <fcntl.h>
+#include <string_view>
+#include <thread>
+#include <unistd.h>
+
+using namespace splinefeed::host;
+
+namespace {
+
+/// A terminal, and the keyboard at it.
+struct Terminal {
+    Terminal() : keyboard(posix_openpt(O_RDWR | O_NOCTTY)) {
+        REQUIRE(keyboard >= 0);
+        REQUIRE(grantpt(keyboard) == 0);
+        REQUIRE(unlockpt(keyboard) == 0);
+        screen = open(ptsname(keyboard), O_RDWR | O_NOCTTY);
+        REQUIRE(screen >= 0);
+    }
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
+    ~Terminal() {
+        close(screen);
+        close(keyboard);
+    }
+    void type(std::string_view keys) const {
+        REQUIRE(write(keyboard, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
+    }
+
+    int keyboard;
+    int screen = -1;
+};
+
+bool answers(UserPause& pause) {
+    for (int i = 0; i < 200 && !pause.answered(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return pause.answered();
+}
+
+} // namespace
+
+TEST_CASE("Enter on the terminal goes on, and what was typed before does not") {
+    const Terminal terminal;
+    UserPause pause(terminal.screen);
+    terminal.type("before\n");
+    pause.ask("line 1: M0");
+    CHECK_FALSE(answers(pause));
+    terminal.type("y"); // no whole line
+    CHECK_FALSE(answers(pause));
+    terminal.type("\n");
+    CHECK(answers(pause));
+    pause.ask("line 2: M0");
+    CHECK_FALSE(answers(pause));
+}
+
+TEST_CASE("A signal goes on, with a terminal and without one, and one from before does not") {
+    const Terminal terminal;
+    for (const int from : {-1, terminal.screen}) {
+        UserPause pause(from);
+        pause.go_on();
+        pause.ask("line 1: M6, tool 3");
+        CHECK_FALSE(pause.answered());
+        pause.go_on();
+        CHECK(pause.answered());
+    }
+}
+
+TEST_CASE("A file or a pipe is no terminal: what stands in it is not read") {
+    const int file = open("/dev/zero", O_RDONLY);
+    UserPause pause(file);
+    pause.ask("line 1: M0");
+    CHECK_FALSE(pause.answered());
+    close(file);
+}

@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Programs that wait for their user, on a simulated drive: the axes stand at the place of M0, M1 and M6 until the user goes on, by a
+signal or by Enter on the terminal, and a run that waits can be ended.
+
+pause_runs.py TOOL"""
+import os
+import pty
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from drive_processes import Drive
+
+STEPS = 320
+PROGRAM = """G21 G90 G64
+G1 X20 F3000
+(MSG,a message does not hide the stop)
+M0
+X40
+M1
+T3 M6
+X60
+M2
+"""
+MACHINE = """[path]
+max_feed_mm_s = 100
+[[axis]]
+name = "x"
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+steps_per_mm = 320
+drive = "{drive}"
+"""
+WAITS_S = 1.0
+
+
+class Run:
+    """answers: for each question a function of the run, in order."""
+
+    def __init__(self, tool, folder, answers, terminal=False, options=()):
+        self.drive = Drive(tool, folder, 0, 1)
+        with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
+            file.write(MACHINE.format(drive=self.drive.tcp_address()))
+        with open(os.path.join(folder, "part.ngc"), "w", encoding="ascii") as file:
+            file.write(PROGRAM)
+        self.keyboard, screen = pty.openpty() if terminal else (None, subprocess.DEVNULL)
+        self.process = subprocess.Popen([tool, "run", "part.ngc", "-m", "machine.toml", "--target", "modbus", *options], cwd=folder,
+                                        stdin=screen, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.questions = []
+        self.errors = ""
+        for line in self.process.stderr:
+            self.errors += line
+            if "to go on" in line:
+                self.questions.append(line)
+                time.sleep(WAITS_S)
+                if len(self.questions) <= len(answers):
+                    answers[len(self.questions) - 1](self)
+        self.status = self.process.wait(timeout=60)
+        self.drive.stop()
+        self.x = [row[1] / STEPS for row in self.drive.shaft_rows()]
+
+    def go_on(self):
+        self.process.send_signal(signal.SIGUSR2)
+
+    def enter(self):
+        os.write(self.keyboard, b"\n")
+
+    def end(self):
+        self.process.send_signal(signal.SIGTERM)
+
+    def stands_ms(self, mm):
+        """Rows of the record are milliseconds."""
+        return sum(1 for x in self.x if abs(x - mm) < 0.01)
+
+    def expect(self, status, ends_mm, stands, *questions):
+        problems = [] if self.status == status else [f"exit status {self.status}: {self.errors}"]
+        if abs(self.x[-1] - ends_mm) > 0.01:
+            problems.append(f"it ends at {self.x[-1]:.3f} mm")
+        problems += [f"it stands at {mm} mm for {self.stands_ms(mm)} ms" for mm in stands if self.stands_ms(mm) < 900 * WAITS_S]
+        if len(questions) != len(self.questions) or any(a not in b for a, b in zip(questions, self.questions)):
+            problems.append(f"it asks {self.questions}")
+        return problems
+
+
+def by_signal(tool, folder):
+    run = Run(tool, folder, [Run.go_on, Run.go_on])
+    problems = run.expect(0, 60, [20, 40], "line 4: M0; to go on kill -USR2 ", "line 7: M6, change to tool 3; to go on kill -USR2 ")
+    return problems
+
+
+def optional(tool, folder):
+    run = Run(tool, folder, [Run.go_on, Run.go_on, Run.go_on], options=["--optional-stop"])
+    return run.expect(0, 60, [20, 40], "line 4: M0;", "line 6: M1;", "line 7: M6, change to tool 3;")
+
+
+def by_enter(tool, folder):
+    run = Run(tool, folder, [Run.enter, Run.enter], terminal=True)
+    return run.expect(0, 60, [20, 40], "line 4: M0; to go on press Enter, or kill -USR2 ", "line 7: M6,")
+
+
+def ended(tool, folder):
+    run = Run(tool, folder, [Run.go_on, Run.end])
+    return run.expect(1, 40, [20, 40], "line 4: M0;", "line 7: M6,")
+
+
+def main():
+    tool = os.path.abspath(sys.argv[1])
+    problems = []
+    for case in (by_signal, optional, by_enter, ended):
+        if len(sys.argv) > 2 and case.__name__ not in sys.argv[2:]:
+            continue
+        with tempfile.TemporaryDirectory(prefix="splinefeed-pause-") as folder:
+            found = case(tool, folder)
+        print(f"{case.__name__}: {len(found) or 'no'} problems", flush=True)
+        problems += [f"{case.__name__}: {problem}" for problem in found]
+    for problem in problems:
+        print(problem)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
