@@ -31,10 +31,11 @@ endfunction()
 
 foreach(cpu m0 m3 m4f)
     repository_test(arm_link_${cpu} ALONE arm/link_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
+    repository_test(arm_stages_${cpu} arm/stages_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
     repository_test(arm_pulse_${cpu} arm/pulse_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
     repository_test(arm_blend_${cpu} arm/blend_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
     repository_test(arm_gcode_${cpu} arm/gcode_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
-    set_tests_properties(arm_pulse_${cpu} arm_blend_${cpu} arm_gcode_${cpu} PROPERTIES DEPENDS arm_link_${cpu}) # one build
+    set_tests_properties(arm_stages_${cpu} arm_pulse_${cpu} arm_blend_${cpu} arm_gcode_${cpu} PROPERTIES DEPENDS arm_link_${cpu}) # one build
 endforeach()
 repository_test(tidy ALONE tools/tidy.sh)
 repository_test(gpio_vm_runs gpio/vm/runs.sh ${PROJECT_BINARY_DIR})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole pipeline on a microcontroller: plans a small path and prints a hash over every integer of every feed
 // segment. The same source on the host must print the same hash.
+#include "segment_hash.hpp"
 #include "splinefeed/acceleration_planner.hpp"
 #include "splinefeed/bounded_planner.hpp"
 #include "splinefeed/s1_curve/g2_spline.hpp"
@@ -91,31 +92,6 @@ FeedSegment segment;
 
 // Some functions are kept apart from main, so that what they need on the stack is not below the deepest call.
 
-/// FNV-1a, 64 bits, over the bytes of integers in little-endian order.
-class Hash {
-public:
-    void add(std::uint64_t value) {
-        for (int i = 0; i < 8; ++i) {
-            state_ = (state_ ^ (value & 0xffU)) * 0x100000001b3U;
-            value >>= 8;
-        }
-    }
-    [[gnu::noinline]] void add(const FeedSegment& item) {
-        add(item.index);
-        add(item.duration_ticks);
-        add(item.waypoint);
-        for (const auto* values : {&item.start, &item.end, &item.start_velocity, &item.end_velocity}) {
-            for (const std::int64_t value : *values) {
-                add(static_cast<std::uint64_t>(value));
-            }
-        }
-    }
-    [[nodiscard]] std::uint64_t value() const { return state_; }
-
-private:
-    std::uint64_t state_ = 0xcbf29ce484222325U;
-};
-
 [[gnu::noinline]] bool push(G2Spline<Real>& curve, const Point& point) {
     Waypoint<Real> waypoint;
     waypoint.position[0] = position_from_um(point.x_um);
@@ -158,7 +134,7 @@ int main() {
     }
     Trajectory<Real>& trajectory = *made;
 
-    Hash hash;
+    SegmentHash hash;
     std::uint64_t segments = 0;
     std::size_t pushed = 0;
     while (trajectory.state() != Pull::finished) {

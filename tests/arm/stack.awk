@@ -25,7 +25,7 @@ function quoted(line, key) {
     line = substr(line, index(line, key ": \"") + length(key) + 3)
     line = substr(line, 1, index(line, "\"") - 1)
     sub(/^.*:/, "", line)     # local functions: FILE:NAME
-    sub(/EC1E/, "EC2E", line) # a complete object's constructor is its base object's here
+    sub(/C1E/, "C2E", line)   # a complete object's constructor is its base object's here
     return line
 }
 

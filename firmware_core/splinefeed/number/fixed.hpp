@@ -4,44 +4,11 @@
 // nearest, gives the same bits on every target, and can be evaluated by the compiler.
 #pragma once
 
-#include "splinefeed/number/magnitude.hpp"
+#include "splinefeed/number/raw.hpp"
 
 #include <concepts>
 
 namespace splinefeed {
-
-namespace detail {
-
-/// Number of fraction bits of Fixed.
-inline constexpr int fixed_fraction_bits = 32;
-
-/// a * b / 2^32 rounded to nearest, ties away from zero.
-[[nodiscard]] constexpr Checked checked_product(std::int64_t a, std::int64_t b) noexcept {
-    const bool negative = (a ^ b) < 0;
-    // At most 2^126: adding one half cannot overflow.
-    const Wide product = add(multiply(magnitude(a), magnitude(b)), Wide{0U, std::uint64_t{1} << 31});
-    if ((product.high >> 32) != 0) [[unlikely]] {
-        return saturated(negative);
-    }
-    return with_sign((product.high << 32) | (product.low >> 32), negative);
-}
-
-/// a * 2^32 / b rounded to nearest, ties away from zero. Division by zero counts as an overflow; its sign is that of a.
-[[nodiscard]] constexpr Checked checked_quotient(std::int64_t a, std::int64_t b) noexcept {
-    const bool negative = (a ^ b) < 0;
-    const std::uint64_t numerator = magnitude(a);
-    const std::uint64_t denominator = magnitude(b);
-    // With at most half the denominator the quotient has at most 63 bits, so rounding up cannot overflow. The test
-    // excludes only quotients that do not fit anyway, and b = 0.
-    if ((numerator >> 31) > denominator || denominator == 0) [[unlikely]] {
-        return saturated(negative);
-    }
-    const WideQuotient result = divide(Wide{numerator >> 32, numerator << 32}, denominator);
-    const bool up = result.remainder >= denominator - result.remainder;
-    return with_sign(result.quotient + (up ? 1U : 0U), negative);
-}
-
-} // namespace detail
 
 /// The number raw * 2^-32, from -2^31 to 2^31 - 2^-32. One ulp is 2^-32, about 2.3e-10, everywhere.
 ///
@@ -59,13 +26,13 @@ public:
     /// Deleted, because Fixed(1.5) would silently be 1. Use from_double.
     explicit Fixed(std::floating_point auto) = delete;
 
-    [[nodiscard]] static constexpr Fixed from_raw(std::int64_t raw) noexcept {
+    [[nodiscard, gnu::always_inline]] static constexpr Fixed from_raw(std::int64_t raw) noexcept {
         Fixed result;
         result.raw_ = raw;
         return result;
     }
 
-    [[nodiscard]] constexpr std::int64_t raw() const noexcept { return raw_; }
+    [[nodiscard, gnu::always_inline]] constexpr std::int64_t raw() const noexcept { return raw_; }
 
     /// 2^31 - 2^-32.
     [[nodiscard]] static constexpr Fixed max() noexcept { return from_raw(std::numeric_limits<std::int64_t>::max()); }
@@ -104,44 +71,51 @@ public:
 
     [[nodiscard]] constexpr Fixed operator+() const noexcept { return *this; }
 
-    [[nodiscard]] constexpr Fixed operator-() const noexcept { return asserted(detail::checked_difference(0, raw_)); }
-
-    [[nodiscard]] friend constexpr Fixed operator+(Fixed a, Fixed b) noexcept {
-        return asserted(detail::checked_sum(a.raw_, b.raw_));
+    // A broken precondition is asserted apart from the arithmetic, so that the saturated results can be tested in a
+    // debug build as well.
+    [[nodiscard, gnu::always_inline]] constexpr Fixed operator-() const noexcept {
+        SPLINEFEED_ASSERT(detail::checked_difference(0, raw_).fits);
+        return from_raw(detail::difference(0, raw_));
     }
 
-    [[nodiscard]] friend constexpr Fixed operator-(Fixed a, Fixed b) noexcept {
-        return asserted(detail::checked_difference(a.raw_, b.raw_));
+    [[nodiscard, gnu::always_inline]] friend constexpr Fixed operator+(Fixed a, Fixed b) noexcept {
+        SPLINEFEED_ASSERT(detail::checked_sum(a.raw_, b.raw_).fits);
+        return from_raw(detail::sum(a.raw_, b.raw_));
     }
 
-    /// Cost: four 32x32->64 multiplies.
-    [[nodiscard]] friend constexpr Fixed operator*(Fixed a, Fixed b) noexcept {
-        return asserted(detail::checked_product(a.raw_, b.raw_));
+    [[nodiscard, gnu::always_inline]] friend constexpr Fixed operator-(Fixed a, Fixed b) noexcept {
+        SPLINEFEED_ASSERT(detail::checked_difference(a.raw_, b.raw_).fits);
+        return from_raw(detail::difference(a.raw_, b.raw_));
     }
 
-    /// Precondition: b != 0. Cost: two 64/32 divides, or one if |a| < 1.
-    [[nodiscard]] friend constexpr Fixed operator/(Fixed a, Fixed b) noexcept {
-        return asserted(detail::checked_quotient(a.raw_, b.raw_));
+    /// Cost: three 32x32->64 multiplies if both are below 2^15, otherwise four.
+    [[nodiscard, gnu::always_inline]] friend constexpr Fixed operator*(Fixed a, Fixed b) noexcept {
+        SPLINEFEED_ASSERT(detail::checked_product(a.raw_, b.raw_).fits);
+        return from_raw(detail::product(a.raw_, b.raw_));
     }
 
-    constexpr Fixed& operator+=(Fixed other) noexcept { return *this = *this + other; }
+    /// Precondition: b != 0. Cost: thirteen multiplies and a short divide, ten if |a| < |b|.
+    [[nodiscard, gnu::always_inline]] friend constexpr Fixed operator/(Fixed a, Fixed b) noexcept {
+        SPLINEFEED_ASSERT(detail::checked_quotient(a.raw_, b.raw_).fits);
+        return from_raw(detail::quotient(a.raw_, b.raw_));
+    }
 
-    constexpr Fixed& operator-=(Fixed other) noexcept { return *this = *this - other; }
+    [[gnu::always_inline]] constexpr Fixed& operator+=(Fixed other) noexcept { return *this = *this + other; }
 
-    constexpr Fixed& operator*=(Fixed other) noexcept { return *this = *this * other; }
+    [[gnu::always_inline]] constexpr Fixed& operator-=(Fixed other) noexcept { return *this = *this - other; }
 
-    constexpr Fixed& operator/=(Fixed other) noexcept { return *this = *this / other; }
+    [[gnu::always_inline]] constexpr Fixed& operator*=(Fixed other) noexcept { return *this = *this * other; }
 
-    friend constexpr bool operator==(const Fixed&, const Fixed&) noexcept = default;
-    friend constexpr auto operator<=>(const Fixed&, const Fixed&) noexcept = default;
+    [[gnu::always_inline]] constexpr Fixed& operator/=(Fixed other) noexcept { return *this = *this / other; }
+
+    [[nodiscard]] friend constexpr bool operator==(Fixed a, Fixed b) noexcept { return a.raw_ == b.raw_; }
+    // One by one: compilers make <=> and a comparison of its result where this is one comparison.
+    [[nodiscard]] friend constexpr bool operator<(Fixed a, Fixed b) noexcept { return a.raw_ < b.raw_; }
+    [[nodiscard]] friend constexpr bool operator>(Fixed a, Fixed b) noexcept { return a.raw_ > b.raw_; }
+    [[nodiscard]] friend constexpr bool operator<=(Fixed a, Fixed b) noexcept { return a.raw_ <= b.raw_; }
+    [[nodiscard]] friend constexpr bool operator>=(Fixed a, Fixed b) noexcept { return a.raw_ >= b.raw_; }
 
 private:
-    /// A separate step after the arithmetic, so that the saturated results can be tested in a debug build as well.
-    [[nodiscard]] static constexpr Fixed asserted(detail::Checked result) noexcept {
-        SPLINEFEED_ASSERT(result.fits);
-        return from_raw(result.raw);
-    }
-
     std::int64_t raw_ = 0;
 };
 

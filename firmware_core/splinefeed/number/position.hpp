@@ -27,8 +27,7 @@ template <Scalar S>
     SPLINEFEED_ASSERT(difference.fits);
     if constexpr (std::same_as<S, Fixed>) {
         return Fixed::from_raw(
-            detail::checked_shift(difference.raw, detail::fixed_fraction_bits - Position::fraction_bits - unit_log2)
-                .raw);
+            detail::shifted(difference.raw, detail::fixed_fraction_bits - Position::fraction_bits - unit_log2));
     } else {
         return detail::from_integer_scaled<S>(difference.raw, -unit_log2 - Position::fraction_bits);
     }

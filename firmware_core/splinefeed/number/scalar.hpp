@@ -103,8 +103,8 @@ template <Floating S>
 }
 
 /// x * 2^exponent rounded to nearest, ties away from zero: error <= 1/2 ulp. Saturates. Any exponent is allowed.
-[[nodiscard]] constexpr Fixed scale2(Fixed x, int exponent) noexcept {
-    return Fixed::from_raw(detail::checked_shift(x.raw(), exponent).raw);
+[[nodiscard, gnu::always_inline]] constexpr Fixed scale2(Fixed x, int exponent) noexcept {
+    return Fixed::from_raw(detail::shifted(x.raw(), exponent));
 }
 
 /// x|, exact. Fixed::lowest() has no positive counterpart: it overflows to the largest number.
@@ -144,7 +144,7 @@ template <Floating S>
 /// a / b for a >= 0 and b >= 0; the largest number if b is zero or the quotient does not fit. Error <= 1/2 ulp.
 [[nodiscard]] constexpr Fixed quotient_or_max(Fixed a, Fixed b) noexcept {
     SPLINEFEED_ASSERT(a.raw() >= 0 && b.raw() >= 0);
-    return Fixed::from_raw(detail::checked_quotient(a.raw(), b.raw()).raw);
+    return Fixed::from_raw(detail::quotient(a.raw(), b.raw()));
 }
 
 // ---- conversions
