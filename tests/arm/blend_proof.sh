@@ -14,7 +14,7 @@ output=$(run "$image" -icount shift=4,sleep=off)
 echo "$output"
 as_host 3 '^hash of [a-z_]+ +0x' "$output" blended_path
 if [[ $cpu == cortex-m4f ]]; then
-    at_most corner 45000 "$output"
-    at_most joint 280000 "$output"
-    at_most chained_point 365000 "$output"
+    at_most corner 40300 "$output"
+    at_most joint 199000 "$output"
+    at_most chained_point 253500 "$output"
 fi
