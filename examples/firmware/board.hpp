@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What the firmware needs from a board. One file gives it: boards/NAME.hpp, which the build names as FIRMWARE_BOARD.
+//
+//   namespace board {
+//   constexpr const char* name;
+//   using Real = splinefeed::Fixed;            // or float
+//   constexpr unsigned tick_us;                // period of the interrupt; longer than a byte on the line lasts
+//   constexpr unsigned steps_per_s;            // of the fastest axis; below half a step a tick
+//   constexpr std::size_t window;              // cells of look-ahead, 10 or more
+//   constexpr std::size_t parts;               // milliseconds of motion in the ring; more than the longest next()
+//   takes constexpr unsigned interrupts;             // vectors after the 16 of the processor constexpr unsigned
+//   timer_interrupt;        // which one of them is the tick void start();                              // clock, pins,
+//   UART; the drives are off void start_timer();                        // from here on the timer's vector is called
+//   every tick_us void start_watchdog();                     // a reset half a second after the last feed_watchdog()
+//   void acknowledge_tick();
+//   void feed_watchdog();
+//   bool watchdog_bit();                       // this start is the watchdog's work
+//   void write_lines(firmware::Lines lines);   // all step and direction lines
+//   void enable_drives(bool on);
+//   firmware::Inputs read_inputs();
+//   int read_byte();                           // a byte, Serial::nothing or Serial::lost
+//   bool write_byte(std::uint8_t byte);        // false: the UART has no room now
+//   }
+#pragma once
+
+#include "serial.hpp"
+#include "step_generator.hpp"
+
+#include FIRMWARE_BOARD

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The machine that the firmware moves: change this file for yours. machine.toml says the same to the tool on a PC.
+#pragma once
+
+#include "board.hpp"
+
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
+
+namespace firmware {
+
+using board::Real;
+
+inline constexpr unsigned axes = 3;
+
+inline constexpr splinefeed::MachineSettings machine = [] {
+    splinefeed::MachineSettings settings;
+    settings.axes = static_cast<int>(axes);
+    const double steps_per_mm[] = {80.0, 80.0, 400.0};
+    const double acceleration[] = {1000.0, 1000.0, 200.0};
+    for (unsigned k = 0; k < axes; ++k) {
+        settings.axis[k].steps_per_mm = steps_per_mm[k];
+        settings.axis[k].max_velocity_mm_s = board::steps_per_s / steps_per_mm[k];
+        settings.axis[k].max_acceleration_mm_s2 = acceleration[k];
+    }
+    settings.max_feed_mm_s = 100.0;
+    return settings;
+}();
+
+// At compile time: the chip does no arithmetic in double.
+inline constexpr splinefeed::Result<splinefeed::MotionLimits<Real>> limits =
+    splinefeed::MotionLimits<Real>::make(machine);
+static_assert(limits.has_value(), "MotionLimits::make says which number is out of range");
+
+inline constexpr std::uint32_t tick_ticks = board::tick_us * splinefeed::ticks_per_us;
+static_assert(limits->segment_ticks % tick_ticks == 0 && limits->segment_ticks / tick_ticks <= 1024,
+              "a segment is one part: a whole number of ticks");
+static_assert(board::steps_per_s * std::uint64_t{board::tick_us} < 500'000, "TickDda: below half a step a tick");
+
+/// The ring is to be half full before a motion begins; the last 64 parts are kept to slow down over.
+inline constexpr Lookahead lookahead = [] {
+    Lookahead ahead;
+    while (ahead.reserve_log2 < 6 && (2U << ahead.reserve_log2) <= board::parts / 2) {
+        ++ahead.reserve_log2;
+    }
+    ahead.start = static_cast<unsigned>(board::parts) * 3 / 4;
+    ahead.slew = (StepGenerator<axes>::full_rate / 2 * tick_ticks / limits->segment_ticks) >> ahead.reserve_log2;
+    return ahead;
+}();
+static_assert(lookahead.slew > 0);
+
+} // namespace firmware

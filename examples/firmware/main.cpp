@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Reference firmware: waypoints by a serial line, steps by a timer's interrupt. docs/how-to/port_to_a_board.md
+//
+//   host ── UART ── Serial ── Console ── Motion ──────── ring of parts ── StepGenerator ── pins
+//                   (tick)    └──────── main loop ────┘                   (tick)
+#include "console.hpp"
+#include "startup.hpp"
+
+namespace firmware {
+
+namespace {
+
+// Built in main: their bytes start as zeros, and no constructor runs before main.
+splinefeed::Slot<std::array<MotionPart, board::parts + 1>> parts;
+splinefeed::Slot<Steps> steps;
+splinefeed::Slot<Serial> serial;
+splinefeed::Slot<Motion> motion;
+
+} // namespace
+
+void on_tick() {
+    board::acknowledge_tick();
+    const Inputs inputs = board::read_inputs();
+    if (inputs.estop) {
+        board::enable_drives(false);
+    }
+    steps->tick(inputs, board::write_lines);
+    serial->poll(board::read_byte, board::write_byte);
+}
+
+} // namespace firmware
+
+int main() {
+    using namespace firmware;
+    board::start();
+    Steps& generator = steps.build(parts.build(), lookahead);
+    Serial& line = serial.build();
+    Motion& planner = motion.build(generator);
+    Console console(line, planner);
+    board::start_timer();
+    board::start_watchdog();
+    console.greet();
+    std::uint32_t ticks = generator.ticks();
+    while (!console.stalled()) {
+        if (ticks != generator.ticks()) { // the timer runs, and so does this loop
+            ticks = generator.ticks();
+            board::feed_watchdog();
+        }
+        console.poll();
+        planner.plan();
+    }
+    for (;;) {
+    }
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// StepGenerator: the part of the firmware that runs in the timer's interrupt. It takes parts of motion from a ring and
+// makes steps of them; it stops at once for an emergency stop, and along the path for a limit switch or where the ring
+// runs out.
+#pragma once
+
+#include "step_shaper.hpp"
+
+#include "splinefeed/base/spsc_ring.hpp"
+#include "splinefeed/s5_pulse_train/tick_dda.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <span>
+
+namespace firmware {
+
+using splinefeed::PerAxis;
+
+/// A feed segment, in the form of the interrupt.
+struct MotionPart {
+    splinefeed::TickPart ticks;
+    PerAxis<std::int32_t> end{}; ///< position at its end [counts]
+    bool rest = false;           ///< the machine stands at its end
+};
+
+struct Inputs {
+    bool estop = false;
+    bool limit = false;
+};
+
+enum class Stop : std::uint8_t { none, estop, limit };
+
+/// How much motion has to lie ahead, in parts of equal duration.
+struct Lookahead {
+    unsigned start = 1;        ///< a motion begins when the ring holds so many, or a standstill
+    unsigned reserve_log2 = 0; ///< 2^this many parts, at most 64: with fewer the motion slows down
+    std::uint32_t slew = 1;    ///< change of the rate in a tick: 2^16 / (2 * ticks of the reserve)
+};
+
+/// The time of the motion runs at a rate of its own, sigma, 2^16 at most. While no standstill lies ahead in the ring,
+///
+///     sigma = min(1, sqrt(R / S)),   R: parts ahead, S: the reserve,   rising by 1 / (2 S) at most,
+///
+/// so a machine whose planner is late slows down along the path with v / (2 S) and stands where the ring ends; nothing
+/// is lost, and when parts come again it speeds up again. (docs/reference/pvt_map.md has the same law.) A limit switch
+/// lets sigma fall to 0 by the same slope.
+///
+/// tick() belongs to the interrupt; all other functions belong to the main loop.
+template <unsigned Axes>
+class StepGenerator {
+public:
+    using Part = MotionPart;
+    static constexpr std::uint32_t full_rate = 1U << 16;
+
+    constexpr StepGenerator(std::span<Part> storage, const Lookahead& lookahead) noexcept
+        : ring_(storage), lookahead_(lookahead) {}
+
+    /// One tick. `write(lines)` comes first: the levels were computed in the tick before, so edges do not wait for
+    /// computations.
+    template <class Write>
+    void tick(const Inputs& inputs, Write&& write) noexcept {
+        ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+        if (inputs.estop) {
+            end_with(Stop::estop);
+            shaper_.clear();
+            out_.step = 0;
+        }
+        write(out_);
+        count_steps();
+        if (!inputs.limit) {
+            limit_armed_ = true;
+        } else if (limit_armed_ && moving_) { // a machine that stands on a switch may move off it
+            limit_armed_ = false;
+            stopping_ = true;
+        }
+        out_ = shaper_.next(advance());
+        active_.store(moving_ || out_.step != 0 || !shaper_.empty(), std::memory_order_release);
+    }
+
+    /// For the writer of the ring.
+    [[nodiscard]] std::size_t room() const noexcept { return ring_.room(); }
+    /// Parts that lie ahead.
+    [[nodiscard]] std::size_t level() const noexcept { return ring_.size(); }
+    /// Adds a part. @pre room() > 0
+    void push(const Part& part) noexcept {
+        if (part.rest) { // before the part: it must not be seen without its mark
+            rests_pushed_.store(rests_pushed_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+        }
+        ring_.push(part);
+    }
+
+    /// Whether steps are made, or still will be: false at standstill, also where the ring ran out.
+    [[nodiscard]] bool active() const noexcept { return active_.load(std::memory_order_acquire); }
+    /// What stopped the machine: then it needs restart() to move again.
+    [[nodiscard]] Stop stopped() const noexcept { return stop_.load(std::memory_order_acquire); }
+    /// How many times the ring ran out in a motion.
+    [[nodiscard]] std::uint32_t underruns() const noexcept { return underruns_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::uint32_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
+    /// Where the machine stands: the pulses that were written, counted.
+    [[nodiscard]] std::int32_t count(unsigned axis) const noexcept {
+        return count_[axis].load(std::memory_order_relaxed);
+    }
+
+    /// Empties the ring, and forgets what stopped the machine. @pre not active(), and stopped() or the ring is empty
+    void restart() noexcept {
+        ring_.clear();
+        rests_passed_ = rests_pushed_.load(std::memory_order_relaxed);
+        rest_ = true;
+        in_part_ = false;
+        dda_ = {};
+        stand();
+        stop_.store(Stop::none, std::memory_order_release);
+    }
+    /// States where the machine stands. @pre as for restart()
+    void set_counts(const PerAxis<std::int32_t>& counts) noexcept {
+        for (unsigned k = 0; k < Axes; ++k) {
+            count_[k].store(counts[k], std::memory_order_relaxed);
+        }
+        stand();
+    }
+
+private:
+    static constexpr unsigned places_log2 = 6;
+    /// sqrt(i / 64), in 1/2^16.
+    static constexpr std::array<std::uint32_t, 1U << places_log2> roots = [] {
+        std::array<std::uint32_t, 1U << places_log2> table{};
+        std::uint64_t root = 0;
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            while ((root + 1) * (root + 1) <= std::uint64_t{i} << (32 - places_log2)) {
+                ++root;
+            }
+            table[i] = static_cast<std::uint32_t>(root);
+        }
+        return table;
+    }();
+    [[nodiscard]] std::uint32_t rate_at(std::size_t level) const noexcept {
+        const std::size_t place = level << (places_log2 - lookahead_.reserve_log2);
+        return place < roots.size() ? roots[place] : full_rate;
+    }
+
+    void stand() noexcept {
+        PerAxis<std::int32_t> counts{};
+        for (unsigned k = 0; k < Axes; ++k) {
+            counts[k] = count(k);
+        }
+        dda_.stand(counts);
+    }
+    void count_steps() noexcept {
+        if (out_.step == 0) {
+            return;
+        }
+        for (unsigned k = 0; k < Axes; ++k) {
+            if (((out_.step >> k) & 1U) != 0) {
+                count_[k].store(count(k) + (((out_.up >> k) & 1U) != 0 ? 1 : -1), std::memory_order_relaxed);
+            }
+        }
+    }
+    void end_with(Stop reason) noexcept {
+        stopping_ = false;
+        moving_ = false;
+        stop_.store(reason, std::memory_order_relaxed);
+    }
+    [[nodiscard]] bool rest_ahead() const noexcept {
+        return rests_pushed_.load(std::memory_order_acquire) != rests_passed_;
+    }
+
+    /// The steps of a tick, if the motion's time comes to one.
+    splinefeed::StepBits advance() noexcept {
+        if (!moving_) {
+            if (stop_.load(std::memory_order_relaxed) != Stop::none || ring_.empty() ||
+                !(ring_.size() >= lookahead_.start || rest_ahead())) {
+                return {};
+            }
+            moving_ = true;
+            rate_ = 0;
+            phase_ = rest_ ? full_rate : 0; // from standstill the motion begins now, else as slowly as it ended
+        }
+        if (stopping_) {
+            if (rate_ <= lookahead_.slew) {
+                end_with(Stop::limit);
+                return {};
+            }
+            rate_ -= lookahead_.slew;
+        } else {
+            rate_ = rate_ + lookahead_.slew < target_ ? rate_ + lookahead_.slew : target_;
+        }
+        phase_ += rate_;
+        if (phase_ < full_rate) {
+            return {};
+        }
+        phase_ -= full_rate;
+        return dda_.left() > 0 ? dda_.tick() : begin_part();
+    }
+
+    splinefeed::StepBits begin_part() noexcept {
+        if (in_part_ && rest_) {
+            ++rests_passed_;
+        }
+        in_part_ = !ring_.empty();
+        if (!in_part_) {
+            moving_ = false;
+            if (rest_) {
+                return dda_.finish(end_); // the step of a crossing in the last half tick
+            }
+            underruns_.store(underruns_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+            return {};
+        }
+        const Part& part = ring_.front();
+        const splinefeed::StepBits steps = dda_.begin(part.ticks);
+        target_ = rest_ahead() ? full_rate : rate_at(ring_.size());
+        if (rest_ && !stopping_) {
+            rate_ = target_; // at standstill time may jump
+        }
+        rest_ = part.rest;
+        end_ = part.end;
+        ring_.drop();
+        return steps;
+    }
+
+    // The main loop writes these, the interrupt reads them; or the other way round.
+    splinefeed::SpscRing<Part> ring_;
+    std::atomic<std::uint32_t> rests_pushed_{0};
+    std::array<std::atomic<std::int32_t>, Axes> count_{};
+    std::atomic<std::uint32_t> ticks_{0};
+    std::atomic<std::uint32_t> underruns_{0};
+    std::atomic<Stop> stop_{Stop::none};
+    std::atomic<bool> active_{false};
+
+    // The interrupt's own, but for restart().
+    splinefeed::TickDda<Axes> dda_{};
+    StepShaper<Axes> shaper_{};
+    Lookahead lookahead_;
+    Lines out_{};
+    PerAxis<std::int32_t> end_{};
+    std::uint32_t rests_passed_ = 0;
+    std::uint32_t rate_ = 0;
+    std::uint32_t target_ = 0;
+    std::uint32_t phase_ = 0; // part of a tick of the motion that has passed
+    bool moving_ = false;
+    bool in_part_ = false;
+    bool rest_ = true; // the last part that was begun ends at standstill
+    bool stopping_ = false;
+    bool limit_armed_ = false;
+};
+
+} // namespace firmware

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What the reference firmware costs on an emulated board, in instructions and bytes: cost_run.py IMAGE BOARD [PROGRAM]"""
+import re
+import subprocess
+import sys
+import tempfile
+
+from board_in_qemu import Board, BoardFailed
+from firmware_run import ESTOP, LIMIT, waypoints
+
+# The interrupt is the first one.
+FUNCTIONS = {"tick": "firmware::on_tick()", "next": "Trajectory<.*>::next(", "plan": "firmware::Motion::plan()"}
+PLUGIN = "tests/firmware/cost_plugin.c"
+
+
+def ranges(image):
+    """{name: BEGIN:END} of the functions, from the image's symbols."""
+    found = {}
+    for line in subprocess.run(["arm-none-eabi-nm", "-SC", image], check=True, capture_output=True, text=True).stdout.splitlines():
+        address, size, _, name = line.split(" ", 3) if line.count(" ") >= 3 else ("", "", "", "")
+        for key, wanted in FUNCTIONS.items():
+            if address and re.search(re.escape(wanted).replace(r"<\.\*>", "<.*>"), name):
+                found[key] = f"{int(address, 16):x}:{int(address, 16) + int(size, 16):x}"
+    if found.keys() != FUNCTIONS.keys():
+        raise BoardFailed(f"the image has {sorted(found)}, not {sorted(FUNCTIONS)}")
+    return {key: found[key] for key in FUNCTIONS}
+
+
+def main():
+    image, machine = sys.argv[1:3]
+    rows = waypoints(sys.argv[3] if len(sys.argv) > 3 else "examples/path61.csv")
+    version = subprocess.run(["qemu-system-arm", "--version"], check=True, capture_output=True, text=True).stdout
+    if "version 7.2" not in version:
+        print("SKIPPED: the plugin is for QEMU 7.2, this is " + version.splitlines()[0])
+        return 77
+    with tempfile.TemporaryDirectory() as folder:
+        plugin, log = f"{folder}/cost.so", f"{folder}/cost.txt"
+        subprocess.run(["gcc", "-shared", "-fPIC", "-O2", "-Wall", "-Wextra", "-Werror", "-o", plugin, PLUGIN], check=True)
+        options = ",".join([plugin, f"log={log}"] + [f"{name}={place}" for name, place in ranges(image).items()])
+        board = Board(image, folder, machine, ["-plugin", options])
+        try:
+            board.wait_for(r"\[boot ")
+            if machine == "lm3s6965evb":
+                board.wait_for(r"\[estop ")
+                for key in (LIMIT, ESTOP):
+                    board.key(key, True)
+                    board.key(key, False)
+                board.command("reset")
+            board.command("at " + rows[0])
+            for row in rows:
+                board.command(row)
+            board.command("end")
+            board.wait_for(r"\[done ")
+            board.send("memory\n")
+            print(board.wait_for(r"\[stack ")[0])
+            board.ask_monitor("quit")
+            board.qemu.wait()
+            with open(log, encoding="ascii") as costs:
+                for line in costs:
+                    name, calls, mean, first, later = line.split()
+                    print(f"cost {name} {mean} longest {later} of the first 128 {first} calls {calls}")
+        except BoardFailed as problem:
+            print(f"{machine}: {problem}")
+            return 1
+        finally:
+            board.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

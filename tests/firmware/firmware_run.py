@@ -1,0 +1,317 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The reference firmware on an emulated board, by its serial line: firmware_run.py TOOL IMAGE BOARD
+
+What its pins did is compared with the edges that the tool writes for the same waypoints and the same machine. Time is the
+emulator's: nothing here depends on how fast the host is."""
+import csv
+import functools
+import operator
+import subprocess
+import sys
+import tempfile
+
+from board_in_qemu import Board, BoardFailed
+
+STEP, DIRECTION = (0, 1, 2), (4, 5, 6)  # pins of the axes
+ENABLE = 7
+ESTOP, LIMIT = "ctrl", "up"  # the keys of the board's buttons
+STEPS_PER_MM = (80, 80, 400)
+MACHINE = "examples/firmware/machine.toml"
+AXES = "xyz"
+
+
+def check(right, what):
+    if not right:
+        raise BoardFailed(what)
+
+
+def waypoints(path):
+    with open(path, encoding="utf-8") as rows:
+        return [row.strip() for row in rows if row[0] in "-0123456789"]
+
+
+def spiral():
+    """A path of 240 short moves with a corner and two programmed feeds."""
+    rows = [f"{i * 0.1:.3f},{(i % 7) * 0.05:.3f},{i * 0.01:.3f}" for i in range(200)]
+    rows += [f"{19.9 - i * 0.4:.3f},{0.2 + i * 0.3:.3f},1.99,{20 if i < 20 else 60},{int(i == 20)}" for i in range(1, 41)]
+    return rows
+
+
+class Plan:
+    """What the tool plans for these waypoints: the steps of each axis, and the counts at the end."""
+
+    def __init__(self, tool, folder, rows):
+        path, edges = f"{folder}/rows.csv", f"{folder}/edges.csv"
+        with open(path, "w", encoding="utf-8") as out:
+            out.write("x,y,z,feed,corner\n" + "".join(f"{row}{',' * (4 - row.count(','))}\n" for row in rows))
+        subprocess.run([tool, "run", path, "-m", MACHINE, "--window", str(WINDOW), "--edges", edges], check=True,
+                       capture_output=True)
+        with open(edges, encoding="utf-8") as rows_of_edges:
+            levels = [(AXES.index(row["axis"]), row["line"], int(row["value"])) for row in csv.DictReader(rows_of_edges)]
+        self.start = counts_at(rows[0])
+        self.steps, _ = steps_of(levels, [0, 0, 0])
+        self.end = counts_after(self.start, self.steps)
+
+
+def counts_at(row):
+    return tuple(round(float(v) * s) for v, s in zip(row.split(","), STEPS_PER_MM))
+
+
+def steps_of(edges, up):
+    """[(axis, +1 or -1)], and the directions at the end."""
+    steps, up = [], list(up)
+    for axis, line, level in edges:
+        if line == "dir":
+            up[axis] = level
+        elif level:
+            steps.append((axis, 1 if up[axis] else -1))
+    return steps, up
+
+
+def counts_after(start, steps):
+    return tuple(count + sum(step for k, step in steps if k == axis) for axis, count in enumerate(start))
+
+
+def of_axis(axis, steps):
+    return [step for k, step in steps if k == axis]
+
+
+class Bench:
+    def __init__(self, tool, image, machine, folder):
+        self.tool, self.folder = tool, folder
+        self.board = Board(image, folder, machine, ["-trace", "pl061_set_output"])
+        self.board.wait_for(r"\[boot " + image.rsplit("firmware_", 1)[1].removesuffix(".elf") + "]")
+        # QEMU shows the buttons as pressed until each was released once.
+        self.board.wait_for(r"\[estop ")
+        for key in (LIMIT, ESTOP):
+            self.board.key(key, True)
+            self.board.key(key, False)
+        self.board.command("reset")
+        self.changes, self.up = [], [0, 0, 0]  # since the last program, and the directions then
+
+    def stands_at(self):
+        state, position, _ = self.board.status()
+        return state, tuple(round(v * s) for v, s in zip(position, STEPS_PER_MM))
+
+    def levels(self):
+        """(pin, level) of every change of the drives' port: of the port that has switched them on."""
+        self.changes += self.board.pin_levels()
+        drives = next((port for port, pin, _ in self.changes if pin == ENABLE), None)
+        return [(pin, level) for port, pin, level in self.changes if port == drives]
+
+    def steps_so_far(self):
+        """Since the last new_steps()."""
+        names = {pin: (axis, "step") for axis, pin in enumerate(STEP)} | {pin: (axis, "dir") for axis, pin in enumerate(DIRECTION)}
+        steps, self.next_up = steps_of([(*names[pin], level) for pin, level in self.levels() if pin in names], self.up)
+        return steps
+
+    def new_steps(self):
+        steps = self.steps_so_far()
+        self.up, self.changes = self.next_up, [change for change in self.changes if change[1] == ENABLE][-1:]
+        return steps
+
+    def begin(self, rows):
+        self.new_steps()
+        self.board.command("at " + ",".join(rows[0].split(",")[:3]))
+
+    def event(self, name):
+        return self.board.wait_for(rf"\[{name}[ \]]")[0]
+
+    def finished_as(self, plan, what):
+        """The pins did what was planned, and the board knows it."""
+        _, between = self.board.wait_for(r"\[done ", f"the end of {what}")
+        steps = self.new_steps()
+        counts = counts_after(plan.start, steps)
+        check(counts == plan.end, f"{what}: steps to {counts}, planned were {plan.end}")
+        check(self.stands_at() == ("idle", plan.end), f"{what}: the board says {self.stands_at()}")
+        for axis in range(3):
+            check(of_axis(axis, steps) == of_axis(axis, plan.steps), f"{what}: other steps of {AXES[axis]}")
+        return between
+
+
+def acknowledged(bench):
+    """A program, line by line, each after the answer to the one before; then another one from there, and back."""
+    rows = waypoints("examples/path61.csv")
+    bench.begin(rows)
+    for row in rows:
+        bench.board.command(row)
+    bench.board.command("end")
+    plan = Plan(bench.tool, bench.folder, rows)
+    between = bench.finished_as(plan, "path61")
+    check(not [line for line in between if line.startswith("[")], f"path61: {between}")
+
+    bench.board.command("0,0,0", "error: .*stands")  # not where the machine is
+    return f"path61: {len(plan.steps)} steps, as planned"
+
+
+def flooded(bench, obey_xoff):
+    rows = spiral()
+    bench.begin(rows)
+    bench.board.flood(rows + ["end"], obey_xoff)
+    plan = Plan(bench.tool, bench.folder, rows)
+    between = bench.finished_as(plan, "the spiral")
+    check(between.count("ok") == len(rows) + 1, f"{between.count('ok')} answers to {len(rows) + 1} lines: {between[-5:]}")
+    if obey_xoff:
+        check(bench.board.pauses > 0, "the board never asked to pause")
+    return f"{len(rows)} lines without waiting, XOFF {'obeyed' if obey_xoff else 'ignored'}: {bench.board.pauses} pauses, all steps"
+
+
+def starved(bench):
+    """Half of the path, and nothing for a while; then the rest."""
+    rows = waypoints("examples/path61.csv")
+    bench.begin(rows)
+    for row in rows[:30]:
+        bench.board.command(row)
+    bench.event("underrun")
+    state, at = bench.stands_at()
+    check(state == "waiting", f"after the under-run the board is {state}")
+    before = counts_after(counts_at(rows[0]), bench.steps_so_far())
+    check(before == at, f"in the under-run the board made steps to {before} and says {at}")
+    for row in rows[30:]:
+        bench.board.command(row)
+    bench.board.command("end")
+    bench.finished_as(Plan(bench.tool, bench.folder, rows), "path61 with an under-run")
+    return f"under-run: stood at {at}, then all steps"
+
+
+def under_way(bench, rows):
+    """Begins a program, and waits until it moves."""
+    bench.begin(rows)
+    for row in rows[:40]:
+        bench.board.command(row)
+    while bench.board.status()[0] != "moving" or len(bench.steps_so_far()) < 2000:
+        pass
+
+
+def switched_off(bench):
+    """The emergency stop: no pulse begins after the line that tells of it, nothing moves until reset, the position is known."""
+    rows = waypoints("examples/path61.csv")
+    start = counts_at(rows[0])
+    under_way(bench, rows)
+    bench.board.key(ESTOP, True)
+    bench.event("estop")
+    levels = bench.levels()
+    check((ENABLE, 0) in levels, "the drives are still enabled")
+    check(all(pin not in STEP or level == 0 for pin, level in levels[levels.index((ENABLE, 0)):]),
+          "a pulse began after the drives were disabled")
+    steps = bench.new_steps()
+    bench.board.command(rows[40], "error: .*reset")
+    stopped_ms = bench.board.status()[2]
+    while bench.board.status()[2] < stopped_ms + 500:
+        pass
+    check(not bench.new_steps(), "it moved after the emergency stop")
+    check(bench.stands_at() == ("estop", counts_after(start, steps)), f"the board says {bench.stands_at()}")
+    bench.board.key(ESTOP, False)
+    bench.board.command("reset")
+    state, at = bench.stands_at()
+    check(state == "idle", f"after reset the board is {state}")
+
+    home = [f"{at[0] / 80:.6f},{at[1] / 80:.6f},{at[2] / 400:.6f}", "50,70,0", rows[0]]
+    for row in home:
+        bench.board.command(row)
+    bench.board.command("end")
+    _, _ = bench.board.wait_for(r"\[done ")
+    check(bench.stands_at()[1] == start, "it does not come back")
+    return f"e-stop at {at}, and back without a lost step"
+
+
+def limited(bench):
+    """A limit switch: the machine slows down along the path, and stands; it may move off the switch."""
+    rows = waypoints("examples/path61.csv")
+    start = counts_at(rows[0])
+    under_way(bench, rows)
+    before = len(bench.steps_so_far())
+    bench.board.key(LIMIT, True)
+    bench.event("limit")
+    steps = bench.new_steps()
+    check(len(steps) > before + 10, "it did not slow down, but stopped at once")
+    state, at = bench.stands_at()
+    check((state, at) == ("limit", counts_after(start, steps)), f"the board says {state} {at}")
+    # On the path: the steps are those of the plan, as far as it went.
+    plan = Plan(bench.tool, bench.folder, rows)
+    for axis in range(3):
+        here = of_axis(axis, steps)
+        check(here == of_axis(axis, plan.steps)[:len(here)], f"left the path on {AXES[axis]}")
+    bench.board.command("reset")
+    for row in (f"{at[0] / 80:.6f},{at[1] / 80:.6f},{at[2] / 400:.6f}", rows[0]):
+        bench.board.command(row)
+    bench.board.command("end")
+    bench.event("done")
+    bench.board.key(LIMIT, False)
+    return f"limit switch at {at}, on the path, and off the switch"
+
+
+def summed(line):
+    """With its checksum."""
+    return f"{line}*{functools.reduce(operator.xor, line.encode()):02x}"
+
+
+def steered(bench):
+    """Hold, resume, override, abort; lines that are wrong."""
+    rows = waypoints("examples/path61.csv")
+    under_way(bench, rows)
+    bench.board.send("!")
+    bench.event("held")
+    check(bench.stands_at()[0] == "waiting", "it does not wait after a hold")
+    bench.board.command("feed 50")
+    bench.board.send("~")
+    for row in rows[40:]:
+        bench.board.command(row)
+    bench.board.command("end")
+    bench.finished_as(Plan(bench.tool, bench.folder, rows), "path61, held and slower")
+    bench.board.command("feed 100")
+
+    under_way(bench, rows)
+    bench.board.command("12,13", "error: a waypoint is")
+    bench.event("held")
+    bench.board.command(rows[40], "error: the program is broken")
+    bench.board.send("\x18")
+    bench.event("aborted")
+    for line, answer in {"": "ok", "# comment": "ok", "x,y,z": "ok", "jump": "error: known are", "feed 201": "error: feed",
+                         "1" * 101: "error: a line has", "reset": "error: reset is", "end": "error: ",
+                         summed("at 1,2,3"): "ok", "at 1,2,4" + summed("at 1,2,3")[-3:]: "error: the checksum"}.items():
+        bench.board.command(line, answer)
+    check(bench.stands_at() == ("idle", (80, 160, 1200)), f"after at 1,2,3 it stands at {bench.stands_at()}")
+    return "hold, resume, override, abort, wrong lines"
+
+
+def bitten(bench):
+    """The main loop hangs: the watchdog resets, and nothing moves any more."""
+    under_way(bench, waypoints("examples/path61.csv"))
+    bench.board.command("stall")
+    bench.board.wait_for(r"\[boot ")
+    bench.new_steps()
+    bench.board.command("memory")
+    check(not bench.new_steps(), "it moved after the reset")
+    return "watchdog"
+
+
+WINDOW = 20
+
+
+def main():
+    tool, image, machine = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(tool, image, machine, folder)
+        try:
+            print(acknowledged(bench))
+            print(flooded(bench, obey_xoff=True))
+            print(flooded(bench, obey_xoff=False))
+            print(starved(bench))
+            print(switched_off(bench))
+            print(limited(bench))
+            print(steered(bench))
+            bench.board.send("memory\n")
+            print(bench.board.wait_for(r"\[stack ")[0])
+            print(bitten(bench))
+        except BoardFailed as problem:
+            print(f"{machine}: {problem}")
+            return 1
+        finally:
+            bench.board.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
