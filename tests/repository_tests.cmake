@@ -38,7 +38,9 @@ foreach(cpu m0 m3 m4f)
     set_tests_properties(arm_stages_${cpu} arm_pulse_${cpu} arm_blend_${cpu} arm_gcode_${cpu} PROPERTIES DEPENDS arm_link_${cpu}) # one build
 endforeach()
 repository_test(firmware_lm3s6965 firmware/firmware_proof.sh cortex-m3 ${PROJECT_BINARY_DIR} lm3s6965 lm3s6965evb)
+repository_test(firmware_stm32f405 firmware/firmware_proof.sh cortex-m4f ${PROJECT_BINARY_DIR} stm32f405 netduinoplus2)
 set_tests_properties(firmware_lm3s6965 PROPERTIES DEPENDS arm_link_m3) # one build
+set_tests_properties(firmware_stm32f405 PROPERTIES DEPENDS arm_link_m4f)
 repository_test(tidy ALONE tools/tidy.sh)
 repository_test(gpio_vm_runs gpio/vm/runs.sh ${PROJECT_BINARY_DIR})
 repository_test(install_consumer install/consumer.sh ${PROJECT_BINARY_DIR})

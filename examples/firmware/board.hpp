@@ -4,14 +4,15 @@
 //   namespace board {
 //   constexpr const char* name;
 //   using Real = splinefeed::Fixed;            // or float
-//   constexpr unsigned tick_us;                // period of the interrupt; longer than a byte on the line lasts
+//   constexpr unsigned tick_us;                // of the interrupt; a byte on the line lasts longer
 //   constexpr unsigned steps_per_s;            // of the fastest axis; below half a step a tick
 //   constexpr std::size_t window;              // cells of look-ahead, 10 or more
-//   constexpr std::size_t parts;               // milliseconds of motion in the ring; more than the longest next()
-//   takes constexpr unsigned interrupts;             // vectors after the 16 of the processor constexpr unsigned
-//   timer_interrupt;        // which one of them is the tick void start();                              // clock, pins,
-//   UART; the drives are off void start_timer();                        // from here on the timer's vector is called
-//   every tick_us void start_watchdog();                     // a reset half a second after the last feed_watchdog()
+//   constexpr std::size_t parts;               // of motion in the ring: longer than any next()
+//   constexpr unsigned interrupts;             // vectors after the 16 of the processor
+//   constexpr int timer_interrupt;             // the tick's, one of them; -1: SysTick
+//   void start();                              // clock, pins, UART; the drives are off
+//   void start_timer();                        // from here on the tick's vector is called
+//   void start_watchdog();                     // a reset half a second after the last feeding
 //   void acknowledge_tick();
 //   void feed_watchdog();
 //   bool watchdog_bit();                       // this start is the watchdog's work

@@ -63,7 +63,7 @@ constexpr VectorTable make_vectors() {
     for (auto& vector : table.vectors) {
         vector = on_fault;
     }
-    table.vectors[14 + board::timer_interrupt] = firmware::on_tick;
+    table.vectors[static_cast<unsigned>(14 + board::timer_interrupt)] = firmware::on_tick;
     return table;
 }
 

@@ -12,6 +12,9 @@ XON, XOFF = b"\x11", b"\x13"
 WAIT_S = 60  # for an answer, on a host that is busy
 
 
+STEP, DIRECTION, ENABLE = (0, 1, 2), (4, 5, 6), 7  # pins of the axes; those of all boards
+
+
 class BoardFailed(Exception):
     """What the board did is not what it was to do."""
 
@@ -28,9 +31,62 @@ def connected(path):
     raise BoardFailed("QEMU does not listen")
 
 
+class Pl061Pins:
+    """The pins of a board with PL061 ports: of the port that has switched the drives on."""
+    options = ["-trace", "pl061_set_output"]
+
+    def __init__(self, enable_pin):
+        self.enable_pin = enable_pin
+        self.port = None
+        self.before = []
+
+    def changes(self, lines):
+        """[(pin, level, None)]: QEMU does not say when."""
+        found = (re.match(r"pl061_set_output (\S+) setting output (\d+) to (\d)$", line) for line in lines)
+        changes = [(m[1], int(m[2]), int(m[3])) for m in found if m]
+        if self.port is None:
+            self.before += changes
+            self.port = next((port for port, pin, _ in self.before if pin == self.enable_pin), None)
+            changes = self.before
+        return [(pin, level, None) for port, pin, level in changes if port == self.port]
+
+
+class Stm32Pins:
+    """Those of port C of an STM32F4, which QEMU does not have: it tells of each access to the missing device. The firmware sets all
+    step and direction lines at once, in each tick, so that these accesses count the ticks."""
+    options = ["-d", "unimp"]
+    lines = sum(1 << pin for pin in STEP + DIRECTION)
+
+    def __init__(self, _):
+        self.level = self.ticks = 0
+
+    def changes(self, lines):
+        """[(pin, level, tick)]"""
+        changes = []
+        for line in lines:
+            m = re.match(r"GPIOC: unimplemented device write \(size 4, offset 0x018, value 0x(\w+)\)", line)
+            if m:
+                clear, high = divmod(int(m[1], 16), 0x10000)
+                self.ticks += (clear | high) & self.lines == self.lines
+                level = self.level & ~clear | high
+                changes += [(pin, level >> pin & 1, self.ticks) for pin in range(16) if (level ^ self.level) >> pin & 1]
+                self.level = level
+        return changes
+
+
+class Kind:
+    """A board that QEMU has. `window` and `scalar` are those of its image; `shift`: an instruction takes 2^shift ns."""
+
+    def __init__(self, window, scalar, shift, pins, buttons, watchdog):
+        self.window, self.scalar, self.shift, self.pins = window, scalar, shift, pins
+        self.buttons, self.watchdog = buttons, watchdog
+
+
+KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, Pl061Pins, buttons=True, watchdog=True),
+         "netduinoplus2": Kind(64, "float", 3, Stm32Pins, buttons=False, watchdog=False)}
 class Board:
-    """The emulator runs as fast as the host can, by a clock of its own: an instruction takes 16 ns. So nothing here may depend on
-    the host's time; the board is waited for."""
+    """The emulator runs as fast as the host can, by a clock of its own that counts instructions. So nothing here may depend on the
+    host's time; the board is waited for."""
 
     def __init__(self, image, folder, machine, qemu_options=()):
         trace_path = os.path.join(folder, "pins.txt")
@@ -38,11 +94,13 @@ class Board:
         for path in (trace_path, serial, monitor):
             if os.path.exists(path):
                 os.remove(path)
+        self.kind = KINDS[machine]
+        self.pins = self.kind.pins(ENABLE)
         self.qemu = subprocess.Popen(
-            ["qemu-system-arm", "-M", machine, "-display", "none", "-icount", "shift=4,sleep=off",
+            ["qemu-system-arm", "-M", machine, "-display", "none", "-icount", f"shift={self.kind.shift},sleep=off",
              "-chardev", f"socket,id=uart,path={serial},server=on,wait=on", "-serial", "chardev:uart",
              "-qmp", f"unix:{monitor},server=on,wait=off", "-monitor", "none",
-             "-D", trace_path, *qemu_options, "-kernel", image])
+             *self.kind.pins.options, "-D", trace_path, *qemu_options, "-kernel", image])
         self.uart = connected(serial)
         self.trace, self.trace_rest = open(trace_path, encoding="ascii", errors="replace"), ""
         self.received = b""
@@ -129,8 +187,7 @@ class Board:
         return found[1], tuple(float(v) for v in found[2].split(",")), int(found[5])
 
     def pin_levels(self):
-        """(port, pin, level) of the changes since the last call, in order."""
+        """(pin, level, tick or None) of the changes since the last call, in order."""
         self.trace_rest += self.trace.read()
         *lines, self.trace_rest = self.trace_rest.split("\n")
-        found = (re.match(r"pl061_set_output (\S+) setting output (\d+) to (\d)$", line) for line in lines)
-        return [(m[1], int(m[2]), int(m[3])) for m in found if m]
+        return self.pins.changes(lines)

@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 from board_in_qemu import Board, BoardFailed
-from firmware_run import ESTOP, LIMIT, waypoints
+from firmware_run import release_buttons, waypoints
 
 # The interrupt is the first one.
 FUNCTIONS = {"tick": "firmware::on_tick()", "next": "Trajectory<.*>::next(", "plan": "firmware::Motion::plan()"}
@@ -41,12 +41,8 @@ def main():
         board = Board(image, folder, machine, ["-plugin", options])
         try:
             board.wait_for(r"\[boot ")
-            if machine == "lm3s6965evb":
-                board.wait_for(r"\[estop ")
-                for key in (LIMIT, ESTOP):
-                    board.key(key, True)
-                    board.key(key, False)
-                board.command("reset")
+            if board.kind.buttons:
+                release_buttons(board)
             board.command("at " + rows[0])
             for row in rows:
                 board.command(row)

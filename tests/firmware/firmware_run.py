@@ -11,14 +11,14 @@ import subprocess
 import sys
 import tempfile
 
-from board_in_qemu import Board, BoardFailed
+from board_in_qemu import Board, BoardFailed, DIRECTION, ENABLE, STEP
 
-STEP, DIRECTION = (0, 1, 2), (4, 5, 6)  # pins of the axes
-ENABLE = 7
 ESTOP, LIMIT = "ctrl", "up"  # the keys of the board's buttons
 STEPS_PER_MM = (80, 80, 400)
 MACHINE = "examples/firmware/machine.toml"
 AXES = "xyz"
+LINES = {pin: (axis, "step") for axis, pin in enumerate(STEP)} | {pin: (axis, "dir") for axis, pin in enumerate(DIRECTION)}
+TICK_NS = 50_000
 
 
 def check(right, what):
@@ -41,14 +41,16 @@ def spiral():
 class Plan:
     """What the tool plans for these waypoints: the steps of each axis, and the counts at the end."""
 
-    def __init__(self, tool, folder, rows):
+    def __init__(self, tool, folder, rows, kind):
         path, edges = f"{folder}/rows.csv", f"{folder}/edges.csv"
         with open(path, "w", encoding="utf-8") as out:
             out.write("x,y,z,feed,corner\n" + "".join(f"{row}{',' * (4 - row.count(','))}\n" for row in rows))
-        subprocess.run([tool, "run", path, "-m", MACHINE, "--window", str(WINDOW), "--edges", edges], check=True,
-                       capture_output=True)
+        subprocess.run([tool, "run", path, "-m", MACHINE, "--window", str(kind.window), "--scalar", kind.scalar,
+                        "--edges", edges], check=True, capture_output=True)
         with open(edges, encoding="utf-8") as rows_of_edges:
-            levels = [(AXES.index(row["axis"]), row["line"], int(row["value"])) for row in csv.DictReader(rows_of_edges)]
+            rows_of_edges = list(csv.DictReader(rows_of_edges))
+        levels = [(AXES.index(row["axis"]), row["line"], int(row["value"])) for row in rows_of_edges]
+        self.edges = sorted((int(row["t_ns"]), *level) for row, level in zip(rows_of_edges, levels))
         self.start = counts_at(rows[0])
         self.steps, _ = steps_of(levels, [0, 0, 0])
         self.end = counts_after(self.start, self.steps)
@@ -77,17 +79,22 @@ def of_axis(axis, steps):
     return [step for k, step in steps if k == axis]
 
 
+def release_buttons(board):
+    """QEMU shows the buttons as pressed until each was released once."""
+    board.wait_for(r"\[estop ")
+    for key in (LIMIT, ESTOP):
+        board.key(key, True)
+        board.key(key, False)
+    board.command("reset")
+
+
 class Bench:
     def __init__(self, tool, image, machine, folder):
         self.tool, self.folder = tool, folder
-        self.board = Board(image, folder, machine, ["-trace", "pl061_set_output"])
+        self.board = Board(image, folder, machine)
         self.board.wait_for(r"\[boot " + image.rsplit("firmware_", 1)[1].removesuffix(".elf") + "]")
-        # QEMU shows the buttons as pressed until each was released once.
-        self.board.wait_for(r"\[estop ")
-        for key in (LIMIT, ESTOP):
-            self.board.key(key, True)
-            self.board.key(key, False)
-        self.board.command("reset")
+        if self.board.kind.buttons:
+            release_buttons(self.board)
         self.changes, self.up = [], [0, 0, 0]  # since the last program, and the directions then
 
     def stands_at(self):
@@ -95,21 +102,21 @@ class Bench:
         return state, tuple(round(v * s) for v, s in zip(position, STEPS_PER_MM))
 
     def levels(self):
-        """(pin, level) of every change of the drives' port: of the port that has switched them on."""
+        """(pin, level, tick or None) of every change since the last new_steps()."""
         self.changes += self.board.pin_levels()
-        drives = next((port for port, pin, _ in self.changes if pin == ENABLE), None)
-        return [(pin, level) for port, pin, level in self.changes if port == drives]
+        return self.changes
 
     def steps_so_far(self):
-        """Since the last new_steps()."""
-        names = {pin: (axis, "step") for axis, pin in enumerate(STEP)} | {pin: (axis, "dir") for axis, pin in enumerate(DIRECTION)}
-        steps, self.next_up = steps_of([(*names[pin], level) for pin, level in self.levels() if pin in names], self.up)
+        steps, self.next_up = steps_of([(*LINES[pin], level) for pin, level, _ in self.levels() if pin in LINES], self.up)
         return steps
 
     def new_steps(self):
         steps = self.steps_so_far()
-        self.up, self.changes = self.next_up, [change for change in self.changes if change[1] == ENABLE][-1:]
+        self.up, self.changes = self.next_up, []
         return steps
+
+    def plan(self, rows):
+        return Plan(self.tool, self.folder, rows, self.board.kind)
 
     def begin(self, rows):
         self.new_steps()
@@ -137,7 +144,7 @@ def acknowledged(bench):
     for row in rows:
         bench.board.command(row)
     bench.board.command("end")
-    plan = Plan(bench.tool, bench.folder, rows)
+    plan = bench.plan(rows)
     between = bench.finished_as(plan, "path61")
     check(not [line for line in between if line.startswith("[")], f"path61: {between}")
 
@@ -145,11 +152,31 @@ def acknowledged(bench):
     return f"path61: {len(plan.steps)} steps, as planned"
 
 
+def in_time(bench):
+    """Each edge in the tick that the tool planned: the first program after a start, when all directions are down. The curve looks ahead
+    over 16 waypoints, so nothing moves before the end of these is known, and the host's pace changes nothing."""
+    rows = spiral()[::15]
+    bench.begin(rows)
+    for row in rows + ["end"]:
+        bench.board.command(row)
+    bench.board.wait_for(r"\[done ")
+    plan = bench.plan(rows)
+    changes = [change for change in bench.levels() if change[0] in LINES]
+    bench.new_steps()
+    if changes[0][2] is None:
+        return "QEMU does not say when pins of this board change"
+    begin = changes[0][2] * TICK_NS - plan.edges[0][0]
+    edges = sorted((tick * TICK_NS - begin, *LINES[pin], level) for pin, level, tick in changes)
+    wrong = [pair for pair in zip(edges, plan.edges) if pair[0] != pair[1]]
+    check(len(edges) == len(plan.edges) and not wrong, f"{len(edges)} edges, planned {len(plan.edges)}; {len(wrong)} others than planned: {wrong[:3]}")
+    return f"{len(edges)} edges, each in its tick"
+
+
 def flooded(bench, obey_xoff):
     rows = spiral()
     bench.begin(rows)
     bench.board.flood(rows + ["end"], obey_xoff)
-    plan = Plan(bench.tool, bench.folder, rows)
+    plan = bench.plan(rows)
     between = bench.finished_as(plan, "the spiral")
     check(between.count("ok") == len(rows) + 1, f"{between.count('ok')} answers to {len(rows) + 1} lines: {between[-5:]}")
     if obey_xoff:
@@ -171,7 +198,7 @@ def starved(bench):
     for row in rows[30:]:
         bench.board.command(row)
     bench.board.command("end")
-    bench.finished_as(Plan(bench.tool, bench.folder, rows), "path61 with an under-run")
+    bench.finished_as(bench.plan(rows), "path61 with an under-run")
     return f"under-run: stood at {at}, then all steps"
 
 
@@ -192,6 +219,7 @@ def switched_off(bench):
     bench.board.key(ESTOP, True)
     bench.event("estop")
     levels = bench.levels()
+    levels = [change[:2] for change in levels]
     check((ENABLE, 0) in levels, "the drives are still enabled")
     check(all(pin not in STEP or level == 0 for pin, level in levels[levels.index((ENABLE, 0)):]),
           "a pulse began after the drives were disabled")
@@ -229,7 +257,7 @@ def limited(bench):
     state, at = bench.stands_at()
     check((state, at) == ("limit", counts_after(start, steps)), f"the board says {state} {at}")
     # On the path: the steps are those of the plan, as far as it went.
-    plan = Plan(bench.tool, bench.folder, rows)
+    plan = bench.plan(rows)
     for axis in range(3):
         here = of_axis(axis, steps)
         check(here == of_axis(axis, plan.steps)[:len(here)], f"left the path on {AXES[axis]}")
@@ -259,7 +287,7 @@ def steered(bench):
     for row in rows[40:]:
         bench.board.command(row)
     bench.board.command("end")
-    bench.finished_as(Plan(bench.tool, bench.folder, rows), "path61, held and slower")
+    bench.finished_as(bench.plan(rows), "path61, held and slower")
     bench.board.command("feed 100")
 
     under_way(bench, rows)
@@ -287,24 +315,25 @@ def bitten(bench):
     return "watchdog"
 
 
-WINDOW = 20
-
-
 def main():
     tool, image, machine = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(tool, image, machine, folder)
         try:
+            print(in_time(bench))
             print(acknowledged(bench))
             print(flooded(bench, obey_xoff=True))
             print(flooded(bench, obey_xoff=False))
             print(starved(bench))
-            print(switched_off(bench))
-            print(limited(bench))
+            if bench.board.kind.buttons:
+                print(switched_off(bench))
+                print(limited(bench))
+            else:
+                print("QEMU has no inputs for this board: no emergency stop, no limit switch")
             print(steered(bench))
             bench.board.send("memory\n")
             print(bench.board.wait_for(r"\[stack ")[0])
-            print(bitten(bench))
+            print(bitten(bench) if bench.board.kind.watchdog else "QEMU has no watchdog for this board")
         except BoardFailed as problem:
             print(f"{machine}: {problem}")
             return 1

@@ -28,7 +28,7 @@ constexpr unsigned steps_per_s = 8000;
 constexpr std::size_t window = 20;
 constexpr std::size_t parts = 128;
 constexpr unsigned interrupts = 44;
-constexpr unsigned timer_interrupt = 19; // timer 0A
+constexpr int timer_interrupt = 19; // timer 0A
 
 constexpr std::uint32_t clock_hz = 50'000'000;
 constexpr std::uint32_t estop_pressed_level = 0;
