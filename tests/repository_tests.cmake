@@ -39,6 +39,8 @@ foreach(cpu m0 m3 m4f)
 endforeach()
 repository_test(firmware_lm3s6965 firmware/firmware_proof.sh cortex-m3 ${PROJECT_BINARY_DIR} lm3s6965 lm3s6965evb)
 repository_test(firmware_stm32f405 firmware/firmware_proof.sh cortex-m4f ${PROJECT_BINARY_DIR} stm32f405 netduinoplus2)
+repository_test(firmware_nrf51 firmware/firmware_proof.sh cortex-m0 ${PROJECT_BINARY_DIR} nrf51 microbit)
+set_tests_properties(firmware_nrf51 PROPERTIES DEPENDS arm_link_m0)
 set_tests_properties(firmware_lm3s6965 PROPERTIES DEPENDS arm_link_m3) # one build
 set_tests_properties(firmware_stm32f405 PROPERTIES DEPENDS arm_link_m4f)
 repository_test(tidy ALONE tools/tidy.sh)

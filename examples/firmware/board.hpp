@@ -5,6 +5,7 @@
 //   constexpr const char* name;
 //   using Real = splinefeed::Fixed;            // or float
 //   constexpr unsigned tick_us;                // of the interrupt; a byte on the line lasts longer
+//   constexpr unsigned segment_us;             // of a feed segment: one part of motion in the ring
 //   constexpr unsigned steps_per_s;            // of the fastest axis; below half a step a tick
 //   constexpr std::size_t window;              // cells of look-ahead, 10 or more
 //   constexpr std::size_t parts;               // of motion in the ring: longer than any next()

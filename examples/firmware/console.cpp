@@ -223,10 +223,8 @@ void Console::say_position() noexcept {
     constexpr std::int64_t billion_q32 = Decimal::one << 32;
     for (unsigned k = 0; k < axes; ++k) {
         const std::int64_t nm =
-            (splinefeed::product_quotient(motion_.steps().count(k), billion_q32, limits->steps_per_mm_q32[k]).raw +
-             500) /
-            1000 * 1000;
-        const std::uint64_t size = static_cast<std::uint64_t>(nm < 0 ? -nm : nm);
+            splinefeed::product_quotient(motion_.steps().count(k), billion_q32, limits->steps_per_mm_q32[k]).raw;
+        const std::uint64_t size = (static_cast<std::uint64_t>(nm < 0 ? -nm : nm) + 500) / 1000 * 1000;
         say(k == 0 ? " " : ",");
         say(nm < 0 ? "-" : "");
         say_number(static_cast<std::uint32_t>(size / Decimal::one));

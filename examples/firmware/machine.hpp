@@ -17,12 +17,15 @@ inline constexpr splinefeed::MachineSettings machine = [] {
     settings.axes = static_cast<int>(axes);
     const double steps_per_mm[] = {80.0, 80.0, 400.0};
     const double acceleration[] = {1000.0, 1000.0, 200.0};
+    // The path is smoothed by T^2 A / 6: with longer segments the machine is softer, and as exact.
+    const double softer = 1000.0 / board::segment_us * 1000.0 / board::segment_us;
     for (unsigned k = 0; k < axes; ++k) {
         settings.axis[k].steps_per_mm = steps_per_mm[k];
         settings.axis[k].max_velocity_mm_s = board::steps_per_s / steps_per_mm[k];
-        settings.axis[k].max_acceleration_mm_s2 = acceleration[k];
+        settings.axis[k].max_acceleration_mm_s2 = acceleration[k] * softer;
     }
     settings.max_feed_mm_s = 100.0;
+    settings.sample_period_us = static_cast<int>(board::segment_us);
     return settings;
 }();
 
@@ -32,11 +35,12 @@ inline constexpr splinefeed::Result<splinefeed::MotionLimits<Real>> limits =
 static_assert(limits.has_value(), "MotionLimits::make says which number is out of range");
 
 inline constexpr std::uint32_t tick_ticks = board::tick_us * splinefeed::ticks_per_us;
+static_assert(limits->segment_ticks == board::segment_us * splinefeed::ticks_per_us, "one segment a sample");
 static_assert(limits->segment_ticks % tick_ticks == 0 && limits->segment_ticks / tick_ticks <= 1024,
               "a segment is one part: a whole number of ticks");
 static_assert(board::steps_per_s * std::uint64_t{board::tick_us} < 500'000, "TickDda: below half a step a tick");
 
-/// The ring is to be half full before a motion begins; the last 64 parts are kept to slow down over.
+/// A motion begins when the ring is three quarters full. Half of it, at most 64 parts, is kept to slow down over.
 inline constexpr Lookahead lookahead = [] {
     Lookahead ahead;
     while (ahead.reserve_log2 < 6 && (2U << ahead.reserve_log2) <= board::parts / 2) {

@@ -74,16 +74,42 @@ class Stm32Pins:
         return changes
 
 
-class Kind:
-    """A board that QEMU has. `window` and `scalar` are those of its image; `shift`: an instruction takes 2^shift ns."""
+class Nrf51Pins:
+    """Those of an nRF51. The firmware writes all levels in each tick, so that these writes count the ticks."""
+    options = ["-trace", "nrf51_gpio_write"]
+    pin = dict(zip((1, 2, 3, 21, 22, 23, 20), (*STEP, *DIRECTION, ENABLE)))
 
-    def __init__(self, window, scalar, shift, pins, buttons, watchdog):
-        self.window, self.scalar, self.shift, self.pins = window, scalar, shift, pins
+    def __init__(self, _):
+        self.level = self.ticks = 0
+
+    def changes(self, lines):
+        """[(pin, level, tick)], with the pins' numbers of the other boards"""
+        changes = []
+        for line in lines:
+            m = re.match(r"nrf51_gpio_write offset 0x(504|508|50c) value 0x(\w+)", line)
+            if m:
+                value = int(m[2], 16)
+                level = {"504": value, "508": self.level | value, "50c": self.level & ~value}[m[1]]
+                self.ticks += m[1] == "504"
+                changes += [(number, level >> pin & 1, self.ticks) for pin, number in self.pin.items() if (level ^ self.level) >> pin & 1]
+                self.level = level
+        return changes
+
+
+class Kind:
+    """A board that QEMU has. `window` and `scalar` are those of its image; `shift`: an instruction takes 2^shift ns; `slow`: its machine
+    has segments of 8 ms and ticks of 200 us, as machine.hpp makes it, and a window that is shorter than the tool's shortest: it makes
+    the same steps in the same order, but not at the same time."""
+
+    def __init__(self, window, scalar, shift, pins, *, buttons=False, watchdog=False, slow=False):
+        self.window, self.scalar, self.shift, self.pins, self.slow = window, scalar, shift, pins, slow
+        self.tick_ns = 200_000 if slow else 50_000
         self.buttons, self.watchdog = buttons, watchdog
 
 
 KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, Pl061Pins, buttons=True, watchdog=True),
-         "netduinoplus2": Kind(64, "float", 3, Stm32Pins, buttons=False, watchdog=False)}
+         "netduinoplus2": Kind(64, "float", 3, Stm32Pins),
+         "microbit": Kind(16, "float", 6, Nrf51Pins, slow=True)}
 class Board:
     """The emulator runs as fast as the host can, by a clock of its own that counts instructions. So nothing here may depend on the
     host's time; the board is waited for."""

@@ -7,6 +7,7 @@ emulator's: nothing here depends on how fast the host is."""
 import csv
 import functools
 import operator
+import re
 import subprocess
 import sys
 import tempfile
@@ -18,7 +19,6 @@ STEPS_PER_MM = (80, 80, 400)
 MACHINE = "examples/firmware/machine.toml"
 AXES = "xyz"
 LINES = {pin: (axis, "step") for axis, pin in enumerate(STEP)} | {pin: (axis, "dir") for axis, pin in enumerate(DIRECTION)}
-TICK_NS = 50_000
 
 
 def check(right, what):
@@ -38,6 +38,13 @@ def spiral():
     return rows
 
 
+def slowed(machine):
+    """The machine file with segments of 8 ms, a quarter of the speed, 1/64 of the acceleration, and ticks of 200 us."""
+    scales = {"sample_period_us": 8, "max_velocity_mm_s": 1 / 4, "max_acceleration_mm_s2": 1 / 64, "tick_us": 4, "step_length_us": 4,
+              "step_space_us": 4, "direction_setup_us": 4, "direction_hold_us": 4}
+    return re.sub(r"^(\w+) = (\d+)$", lambda m: f"{m[1]} = {int(m[2]) * scales.get(m[1], 1):.12g}", machine, flags=re.MULTILINE)
+
+
 class Plan:
     """What the tool plans for these waypoints: the steps of each axis, and the counts at the end."""
 
@@ -45,7 +52,12 @@ class Plan:
         path, edges = f"{folder}/rows.csv", f"{folder}/edges.csv"
         with open(path, "w", encoding="utf-8") as out:
             out.write("x,y,z,feed,corner\n" + "".join(f"{row}{',' * (4 - row.count(','))}\n" for row in rows))
-        subprocess.run([tool, "run", path, "-m", MACHINE, "--window", str(kind.window), "--scalar", kind.scalar,
+        machine = MACHINE
+        if kind.slow:
+            machine = f"{folder}/machine.toml"
+            with open(MACHINE, encoding="utf-8") as fast, open(machine, "w", encoding="utf-8") as slow:
+                slow.write(slowed(fast.read()))
+        subprocess.run([tool, "run", path, "-m", machine, "--window", str(kind.window), "--scalar", kind.scalar,
                         "--edges", edges], check=True, capture_output=True)
         with open(edges, encoding="utf-8") as rows_of_edges:
             rows_of_edges = list(csv.DictReader(rows_of_edges))
@@ -165,8 +177,11 @@ def in_time(bench):
     bench.new_steps()
     if changes[0][2] is None:
         return "QEMU does not say when pins of this board change"
-    begin = changes[0][2] * TICK_NS - plan.edges[0][0]
-    edges = sorted((tick * TICK_NS - begin, *LINES[pin], level) for pin, level, tick in changes)
+    tick_ns = bench.board.kind.tick_ns
+    begin = changes[0][2] * tick_ns - plan.edges[0][0]
+    edges = sorted((tick * tick_ns - begin, *LINES[pin], level) for pin, level, tick in changes)
+    if bench.board.kind.slow:
+        return f"{len(edges)} edges, the last one {(edges[-1][0] - plan.edges[-1][0]) / 1e6:.0f} ms late of {plan.edges[-1][0] / 1e6:.0f}"
     wrong = [pair for pair in zip(edges, plan.edges) if pair[0] != pair[1]]
     check(len(edges) == len(plan.edges) and not wrong, f"{len(edges)} edges, planned {len(plan.edges)}; {len(wrong)} others than planned: {wrong[:3]}")
     return f"{len(edges)} edges, each in its tick"

@@ -24,6 +24,7 @@ namespace board {
 constexpr const char* name = "lm3s6965";
 using Real = splinefeed::Fixed;
 constexpr unsigned tick_us = 50;
+constexpr unsigned segment_us = 1000;
 constexpr unsigned steps_per_s = 8000;
 constexpr std::size_t window = 20;
 constexpr std::size_t parts = 128;

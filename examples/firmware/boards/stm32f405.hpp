@@ -19,6 +19,7 @@ namespace board {
 constexpr const char* name = "stm32f405";
 using Real = float;
 constexpr unsigned tick_us = 50;
+constexpr unsigned segment_us = 1000;
 constexpr unsigned steps_per_s = 8000;
 constexpr std::size_t window = 64;
 constexpr std::size_t parts = 128;
