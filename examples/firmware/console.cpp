@@ -9,6 +9,22 @@ using splinefeed::Decimal;
 using splinefeed::Error;
 using splinefeed::Status;
 
+namespace {
+
+/// splinefeed::describe would take ten kilobytes with its sentences about G-code.
+const char* sentence(Error error) {
+    switch (error) {
+    case Error::start_elsewhere: return "the machine stands elsewhere (? says where): begin there, or send at x,y,z";
+    case Error::too_few_waypoints: return "a program needs two waypoints in different places before its end";
+    case Error::move_too_long:
+        return "the move is too long: at most 65536 mm, 512 mm where the planner computes in float";
+    case Error::position_out_of_range: return "a position is within +-1048576 mm";
+    default: return "the waypoint was refused";
+    }
+}
+
+} // namespace
+
 void Console::greet() noexcept {
     say("[boot ");
     say(board::name);
@@ -144,7 +160,7 @@ void Console::answer(Status status) noexcept {
     if (status.ok()) {
         say("ok\n");
     } else {
-        refuse(describe(status.error()));
+        refuse(sentence(status.error()));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "board.hpp"
 
+#include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 
 namespace firmware {
@@ -51,5 +52,6 @@ inline constexpr Lookahead lookahead = [] {
     return ahead;
 }();
 static_assert(lookahead.slew > 0);
+static_assert(board::window >= splinefeed::FeedPlan<Real>::smallest_window);
 
 } // namespace firmware

@@ -24,8 +24,9 @@ void on_tick() {
     if (inputs.estop) {
         board::enable_drives(false);
     }
-    steps->tick(inputs, board::write_lines);
-    serial->poll(board::read_byte, board::write_byte);
+    // Not the functions themselves: those would be called by their addresses.
+    steps->tick(inputs, [](Lines lines) { board::write_lines(lines); });
+    serial->poll([] { return board::read_byte(); }, [](std::uint8_t byte) { return board::write_byte(byte); });
 }
 
 } // namespace firmware

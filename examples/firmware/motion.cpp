@@ -35,12 +35,9 @@ Status Motion::begin(const splinefeed::Waypoint<Real>& first) noexcept {
     if (const Status pushed = curve.push(first); !pushed.ok()) {
         return pushed;
     }
-    const splinefeed::Result<splinefeed::Trajectory<Real>> made =
-        splinefeed::Trajectory<Real>::make(curve, *limits, planner_);
-    if (!made.has_value()) {
-        return made.error();
+    if (!make_trajectory(curve)) {
+        return Error::window_too_small;
     }
-    trajectory_ = *made;
     trajectory_.override_feed(feed_ratio_);
     loader_ = splinefeed::DdaLoader(static_cast<int>(axes), tick_ticks);
     steps_.restart();
@@ -49,6 +46,16 @@ Status Motion::begin(const splinefeed::Waypoint<Real>& first) noexcept {
     moved_ = finished_ = hold_asked_ = false;
     board::enable_drives(true);
     return {};
+}
+
+/// Apart: what it needs on the stack is not below the deepest call. false: the window is too small.
+[[gnu::noinline]] bool Motion::make_trajectory(splinefeed::CurveSource<Real>& curve) noexcept {
+    const splinefeed::Result<splinefeed::Trajectory<Real>> made =
+        splinefeed::Trajectory<Real>::make(curve, *limits, planner_);
+    if (made.has_value()) {
+        trajectory_ = *made;
+    }
+    return made.has_value();
 }
 
 Status Motion::push(const splinefeed::Waypoint<Real>& waypoint) noexcept {
@@ -112,6 +119,7 @@ bool Motion::reset() noexcept {
     program_ = Program::none;
     stopped_ = Stop::none;
     steps_.restart();
+    steps_.forgive();
     return true;
 }
 

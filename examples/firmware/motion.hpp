@@ -63,6 +63,7 @@ private:
 
     splinefeed::Status begin(const splinefeed::Waypoint<Real>& first) noexcept;
     [[nodiscard]] bool stands() const noexcept { return !steps_.active() && steps_.level() == 0; }
+    [[nodiscard]] bool make_trajectory(splinefeed::CurveSource<Real>& curve) noexcept;
     void emit() noexcept;
 
     Steps& steps_;

@@ -93,7 +93,7 @@ public:
 
     /// Whether steps are made, or still will be: false at standstill, also where the ring ran out.
     [[nodiscard]] bool active() const noexcept { return active_.load(std::memory_order_acquire); }
-    /// What stopped the machine: then it needs restart() to move again.
+    /// What stopped the machine: it moves again after restart() and forgive().
     [[nodiscard]] Stop stopped() const noexcept { return stop_.load(std::memory_order_acquire); }
     /// How many times the ring ran out in a motion.
     [[nodiscard]] std::uint32_t underruns() const noexcept { return underruns_.load(std::memory_order_relaxed); }
@@ -103,7 +103,8 @@ public:
         return count_[axis].load(std::memory_order_relaxed);
     }
 
-    /// Empties the ring, and forgets what stopped the machine. @pre not active(), and stopped() or the ring is empty
+    /// Empties the ring, and begins a motion where the machine stands. @pre not active(), and stopped() or the ring is
+    /// empty
     void restart() noexcept {
         ring_.clear();
         rests_passed_ = rests_pushed_.load(std::memory_order_relaxed);
@@ -111,8 +112,9 @@ public:
         in_part_ = false;
         dda_ = {};
         stand();
-        stop_.store(Stop::none, std::memory_order_release);
     }
+    /// Forgets what stopped the machine. Apart from restart(): a stop that comes while a motion is prepared stays.
+    void forgive() noexcept { stop_.store(Stop::none, std::memory_order_release); }
     /// States where the machine stands. @pre as for restart()
     void set_counts(const PerAxis<std::int32_t>& counts) noexcept {
         for (unsigned k = 0; k < Axes; ++k) {

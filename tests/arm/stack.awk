@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -v smooth=1 -f stack.awk
-# FILE.ci... Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
+# The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -v smooth=1
+# [-v root=FUNCTION] -f stack.awk FILE.ci... Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
 
 BEGIN {
     # libgcc, measured in its disassembly (the largest, Cortex-M0) and rounded up; each with all that it calls.
@@ -10,7 +10,7 @@ BEGIN {
     library["__aeabi_lmul"] = 32
     library["__clzdi2"] = 16
     library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
-    root = "_ZN12_GLOBAL__N_18on_resetEv"
+    if (root == "") { root = "_ZN12_GLOBAL__N_18on_resetEv" }
     # Virtual calls: the arc length asks the curve, which is a G2Spline here, the stream its samples, and those their
     # plan: a FeedPlan, or where motions are averaged a SmoothPlan. What makes the trajectory asks its planner.
     of = "I" (scalar == "float" ? "f" : "NS_5FixedE") "E"

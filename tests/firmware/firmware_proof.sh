@@ -8,4 +8,32 @@ source tests/arm/proof.sh "$@"
 
 image=$build/bin/firmware_$3.elf
 forbids_all "$image"
+# The interrupt divides nothing: its code is all in one source.
+if arm-none-eabi-nm -u "$build/examples/firmware/CMakeFiles/firmware_$3.dir/main.cpp.obj" | grep -E 'div|mod'; then
+    echo "the interrupt divides"
+    exit 1
+fi
+# The deepest call of the main loop, the interrupt on top of it, and what the processor saves for that. No call by an address is in
+# the interrupt, or this would fail. Soft float is in libgcc: no bound is known for its functions.
+scalar=Fixed
+frame=32
+if [[ $cpu == cortex-m4f ]]; then
+    scalar=float
+    frame=104
+fi
+if [[ $cpu != cortex-m0 ]]; then
+    bytes=$frame
+    for root in '' _ZN8firmware7on_tickEv; do
+        bound=$(find "$build/firmware_core" "$build/examples/firmware/CMakeFiles/firmware_$3.dir" -name '*.ci' \
+            -exec awk -v scalar=$scalar -v smooth=0 -v root=$root -f tests/arm/stack.awk {} +)
+        echo "$bound"
+        bytes=$((bytes + $(number_said '^stack bound ([0-9]+) ' "$bound")))
+    done
+    room=$((0x$(arm-none-eabi-nm "$image" | awk '$3 == "stack_top" { print $1 }') - 0x$(arm-none-eabi-nm "$image" | awk '$3 == "stack_bottom" { print $1 }')))
+    echo "stack $bytes of $room, at most"
+    if ((bytes > room)); then
+        echo "the stack could overflow"
+        exit 1
+    fi
+fi
 python3 tests/firmware/firmware_run.py "$host/bin/splinefeed" "$image" "$4"

@@ -183,6 +183,8 @@ TEST_CASE("Step generator: an emergency stop ends all pulses with its tick", "[g
         CHECK_FALSE(bench.steps->active());
 
         bench.steps->restart();
+        CHECK(bench.steps->stopped() == Stop::estop);
+        bench.steps->forgive();
         CHECK(bench.steps->stopped() == Stop::none);
         CHECK(bench.steps->level() == 0);
         bench.run();
@@ -214,6 +216,7 @@ TEST_CASE("Step generator: a limit switch slows down, and may be left", "[genera
     CHECK_FALSE(bench.steps->active());
 
     bench.steps->restart();
+    bench.steps->forgive();
     const std::int32_t stopped_at = bench.pulses;
     const std::vector<MotionPart> off = motion(60, true);
     bench.next = 0;
