@@ -49,12 +49,10 @@ void Console::obey_requests() noexcept {
         motion_.resume();
     }
     if (serial_.asked(Serial::Request::abort)) {
-        motion_.abort();
-        broken_ = false;
-        if (waiting_) {
-            waiting_ = false;
-            refuse("aborted");
+        char c = 0;
+        while (serial_.pop(c) && c != Serial::abort_mark) { // lines that came before it
         }
+        abort();
     }
     if (serial_.asked(Serial::Request::status)) {
         report_status();
@@ -64,12 +62,32 @@ void Console::obey_requests() noexcept {
     }
 }
 
+/// The line that waits is answered; those behind it are forgotten.
+void Console::abort() noexcept {
+    if (waiting_) {
+        waiting_ = false;
+        refuse("aborted");
+    }
+    length_ = 0;
+    too_long_ = broken_ = false;
+    if (motion_.has_program()) {
+        motion_.abort();
+    } else {
+        tell("aborted");
+    }
+}
+
 /// At most one line.
 void Console::read_lines() noexcept {
     char c = 0;
     while (serial_.pop(c)) {
         if (c == '\r') {
             continue;
+        }
+        if (c == Serial::abort_mark) { // it came after obey_requests()
+            static_cast<void>(serial_.asked(Serial::Request::abort));
+            abort();
+            return;
         }
         if (c != '\n') {
             too_long_ = too_long_ || length_ == line_.size();
@@ -180,19 +198,21 @@ void Console::refuse_waypoint(const char* reason) noexcept {
 }
 
 void Console::report() noexcept {
-    const char* name = nullptr;
     switch (motion_.next_event()) {
-    case Event::none: return;
-    case Event::done: name = "done"; break;
-    case Event::aborted: name = "aborted"; break;
-    case Event::held: name = "held"; break;
-    case Event::underrun: name = "underrun"; break;
-    case Event::late: name = "late"; break;
-    case Event::estop: name = "estop"; break;
-    case Event::limit: name = "limit"; break;
+    case Event::none: break;
+    case Event::done: tell("done"); break;
+    case Event::aborted: tell("aborted"); break;
+    case Event::held: tell("held"); break;
+    case Event::underrun: tell("underrun"); break;
+    case Event::late: tell("late"); break;
+    case Event::estop: tell("estop"); break;
+    case Event::limit: tell("limit"); break;
     }
+}
+
+void Console::tell(const char* event) noexcept {
     say("[");
-    say(name);
+    say(event);
     say_position();
     say("]\n");
 }

@@ -24,12 +24,14 @@ private:
 
     void obey_requests() noexcept;
     void read_lines() noexcept;
+    void abort() noexcept;
     void execute(const Command& command) noexcept;
     void give_waypoint() noexcept;
     void answer(splinefeed::Status status) noexcept;
     void refuse(const char* reason) noexcept;
     void refuse_waypoint(const char* reason) noexcept;
     void report() noexcept;
+    void tell(const char* event) noexcept;
     void report_status() noexcept;
     void report_memory() noexcept;
     void say(const char* text) noexcept { serial_.write(text); }

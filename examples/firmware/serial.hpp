@@ -20,6 +20,9 @@ public:
     static constexpr int nothing = -1;
     static constexpr int lost = -2; ///< the UART had no room for one or more bytes
 
+    /// Stands among the bytes of lines where an abort came: what was sent before it belongs to the program that ends.
+    static constexpr char abort_mark = 0x18;
+
     /// For the interrupt. @param read  () -> int: a byte, `nothing` or `lost`
     /// @param write  (std::uint8_t) -> bool: false if the UART has no room now
     template <class Read, class Write>
@@ -77,7 +80,10 @@ private:
         case '?': ask(Request::status); break;
         case '!': ask(Request::hold); break;
         case '~': ask(Request::resume); break;
-        case 0x18: ask(Request::abort); break;
+        case abort_mark:
+            ask(Request::abort);
+            received_.push(byte);
+            break;
         default: received_.push(byte); break;
         }
     }

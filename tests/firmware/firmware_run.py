@@ -11,8 +11,9 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 
-from board_in_qemu import Board, BoardFailed, DIRECTION, ENABLE, STEP
+from board_in_qemu import Board, BoardFailed, DIRECTION, ENABLE, STEP, WAIT_S
 
 ESTOP, LIMIT = "ctrl", "up"  # the keys of the board's buttons
 STEPS_PER_MM = (80, 80, 400)
@@ -218,12 +219,14 @@ def starved(bench):
 
 
 def under_way(bench, rows):
-    """Begins a program, and waits until it moves."""
+    """Begins a slow program, and waits until it moves."""
     bench.begin(rows)
+    bench.board.command("feed 40")
     for row in rows[:40]:
         bench.board.command(row)
+    end = time.monotonic() + WAIT_S
     while bench.board.status()[0] != "moving" or len(bench.steps_so_far()) < 2000:
-        pass
+        check(time.monotonic() < end, "it does not move")
 
 
 def switched_off(bench):
@@ -309,6 +312,10 @@ def steered(bench):
     bench.board.command("12,13", "error: a waypoint is")
     bench.event("held")
     bench.board.command(rows[40], "error: the program is broken")
+    # The rest of the file that was under way: nothing of it becomes another program.
+    bench.board.send("".join(row + "\n" for row in rows[41:44]) + rows[44] + "\x18")
+    bench.event("aborted")
+    bench.board.command(rows[0], "error: the machine stands elsewhere")
     bench.board.send("\x18")
     bench.event("aborted")
     for line, answer in {"": "ok", "# comment": "ok", "x,y,z": "ok", "jump": "error: known are", "feed 201": "error: feed",

@@ -126,7 +126,7 @@ TEST_CASE("Serial: requests act at once and are in no line", "[serial]") {
     while (serial.pop(c)) {
         read += c;
     }
-    CHECK(read == "1,2,3\n");
+    CHECK(read == "1,2,3\n\x18"); // the mark of where it came
     for (const auto request :
          {Serial::Request::status, Serial::Request::hold, Serial::Request::resume, Serial::Request::abort}) {
         CHECK(serial.asked(request));
