@@ -176,8 +176,8 @@ private:
                 return {};
             }
             moving_ = true;
-            rate_ = 0;
-            phase_ = rest_ ? full_rate : 0; // from standstill the motion begins now, else as slowly as it ended
+            rate_ = 0; // from where the ring ran out as slowly as it ended; from standstill begin_part() sets it
+            phase_ = full_rate;
         }
         if (stopping_) {
             if (rate_ <= lookahead_.slew) {

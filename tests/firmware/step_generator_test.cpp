@@ -105,6 +105,19 @@ TEST_CASE("Step generator: a motion to its end, at full rate", "[generator]") {
     CHECK(bench.steps->underruns() == 0);
 }
 
+TEST_CASE("Step generator: a crossing in the last half tick is a step, too", "[generator]") {
+    std::vector<MotionPart> parts = motion(60, true);
+    ++parts.back().end[0]; // as if the motion ended on the middle between two counts, which is rounded upwards
+    --parts.back().end[1];
+    Bench bench(128);
+    bench.fill(parts, parts.size());
+    for (int ms = 0; ms < 70; ++ms) {
+        bench.run();
+    }
+    CHECK(bench.steps->count(0) == parts.back().end[0]);
+    CHECK(bench.steps->count(1) == parts.back().end[1]);
+}
+
 TEST_CASE("Step generator: it waits until the ring holds enough, or a motion to its end", "[generator]") {
     const std::vector<MotionPart> parts = motion(400, true);
     Bench bench(128);
