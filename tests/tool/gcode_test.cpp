@@ -71,6 +71,23 @@ TEST_CASE("A program from a pipe is the program from its file") {
     CHECK(tool.read("a.csv") == tool.read("b.csv"));
 }
 
+TEST_CASE("The power of a laser changes while it moves, in the dialects of engravers") {
+    const Tool tool;
+    std::string changing = "G1 F3000\n";
+    std::string steady = changing + "S100\n";
+    for (int i = 1; i <= 20; ++i) {
+        const std::string x = "X" + std::to_string(i);
+        changing += x + " S" + std::to_string(10 * i) + "\n";
+        steady += x + "\n";
+    }
+    CHECK(seconds(tool, changing, "--dialect grbl") == Approx(seconds(tool, steady, "--dialect grbl")).margin(1e-9));
+    CHECK(seconds(tool, changing, "--dialect linuxcnc") > seconds(tool, steady, "--dialect linuxcnc") + 0.1);
+    tool.write("spindle.toml", "[path]\nmax_feed_mm_s = 100\n[spindle]\nmax_rpm = 20000\nramp_s = 4\n[[axis]]\nname = "
+                               "'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n");
+    CHECK(seconds(tool, "M3 S100\n" + changing, "--dialect grbl -m spindle.toml") >
+          seconds(tool, "M3 S100\n" + steady, "--dialect grbl -m spindle.toml") + 0.1);
+}
+
 TEST_CASE("A sender that dies within a line: the line is not executed") {
     const Tool tool;
     const auto piped = [&](const std::string& text) {

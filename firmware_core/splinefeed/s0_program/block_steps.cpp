@@ -159,6 +159,7 @@ void BlockInterpreter::fill_event(ProgramEvent& event) const noexcept {
     default: // the two of the speed
         event.kind = EventKind::spindle_speed;
         event.value = modal_.speed;
+        event.stops = settings_.dialect == Dialect::linuxcnc; // engravers change the power of a laser while it moves
     }
 }
 
