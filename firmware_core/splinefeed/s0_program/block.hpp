@@ -25,11 +25,11 @@ public:
     }
 
     void set(char letter, Decimal value, std::size_t column) noexcept {
-        present_ |= bit(letter);
+        present_ |= letter_bit(letter);
         values_[index(letter)] = value;
         columns_[index(letter)] = static_cast<std::uint8_t>(column - 1);
     }
-    [[nodiscard]] bool has(char letter) const noexcept { return (present_ & bit(letter)) != 0; }
+    [[nodiscard]] bool has(char letter) const noexcept { return (present_ & letter_bit(letter)) != 0; }
     /// Whether it has one of the letters.
     [[nodiscard]] bool has_any(std::uint32_t letters) const noexcept { return (present_ & letters) != 0; }
     [[nodiscard]] std::uint32_t letters() const noexcept { return present_; }
@@ -60,12 +60,12 @@ public:
         return {error, 0, static_cast<std::uint16_t>(has(group) ? code_columns_[static_cast<unsigned>(group)] + 1 : 0)};
     }
 
-    [[nodiscard]] static constexpr std::uint32_t bit(char letter) noexcept { return 1U << index(letter); }
+    [[nodiscard]] static constexpr std::uint32_t letter_bit(char letter) noexcept { return 1U << index(letter); }
     /// Of several letters.
     [[nodiscard]] static consteval std::uint32_t bits(std::string_view letters) noexcept {
         std::uint32_t all = 0;
         for (const char letter : letters) {
-            all |= bit(letter);
+            all |= letter_bit(letter);
         }
         return all;
     }

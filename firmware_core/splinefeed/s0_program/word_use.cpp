@@ -45,10 +45,10 @@ std::uint32_t letters_used(const Block& block, std::int16_t motion) noexcept {
 }
 
 BlockStatus check_axes(const Block& block, const AxisLetters& letters, Dialect dialect) noexcept {
-    const std::uint32_t axes = axis_bits | (dialect == Dialect::marlin ? Block::bit('e') : 0);
+    const std::uint32_t axes = axis_bits | (dialect == Dialect::marlin ? Block::letter_bit('e') : 0);
     const std::uint32_t missing = block.letters() & axes & ~letters.bits();
     for (char letter = 'a'; letter <= 'z' && missing != 0; ++letter) {
-        if ((missing & Block::bit(letter)) != 0) {
+        if ((missing & Block::letter_bit(letter)) != 0) {
             return block.at(Error::axis_missing, letter);
         }
     }
@@ -167,7 +167,7 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
         return status;
     }
     const bool marlin = dialect == Dialect::marlin;
-    const std::uint32_t axes = axis_bits | (marlin ? Block::bit('e') : 0);
+    const std::uint32_t axes = axis_bits | (marlin ? Block::letter_bit('e') : 0);
     if (const BlockStatus status = find_axis_use(block, modal, block.has_any(axes), out); !status.ok()) {
         return status;
     }
@@ -183,7 +183,7 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
     }
     const std::uint32_t unused = block.letters() & ~(axes | letters_used(block, out.motion));
     for (char letter = 'a'; letter <= 'z' && unused != 0; ++letter) {
-        if ((unused & Block::bit(letter)) != 0) {
+        if ((unused & Block::letter_bit(letter)) != 0) {
             return block.at(Error::word_unused, letter);
         }
     }
