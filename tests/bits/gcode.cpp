@@ -70,6 +70,8 @@ public:
     }
     bool read(std::string_view, Decimal&) const noexcept override { return false; }
     bool write(std::string_view, Decimal) noexcept override { return false; }
+    void forget(std::int32_t number) noexcept override { static_cast<void>(write(number, {})); }
+    void forget(std::string_view) noexcept override {}
 
 private:
     static bool known(std::int32_t number) { return number > 0 && number < 10; }
