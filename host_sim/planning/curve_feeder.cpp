@@ -199,7 +199,7 @@ std::uint64_t CurveFeeder<S>::line_of_row(std::uint32_t row) const noexcept {
         return row < all_.size() ? all_[row].line : 0;
     }
     const std::uint64_t whole = whole_row(row);
-    const bool known = whole < rows_read_ && whole + remembered >= rows_read_;
+    const bool known = !lines_.empty() && whole < rows_read_ && whole + remembered >= rows_read_; // segments have none
     return known ? lines_[whole % remembered] : 0;
 }
 

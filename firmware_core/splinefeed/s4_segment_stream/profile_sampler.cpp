@@ -46,10 +46,8 @@ ProfileSampler<S>::ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& li
     : plan_(&plan), segments_per_s_(limits.segments_per_s), axes_(limits.axes) {
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
         braking_mm_s2_[k] = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
-        largest_change_[k] =
-            literal<S>(kept_of_change) * (scale2(braking_mm_s2_[k] / segments_per_s_, fine) / segments_per_s_);
     }
-    head_start_ = limits.jerk_limited ? S{} : literal<S>(head_start);
+    between_samples_ = !limits.jerk_limited;
 }
 
 // Computes the time of the plan's next profile segment.
@@ -128,7 +126,8 @@ void ProfileSampler<S>::follow_steering() noexcept {
 template <Scalar S>
 bool ProfileSampler<S>::within(unsigned axis, S change) const noexcept {
     const S size = absolute(change);
-    return !(size > S{}) || (size <= largest_change_[axis] && largest_change_[axis] > literal<S>(least_change));
+    const S largest = scale2(braking_mm_s2_[axis] / segments_per_s_, fine) / segments_per_s_;
+    return !(size > S{}) || (size <= literal<S>(kept_of_change) * largest && largest > literal<S>(least_change));
 }
 
 template <Scalar S>
@@ -143,13 +142,13 @@ bool ProfileSampler<S>::may_arrive_at(const PerAxis<Position>& stop) const noexc
     return true;
 }
 
-// Whether the first sample of a motion from rest may be head_start_ late in it: the profile segment lasts that long.
+// Whether the first sample of a motion from rest may be later in it: the profile segment lasts that long.
 template <Scalar S>
 bool ProfileSampler<S>::may_leave() const noexcept {
-    const S first = from_integer<S>(1) + head_start_;
-    const S second = from_integer<S>(2) + head_start_;
+    const S first = literal<S>(1.0 + head_start);
+    const S second = literal<S>(2.0 + head_start);
     const ProfileSegment<S>& profile_segment = plan_->profile_segment();
-    if (!(head_start_ > S{}) || !resting_ || elapsed_ > S{} || profile_segment.shape != SpeedShape::line ||
+    if (!between_samples_ || !resting_ || elapsed_ > S{} || profile_segment.shape != SpeedShape::line ||
         profile_segment.entry_sq > S{} || !(second < motion_.duration())) {
         return false;
     }
@@ -177,7 +176,7 @@ bool ProfileSampler<S>::arrive() noexcept {
     const Cell<S>& cell = plan_->cell();
     // With a limited jerk the last part of the way to standstill is no longer than rounding.
     const bool bound_to_place = !plan_->steering().stops() || profile_segment.shape != SpeedShape::line;
-    const S early = bound_to_place ? larger(head_start_, literal<S>(arrival)) : literal<S>(0.5);
+    const S early = !bound_to_place ? literal<S>(0.5) : between_samples_ ? literal<S>(head_start) : literal<S>(arrival);
     if (elapsed_ + early < motion_.duration()) {
         return false;
     }
@@ -222,7 +221,7 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun) noexcept {
         return entered;
     }
     if (!advanced_) {
-        elapsed_ += may_leave() ? from_integer<S>(1) + head_start_ : from_integer<S>(1);
+        elapsed_ += may_leave() ? literal<S>(1.0 + head_start) : from_integer<S>(1);
         older_ = previous_;
         previous_ = position_;
         resting_ = false;

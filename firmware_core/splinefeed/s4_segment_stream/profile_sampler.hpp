@@ -40,12 +40,11 @@ private:
     S segments_per_s_{};
     S elapsed_{}; // time since the start of the profile segment [segment durations]
     ProfileMotion<S> motion_;
-    S head_start_{};               // how much earlier than on a sample a motion may arrive at a stop, and leave it
-    PerAxis<S> largest_change_{};  // second difference of samples that keeps the acceleration [2^-12 mm]
     PerAxis<Position> previous_{}; // the previous sample
     PerAxis<Position> older_{};    // the one before it
     int axes_ = 0;
-    int repeats_ = 0; // samples that are still to be repeated at a stop
+    int repeats_ = 0;              // samples that are still to be repeated at a stop
+    bool between_samples_ = false; // a motion may arrive at a stop, and leave it, between samples
     bool started_ = false;
     bool resting_ = false; // the last three samples are equal
     bool in_segment_ = false;
