@@ -23,4 +23,4 @@ at_most_hex() {
     fi
 }
 at_most_hex 'bytes of RAM' 2048
-if [[ $cpu == cortex-m4f ]]; then at_most_hex 'cost of all' 480000; fi
+if [[ $cpu == cortex-m4f ]]; then at_most_hex 'cost of all' 431000; fi

@@ -40,7 +40,9 @@ public:
             if (next == '#' || next == '[' || (next >= 'a' && next <= 'z')) {
                 text_.step();
                 const Status status = value(out, depth + 1);
-                out = c == '-' ? -out : out;
+                if (status.ok() && c == '-') {
+                    out = -out;
+                }
                 return status;
             }
         }
