@@ -69,9 +69,6 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
             }
             steps_.stood(segment);
         } else if (pull(segment)) {
-            if (segments_ == 0 && tee_.failure()) {
-                std::rethrow_exception(tee_.failure());
-            }
             steps_.begin(segment, machine_.cycle_time_s());
             pass(segment.waypoint);
             if (!execute(segment)) {
@@ -172,6 +169,9 @@ bool Motion<S>::pull(FeedSegment& segment) {
     late_ = late();
     const bool item = trajectory_.next(segment, late_ ? UnderrunPolicy::drain : UnderrunPolicy::wait) == Pull::item;
     planning_ += Clock::now() - start;
+    if (item && segments_ == 0 && tee_.failure()) { // nothing has moved yet
+        std::rethrow_exception(tee_.failure());
+    }
     return item;
 }
 

@@ -219,7 +219,7 @@ SPLINEFEED_CALLED [[nodiscard]] constexpr std::int64_t any_shift(std::int64_t va
 
 /// The same; for a constant without a call.
 [[nodiscard, gnu::always_inline]] constexpr std::int64_t shifted(std::int64_t value, int exponent) noexcept {
-    if (__builtin_constant_p(exponent)) {
+    if (__builtin_constant_p(exponent) != 0) {
         if (exponent < 0 && exponent >= -31) {
             return halved(value, -exponent);
         }
