@@ -35,14 +35,16 @@ foreach(cpu m0 m3 m4f)
     repository_test(arm_pulse_${cpu} arm/pulse_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
     repository_test(arm_blend_${cpu} arm/blend_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
     repository_test(arm_gcode_${cpu} arm/gcode_proof.sh cortex-${cpu} ${PROJECT_BINARY_DIR})
-    set_tests_properties(arm_stages_${cpu} arm_pulse_${cpu} arm_blend_${cpu} arm_gcode_${cpu} PROPERTIES DEPENDS arm_link_${cpu}) # one build
+    # One build, which CMake and ninja look at again in each test: not two at a time.
+    set_tests_properties(arm_stages_${cpu} arm_pulse_${cpu} arm_blend_${cpu} arm_gcode_${cpu}
+                         PROPERTIES DEPENDS arm_link_${cpu} RESOURCE_LOCK arm_build_${cpu})
 endforeach()
 repository_test(firmware_lm3s6965 firmware/firmware_proof.sh cortex-m3 ${PROJECT_BINARY_DIR} lm3s6965 lm3s6965evb)
 repository_test(firmware_stm32f405 firmware/firmware_proof.sh cortex-m4f ${PROJECT_BINARY_DIR} stm32f405 netduinoplus2)
 repository_test(firmware_nrf51 firmware/firmware_proof.sh cortex-m0 ${PROJECT_BINARY_DIR} nrf51 microbit)
-set_tests_properties(firmware_nrf51 PROPERTIES DEPENDS arm_link_m0)
-set_tests_properties(firmware_lm3s6965 PROPERTIES DEPENDS arm_link_m3) # one build
-set_tests_properties(firmware_stm32f405 PROPERTIES DEPENDS arm_link_m4f)
+set_tests_properties(firmware_nrf51 PROPERTIES DEPENDS arm_link_m0 RESOURCE_LOCK arm_build_m0)
+set_tests_properties(firmware_lm3s6965 PROPERTIES DEPENDS arm_link_m3 RESOURCE_LOCK arm_build_m3)
+set_tests_properties(firmware_stm32f405 PROPERTIES DEPENDS arm_link_m4f RESOURCE_LOCK arm_build_m4f)
 repository_test(tidy ALONE tools/tidy.sh)
 repository_test(gpio_vm_runs gpio/vm/runs.sh ${PROJECT_BINARY_DIR})
 repository_test(install_consumer install/consumer.sh ${PROJECT_BINARY_DIR})
