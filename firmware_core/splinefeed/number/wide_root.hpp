@@ -62,7 +62,7 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
         return 0;
     }
     // Scaling by a power of four scales the root by a power of two, and floor(floor(r) / 2^k) = floor(r / 2^k).
-    const int shift = leading_zeros(a) & ~1;
+    const int shift = leading_zeros(a) & 126; // even; below 128 because a is not zero
     const Wide n = shift_left(a, shift);
     // Zimmermann's step ("Karatsuba square root"): from the exact root s and remainder r of the upper half, the lower
     // digit q = (r 2^32 + next digit) / 2s is right or one too large. The numerator has 65 bits, so it is halved first.

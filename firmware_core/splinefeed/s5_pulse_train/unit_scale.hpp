@@ -18,8 +18,8 @@ struct UnitScale {
     [[nodiscard]] static constexpr UnitScale ratio(std::uint32_t numerator, std::uint32_t denominator) noexcept {
         const int zeros_n = std::countl_zero(numerator);
         const int zeros_d = std::countl_zero(denominator);
-        const std::uint64_t n = static_cast<std::uint64_t>(numerator) << (zeros_n + 31);   // [2^62, 2^63)
-        const std::uint64_t d = static_cast<std::uint64_t>(denominator) << (zeros_d + 32); // [2^63, 2^64)
+        const std::uint64_t n = static_cast<std::uint64_t>(numerator) << (zeros_n + 31);  // [2^62, 2^63)
+        const std::uint64_t d = static_cast<std::uint64_t>(denominator) << 32 << zeros_d; // [2^63, 2^64)
         return UnitScale{divide(Wide{n, 0}, d).quotient, 63 + zeros_n - zeros_d}.normalised();
     }
 

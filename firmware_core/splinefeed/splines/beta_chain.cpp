@@ -35,6 +35,9 @@ Status beta_chain(const BetaChain<S>& chain, std::span<BezierPiece<S>> pieces, s
     }
     const int free = chain.degree - chain.order;
     const std::size_t count = chain.piece_count();
+    const auto behind = [count](std::size_t j) {
+        return j + 1 < count ? j + 1 : 0;
+    };
     for (std::size_t p = 0; p < count; ++p) {
         pieces[p] = BezierPiece<S>{};
         pieces[p].degree = chain.degree;
@@ -45,10 +48,10 @@ Status beta_chain(const BetaChain<S>& chain, std::span<BezierPiece<S>> pieces, s
     // All free points first: a joint of a closed chain reads those of the polygon before it.
     for (std::size_t j = 0; j < chain.joint_count(); ++j) {
         for (int i = 0; i < free; ++i) {
-            pieces[(j + 1) % count].set_point(chain.order + 1 + i,
-                                              chain.free_points[((j + (chain.closed ? 1U : 0U)) % chain.joint_count()) *
-                                                                    static_cast<std::size_t>(free) +
-                                                                static_cast<std::size_t>(i)]);
+            pieces[behind(j)].set_point(chain.order + 1 + i,
+                                        chain.free_points[((j + (chain.closed ? 1U : 0U)) % chain.joint_count()) *
+                                                              static_cast<std::size_t>(free) +
+                                                          static_cast<std::size_t>(i)]);
         }
     }
     for (std::size_t j = 0; j < chain.joint_count(); ++j) {
@@ -60,7 +63,7 @@ Status beta_chain(const BetaChain<S>& chain, std::span<BezierPiece<S>> pieces, s
             return joint.error();
         }
         joints[j] = *joint;
-        BezierPiece<S>& after = pieces[(j + 1) % count];
+        BezierPiece<S>& after = pieces[behind(j)];
         after.set_point(0, joint->w0);
         after.set_point(1, joint->w1);
         if (chain.order == 2) {

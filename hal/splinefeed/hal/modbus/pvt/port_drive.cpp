@@ -39,7 +39,7 @@ bool PortDrive::carries(const FeedSegment& segment) const noexcept {
 }
 
 void PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
-    const bool carried = to_pvt(segment, wiring_.axes, last_);
+    [[maybe_unused]] const bool carried = to_pvt(segment, wiring_.axes, last_);
     SPLINEFEED_ASSERT(carried);
     if (trim_.anchored()) {
         const double gain = gain_us(trim_.next_end_us(segment.duration_ticks)) - gained_us_;
