@@ -52,6 +52,9 @@ inline constexpr Lookahead lookahead = [] {
     return ahead;
 }();
 static_assert(lookahead.slew > 0);
+
+/// Steps of planning in a round of the main loop, between which the loop looks at the serial line.
+inline constexpr unsigned work_a_call = 4;
 static_assert(board::window >= splinefeed::FeedPlan<Real>::smallest_window);
 
 } // namespace firmware

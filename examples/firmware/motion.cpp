@@ -124,12 +124,17 @@ bool Motion::reset() noexcept {
 }
 
 void Motion::plan() noexcept {
-    if (!has_program() || finished_ || steps_.stopped() != Stop::none || steps_.room() == 0) {
+    using splinefeed::UnderrunPolicy;
+    if (!has_program() || finished_ || steps_.stopped() != Stop::none) {
         return;
     }
-    Pull pull = trajectory_.next(segment_);
+    if (steps_.room() == 0) {
+        trajectory_.measure_ahead(work_a_call);
+        return;
+    }
+    Pull pull = trajectory_.next(segment_, UnderrunPolicy::wait, work_a_call);
     if (pull == Pull::starved && !at_rest_ && steps_.level() <= 1U << lookahead.reserve_log2) {
-        pull = trajectory_.next(segment_, splinefeed::UnderrunPolicy::drain);
+        pull = trajectory_.next(segment_, UnderrunPolicy::drain, work_a_call);
     }
     if (pull == Pull::item) {
         emit();

@@ -50,7 +50,7 @@ public:
     /// Leaves the state after an emergency stop or a limit switch. false: the machine is not stopped.
     bool reset() noexcept;
 
-    /// At most one call of Trajectory::next(). Call it as often as possible.
+    /// A part of the planning, of work_a_call steps at most. Call it as often as possible.
     void plan() noexcept;
     /// What has happened since the last call.
     [[nodiscard]] Event next_event() noexcept;

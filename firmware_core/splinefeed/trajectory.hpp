@@ -54,10 +54,26 @@ public:
     /// @param underrun  drain: for a machine that moves and has no segment left while the input is late. The motion
     ///                  continues along the known path, brakes to standstill at its end, and starts again when more
     ///                  input comes.
-    [[nodiscard]] Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept {
+    /// @param work      bound of the work of this call, at least 1, for a main loop that has other work as well. A step
+    ///                  is a piece of the curve that is measured, a node that is planned, or a cell that is entered; on
+    ///                  top comes one segment. docs/reference/budgets.md has the instructions. `busy`: nothing was
+    ///                  lost, call again. What is emitted does not depend on it. A plan that limits the jerk ignores
+    ///                  it.
+    [[nodiscard]] Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait,
+                            unsigned work = WorkBudget::unlimited) noexcept {
+        SPLINEFEED_ASSERT(work > 0);
         steering().poll();
-        planner_->state_ = planner_->stream_->next(out, underrun);
+        WorkBudget budget(work);
+        planner_->state_ = planner_->stream_->next(out, underrun, budget);
         return planner_->state_;
+    }
+    /// Measures a part of the path before next() needs it: call it while the machine has segments in store. What is
+    /// emitted does not depend on it, but waypoints are asked for earlier.
+    /// @param work  bound of the work, as in next()
+    /// @return false: nothing is left to measure, because the window is full or the input has no more
+    bool measure_ahead(unsigned work) noexcept {
+        WorkBudget budget(work);
+        return planner_->feed_plan_->measure_ahead(budget);
     }
     /// The answer of the last next(); `starved` before the first call.
     [[nodiscard]] Pull state() const noexcept { return planner_->state_; }

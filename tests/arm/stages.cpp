@@ -21,6 +21,7 @@ namespace {
 constexpr unsigned waypoints = 400;
 constexpr std::uint32_t instructions_a_count = 64;
 constexpr std::size_t window_cells = 52;
+constexpr unsigned work_a_call = 4; // as in examples/firmware
 
 constexpr MachineSettings machine(bool jerk_limited) {
     MachineSettings settings;
@@ -107,6 +108,9 @@ template <class Next, class Use>
             use();
             continue;
         }
+        if (pull == Pull::busy) {
+            continue;
+        }
         while (pushed < waypoints && curve.has_room()) {
             const Waypoint<Fixed> waypoint = helix.next();
             const std::uint32_t start = instructions_now();
@@ -179,6 +183,20 @@ Trajectory<Fixed> make_trajectory(G2Spline<Fixed>& curve) {
     }
 }
 
+/// The same motion, planned in as small parts as the reference firmware plans it.
+void write_parts() {
+    auto& curve = Static<G2Spline<Fixed>>::build(CurveOptions<Fixed>{});
+    Trajectory<Fixed> trajectory = make_trajectory<false>(curve);
+    FeedSegment& segment = Static<FeedSegment>::build();
+    SegmentHash hash;
+    const Work work = pull(
+        curve, [&] { return trajectory.next(segment, UnderrunPolicy::wait, work_a_call); },
+        [&] { hash.add(segment); });
+    write_cost("parts_waypoint", work.counts, waypoints);
+    write_cost("parts_longest_call", work.most, 1);
+    write_value("parts hash", hash.value());
+}
+
 template <bool jerk_limited>
 void write_pipeline() {
     auto& curve = Static<G2Spline<Fixed>>::build(CurveOptions<Fixed>{});
@@ -200,6 +218,7 @@ int main() {
     start_counting();
     write_stages();
     write_pipeline<false>();
+    write_parts();
     write_pipeline<true>();
     return 0;
 }

@@ -35,7 +35,8 @@ struct Round {
     bool closed = false;
     std::size_t window = 64;
     UnderrunPolicy policy = UnderrunPolicy::wait;
-    double pace = 1.0; // waypoints a segment
+    double pace = 1.0;                     // waypoints a segment
+    unsigned work = WorkBudget::unlimited; // of a call
     std::vector<Event> events;
 };
 
@@ -69,6 +70,7 @@ Round random_round(Random& random, PlanKind planner) {
     round.window = windows[random.integer(0, 3)];
     round.policy = random.chance(0.5) ? UnderrunPolicy::drain : UnderrunPolicy::wait;
     round.pace = random.decades(0.001, 0.3);
+    round.work = random.chance(0.5) ? static_cast<unsigned>(random.integer(1, 20)) : WorkBudget::unlimited;
     round.events = random_orders(random);
     return round;
 }
@@ -114,7 +116,9 @@ void emit(AnyTrajectory<S>& any, Curve& curve, const std::vector<Feed<S>>& feeds
     bool stopping = false;
     FeedSegment segment;
     while (!out.endless) {
-        for (; next < round.events.size() && round.events[next].segment <= out.segments.size(); ++next) {
+        // A request may come in the middle of a part, too.
+        const std::size_t now = out.segments.size() + (trajectory.state() == Pull::busy ? 1U : 0U);
+        for (; next < round.events.size() && round.events[next].segment <= now; ++next) {
             const bool before = stopping;
             give(trajectory, round.events[next]);
             stopping = trajectory.activity() == Activity::holding || trajectory.activity() == Activity::aborting;
@@ -123,7 +127,13 @@ void emit(AnyTrajectory<S>& any, Curve& curve, const std::vector<Feed<S>>& feeds
         if (random.chance(round.pace)) {
             push();
         }
-        const bool item = trajectory.next(segment, round.policy) == Pull::item;
+        if (round.work != WorkBudget::unlimited && random.chance(0.3)) {
+            trajectory.measure_ahead(round.work);
+        }
+        if (trajectory.next(segment, round.policy, round.work) == Pull::busy) {
+            continue; // the machine has segments in store
+        }
+        const bool item = trajectory.state() == Pull::item;
         const Activity activity = trajectory.activity();
         if (item) {
             out.segments.push_back(segment);
@@ -139,9 +149,7 @@ void emit(AnyTrajectory<S>& any, Curve& curve, const std::vector<Feed<S>>& feeds
         if (!item && trajectory.state() == Pull::held && next == round.events.size()) {
             break;
         }
-        if (!item && trajectory.state() == Pull::starved) {
-            REQUIRE_FALSE(finished);
-        }
+        REQUIRE_FALSE((trajectory.state() == Pull::starved && finished));
         if (!item && trajectory.state() == Pull::starved &&
             (round.policy == UnderrunPolicy::wait || out.segments.empty())) {
             push();

@@ -24,6 +24,7 @@ struct SteeredRun {
     Activity activity = Activity::running;
     bool finished = false;
     bool endless = false;
+    std::size_t busy = 0; // calls whose work was not enough
     PerAxis<Position> position{};
 };
 
@@ -39,17 +40,22 @@ void give(Trajectory<S>& trajectory, const Event& event) {
 
 /// Runs to the end of the program, or to where the machine stands with no event left. While it stands and events are to
 /// come, segments of standing still pass the time. @param supply  called when the input is starved
+/// @param work  of a call of next(); where it was not enough, the next call follows
 template <Scalar S>
 void run_steered(Trajectory<S>& trajectory, const std::vector<Event>& events, SteeredRun& run,
-                 const std::function<void()>& supply = {}, UnderrunPolicy underrun = UnderrunPolicy::wait) {
+                 const std::function<void()>& supply = {}, UnderrunPolicy underrun = UnderrunPolicy::wait,
+                 const std::function<unsigned()>& work = {}) {
     FeedSegment segment;
     std::size_t next = 0;
     for (;;) {
         while (next < events.size() && events[next].segment <= run.segments.size()) {
             give(trajectory, events[next++]);
         }
-        if (trajectory.next(segment, underrun) == Pull::item) {
+        if (trajectory.next(segment, underrun, work ? work() : WorkBudget::unlimited) == Pull::item) {
             run.segments.push_back(segment);
+        } else if (trajectory.state() == Pull::busy) {
+            ++run.busy;
+            continue;
         } else if (trajectory.state() == Pull::starved && supply) {
             supply();
             continue;

@@ -228,6 +228,7 @@ enum class Pull : std::uint8_t {
     starved,  ///< none now: push more waypoints, or finish the input
     held,     ///< none now: the machine stands until it is resumed (only FeedPlan and the stages after it)
     finished, ///< none, and there will be no more
+    busy,     ///< none yet: the budget of work is spent; call again (only with a WorkBudget)
 };
 
 } // namespace splinefeed

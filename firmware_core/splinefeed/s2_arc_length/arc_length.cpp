@@ -238,7 +238,7 @@ AxisShape<S> ArcLength<S>::largest_shape(unsigned axis, const Cell<S>& cell) con
 }
 
 // A piece that was accepted as it is may turn by more than normal cells. Then the largest values are used for the whole
-// cell. To prevent an overflow in Fixed, the plan also limits its speed (FeedPlan::bound).
+// cell. To prevent an overflow in Fixed, the plan also limits its speed (SpeedCaps).
 template <Scalar S>
 AxisShape<S> ArcLength<S>::shape_of(unsigned axis, S rounding, const Cell<S>& cell) const noexcept {
     const S twice = cell.length_mm + cell.length_mm;
@@ -349,14 +349,13 @@ void ArcLength<S>::split() noexcept {
 }
 
 template <Scalar S>
-Pull ArcLength<S>::next(Cell<S>& out) noexcept {
-    if (depth_ == 0) {
-        const Pull pull = load();
-        if (pull != Pull::item) {
+Pull ArcLength<S>::next(Cell<S>& out, WorkBudget& work) noexcept {
+    if (depth_ == 0 && work.take()) {
+        if (const Pull pull = load(); pull != Pull::item) {
             return pull;
         }
     }
-    for (;;) {
+    while (work.take()) {
         const Verdict verdict = judge(top());
         if (verdict == Verdict::coarse) {
             split();
@@ -379,6 +378,7 @@ Pull ArcLength<S>::next(Cell<S>& out) noexcept {
             --depth_;
         }
     }
+    return Pull::busy;
 }
 
 // Removes the delivered piece from the stack, and the segment if it was its last piece.

@@ -2,6 +2,7 @@
 // ArcLength: divides Bezier segments into cells and measures each cell: u(s), and bounds of dq/ds and d2q/ds2.
 #pragma once
 
+#include "splinefeed/base/work_budget.hpp"
 #include "splinefeed/s1_curve/curve_source.hpp"
 #include "splinefeed/s2_arc_length/cell.hpp"
 #include "splinefeed/s2_arc_length/checked_source.hpp"
@@ -34,8 +35,13 @@ public:
         slow_before_ = slow_ = slow_after_ = false;
     }
     /// Writes the next cell in the order of travel. The path ends before a segment that does not fit the machine: see
-    /// status().
-    Pull next(Cell<S>& out) noexcept;
+    /// status(). `busy`: the budget is spent; call again. A step is a piece that is judged, or a segment of the source.
+    Pull next(Cell<S>& out, WorkBudget& work) noexcept;
+    /// The same without a bound.
+    Pull next(Cell<S>& out) noexcept {
+        WorkBudget unlimited;
+        return next(out, unlimited);
+    }
     /// Why the path ended before the end of its source: axes_differ, counts_out_of_range or start_elsewhere.
     [[nodiscard]] Status status() const noexcept { return source_.status(); }
 

@@ -52,14 +52,15 @@ ProfileSampler<S>::ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& li
 
 // Computes the time of the plan's next profile segment.
 template <Scalar S>
-Pull ProfileSampler<S>::enter_segment(UnderrunPolicy underrun) noexcept {
-    const Pull pull = plan_->prepare(underrun);
+Pull ProfileSampler<S>::enter_segment(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    const Pull pull = plan_->prepare(underrun, work);
     if (pull != Pull::item) {
         return pull;
     }
     motion_ = ProfileMotion<S>(plan_->profile_segment(), plan_->cell().length_mm, segments_per_s_);
     waypoint_ = plan_->cell().waypoint;
     in_segment_ = true;
+    work.charge();
     return Pull::item;
 }
 
@@ -203,15 +204,19 @@ bool ProfileSampler<S>::arrive() noexcept {
 
 // An underrun may interrupt it anywhere; it continues where it was.
 template <Scalar S>
-Pull ProfileSampler<S>::next(UnderrunPolicy underrun) noexcept {
-    if (in_segment_ && !advanced_ && plan_->steering().pending()) {
+Pull ProfileSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    if (in_segment_ && !advanced_ && (replans_ || plan_->steering().pending())) {
+        replans_ = !plan_->replan(work);
+        if (replans_) {
+            return Pull::busy;
+        }
         follow_steering();
     }
     if (repeats_ > 0) {
         --repeats_;
         return Pull::item;
     }
-    const Pull entered = in_segment_ ? Pull::item : enter_segment(underrun);
+    const Pull entered = in_segment_ ? Pull::item : enter_segment(underrun, work);
     if (!started_ && (entered == Pull::item || entered == Pull::held)) {
         plan_->cell().position_at(S{}, origin_);
         previous_ = position_ = origin_;
@@ -237,7 +242,7 @@ Pull ProfileSampler<S>::next(UnderrunPolicy underrun) noexcept {
         elapsed_ -= motion_.duration();
         plan_->advance();
         in_segment_ = false;
-        const Pull pull = enter_segment(underrun);
+        const Pull pull = work.spent() ? Pull::busy : enter_segment(underrun, work);
         if (pull != Pull::item) {
             return pull;
         }

@@ -16,12 +16,12 @@ class ProfileSampler final : public Sampler<S> {
 public:
     ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept;
 
-    Pull next(UnderrunPolicy underrun) noexcept override;
+    Pull next(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] bool at_rest() const noexcept override { return !in_segment_ && repeats_ == 0 && !advanced_; }
     void clear() noexcept override {}
 
 private:
-    Pull enter_segment(UnderrunPolicy underrun) noexcept;
+    Pull enter_segment(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     void follow_steering() noexcept;
     [[nodiscard]] S braked(S x, S speed) const noexcept;
     bool arrive() noexcept;
@@ -49,6 +49,7 @@ private:
     bool resting_ = false; // the last three samples are equal
     bool in_segment_ = false;
     bool advanced_ = false; // elapsed_ already holds the next sample's time
+    bool replans_ = false;  // the plan is about to follow the steering
 };
 
 } // namespace splinefeed

@@ -16,8 +16,8 @@ public:
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
 
-    /// Computes the next sample. `starved`, `held` and `finished`: there is none, and nothing was lost.
-    virtual Pull next(UnderrunPolicy underrun) noexcept = 0;
+    /// Computes the next sample. `starved`, `held`, `busy` and `finished`: there is none, and nothing was lost.
+    virtual Pull next(UnderrunPolicy underrun, WorkBudget& work) noexcept = 0;
     /// Whether this sample is the last one of a motion.
     [[nodiscard]] virtual bool at_rest() const noexcept = 0;
     /// Forgets the path so far, for a new program. @pre at_rest()

@@ -47,8 +47,8 @@ void SegmentStream<S>::push_control(const PerAxis<Position>& position) noexcept 
 }
 
 template <Scalar S>
-Pull SegmentStream<S>::next(FeedSegment& out, UnderrunPolicy underrun) noexcept {
-    const Pull pull = sampler_->next(underrun);
+Pull SegmentStream<S>::next(FeedSegment& out, UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    const Pull pull = sampler_->next(underrun, work);
     if (!started_ && (pull == Pull::item || pull == Pull::held)) {
         for (int i = 0; i < 3; ++i) {
             push_control(sampler_->origin());

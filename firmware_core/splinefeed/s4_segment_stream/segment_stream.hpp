@@ -21,7 +21,13 @@ public:
     SegmentStream(Sampler<S>& sampler, const MotionLimits<S>& limits) noexcept;
 
     /// Writes the next feed segment. `starved`: the plan has none yet; nothing was lost. `held`: the machine stands.
-    Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept;
+    /// `busy`: the budget is spent; call again.
+    Pull next(FeedSegment& out, UnderrunPolicy underrun, WorkBudget& work) noexcept;
+    /// The same without a bound.
+    Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept {
+        WorkBudget unlimited;
+        return next(out, underrun, unlimited);
+    }
     /// Writes a segment of standstill at the present position. false: the machine moves, or its position is not known
     /// because no motion has begun.
     [[nodiscard]] bool stand(FeedSegment& out) noexcept;

@@ -94,14 +94,14 @@ void SmoothSampler<S>::begin() noexcept {
 
 // One tick of the motion.
 template <Scalar S>
-Pull SmoothSampler<S>::tick(UnderrunPolicy underrun) noexcept {
+Pull SmoothSampler<S>::tick(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     if (rests_ && rested_ < dwell_) {
         ++rested_;
         mean_.push(place_);
         return Pull::item;
     }
     if (rests_) {
-        const Pull pull = plan_->prepare(underrun);
+        const Pull pull = plan_->prepare(underrun, work);
         if (!begun_ && (pull == Pull::item || pull == Pull::held) && !plan_->empty()) {
             plan_->cell().position_at(S{}, origin_);
             position_ = origin_;
@@ -122,7 +122,7 @@ Pull SmoothSampler<S>::tick(UnderrunPolicy underrun) noexcept {
     }
     while (left_ > S{}) {
         if (!in_segment_) {
-            const Pull pull = plan_->prepare(underrun);
+            const Pull pull = plan_->prepare(underrun, work);
             if (pull != Pull::item) {
                 return pull;
             }
@@ -159,8 +159,8 @@ void SmoothSampler<S>::locate(PathPosition mean) noexcept {
 }
 
 template <Scalar S>
-Pull SmoothSampler<S>::next(UnderrunPolicy underrun) noexcept {
-    const Pull pull = tick(underrun);
+Pull SmoothSampler<S>::next(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    const Pull pull = tick(underrun, work);
     if (pull == Pull::item) {
         locate(mean_.value());
     }

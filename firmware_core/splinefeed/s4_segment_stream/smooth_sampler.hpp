@@ -21,14 +21,14 @@ public:
         return MovingAverage::places_for(larger(limits.smoothing_q8, limits.most_smoothing_q8));
     }
 
-    Pull next(UnderrunPolicy underrun) noexcept override;
+    Pull next(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] bool at_rest() const noexcept override { return rests_ && rested_ >= dwell_; }
     void clear() noexcept override { begun_ = false; }
 
 private:
     static constexpr int fine = 12; // lengths in units of 2^-12 mm
 
-    Pull tick(UnderrunPolicy underrun) noexcept;
+    Pull tick(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     void begin() noexcept;
     void travel() noexcept;
     void follow_steering() noexcept;

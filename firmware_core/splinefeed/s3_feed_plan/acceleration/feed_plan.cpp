@@ -21,166 +21,69 @@
 // at the exit. If the machine is not faster than the steering wants, the lower limit of P has no effect, and the plan
 // is that without steering. A change computes the K of the steering again, drops what was committed beyond final nodes,
 // and chooses a new profile segment from where the machine is (profile_segment.cpp).
+//
+// A pass in parts. It counts with the steering that it began with; a request that comes meanwhile stays pending, and a
+// pass of its own follows. Behind the place where it is, the cells have new K, before it old ones. That would be safe
+// to travel, because a K of the machine only grows; but nobody travels them: the machine waits for the pass.
 #include "splinefeed/s3_feed_plan/acceleration/feed_plan.hpp"
 
-#include "splinefeed/s3_feed_plan/limits/axis_velocity.hpp"
-#include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
-
 namespace splinefeed {
-
-namespace {
-
-// The lowest cap of the speed away from stops, 1e-3 mm/s squared: below that, the time per cell has no digits in Fixed.
-// At this speed the acceleration of an axis is less than its smallest limit for any curvature below 1e5 /mm.
-constexpr double slowest_sq = 1e-6;
-
-} // namespace
 
 template <Scalar S>
 FeedPlan<S>::FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept
     : source_(&source), limits_(limits), window_(window), turning_(limits) {}
 
-// Cap of a cell. This is the only place where a limit of the speed is stated.
 template <Scalar S>
-void FeedPlan<S>::bound(PlannedCell<S>& planned) const noexcept {
-    const Cell<S>& cell = planned.cell;
-    // The block's own maximum limits the feed, whatever is programmed and overridden.
-    const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), limits_.feed_mm_s)
-                                            : limits_.feed_mm_s;
-    S speed = path_speed(cell, most);
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
-        const S velocity = axis_velocity(cell, limits_, k);
-        if (cell.tangent_max[k] * speed > velocity) {
-            speed = velocity / cell.tangent_max[k];
-        }
-    }
-    speed = smaller(speed, cell.steady_mm_s);
-    S cap = speed * speed;
-    const S twice = cell.length_mm + cell.length_mm;
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
-        if (twice * cell.curvature_max[k] > literal<S>(Cell<S>::sharp_turn)) {
-            const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
-            cap = smaller(cap, scale2(limit, -1) / cell.curvature_max[k]);
-        }
-    }
-    if (limits_.centripetal_mm_s2 > S{} || limits_.chord_mm_s2 > S{}) {
-        const S curvature = norm(cell.curvature_max.data(), limits_.axes);
-        if (limits_.centripetal_mm_s2 > S{}) {
-            cap = smaller(cap, quotient_or_max(limits_.centripetal_mm_s2, curvature));
-        }
-        if (limits_.chord_mm_s2 > S{}) {
-            cap = smaller(cap, quotient_or_max(limits_.chord_mm_s2, curvature));
-        }
-    }
-    planned.cap_sq = larger(cap, literal<S>(slowest_sq));
-}
-
-// The feed counts the linear axes; the others follow as fast as their own limits allow.
-template <Scalar S>
-S FeedPlan<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
-    return limits_.mixed ? smaller(quotient_or_max(feed, feed_share(cell, limits_)), limits_.path_mm_s) : feed;
+void FeedPlan<S>::begin_pass(bool open_end) noexcept {
+    steered_ = steered_ || steering_.pending();
+    steering_.acknowledge();
+    pass_.begin(window_, steering_.ratio(), open_end);
 }
 
 template <Scalar S>
-S FeedPlan<S>::wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept {
-    const S programmed = cell.feed_mm_s;
-    const S feed = programmed > S{} ? limits_.usable_feed(programmed * ratio) : limits_.feed_mm_s * ratio;
-    if (!(feed < limits_.feed_mm_s)) {
-        return cap_sq;
-    }
-    const S speed = path_speed(cell, feed);
-    return larger(smaller(cap_sq, speed * speed), literal<S>(slowest_sq));
-}
-
-template <Scalar S>
-S FeedPlan<S>::programmed_sq(const Cell<S>& cell) const noexcept {
-    const S programmed = cell.feed_mm_s;
-    const S speed = path_speed(cell, programmed > S{} ? limits_.usable_feed(programmed) : limits_.feed_mm_s);
-    return speed * speed;
-}
-
-// Backward over the window: entry_sq becomes the largest entry from which the machine's K after the cell can be
-// reached; exit_sq becomes the K of the steering there. Returns the last final node of the steering's K, or 0.
-template <Scalar S>
-std::size_t FeedPlan<S>::backward_pass(bool open_end) noexcept {
-    std::size_t last_final = 0;
-    S machine_sq{}; // standstill
-    S override_sq{};
-    S wanted = size_ > 0 ? wanted_sq(at(size_ - 1)) : S{};
-    open_ = open_end;
-    if (open_end && size_ > 0 && !at(size_ - 1).cell.stop_at_end) {
-        machine_sq = at(size_ - 1).cap_sq;
-        override_sq = wanted;
-    }
-    for (std::size_t i = size_; i-- > 0;) {
-        PlannedCell<S>& here = at(i);
-        S machine_cap = here.cap_sq;
-        S override_cap = wanted;
-        S wanted_before{};
-        if (i > 0) {
-            const PlannedCell<S>& before = at(i - 1);
-            wanted_before = wanted_sq(before);
-            const bool stop = before.cell.stop_at_end;
-            machine_cap = stop ? S{} : smaller(machine_cap, before.cap_sq);
-            override_cap = stop ? S{} : smaller(override_cap, wanted_before);
-        }
-        const auto reached_from = [&](S beyond, S at_most) {
-            return beyond >= here.peak.smallest_exit_sq
-                       ? at_most
-                       : AccelerationBound<S>(here.cell, limits_).largest_entry(beyond, at_most);
-        };
-        const S machine_reach = reached_from(machine_sq, here.peak.entry_sq);
-        const bool alike = override_sq == machine_sq && wanted == here.cap_sq;
-        const S override_reach = alike ? machine_reach : reached_from(override_sq, smaller(wanted, here.peak.entry_sq));
-        if ((override_sq >= here.peak.smallest_exit_sq || override_reach >= override_cap) && last_final == 0) {
-            last_final = i;
-        }
-        here.entry_sq = machine_reach;
-        here.exit_sq = override_sq;
-        machine_sq = smaller(machine_reach, machine_cap);
-        override_sq = smaller(override_reach, override_cap);
-        wanted = wanted_before;
+bool FeedPlan<S>::run_pass(WorkBudget& work) noexcept {
+    if (!pass_.run(window_, limits_, work)) {
+        return false;
     }
     planned_ = true;
-    return last_final;
+    return true;
 }
 
+// After the pass over a window that holds no committed cell.
 template <Scalar S>
-void FeedPlan<S>::commit(bool ended) noexcept {
-    const std::size_t last_final = backward_pass();
-    committed_ = size_;
-    if (!ended) {
-        const std::size_t quarter = (size_ + 3) / 4;
-        if (last_final < quarter) {
+void FeedPlan<S>::commit() noexcept {
+    if (filled_ == Pull::starved) {
+        committed_ = 1;
+    } else if (filled_ == Pull::finished) {
+        committed_ = window_.size();
+    } else {
+        const std::size_t quarter = (window_.size() + 3) / 4;
+        if (pass_.last_final() < quarter) {
             ++window_limited_;
         }
-        committed_ = last_final < quarter ? quarter : last_final;
+        committed_ = larger(pass_.last_final(), quarter);
     }
-}
-
-// The steering changed. Committed cells get new speeds, or are no longer committed.
-template <Scalar S>
-void FeedPlan<S>::replan() noexcept {
-    steering_.acknowledge();
-    steered_ = true;
-    const std::size_t last_final = backward_pass();
-    committed_ = size_ == 0 || last_final > 0 ? last_final : 1;
-    wanted_exit_ = size_ == 0 ? S{} : smaller(at(0).exit_sq, reachable_exit());
+    if (open_ || pass_.open_end()) { // with an open end it may have become faster than the following cells allow
+        speed_sq_ = smaller(speed_sq_, front().entry_sq);
+    }
+    open_ = pass_.open_end();
+    wanted_exit_ = smaller(front().exit_sq, reachable_exit());
 }
 
 // The machine's K after the front cell.
 template <Scalar S>
 S FeedPlan<S>::reachable_exit() const noexcept {
-    const PlannedCell<S>& here = at(0);
-    if (here.cell.stop_at_end || (size_ == 1 && !open_)) {
+    const PlannedCell<S>& here = front();
+    const bool last = window_.size() == 1;
+    if (here.cell.stop_at_end || (last && !open_)) {
         return S{};
     }
-    return size_ == 1 ? here.cap_sq : smaller(at(1).entry_sq, here.cap_sq);
+    return last ? here.cap_sq : smaller(window_.at(1).entry_sq, here.cap_sq);
 }
 
 template <Scalar S>
 void FeedPlan<S>::forward_step(S known_sq) noexcept {
-    PlannedCell<S>& here = at(0);
+    PlannedCell<S>& here = window_.at(0);
     const S one = from_integer<S>(1);
     chosen_ = true;
     if (at_ == S{}) {
@@ -205,25 +108,25 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
         // From standstill to standstill (usually a degenerate cell between cusps): it accelerates over half of the
         // length and brakes over the other half. From standstill the whole length would reach v^2 = reach, half of it
         // reach / 2. Half of that is used, because the length of a degenerate cell has few digits in Fixed.
-        const S reach = AccelerationBound<S>(here.cell, limits_).reach_from_standstill(wanted_sq(here));
+        const S reach = AccelerationBound<S>(here.cell, limits_).reach_from_standstill(wanted_sq());
         profile_segment_.exit_sq = scale2(at_ > S{} ? reach * stretch.length() : reach, -2);
         stretch.to = stretch.from + scale2(stretch.length(), -1);
         rest_to_rest_ = stretch.to < one; // a length of one last digit cannot be halved
         profile_segment_.stops = !rest_to_rest_;
     } else if (to_end && !(profile_segment_.exit_sq > S{})) {
-        profile_segment_.stops = profile_segment_.stops || here.cell.stop_at_end || size_ == 1;
+        profile_segment_.stops = profile_segment_.stops || here.cell.stop_at_end || window_.size() == 1;
     }
 }
 
 template <Scalar S>
 void FeedPlan<S>::choose_steered(S known_sq) noexcept {
-    const PlannedCell<S>& here = at(0);
+    const PlannedCell<S>& here = front();
     const S reachable = reachable_exit();
     profile_segment_ =
         steered_segment(here.cell, limits_,
                         SteeringTarget<S>{.from = at_,
                                           .entry_sq = speed_sq_,
-                                          .max_steady_sq = wanted_sq(here),
+                                          .max_steady_sq = wanted_sq(),
                                           .exit_sq = wanted_exit_,
                                           .most_sq = reachable,
                                           .known_sq = known_sq < S{} ? known_sq : smaller(known_sq, reachable),
@@ -235,42 +138,63 @@ void FeedPlan<S>::choose_steered(S known_sq) noexcept {
 // largest exit depends on the last digits of the entry; this one does not.
 template <Scalar S>
 S FeedPlan<S>::known_exit() const noexcept {
-    const PlannedCell<S>& here = at(0);
+    const PlannedCell<S>& here = front();
     const S share = speed_sq_ < here.entry_sq ? speed_sq_ / here.entry_sq : from_integer<S>(1);
     const S exit = here.entry_sq < here.peak.entry_sq ? here.peak.smallest_exit_sq : here.peak.largest_exit_sq;
     return share * smaller(exit, reachable_exit());
 }
 
+// The next cell behind those that are measured.
 template <Scalar S>
-Pull FeedPlan<S>::fill() noexcept {
+Pull FeedPlan<S>::measure(WorkBudget& work) noexcept {
+    PlannedCell<S>& slot = window_.at(window_.measured());
+    const Pull pull = source_->next(slot.cell, work);
+    if (pull == Pull::item) {
+        slot.cap_sq = SpeedCaps<S>(limits_).cap_sq(slot.cell);
+        slot.cell.heading = {};
+        slot.peak = BackwardPass<S>::unknown_peak();
+        window_.add_measured();
+    }
+    return pull;
+}
+
+template <Scalar S>
+bool FeedPlan<S>::measure_ahead(WorkBudget& work) noexcept {
+    Pull pull = Pull::item;
+    while (pull == Pull::item && window_.measured() < window_.room()) {
+        pull = measure(work);
+    }
+    return pull == Pull::busy;
+}
+
+template <Scalar S>
+Pull FeedPlan<S>::fill(WorkBudget& work) noexcept {
     const auto cell_at = [this](std::size_t i) -> Cell<S>& {
-        return at(i).cell;
+        return window_.at(i).cell;
     };
     const auto settled = [this](std::size_t i) {
-        PlannedCell<S>& here = at(i);
-        here.peak = AccelerationBound<S>(here.cell, limits_).peak(here.cap_sq);
+        window_.at(i).peak = BackwardPass<S>::unknown_peak();
         planned_ = false;
     };
-    while (size_ < window_.size()) {
-        PlannedCell<S>& slot = at(size_);
-        const Pull pull = source_->next(slot.cell);
-        if (pull != Pull::item) {
+    while (window_.size() < window_.room()) {
+        if (window_.size() == window_.measured()) {
+            const Pull pull = measure(work);
             if (pull == Pull::finished) {
-                turning_.end(size_, cell_at, settled);
+                turning_.end(window_.size(), cell_at, settled);
             }
-            return pull;
+            if (pull != Pull::item) {
+                return pull;
+            }
         }
-        bound(slot);
-        slot.cell.heading = {};
-        slot.peak = AccelerationBound<S>(slot.cell, limits_).peak(slot.cap_sq);
-        if (slot.cell.stop_before && size_ > 0) {
-            Cell<S>& before = at(size_ - 1).cell;
+        const Cell<S>& added = cell_at(window_.size());
+        if (added.stop_before && window_.size() > 0) {
+            Cell<S>& before = cell_at(window_.size() - 1);
             before.stop_at_end = true;
-            before.end = slot.cell.origin;
+            before.end = added.origin;
         }
-        ++size_;
+        window_.take();
         planned_ = false;
-        turning_.take(size_, cell_at, settled);
+        turning_.take(window_.size(), cell_at, settled);
     }
     return Pull::item;
 }
@@ -283,8 +207,31 @@ void FeedPlan<S>::lead() noexcept {
     leads_ = true;
 }
 
+// Nothing is committed: takes what there is of the path, and commits a part of it.
 template <Scalar S>
-Pull FeedPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
+Pull FeedPlan<S>::plan(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    if (!pass_.running()) {
+        const Pull pull = fill(work);
+        if (window_.size() == 0 || pull == Pull::busy) {
+            return pull;
+        }
+        if (pull == Pull::starved && underrun == UnderrunPolicy::wait && !steering_.stops()) {
+            return pull;
+        }
+        filled_ = pull;
+        if (pull != Pull::starved || !planned_ || open_ != leads_ || steering_.pending()) {
+            begin_pass(pull == Pull::starved && leads_);
+        }
+    }
+    if (pass_.running() && !run_pass(work)) {
+        return Pull::busy;
+    }
+    commit();
+    return Pull::item;
+}
+
+template <Scalar S>
+Pull FeedPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     if (chosen_) {
         return Pull::item;
     }
@@ -292,40 +239,40 @@ Pull FeedPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
         if (steering_.aborts()) {
             return Pull::finished;
         }
-        const Pull pull = size_ == 0 ? fill() : Pull::item; // for a motion that is held before it begins
-        return size_ == 0 ? pull : Pull::held;
+        const Pull pull = window_.size() == 0 ? fill(work) : Pull::item; // for a motion that is held before it begins
+        return window_.size() == 0 ? pull : Pull::held;
     }
     if (committed_ == 0) {
-        const bool was_open = open_;
-        const Pull pull = fill();
-        if (size_ == 0) {
+        if (const Pull pull = plan(underrun, work); pull != Pull::item) {
             return pull;
         }
-        if (pull == Pull::starved && underrun == UnderrunPolicy::wait && !steering_.stops()) {
-            return pull;
+    } else if (pass_.running() || steering_.pending()) {
+        if (!replan(work)) {
+            return Pull::busy;
         }
-        if (pull == Pull::starved) {
-            if (!planned_ || open_ != leads_ || steering_.pending()) {
-                backward_pass(leads_);
-            }
-            committed_ = 1;
-        } else {
-            commit(pull == Pull::finished);
-        }
-        if (was_open || open_) { // with an open end it may have become faster than the following cells allow
-            speed_sq_ = smaller(speed_sq_, at(0).entry_sq);
-        }
-        steered_ = steered_ || steering_.pending();
-        steering_.acknowledge();
-        wanted_exit_ = smaller(at(0).exit_sq, reachable_exit());
-    } else if (steering_.pending()) {
-        replan();
     } else if (at_ == S{}) {
-        wanted_exit_ = smaller(at(0).exit_sq, reachable_exit());
+        wanted_exit_ = smaller(front().exit_sq, reachable_exit());
     }
     const S known = at_ == S{} ? known_exit() : from_integer<S>(-1);
     forward_step(known);
     return Pull::item;
+}
+
+// The steering changed. Committed cells get new speeds, or are no longer committed.
+template <Scalar S>
+bool FeedPlan<S>::replan(WorkBudget& work) noexcept {
+    if (!pass_.running()) {
+        begin_pass(false);
+    }
+    if (!run_pass(work)) {
+        return false;
+    }
+    steered_ = true;
+    open_ = false;
+    const std::size_t last_final = pass_.last_final();
+    committed_ = window_.size() == 0 || last_final > 0 ? last_final : 1;
+    wanted_exit_ = window_.size() == 0 ? S{} : smaller(front().exit_sq, reachable_exit());
+    return true;
 }
 
 template <Scalar S>
@@ -335,7 +282,6 @@ bool FeedPlan<S>::steer(const Place<S>& place) noexcept {
     at_ = place.fraction;
     speed_sq_ = place.speed_sq;
     rest_to_rest_ = chosen_ = false;
-    replan();
     if (speed_sq_ > S{} || !steering_.stops()) {
         forward_step(known);
     }
@@ -366,8 +312,7 @@ void FeedPlan<S>::pop() noexcept {
     speed_sq_ = front().exit_sq;
     at_ = S{};
     chosen_ = rest_to_rest_ = false;
-    head_ = ring_index(head_ + 1, window_.size());
-    --size_;
+    window_.pop();
     --committed_;
 }
 
@@ -380,7 +325,9 @@ void FeedPlan<S>::clear() noexcept {
 
 template <Scalar S>
 void FeedPlan<S>::forget() noexcept {
-    size_ = committed_ = 0;
+    window_.clear();
+    committed_ = 0;
+    pass_.cancel();
     turning_.clear();
     at_ = speed_sq_ = S{};
     steered_ = planned_ = open_ = chosen_ = rest_to_rest_ = false;

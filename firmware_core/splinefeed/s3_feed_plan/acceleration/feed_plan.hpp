@@ -11,8 +11,10 @@
 // Derivation and the proof that the limits hold everywhere in a cell: feed_plan.cpp.
 #pragma once
 
-#include "splinefeed/base/ring_index.hpp"
+#include "splinefeed/base/work_budget.hpp"
 #include "splinefeed/s2_arc_length/arc_length.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/backward_pass.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/cell_window.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/profile_segment.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/turning.hpp"
 #include "splinefeed/s3_feed_plan/steering/steering.hpp"
@@ -21,21 +23,11 @@
 
 namespace splinefeed {
 
-/// A cell with its speeds. `entry_sq` and `exit_sq` are v^2 at its ends; they are valid once it is the front of the
-/// plan.
-template <Scalar S>
-struct PlannedCell {
-    Cell<S> cell{};
-    S entry_sq{};
-    S exit_sq{};
-    S cap_sq{};           ///< largest v^2 anywhere in the cell that the machine allows, whatever the programmed feed
-    PeakSpeeds<S> peak{}; ///< the fastest entry, whatever comes after the cell
-};
-
 /// Stage 3. The window is the caller's storage. The plan in the window always ends at standstill, so the machine can
 /// always stop within the known path. Cost: amortised at most four visits per cell, each with two products and sums per
 /// axis; independent of the program's length. A change of the steering costs a visit to every cell of the window, and
-/// so does a cell that arrives while the input is starved.
+/// so does a cell that arrives while the input is starved. With a budget the cells that come and the visits are divided
+/// among calls; what is planned is the same.
 template <Scalar S>
 class FeedPlan final : public MotionPlan<S> {
 public:
@@ -46,20 +38,21 @@ public:
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>& limits, std::span<PlannedCell<S>> window) noexcept;
     FeedPlan(ArcLength<S>& source, const MotionLimits<S>&& limits, std::span<PlannedCell<S>> window) = delete;
 
-    Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
-    [[nodiscard]] const PlannedCell<S>& front() const noexcept { return at(0); }
-    [[nodiscard]] const Cell<S>& cell() const noexcept override { return at(0).cell; }
+    using MotionPlan<S>::prepare;
+    Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
+    /// Measures cells that the plan will ask for, as far as the budget and the window's room go. false: nothing was
+    /// left to measure, because the window is full or the input has no more.
+    bool measure_ahead(WorkBudget& work) noexcept;
+    [[nodiscard]] const PlannedCell<S>& front() const noexcept { return window_.at(0); }
+    [[nodiscard]] const Cell<S>& cell() const noexcept override { return front().cell; }
     /// Largest v^2 in the front cell, whatever the programmed feed and the cells before and after it.
-    [[nodiscard]] S cap_sq() const noexcept { return at(0).cap_sq; }
-    /// Largest v^2 that is wanted in a cell with this cap, for a factor of the programmed feed.
-    [[nodiscard]] S wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept;
-    /// v^2 of the feed that is programmed for a cell; if none is programmed, of the machine's feed.
-    [[nodiscard]] S programmed_sq(const Cell<S>& cell) const noexcept;
+    [[nodiscard]] S cap_sq() const noexcept { return front().cap_sq; }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
     /// Removes the front cell.
     void pop() noexcept;
 
+    bool replan(WorkBudget& work) noexcept override;
     bool steer(const Place<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override;
@@ -75,20 +68,16 @@ public:
     [[nodiscard]] std::uint64_t window_limited() const noexcept { return window_limited_; }
 
 private:
-    [[nodiscard]] PlannedCell<S>& at(std::size_t i) noexcept { return window_[ring_index(head_ + i, window_.size())]; }
-    [[nodiscard]] const PlannedCell<S>& at(std::size_t i) const noexcept {
-        return window_[ring_index(head_ + i, window_.size())];
+    /// v^2 that is wanted in the front cell.
+    [[nodiscard]] S wanted_sq() const noexcept {
+        return SpeedCaps<S>(limits_).wanted_sq(cell(), cap_sq(), pass_.ratio());
     }
-
-    void bound(PlannedCell<S>& planned) const noexcept;
-    [[nodiscard]] S path_speed(const Cell<S>& cell, S feed) const noexcept;
-    [[nodiscard]] S wanted_sq(const PlannedCell<S>& planned) const noexcept {
-        return wanted_sq(planned.cell, planned.cap_sq, steering_.ratio());
-    }
-    Pull fill() noexcept;
-    std::size_t backward_pass(bool open_end = false) noexcept;
-    void commit(bool ended) noexcept;
-    void replan() noexcept;
+    Pull measure(WorkBudget& work) noexcept;
+    Pull fill(WorkBudget& work) noexcept;
+    Pull plan(UnderrunPolicy underrun, WorkBudget& work) noexcept;
+    void begin_pass(bool open_end) noexcept;
+    [[nodiscard]] bool run_pass(WorkBudget& work) noexcept;
+    void commit() noexcept;
     [[nodiscard]] S reachable_exit() const noexcept;
     void forward_step(S known_sq) noexcept;
     void choose_steered(S known_sq) noexcept;
@@ -96,19 +85,19 @@ private:
 
     ArcLength<S>* source_;
     const MotionLimits<S>& limits_;
-    std::span<PlannedCell<S>> window_;
+    CellWindow<S> window_;
     using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
     Turning<S> turning_;
-    std::size_t head_ = 0;
-    std::size_t size_ = 0;
+    BackwardPass<S> pass_;
     std::size_t committed_ = 0;
     S at_{};          // where the next profile segment starts in the front cell
     S speed_sq_{};    // v^2 there
     S wanted_exit_{}; // v^2 wanted at the end of the front cell, once a profile segment is chosen
     std::uint64_t window_limited_ = 0;
-    bool planned_ = false;      // the cells in the window have a plan
+    Pull filled_ = Pull::starved; // what fill() answered before the pass that commits
+    bool planned_ = false;        // the cells in the window have a plan
     bool open_ = false;         // the speed at the end of the window is free: a motion that follows need not stop there
     bool leads_ = false;        // another plan refines this one
     bool chosen_ = false;       // profile_segment_ belongs to the front cell

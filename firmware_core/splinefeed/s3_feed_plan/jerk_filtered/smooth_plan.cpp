@@ -55,7 +55,7 @@ SmoothPlan<S>::SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, st
 template <Scalar S>
 Pull SmoothPlan<S>::take(UnderrunPolicy underrun) noexcept {
     return source_.next(underrun, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
-        window_.append(cell, cap_sq, source_.plan().programmed_sq(cell), exit_sq);
+        window_.append(cell, cap_sq, SpeedCaps<S>(*limits_).programmed_sq(cell), exit_sq);
     });
 }
 
@@ -319,7 +319,7 @@ void SmoothPlan<S>::forward_step() noexcept {
 }
 
 template <Scalar S>
-Pull SmoothPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
+Pull SmoothPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcept {
     if (chosen_) {
         return Pull::item;
     }

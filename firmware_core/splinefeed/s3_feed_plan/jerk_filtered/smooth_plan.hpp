@@ -29,7 +29,8 @@ public:
     /// @pre at least smallest_window cells; this also holds for all other functions
     SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, std::span<SmoothCell<S>> cells) noexcept;
 
-    Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
+    using MotionPlan<S>::prepare;
+    Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     /// The cell of the profile segment.
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.at(window_.front()).cell; }
     /// Duration of the profile segment, in ticks.

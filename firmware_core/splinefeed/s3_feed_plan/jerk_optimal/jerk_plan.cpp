@@ -34,7 +34,7 @@ JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const 
 
 template <Scalar S>
 double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {
-    return to_double(source_.plan().wanted_sq(cell, from_double<S>(most_sq), steering_.ratio()));
+    return to_double(SpeedCaps<S>(*limits_).wanted_sq(cell, from_double<S>(most_sq), steering_.ratio()));
 }
 
 template <Scalar S>
@@ -298,7 +298,7 @@ void JerkPlan<S>::follow_steering() noexcept {
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::prepare(UnderrunPolicy underrun) noexcept {
+Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcept {
     if (chosen_) {
         return Pull::item;
     }

@@ -26,7 +26,8 @@ public:
     /// @pre storage has at least smallest_window cells and nodes_for() nodes; this also holds for all other functions
     JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
-    Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept override;
+    using MotionPlan<S>::prepare;
+    Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept override;
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.cell(0); }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;

@@ -3,6 +3,7 @@
 // travelled.
 #pragma once
 
+#include "splinefeed/base/work_budget.hpp"
 #include "splinefeed/s1_curve/curve_source.hpp"
 #include "splinefeed/s2_arc_length/cell.hpp"
 #include "splinefeed/s2_arc_length/cell_interval.hpp"
@@ -52,8 +53,14 @@ public:
     MotionPlan& operator=(const MotionPlan&) = delete;
 
     /// Makes profile_segment() and cell() available. `starved`: the window is not full and nothing is committed
-    /// (UnderrunPolicy::drain: there is nothing at all). `held`: the machine stands and must not move.
-    virtual Pull prepare(UnderrunPolicy underrun) noexcept = 0;
+    /// (UnderrunPolicy::drain: there is nothing at all). `held`: the machine stands and must not move. `busy`: the
+    /// budget is spent; call again. A plan that cannot be computed in parts ignores the budget.
+    virtual Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept = 0;
+    /// The same without a bound.
+    Pull prepare(UnderrunPolicy underrun = UnderrunPolicy::wait) noexcept {
+        WorkBudget unlimited;
+        return prepare(underrun, unlimited);
+    }
     /// @pre the last prepare() answered item; the same for the next three
     [[nodiscard]] virtual const Cell<S>& cell() const noexcept = 0;
     [[nodiscard]] const ProfileSegment<S>& profile_segment() const noexcept { return profile_segment_; }
@@ -64,8 +71,12 @@ public:
 
     [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
     [[nodiscard]] const Steering<S>& steering() const noexcept { return steering_; }
+    /// Does what steer() needs and what does not depend on the place. false: the budget is spent; call again. A plan
+    /// that cannot be computed in parts has nothing to do here.
+    virtual bool replan(WorkBudget& /*work*/) noexcept { return true; }
     /// Applies a change of the steering at once, from where the machine is on its profile segment. Without this call
     /// the change applies from the next profile segment on. false: the profile segment stays as it is.
+    /// @pre the last replan() answered true
     virtual bool steer(const Place<S>& place) noexcept = 0;
     /// Whether the machine stands where its last profile segment ended.
     [[nodiscard]] virtual bool standing() const noexcept = 0;

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s3_feed_plan/acceleration/speed_caps.hpp"
+
+#include "splinefeed/s3_feed_plan/limits/axis_velocity.hpp"
+#include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+// The lowest cap of the speed away from stops, 1e-3 mm/s squared: below that, the time per cell has no digits in Fixed.
+// At this speed the acceleration of an axis is less than its smallest limit for any curvature below 1e5 /mm.
+constexpr double slowest_sq = 1e-6;
+
+} // namespace
+
+template <Scalar S>
+S SpeedCaps<S>::cap_sq(const Cell<S>& cell) const noexcept {
+    // The block's own maximum limits the feed, whatever is programmed and overridden.
+    const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), limits_.feed_mm_s)
+                                            : limits_.feed_mm_s;
+    S speed = path_speed(cell, most);
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
+        const S velocity = axis_velocity(cell, limits_, k);
+        if (cell.tangent_max[k] * speed > velocity) {
+            speed = velocity / cell.tangent_max[k];
+        }
+    }
+    speed = smaller(speed, cell.steady_mm_s);
+    S cap = speed * speed;
+    const S twice = cell.length_mm + cell.length_mm;
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
+        if (twice * cell.curvature_max[k] > literal<S>(Cell<S>::sharp_turn)) {
+            const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
+            cap = smaller(cap, scale2(limit, -1) / cell.curvature_max[k]);
+        }
+    }
+    if (limits_.centripetal_mm_s2 > S{} || limits_.chord_mm_s2 > S{}) {
+        const S curvature = norm(cell.curvature_max.data(), limits_.axes);
+        if (limits_.centripetal_mm_s2 > S{}) {
+            cap = smaller(cap, quotient_or_max(limits_.centripetal_mm_s2, curvature));
+        }
+        if (limits_.chord_mm_s2 > S{}) {
+            cap = smaller(cap, quotient_or_max(limits_.chord_mm_s2, curvature));
+        }
+    }
+    return larger(cap, literal<S>(slowest_sq));
+}
+
+// The feed counts the linear axes; the others follow as fast as their own limits allow.
+template <Scalar S>
+S SpeedCaps<S>::path_speed(const Cell<S>& cell, S feed) const noexcept {
+    return limits_.mixed ? smaller(quotient_or_max(feed, feed_share(cell, limits_)), limits_.path_mm_s) : feed;
+}
+
+template <Scalar S>
+S SpeedCaps<S>::wanted_sq(const Cell<S>& cell, S cap_sq, S ratio) const noexcept {
+    const S programmed = cell.feed_mm_s;
+    const S feed = programmed > S{} ? limits_.usable_feed(programmed * ratio) : limits_.feed_mm_s * ratio;
+    if (!(feed < limits_.feed_mm_s)) {
+        return cap_sq;
+    }
+    const S speed = path_speed(cell, feed);
+    return larger(smaller(cap_sq, speed * speed), literal<S>(slowest_sq));
+}
+
+template <Scalar S>
+S SpeedCaps<S>::programmed_sq(const Cell<S>& cell) const noexcept {
+    const S programmed = cell.feed_mm_s;
+    const S speed = path_speed(cell, programmed > S{} ? limits_.usable_feed(programmed) : limits_.feed_mm_s);
+    return speed * speed;
+}
+
+template class SpeedCaps<double>;
+template class SpeedCaps<float>;
+template class SpeedCaps<Fixed>;
+
+} // namespace splinefeed

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "splinefeed/s3_feed_plan/acceleration/speed_caps.hpp"
+
+#include "support/catch.hpp"
+#include "support/random_steering.hpp"
+
+using namespace splinefeed_test;
+
+namespace {
+
+MachineSettings two_axes() {
+    MachineSettings machine;
+    machine.axes = 2;
+    machine.max_feed_mm_s = 100.0;
+    for (AxisSettings& axis : machine.axis) {
+        axis.max_velocity_mm_s = 80.0;
+        axis.max_acceleration_mm_s2 = 1000.0;
+    }
+    return machine;
+}
+
+/// A straight cell in this direction that bends by so much.
+Cell<double> cell_along(double x, double y, double curvature_per_mm = 0.0) {
+    Cell<double> cell;
+    cell.axes = 2;
+    cell.length_mm = 0.1;
+    cell.tangent_max[0] = x;
+    cell.tangent_max[1] = y;
+    cell.curvature_max[0] = curvature_per_mm;
+    cell.steady_mm_s = largest<double>();
+    return cell;
+}
+
+double cap_of(const MachineSettings& machine, const Cell<double>& cell) {
+    const auto limits = MotionLimits<double>::make(machine).value();
+    return std::sqrt(SpeedCaps<double>(limits).cap_sq(cell));
+}
+
+} // namespace
+
+TEST_CASE("the cap of a cell is the smallest of its limits", "[caps]") {
+    MachineSettings machine = two_axes();
+    CHECK(cap_of(machine, cell_along(0.6, 0.8)) == Approx(100.0).epsilon(1e-4)); // feed: 80 / 0.8
+    CHECK(cap_of(machine, cell_along(1.0, 0.1)) == Approx(80.0).epsilon(1e-4));  // the axis's velocity
+    Cell<double> block = cell_along(0.6, 0.8);
+    block.max_feed_mm_s = 30.0;
+    CHECK(cap_of(machine, block) == Approx(30.0).epsilon(1e-4));
+    Cell<double> rounded = cell_along(0.6, 0.8);
+    rounded.steady_mm_s = 7.0;
+    CHECK(cap_of(machine, rounded) == Approx(7.0).epsilon(1e-4));
+    machine.centripetal_mm_s2 = 200.0;
+    CHECK(cap_of(machine, cell_along(0.6, 0.8, 0.5)) == Approx(20.0).epsilon(1e-4)); // sqrt(200 / 0.5)
+}
+
+TEST_CASE("what is wanted is the programmed feed, with its override, up to the cap", "[caps]") {
+    const auto limits = MotionLimits<double>::make(two_axes()).value();
+    const SpeedCaps<double> caps(limits);
+    Cell<double> cell = cell_along(0.6, 0.8);
+    const double cap = caps.cap_sq(cell);
+    CHECK(caps.wanted_sq(cell, cap, 1.0) == cap);
+    CHECK(caps.wanted_sq(cell, cap, 0.5) == Approx(50.0 * 50.0).epsilon(1e-4));
+    cell.feed_mm_s = 40.0;
+    CHECK(caps.wanted_sq(cell, cap, 1.0) == Approx(40.0 * 40.0).epsilon(1e-4));
+    CHECK(caps.wanted_sq(cell, cap, 2.0) == Approx(80.0 * 80.0).epsilon(1e-4));
+    CHECK(caps.wanted_sq(cell, 9.0, 2.0) == 9.0);
+    CHECK(caps.programmed_sq(cell) == Approx(40.0 * 40.0).epsilon(1e-4));
+    // Even an override of 0 leaves a speed that a cell can be passed with: the hold is what stops.
+    CHECK(caps.wanted_sq(cell, cap, 0.0) > 0.0);
+}
