@@ -38,13 +38,20 @@ foreach(cpu m0 m3 m4f)
     # One build, which CMake and ninja look at again in each test: not two at a time.
     set_tests_properties(arm_stages_${cpu} arm_pulse_${cpu} arm_blend_${cpu} arm_gcode_${cpu}
                          PROPERTIES DEPENDS arm_link_${cpu} RESOURCE_LOCK arm_build_${cpu})
+    set_tests_properties(arm_link_${cpu} arm_stages_${cpu} arm_pulse_${cpu} arm_blend_${cpu} arm_gcode_${cpu}
+                         PROPERTIES FIXTURES_SETUP arm_figures)
 endforeach()
 repository_test(firmware_lm3s6965 firmware/firmware_proof.sh cortex-m3 ${PROJECT_BINARY_DIR} lm3s6965 lm3s6965evb)
 repository_test(firmware_stm32f405 firmware/firmware_proof.sh cortex-m4f ${PROJECT_BINARY_DIR} stm32f405 netduinoplus2)
 repository_test(firmware_nrf51 firmware/firmware_proof.sh cortex-m0 ${PROJECT_BINARY_DIR} nrf51 microbit)
+set_tests_properties(firmware_lm3s6965 firmware_stm32f405 firmware_nrf51 PROPERTIES FIXTURES_SETUP arm_figures)
 set_tests_properties(firmware_nrf51 PROPERTIES DEPENDS arm_link_m0 RESOURCE_LOCK arm_build_m0)
 set_tests_properties(firmware_lm3s6965 PROPERTIES DEPENDS arm_link_m3 RESOURCE_LOCK arm_build_m3)
 set_tests_properties(firmware_stm32f405 PROPERTIES DEPENDS arm_link_m4f RESOURCE_LOCK arm_build_m4f)
+# Behind all of these, whose figures it compares with docs/reference/budgets.md.
+repository_test(arm_budgets arm/budgets.py ${PROJECT_BINARY_DIR})
+repository_test(budgets_tool arm/budgets_test.py)
+set_tests_properties(arm_budgets PROPERTIES FIXTURES_REQUIRED arm_figures)
 repository_test(tidy ALONE tools/tidy.sh)
 repository_test(gpio_vm_runs gpio/vm/runs.sh ${PROJECT_BINARY_DIR})
 repository_test(install_consumer install/consumer.sh ${PROJECT_BINARY_DIR})

@@ -13,8 +13,16 @@ board=$(board_of "${cpu/%m0/m3}")
 output=$(run "$image" -icount shift=4,sleep=off)
 echo "$output"
 as_host 3 '^hash of [a-z_]+ +0x' "$output" blended_path
-if [[ $cpu == cortex-m4f ]]; then
-    at_most corner 40300 "$output"
-    at_most joint 199000 "$output"
-    at_most chained_point 253500 "$output"
+costs "$output"
+stack_of '' "$output"
+figure state "$(number_said '^state ([0-9]+) bytes' "$output")"
+bound=$(find "$build"/tests/arm/CMakeFiles/{blended_path,pipeline_platform}.dir -name '*.ci' \
+    -exec awk -v scalar=Fixed -v smooth=none -f tests/arm/stack.awk {} +)
+echo "$bound"
+bytes=$(number_said '^stack bound ([0-9]+) ' "$bound")
+figure stack_bound "$bytes"
+room=$(number_said '^stack used .* of ([0-9]+) ' "$output")
+if ((bytes > room)); then
+    echo "the stack could overflow"
+    exit 1
 fi

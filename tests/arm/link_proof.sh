@@ -17,6 +17,10 @@ for program in "${programs[@]}"; do
     output=$(run "$image")
     echo "$output"
     as_host 2 '^(segments|hash) +0x' "$output" "$program"
+    stack_of "$program." "$output"
+    while read -r _ part bytes; do
+        figure "$program.$part" "$bytes"
+    done < <(grep '^bytes: ' <<<"$output")
     scalar=Fixed
     if [[ $program == *float* ]]; then scalar=float; fi
     smooth=0
@@ -25,6 +29,7 @@ for program in "${programs[@]}"; do
         -exec awk -v scalar=$scalar -v smooth=$smooth -f tests/arm/stack.awk {} +)
     echo "$bound"
     bytes=$(number_said '^stack bound ([0-9]+) ' "$bound")
+    figure "$program.stack_bound" "$bytes"
     room=$(number_said '^stack used .* of ([0-9]+) ' "$output")
     if ((bytes > room)); then
         echo "the stack could overflow"

@@ -84,11 +84,20 @@ private:
 };
 
 Static<G2Spline<Real>> curve_storage;
-Static<std::conditional_t<jerk_limited, BoundedPlanner<Real>, AccelerationPlanner<Real>>> planner_storage;
+using Planner = std::conditional_t<jerk_limited, BoundedPlanner<Real>, AccelerationPlanner<Real>>;
+using Places = std::array<PathPosition, SmoothSampler<Real>::places_for(*limits)>;
+Static<Planner> planner_storage;
 Static<std::array<PlannedCell<Real>, FeedPlan<Real>::smallest_window>> window_storage;
 Static<std::array<SmoothCell<Real>, SmoothPlan<Real>::smallest_window>> cells_storage;
-Static<std::array<PathPosition, SmoothSampler<Real>::places_for(*limits)>> places_storage;
+Static<Places> places_storage;
 FeedSegment segment;
+
+/// What a motion with windows of that many cells has in RAM, without the stack.
+constexpr std::size_t bytes_with(std::size_t cells) {
+    const std::size_t smooth = jerk_limited ? cells * sizeof(SmoothCell<Real>) + sizeof(Places) : 0;
+    return sizeof(G2Spline<Real>) + sizeof(Planner) + cells * sizeof(PlannedCell<Real>) + smooth +
+           sizeof(Trajectory<Real>) + sizeof(FeedSegment);
+}
 
 // Some functions are kept apart from main, so that what they need on the stack is not below the deepest call.
 
@@ -106,17 +115,18 @@ FeedSegment segment;
 
 [[gnu::noinline]] Result<Trajectory<Real>> make_trajectory(G2Spline<Real>& curve) {
     auto& window = window_storage.build();
-    write_value("bytes: curve      ", sizeof curve);
-    write_value("bytes: arc length ", sizeof(ArcLength<Real>));
-    write_value("bytes: feed plan  ", sizeof(FeedPlan<Real>));
-    write_value("bytes: its window ", sizeof window);
-    write_value("bytes: stream     ", sizeof(SegmentStream<Real>) + sizeof(ProfileSampler<Real>));
+    write_value("bytes: curve", sizeof curve);
+    write_value("bytes: arc_length", sizeof(ArcLength<Real>));
+    write_value("bytes: feed_plan", sizeof(FeedPlan<Real>));
+    write_value("bytes: window", sizeof window);
+    write_value("bytes: stream", sizeof(SegmentStream<Real>) + sizeof(ProfileSampler<Real>));
+    write_value("bytes: with_52_cells", bytes_with(52));
     if constexpr (jerk_limited) {
         auto& cells = cells_storage.build();
         auto& places = places_storage.build();
-        write_value("bytes: smooth plan", sizeof(SmoothPlan<Real>));
-        write_value("bytes: its window ", sizeof cells);
-        write_value("bytes: mean       ", sizeof(SmoothSampler<Real>) + sizeof places);
+        write_value("bytes: smooth_plan", sizeof(SmoothPlan<Real>));
+        write_value("bytes: smooth_window", sizeof cells);
+        write_value("bytes: average", sizeof(SmoothSampler<Real>) + sizeof places);
         return Trajectory<Real>::make(curve, *limits,
                                       planner_storage.build(window, SmoothStorage<Real>{cells, places}));
     } else {

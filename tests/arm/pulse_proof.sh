@@ -23,7 +23,4 @@ board=$(board_of "${cpu/%m0/m3}")
 output=$(run "$image" -icount shift=10,sleep=off)
 echo "$output"
 as_host 3 '^hash of [a-z]+ +0x' "$output" pulse_train
-if [[ $cpu == cortex-m4f ]]; then
-    at_most dda_tick 60 "$output"
-    at_most interval_step 150 "$output"
-fi
+costs "$output"

@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: MIT
 # The deepest stack of the program, from the compiler's call graph (-fcallgraph-info=su,da): awk -v scalar=Fixed -v smooth=1
-# [-v root=FUNCTION] -f stack.awk FILE.ci... Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
+# [-v root=FUNCTION] -f stack.awk FILE.ci... smooth is 1 where motions are averaged, none where nothing is planned. Fails on recursion, on frames of variable size, and on calls that lead to unknown places.
 
 BEGIN {
     # libgcc, measured in its disassembly (the largest, Cortex-M0) and rounded up; each with all that it calls.
     library["__aeabi_ldivmod"] = 104
     library["__aeabi_uldivmod"] = 80
-    library["__aeabi_uidivmod"] = library["__aeabi_uidiv"] = library["__aeabi_idiv"] = 16
+    library["__aeabi_uidivmod"] = library["__aeabi_idivmod"] = library["__aeabi_uidiv"] = library["__aeabi_idiv"] = 16
     library["__aeabi_lmul"] = 32
     library["__clzdi2"] = 16
     library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
     if (root == "") { root = "_ZN12_GLOBAL__N_18on_resetEv" }
     # Virtual calls: the arc length asks the curve, which is a G2Spline here, the stream its samples, and those their
     # plan: a FeedPlan, or where motions are averaged a SmoothPlan. What makes the trajectory asks its planner.
+    # A call asks for those of the method that it names.
     of = "I" (scalar == "float" ? "f" : "NS_5FixedE") "E"
     plan = "^_ZNK?10splinefeed" (smooth ? "10SmoothPlan" : "8FeedPlan") of "(4cell|5clear|5steer|7advance|7prepare|7rest_at|8standing)E"
     sampler = "^_ZNK?10splinefeed" (smooth ? "13SmoothSampler" : "14ProfileSampler") of "(4next|5clear|7at_rest)E"
@@ -38,26 +39,47 @@ function quoted(line, key) {
     from = quoted($0, "sourcename")
     to = quoted($0, "targetname")
     if (to == "__indirect_call" && from ~ /ArcLength|CheckedSource/) { to = curve }
-    makes = from ~ /make/
-    if (to == "__indirect_call" && makes) {
-        asks_planner[from] = 1
-    } else if (to == "__indirect_call" && from ~ /SegmentStream|Trajectory/) {
-        asks_sampler[from] = 1
-    }
-    if (to == "__indirect_call" && makes) {
-    } else if (to == "__indirect_call" && from ~ /Sampler|Trajectory/) {
-        asks_plan[from] = 1
-    } else if (to == "__indirect_call" && from ~ /SegmentStream/) {
+    if (to == "__indirect_call" && from ~ /make|Sampler|SegmentStream|Trajectory/) {
+        asks[from] = asks[from] method_at(place_of($0)) " "
     } else if (!((from, to) in known)) {
         known[from, to] = 1
         calls[from] = calls[from] to "\n"
     }
 }
 
+function place_of(line) {
+    return substr(line, match(line, /label: "/) + 8, length(line)) 
+}
+
+# The method that is called in FILE:LINE:COLUMN, which is behind its name.
+function method_at(place, parts, text, i) {
+    split(place, parts, ":")
+    for (i = 0; i < parts[2] && (getline text < parts[1]) > 0; ++i) { }
+    close(parts[1])
+    text = substr(text, 1, parts[3] - 1)
+    if (i < parts[2] || !match(text, /[a-z_]+$/)) { fail("no method is called at " place) }
+    return substr(text, RSTART)
+}
+
 function fail(reason) {
     print "stack: " reason
     failed = 1
     exit 1
+}
+
+# `from` calls the methods that it asks for, of all whose names match.
+function link(from, names, methods, count, i, name, found) {
+    count = split(asks[from], methods, " ")
+    for (i = 1; i <= count; ++i) {
+        found = 0
+        for (name in frame) {
+            if (name ~ names && index(name, length(methods[i]) methods[i] "E")) {
+                calls[from] = calls[from] name "\n"
+                found = 1
+            }
+        }
+        if (!found && from ~ of) { fail("no " methods[i] " is known that " from " could call") }
+    }
 }
 
 # The deepest stack of a function and all it calls; `way` is how the deepest call goes on.
@@ -83,23 +105,23 @@ function depth(name, targets, count, i, d, deepest) {
 
 END {
     if (failed) { exit 1 }
-    plans = samplers = planners = 0
-    for (name in frame) {
-        if (name ~ plan) {
-            ++plans
-            for (from in asks_plan) { calls[from] = calls[from] name "\n" }
-        }
-        if (name ~ sampler) {
-            ++samplers
-            for (from in asks_sampler) { calls[from] = calls[from] name "\n" }
-        }
-        if (name ~ planner) {
-            ++planners
-            for (from in asks_planner) { calls[from] = calls[from] name "\n" }
+    for (from in asks) {
+        if (from ~ /make/) {
+            link(from, planner)
+        } else if (from ~ /SegmentStream/) {
+            link(from, sampler)
+        } else {
+            link(from, from ~ /Sampler/ ? plan : plan "|" sampler)
         }
     }
+    plans = samplers = planners = 0
+    for (name in frame) {
+        plans += name ~ plan
+        samplers += name ~ sampler
+        planners += name ~ planner
+    }
     # Seven functions of a plan, three of a sampler, two of a planner: those that were renamed would be left out.
-    if (plans < 5 || samplers < 2 || planners < 2) {
+    if (smooth != "none" && (plans < 5 || samplers < 2 || planners < 2)) {
         fail(plans " functions of plans, " samplers " of samplers and " planners " of planners have the names that are known here")
     }
     print "stack bound " depth(root) " bytes:"

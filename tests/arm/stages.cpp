@@ -135,7 +135,8 @@ template <class Next, class Use>
 
 using Window = std::array<PlannedCell<Fixed>, window_cells>;
 
-void write_stages() {
+/// @return what all stages before the stream cost
+std::uint32_t write_stages() {
     const auto ignore = [] {
     };
     CurveSegment<Fixed>& segment = Static<CurveSegment<Fixed>>::build();
@@ -143,6 +144,7 @@ void write_stages() {
     const Work pieces = pull(
         curve, [&] { return curve.next(segment); }, ignore);
     write_cost("curve_waypoint", pieces.counts, waypoints);
+    write_cost("curve_longest_call", pieces.most, 1);
 
     auto& curve2 = Static<G2Spline<Fixed>>::build(CurveOptions<Fixed>{});
     auto& cell = Static<Cell<Fixed>>::build();
@@ -150,6 +152,7 @@ void write_stages() {
     const Work cells = pull(
         curve2, [&] { return arc_length.next(cell); }, ignore);
     write_cost("cell", cells.counts - pieces.counts, cells.items);
+    write_cost("cell_longest_call", cells.most, 1);
 
     auto& curve3 = Static<G2Spline<Fixed>>::build(CurveOptions<Fixed>{});
     auto& arc_length2 = Static<ArcLength<Fixed>>::build(curve3, limits<false>->refinement);
@@ -165,6 +168,8 @@ void write_stages() {
         },
         ignore);
     write_cost("node", nodes.counts - cells.counts, cells.items);
+    write_cost("node_longest_call", nodes.most, 1);
+    return nodes.counts;
 }
 
 template <bool jerk_limited>
@@ -198,7 +203,7 @@ void write_parts() {
 }
 
 template <bool jerk_limited>
-void write_pipeline() {
+void write_pipeline(std::uint32_t before_stream) {
     auto& curve = Static<G2Spline<Fixed>>::build(CurveOptions<Fixed>{});
     Trajectory<Fixed> trajectory = make_trajectory<jerk_limited>(curve);
     FeedSegment& segment = Static<FeedSegment>::build();
@@ -207,6 +212,9 @@ void write_pipeline() {
         curve, [&] { return trajectory.next(segment); }, [&] { hash.add(segment); });
     write_cost(jerk_limited ? "jerk_waypoint" : "pipeline_waypoint", work.counts, waypoints);
     write_cost(jerk_limited ? "jerk_feed_segment" : "pipeline_feed_segment", work.counts, work.items);
+    if (!jerk_limited) {
+        write_cost("stream_segment", work.counts - before_stream, work.items);
+    }
     write_cost(jerk_limited ? "jerk_longest_call" : "pipeline_longest_call", work.most, 1);
     write_value(jerk_limited ? "jerk segments" : "segments", work.items);
     write_value(jerk_limited ? "jerk hash" : "hash", hash.value());
@@ -216,9 +224,9 @@ void write_pipeline() {
 
 int main() {
     start_counting();
-    write_stages();
-    write_pipeline<false>();
+    const std::uint32_t before_stream = write_stages();
+    write_pipeline<false>(before_stream);
     write_parts();
-    write_pipeline<true>();
+    write_pipeline<true>(before_stream);
     return 0;
 }

@@ -17,14 +17,4 @@ if ! diff <(said 4 '^(jerk )?(segments|hash) +0x' "$output") <(grep '^stage_cost
     echo "another motion than tests/arm/hashes.txt has: if that is meant, change the file and say why"
     exit 1
 fi
-# Three per cent above what was measured.
-case $cpu in
-    cortex-m0) limits="85100 40500 805000 6385000 3725000" ;;
-    *) limits="33600 20100 335000 2700000 1540000" ;;
-esac
-read -r -a limits <<<"$limits"
-at_most cell "${limits[0]}" "$output"
-at_most node "${limits[1]}" "$output"
-at_most pipeline_waypoint "${limits[2]}" "$output"
-at_most pipeline_longest_call "${limits[3]}" "$output"
-at_most jerk_waypoint "${limits[4]}" "$output"
+costs "$output"

@@ -31,9 +31,22 @@ if [[ $cpu != cortex-m0 ]]; then
     done
     room=$((0x$(arm-none-eabi-nm "$image" | awk '$3 == "stack_top" { print $1 }') - 0x$(arm-none-eabi-nm "$image" | awk '$3 == "stack_bottom" { print $1 }')))
     echo "stack $bytes of $room, at most"
+    figure stack_bound "$bytes"
     if ((bytes > room)); then
         echo "the stack could overflow"
         exit 1
     fi
 fi
+read -r data bss < <(arm-none-eabi-size "$image" | awk 'NR == 2 { print $2, $3 }')
+stack=$(arm-none-eabi-nm "$image" | awk '/ stack_(top|bottom)$/ { print "0x" $1 }' | sort -r | paste -sd -)
+figure firmware.flash "$(awk -v name="firmware_$3.flash" '$1 == name { print $2 }' "$figures")"
+figure ram "data + bss - ($stack)"
 python3 tests/firmware/firmware_run.py "$host/bin/splinefeed" "$image" "$4"
+status=0
+output=$(python3 tests/firmware/cost_run.py "$image" "$4") || status=$?
+echo "$output"
+case $status in
+    0) costs "$output" ;;
+    77) printf '%s skipped\n' tick tick.longest late next.longest >>"$figures" ;;
+    *) exit 1 ;;
+esac

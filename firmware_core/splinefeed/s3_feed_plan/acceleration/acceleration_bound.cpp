@@ -75,17 +75,10 @@ auto AccelerationBound<S>::rows_of(unsigned k) const noexcept -> AxisRows {
         c0 = third * bend[0];
         c2 = third * bend[2];
     }
-    const auto both = [&out, e](unsigned j, S entry, S exit) {
-        out.entry[2 * j] = e + entry;
-        out.exit[2 * j] = e + exit;
-        out.entry[2 * j + 1] = e - entry;
-        out.exit[2 * j + 1] = e - exit;
-    };
     const S c1 = third * (bend[1] + bend[1]);
-    both(0, bend[0] - t[0], t[0]);
-    both(1, c1 - t[1], t[1] + c0);
-    both(2, c2 - t[2], t[2] + c1);
-    both(3, -t[3], t[3] + bend[2]);
+    out.entry = {bend[0] - t[0], c1 - t[1], c2 - t[2], -t[3]};
+    out.exit = {t[0], t[1] + c0, t[2] + c1, t[3] + bend[2]};
+    out.e = e;
     const S twice = length + length;
     const auto scaled = [&](S acceleration) {
         return smaller(scale2(twice * acceleration, limits_.refinement.shape_log2),
@@ -144,7 +137,7 @@ S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept 
         const AxisRows axis = rows_of(k);
         for (unsigned i = 0; i < 8; ++i) {
             const Row row = axis[i];
-            const S exit = below_zero ? -axis.exit[i ^ 1U] : row.exit;
+            const S exit = below_zero ? -axis.exit_of(i ^ 1U) : row.exit;
             if (!(exit < S{})) {
                 continue;
             }

@@ -47,12 +47,16 @@ private:
         S limit{};
     };
 
-    struct AxisRows {
-        std::array<S, 8> entry;
-        std::array<S, 8> exit;
+    struct AxisRows { // as few numbers as say it: those of all axes lie on the stack of peak()
+        std::array<S, 4> entry;
+        std::array<S, 4> exit;
+        S e;                    // of all of them
         std::array<S, 2> limit; // of accelerations > 0 and < 0, in turn
 
-        [[nodiscard]] Row operator[](unsigned i) const noexcept { return {entry[i], exit[i], limit[i % 2]}; }
+        [[nodiscard]] S exit_of(unsigned i) const noexcept { return i % 2 == 0 ? e + exit[i / 2] : e - exit[i / 2]; }
+        [[nodiscard]] Row operator[](unsigned i) const noexcept {
+            return {i % 2 == 0 ? e + entry[i / 2] : e - entry[i / 2], exit_of(i), limit[i % 2]};
+        }
     };
 
     [[nodiscard]] static S crossing_of(const Row& first, const Row& second, S weight) noexcept;

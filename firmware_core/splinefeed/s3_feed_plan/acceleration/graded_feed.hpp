@@ -33,7 +33,7 @@ public:
         if (part.whole()) {
             take(cell, source_->cap_sq(), exit_sq);
         } else {
-            take(part_of(cell, part), source_->cap_sq(), exit_sq);
+            take_part(cell, part, exit_sq, take);
         }
         leave(part);
         return Pull::item;
@@ -47,6 +47,11 @@ public:
     }
 
 private:
+    /// Apart: the cell of the part does not lie on the stack below prepare().
+    template <class Take>
+    [[gnu::noinline]] void take_part(const Cell<S>& cell, const CellInterval<S>& part, S exit_sq, Take& take) noexcept {
+        take(part_of(cell, part), source_->cap_sq(), exit_sq);
+    }
     Pull prepare(UnderrunPolicy underrun) noexcept;
     [[nodiscard]] CellInterval<S> next_part(const Cell<S>& cell) const noexcept;
     [[nodiscard]] S longest_of(const CellInterval<S>& part, S jerk) const noexcept;
