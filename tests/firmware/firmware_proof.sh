@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The reference firmware of one board: holds nothing forbidden, fits, and does in QEMU what it should:
-# firmware_proof.sh CPU BUILD_DIRECTORY_OF_THE_HOST BOARD MACHINE_OF_QEMU
+# The reference firmware of one board, or its Modbus drive: holds nothing forbidden, fits, and does in QEMU what it should:
+# firmware_proof.sh CPU BUILD_DIRECTORY_OF_THE_HOST BOARD MACHINE_OF_QEMU|not-run [drive]
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 need python3
 source tests/arm/proof.sh "$@"
 
-image=$build/bin/firmware_$3.elf
+name=${5:-firmware}_$3
+interrupt=$([[ $name == drive_* ]] && echo drive/drive_main || echo main)
+image=$build/bin/$name.elf
 forbids_all "$image"
 # The interrupt divides nothing: its code is all in one source.
-if arm-none-eabi-nm -u "$build/examples/firmware/CMakeFiles/firmware_$3.dir/main.cpp.obj" | grep -E 'div|mod'; then
+if arm-none-eabi-nm -u "$build/examples/firmware/CMakeFiles/$name.dir/$interrupt.cpp.obj" | grep -E 'div|mod'; then
     echo "the interrupt divides"
     exit 1
 fi
@@ -24,7 +26,7 @@ fi
 if [[ $cpu != cortex-m0 ]]; then
     bytes=$frame
     for root in '' _ZN8firmware7on_tickEv; do
-        bound=$(find "$build/firmware_core" "$build/examples/firmware/CMakeFiles/firmware_$3.dir" -name '*.ci' \
+        bound=$(find "$build/firmware_core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
             -exec awk -v scalar=$scalar -v smooth=0 -v root=$root -f tests/arm/stack.awk {} +)
         echo "$bound"
         bytes=$((bytes + $(number_said '^stack bound ([0-9]+) ' "$bound")))
@@ -36,4 +38,7 @@ if [[ $cpu != cortex-m0 ]]; then
         exit 1
     fi
 fi
-python3 tests/firmware/firmware_run.py "$host/bin/splinefeed" "$image" "$4"
+if [[ $4 != not-run ]]; then
+    run=$([[ $name == drive_* ]] && echo drive_run || echo firmware_run)
+    python3 "tests/firmware/$run.py" "$host/bin/splinefeed" "$image" "$4"
+fi
