@@ -7,11 +7,18 @@ need python3
 source tests/arm/proof.sh "$@"
 
 name=${5:-firmware}_$3
-interrupt=$([[ $name == drive_* ]] && echo drive/drive_main || echo main)
+interrupt=main
+run=firmware_run
+planless=0
+if [[ $name == drive_* ]]; then
+    interrupt=drive/drive_main
+    run=drive_run
+    planless=1
+fi
 image=$build/bin/$name.elf
 forbids_all "$image"
 # The interrupt divides nothing: its code is all in one source.
-if arm-none-eabi-nm -u "$build/examples/firmware/CMakeFiles/$name.dir/$interrupt.cpp.obj" | grep -E 'div|mod'; then
+if arm-none-eabi-nm -u "$build/examples/firmware/CMakeFiles/$name.dir/$interrupt.cpp.obj" | grep -E '__.*(div|mod)'; then
     echo "the interrupt divides"
     exit 1
 fi
@@ -27,7 +34,7 @@ if [[ $cpu != cortex-m0 ]]; then
     bytes=$frame
     for root in '' _ZN8firmware7on_tickEv; do
         bound=$(find "$build/firmware_core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
-            -exec awk -v scalar=$scalar -v smooth=0 -v root=$root -f tests/arm/stack.awk {} +)
+            -exec awk -v scalar=$scalar -v smooth=0 -v planless=$planless -v root=$root -f tests/arm/stack.awk {} +)
         echo "$bound"
         bytes=$((bytes + $(number_said '^stack bound ([0-9]+) ' "$bound")))
     done
@@ -39,6 +46,5 @@ if [[ $cpu != cortex-m0 ]]; then
     fi
 fi
 if [[ $4 != not-run ]]; then
-    run=$([[ $name == drive_* ]] && echo drive_run || echo firmware_run)
     python3 "tests/firmware/$run.py" "$host/bin/splinefeed" "$image" "$4"
 fi

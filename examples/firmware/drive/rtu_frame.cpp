@@ -7,10 +7,8 @@ namespace firmware {
 
 namespace {
 
-enum Function : std::uint8_t { read_registers = 3, write_register = 6, write_registers = 16, write_and_read = 23 };
+using namespace rtu;
 
-constexpr std::size_t crc_size = 2;
-constexpr std::size_t shortest = 2 + crc_size; // unit, function
 constexpr std::size_t most_read = 125;
 constexpr std::size_t most_written = 123;
 constexpr std::size_t most_exchanged = 121; // written by function 23
@@ -30,21 +28,6 @@ constexpr std::array<std::uint16_t, 16> crc_table = [] {
 
 std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
     return static_cast<std::uint16_t>(bytes[at] << 8U | bytes[at + 1]);
-}
-
-/// Up to the registers that a request writes, with the count of their bytes; the whole without CRC if it writes none.
-std::size_t head_size(std::uint8_t function) noexcept {
-    switch (function) {
-    case read_registers:
-    case write_register: return 6;
-    case write_registers: return 7;
-    case write_and_read: return 11;
-    default: return 0;
-    }
-}
-
-bool writes_many(std::uint8_t function) noexcept {
-    return function == write_registers || function == write_and_read;
 }
 
 /// What a request asks for, and its answer as far as it is made.
@@ -117,17 +100,6 @@ struct Exchange {
 };
 
 } // namespace
-
-std::size_t request_size(std::span<const std::uint8_t> begun) noexcept {
-    if (begun.size() < shortest) {
-        return shortest;
-    }
-    const std::size_t head = head_size(begun[1]);
-    if (begun.size() < head || head == 0) {
-        return head != 0 ? head + crc_size : begun.size();
-    }
-    return head + crc_size + (writes_many(begun[1]) ? begun[head - 1] : 0U);
-}
 
 std::uint16_t rtu_crc(std::span<const std::uint8_t> bytes) noexcept {
     unsigned rest = 0xFFFF;
