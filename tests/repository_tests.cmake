@@ -48,6 +48,13 @@ set_tests_properties(firmware_lm3s6965 firmware_stm32f405 firmware_nrf51 PROPERT
 set_tests_properties(firmware_nrf51 PROPERTIES DEPENDS arm_link_m0 RESOURCE_LOCK arm_build_m0)
 set_tests_properties(firmware_lm3s6965 PROPERTIES DEPENDS arm_link_m3 RESOURCE_LOCK arm_build_m3)
 set_tests_properties(firmware_stm32f405 PROPERTIES DEPENDS arm_link_m4f RESOURCE_LOCK arm_build_m4f)
+# The boards as Modbus drives. The one that QEMU runs keeps time with the host: alone, so that the host has some.
+repository_test(firmware_modbus_lm3s6965 firmware/firmware_proof.sh cortex-m3 ${PROJECT_BINARY_DIR} lm3s6965 lm3s6965evb drive)
+repository_test(firmware_modbus_stm32f405 firmware/firmware_proof.sh cortex-m4f ${PROJECT_BINARY_DIR} stm32f405 not-run drive)
+repository_test(firmware_modbus_nrf51 firmware/firmware_proof.sh cortex-m0 ${PROJECT_BINARY_DIR} nrf51 not-run drive)
+set_tests_properties(firmware_modbus_lm3s6965 PROPERTIES DEPENDS arm_link_m3 RESOURCE_LOCK arm_build_m3 RUN_SERIAL TRUE)
+set_tests_properties(firmware_modbus_stm32f405 PROPERTIES DEPENDS arm_link_m4f RESOURCE_LOCK arm_build_m4f)
+set_tests_properties(firmware_modbus_nrf51 PROPERTIES DEPENDS arm_link_m0 RESOURCE_LOCK arm_build_m0)
 # Behind all of these, whose figures it compares with docs/reference/budgets.md.
 repository_test(arm_budgets arm/budgets.py ${PROJECT_BINARY_DIR})
 repository_test(budgets_tool arm/budgets_test.py)

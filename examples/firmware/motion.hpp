@@ -62,7 +62,8 @@ private:
     enum class Program : std::uint8_t { none, open, closed, aborted };
 
     splinefeed::Status begin(const splinefeed::Waypoint<Real>& first) noexcept;
-    [[nodiscard]] bool stands() const noexcept { return !steps_.active() && steps_.level() == 0; }
+    /// In this order: a part that begins in between is active.
+    [[nodiscard]] bool stands() const noexcept { return steps_.level() == 0 && !steps_.active(); }
     [[nodiscard]] bool make_trajectory(splinefeed::CurveSource<Real>& curve) noexcept;
     void emit() noexcept;
 

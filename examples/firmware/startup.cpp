@@ -22,6 +22,17 @@ namespace {
 
 constexpr std::uint32_t paint = 0xa5a5a5a5;
 
+[[gnu::section(".noinit")]] std::uint32_t boots; // neither zeroed nor loaded
+
+/// Some bits of a RAM come up at random.
+[[nodiscard]] std::uint32_t noise(const std::uint32_t* end) {
+    std::uint32_t mixed = 0;
+    for (const std::uint32_t* word = stack_bottom; word < end; ++word) {
+        mixed = (mixed << 5 | mixed >> 27) ^ *word;
+    }
+    return mixed;
+}
+
 [[gnu::noinline]] void prepare_memory() {
     for (std::uint32_t* word = data_start; word != data_end; ++word) {
         *word = data_image[word - data_start];
@@ -30,6 +41,7 @@ constexpr std::uint32_t paint = 0xa5a5a5a5;
         *word = 0;
     }
     std::uint32_t* const in_use = static_cast<std::uint32_t*>(__builtin_frame_address(0)) - 32;
+    boots += 1 + 2 * noise(in_use); // over a reset the stack holds much the same: the count then makes the difference
     for (std::uint32_t* word = stack_bottom; word < in_use; ++word) {
         *word = paint;
     }
@@ -79,6 +91,10 @@ std::uint32_t stack_used() noexcept {
         ++deepest;
     }
     return static_cast<std::uint32_t>(stack_top - deepest) * 4;
+}
+
+std::uint32_t boot_number() noexcept {
+    return boots;
 }
 
 std::uint32_t stack_size() noexcept {

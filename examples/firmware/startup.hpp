@@ -15,4 +15,7 @@ void on_tick();
 [[nodiscard]] std::uint32_t stack_used() noexcept;
 [[nodiscard]] std::uint32_t stack_size() noexcept;
 
+/// A different number after each start: kept over a reset, and made of what the RAM holds after power-up.
+[[nodiscard]] std::uint32_t boot_number() noexcept;
+
 } // namespace firmware

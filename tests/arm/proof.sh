@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What the proofs on one microcontroller have in common: PROOF.sh CPU BUILD_DIRECTORY_OF_THE_HOST. To be sourced with "$@", from
 # the root of the repository; builds the images. Sets cpu, host and build. What it measures is left for tests/arm/budgets.py in
-# BUILD_DIRECTORY_OF_THE_HOST/budgets/PROOF-CPU.txt.
+# BUILD_DIRECTORY_OF_THE_HOST/budgets/PROOF-CPU.txt; `proof` is the script's name where it says no other.
 # shellcheck shell=bash
 source tests/tools/said.sh
 source tests/arm/build.sh
@@ -10,7 +10,7 @@ cpu=$1
 host=$2
 need arm-none-eabi-g++ qemu-system-arm
 build=build/arm-$cpu
-proof=$(basename "$0" _proof.sh)
+proof=${proof:-$(basename "$0" _proof.sh)}
 figures=$host/budgets/$proof-$cpu.txt
 mkdir -p "$host/budgets"
 : >"$figures"

@@ -112,9 +112,9 @@ KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, Pl061Pins, buttons=True, watchdog=T
          "microbit": Kind(16, "float", 6, Nrf51Pins, slow=True)}
 class Board:
     """The emulator runs as fast as the host can, by a clock of its own that counts instructions. So nothing here may depend on the
-    host's time; the board is waited for."""
+    host's time; the board is waited for. `clock`: how its clock goes, if otherwise."""
 
-    def __init__(self, image, folder, machine, qemu_options=()):
+    def __init__(self, image, folder, machine, qemu_options=(), clock=""):
         trace_path = os.path.join(folder, "pins.txt")
         serial, monitor = os.path.join(folder, "uart"), os.path.join(folder, "qmp")
         for path in (trace_path, serial, monitor):
@@ -123,7 +123,7 @@ class Board:
         self.kind = KINDS[machine]
         self.pins = self.kind.pins(ENABLE)
         self.qemu = subprocess.Popen(
-            ["qemu-system-arm", "-M", machine, "-display", "none", "-icount", f"shift={self.kind.shift},sleep=off",
+            ["qemu-system-arm", "-M", machine, "-display", "none", "-icount", clock or f"shift={self.kind.shift},sleep=off",
              "-chardev", f"socket,id=uart,path={serial},server=on,wait=on", "-serial", "chardev:uart",
              "-qmp", f"unix:{monitor},server=on,wait=off", "-monitor", "none",
              *self.kind.pins.options, "-D", trace_path, *qemu_options, "-kernel", image])

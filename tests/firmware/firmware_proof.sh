@@ -1,15 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The reference firmware of one board: holds nothing forbidden, fits, and does in QEMU what it should:
-# firmware_proof.sh CPU BUILD_DIRECTORY_OF_THE_HOST BOARD MACHINE_OF_QEMU
+# The reference firmware of one board, or its Modbus drive: holds nothing forbidden, fits, and does in QEMU what it should:
+# firmware_proof.sh CPU BUILD_DIRECTORY_OF_THE_HOST BOARD MACHINE_OF_QEMU|not-run [drive]
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 need python3
+proof=${5:-firmware}
 source tests/arm/proof.sh "$@"
 
-image=$build/bin/firmware_$3.elf
+name=${proof}_$3
+interrupt=main
+run=firmware_run
+smooth=0
+if [[ $proof == drive ]]; then
+    interrupt=drive/drive_main
+    run=drive_run
+    smooth=none
+fi
+image=$build/bin/$name.elf
 forbids_all "$image"
 # The interrupt divides nothing: its code is all in one source.
-if arm-none-eabi-nm -u "$build/examples/firmware/CMakeFiles/firmware_$3.dir/main.cpp.obj" | grep -E 'div|mod'; then
+if arm-none-eabi-nm -u "$build/examples/firmware/CMakeFiles/$name.dir/$interrupt.cpp.obj" | grep -E '__.*(div|mod)'; then
     echo "the interrupt divides"
     exit 1
 fi
@@ -24,8 +34,8 @@ fi
 if [[ $cpu != cortex-m0 ]]; then
     bytes=$frame
     for root in '' _ZN8firmware7on_tickEv; do
-        bound=$(find "$build/firmware_core" "$build/examples/firmware/CMakeFiles/firmware_$3.dir" -name '*.ci' \
-            -exec awk -v scalar=$scalar -v smooth=0 -v root=$root -f tests/arm/stack.awk {} +)
+        bound=$(find "$build/firmware_core" "$build/examples/firmware/CMakeFiles/$name.dir" -name '*.ci' \
+            -exec awk -v scalar=$scalar -v smooth=$smooth -v root=$root -f tests/arm/stack.awk {} +)
         echo "$bound"
         bytes=$((bytes + $(number_said '^stack bound ([0-9]+) ' "$bound")))
     done
@@ -39,9 +49,11 @@ if [[ $cpu != cortex-m0 ]]; then
 fi
 read -r data bss < <(arm-none-eabi-size "$image" | awk 'NR == 2 { print $2, $3 }')
 stack=$(arm-none-eabi-nm "$image" | awk '/ stack_(top|bottom)$/ { print "0x" $1 }' | sort -r | paste -sd -)
-figure firmware.flash "$(awk -v name="firmware_$3.flash" '$1 == name { print $2 }' "$figures")"
+figure firmware.flash "$(awk -v name="$name.flash" '$1 == name { print $2 }' "$figures")"
 figure ram "data + bss - ($stack)"
-python3 tests/firmware/firmware_run.py "$host/bin/splinefeed" "$image" "$4"
+if [[ $4 == not-run ]]; then exit 0; fi
+python3 "tests/firmware/$run.py" "$host/bin/splinefeed" "$image" "$4"
+if [[ $proof == drive ]]; then exit 0; fi
 status=0
 output=$(python3 tests/firmware/cost_run.py "$image" "$4") || status=$?
 echo "$output"
