@@ -2,8 +2,8 @@
 #include "host_sim/run/check_program.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/standard_output.hpp"
 #include "host_sim/output/program_report_text.hpp"
-#include "host_sim/output/standard_output.hpp"
 #include "host_sim/planning/move_sources.hpp"
 #include "host_sim/run/run_machine.hpp"
 
