@@ -213,6 +213,7 @@ TEST_CASE("Each wrong O word is told once, and the lines around it are read as i
     says("#1=4\no1 sub\nG0 X#1\no1 endsub [1/0]\no1 call [3]\nX#1", " 3 4", {"4:"});
     says("o1 sub\no1 call\no1 endsub\no1 call\nG0 X1", " 1", {"2:2: calls are nested more than 30 deep"});
     says("o1 while [1]\no1 endwhile\nG0 X1", " 1", {"2:1: the program has executed"});
+    says("o1 while [1]\no2 call\no1 endwhile\nG0 X1", " 1", {"2:2: there is no subprogram o2"}); // not 10 million times
     says("o1 if [1]\no1 if [1]\nG0 X1\no1 endif\nX2\no1 endif\nX3", " 1 2 3", {});
 }
 

@@ -223,7 +223,7 @@ void ProgramFlow::abandon() {
     while (!frames_.empty()) {
         leave_frame();
     }
-    words_ = 0;
+    words_ = repeated_ = 0;
 }
 
 // A word was wrong: what is in its structure runs once.
@@ -282,7 +282,8 @@ ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
         execute(*place, code->line(at));
     } catch (const WordError& error) {
         const bool is_new = problems_.add(error);
-        if (words_ > most_words) {
+        repeated_ += is_new ? 0U : 1U;
+        if (words_ > most_words || repeated_ > most_repeated) {
             abandon();
         } else {
             go_on_behind(*place, is_new);

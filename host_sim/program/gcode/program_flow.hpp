@@ -25,6 +25,7 @@ class ProgramFlow {
 public:
     static constexpr std::size_t most_lines = 1'000'000;    ///< kept in memory
     static constexpr std::uint64_t most_words = 10'000'000; ///< O words executed
+    static constexpr std::uint64_t most_repeated = 10'000;  ///< times that a block may come to problems that are known
     static constexpr std::size_t deepest = 30;              ///< calls within calls
     static constexpr std::int32_t most_arguments = 30;
 
@@ -122,7 +123,8 @@ private:
     std::size_t block_depth_ = 0; // structures of the same kind and label around a line of it
     std::size_t kept_ = 0;        // lines of subprograms
     std::uint64_t words_ = 0;
-    std::uint64_t blocks_ = 0; // that have been read
+    std::uint64_t repeated_ = 0; // problems that were told before
+    std::uint64_t blocks_ = 0;   // that have been read
 };
 
 } // namespace splinefeed::host
