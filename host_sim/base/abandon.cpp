@@ -21,7 +21,7 @@ constexpr int taken_within_ms = 100;
 std::atomic<bool> abandoned{false};
 
 // A pipe that has room takes PIPE_BUF bytes without waiting.
-void tell(std::string_view sentence) {
+void say(std::string_view sentence) {
     std::string line = "splinefeed: " + printable(sentence);
     line.resize(std::min<std::size_t>(line.size(), PIPE_BUF - 1));
     line += '\n';
@@ -38,7 +38,7 @@ void abandon(std::string_view sentence, int status) noexcept {
         pause();
     }
     OutputFile::discard_all();
-    tell(sentence);
+    say(sentence);
     _exit(status);
 }
 

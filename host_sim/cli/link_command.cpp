@@ -3,11 +3,11 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/number_text.hpp"
+#include "host_sim/base/standard_output.hpp"
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/targets/target_table.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -42,7 +42,7 @@ int report_link(const LinkArguments& arguments) {
     const double seconds = measuring_time(arguments.seconds);
     const bool any_machine = arguments.machine.empty();
     const MachineDescription machine = any_machine ? default_machine() : read_machine_file(arguments.machine);
-    std::fputs(kind.report(arguments.target, machine, any_machine, seconds).c_str(), stdout);
+    print_whole(kind.report(arguments.target, machine, any_machine, seconds), "the report");
     return 0;
 }
 

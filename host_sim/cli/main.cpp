@@ -2,11 +2,12 @@
 // The tool `splinefeed`: exceptions become exit statuses here and nowhere else.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/output_file.hpp"
+#include "host_sim/base/standard_output.hpp"
+#include "host_sim/base/standard_streams.hpp"
 #include "host_sim/cli/command_line.hpp"
 #include "host_sim/target/run_target.hpp"
 
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <fmt/format.h>
 #include <iostream>
@@ -15,28 +16,30 @@ int main(int argc, char** argv) {
     using namespace splinefeed::host;
     constexpr int not_finished = 1;
     constexpr int bad_input = 2;
+    keep_standard_streams();
     std::ios::sync_with_stdio(false);                 // a pipe is read in blocks of what has arrived
     static_cast<void>(std::signal(SIGPIPE, SIG_IGN)); // an output whose reader has gone is an error like any other
     try {
         const auto parsed = parse_command_line(argc, argv);
         if (const Answer* const answer = std::get_if<Answer>(&parsed)) {
-            return std::fputs(answer->text.c_str(), stdout) < 0 || std::fflush(stdout) != 0 ? bad_input : 0;
+            print_whole(answer->text, "the answer");
+            return 0;
         }
         return carry_out(std::get<Job>(parsed));
     } catch (const InputError& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        tell("{}\n", error.what());
         return bad_input;
     } catch (const UsageError& error) {
-        fmt::print(stderr, "splinefeed: {}\n", error.what());
+        tell("splinefeed: {}\n", error.what());
         return bad_input;
     } catch (const OutputError& error) {
-        fmt::print(stderr, "splinefeed: {}\n", printable(error.what()));
+        tell("splinefeed: {}\n", printable(error.what()));
         return bad_input;
     } catch (const TargetError& error) {
-        fmt::print(stderr, "splinefeed: {}\n", printable(error.what()));
+        tell("splinefeed: {}\n", printable(error.what()));
         return not_finished;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "splinefeed: internal error: {}\n", printable(error.what()));
+        tell("splinefeed: internal error: {}\n", printable(error.what()));
         return not_finished;
     }
 }

@@ -3,6 +3,8 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/option_number.hpp"
+#include "host_sim/base/standard_output.hpp"
+#include "host_sim/base/standard_streams.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/profile_drive.hpp"
@@ -11,7 +13,6 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cstdio>
 #include <fmt/format.h>
 #include <random>
 
@@ -246,7 +247,7 @@ void add_drive_options(CLI::App& app, DriveArguments& arguments) {
 
 int run_drive(const DriveArguments& arguments) {
     if (arguments.list_profiles) {
-        fmt::print("{}", list_profiles());
+        print_whole(list_profiles(), "the list of profiles");
         return 0;
     }
     check_records(arguments);
@@ -271,13 +272,11 @@ int run_drive(const DriveArguments& arguments) {
         record.emplace(*arguments.record, arguments.profile, drive->axes(), server.start_s());
     }
     if (faults.random() && !faults.seed) {
-        fmt::print(stderr, "splinefeed: --faults seed={}\n", seed);
+        tell("splinefeed: --faults seed={}\n", seed);
     }
-    fmt::print("listening on {}, profile {}, {} {}\n", server.address().text(), arguments.profile, drive->axes(),
-               drive->axes() == 1 ? "axis" : "axes");
-    if (std::fflush(stdout) != 0) {
-        throw OutputError("standard output: it cannot be written; keep its reader running");
-    }
+    print_whole(fmt::format("listening on {}, profile {}, {} {}\n", server.address().text(), arguments.profile,
+                            drive->axes(), drive->axes() == 1 ? "axis" : "axes"),
+                "the address");
     server.run(stop_requested, record ? &*record : nullptr);
     if (record) {
         record->commit();

@@ -2,12 +2,14 @@
 #include "host_sim/run/check_program.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/standard_output.hpp"
 #include "host_sim/output/program_report_text.hpp"
-#include "host_sim/output/standard_output.hpp"
 #include "host_sim/planning/move_sources.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include <fmt/format.h>
+#include <set>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -50,7 +52,8 @@ private:
         add_extent(from, step.programmed, machine_->settings.axes, box);
         for (unsigned k = 0; k < static_cast<unsigned>(machine_->settings.axes); ++k) {
             const auto& travel = machine_->travel[k];
-            if (travel && (box.low[k] < travel->low || box.high[k] > travel->high)) {
+            if (travel && (box.low[k] < travel->low || box.high[k] > travel->high) &&
+                outside_.emplace(step.line, k).second) {
                 const double end = to_mm(step.programmed.to[k]);
                 const bool below = box.low[k] < travel->low && !(end > travel->high);
                 problems_.push_back(
@@ -65,6 +68,7 @@ private:
     const std::string* file_;
     ProgramReport report_;
     std::vector<std::string> problems_;
+    std::set<std::pair<std::uint64_t, unsigned>> outside_; // lines and axes that are among the problems
 };
 
 template <Scalar S>

@@ -2,6 +2,7 @@
 #include "host_sim/run/program_steps.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/standard_streams.hpp"
 #include "host_sim/target/program_outputs.hpp"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ void ProgramSteps<S>::happen(double time_s) {
     const bool said =
         action.kind == EventKind::message || action.kind == EventKind::print || action.kind == EventKind::debug;
     if (tells_ && said) {
-        fmt::print(stderr, "{}\n", printable(action.text));
+        tell("{}\n", printable(action.text));
     }
 }
 
@@ -105,7 +106,7 @@ bool ProgramSteps<S>::waits_for_user(const PendingStep& step) {
                                                                                            : "M60");
     if (asked_ != Asked::user && tool && !orders_->spindle_stands()) {
         if (asked_ == Asked::no) {
-            fmt::print(stderr, "splinefeed: {}: wait until the spindle stands\n", what);
+            tell("splinefeed: {}: wait until the spindle stands\n", what);
             asked_ = Asked::spindle;
         }
         return true;

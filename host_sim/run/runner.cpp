@@ -4,8 +4,9 @@
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/standard_output.hpp"
+#include "host_sim/base/standard_streams.hpp"
 #include "host_sim/output/outputs.hpp"
-#include "host_sim/output/standard_output.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/path_tee.hpp"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fmt/format.h>
 #include <optional>
 #include <span>
@@ -51,7 +51,7 @@ void warn(const PathInput& input, bool quiet) {
         return;
     }
     for (const std::string& warning : input.segments()->warnings) {
-        fmt::print(stderr, "{}: warning: {}\n", printable(input.name()), warning);
+        tell("{}: warning: {}\n", printable(input.name()), warning);
     }
 }
 
@@ -81,12 +81,11 @@ void warn_of_events(const MotionArguments& arguments, std::span<const OperatorEv
         return;
     }
     for (const OperatorEvent& event : events.first(std::min(events.size(), most))) {
-        fmt::print(stderr, "{}:{}: warning: the event at {} s did not happen: the run ended at {:.6g} s\n",
-                   printable(arguments.events), event.line, event.time_s, end_s);
+        tell("{}:{}: warning: the event at {} s did not happen: the run ended at {:.6g} s\n",
+             printable(arguments.events), event.line, event.time_s, end_s);
     }
     if (events.size() > most) {
-        fmt::print(stderr, "{}: warning: nor did the {} events after them\n", printable(arguments.events),
-                   events.size() - most);
+        tell("{}: warning: nor did the {} events after them\n", printable(arguments.events), events.size() - most);
     }
 }
 
@@ -108,7 +107,7 @@ Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& tar
     auto limits = MotionLimits<S>::make(machine.settings);
     for (const std::string& note : {lowered, target.note()}) {
         if (!note.empty() && !quiet) {
-            fmt::print(stderr, "splinefeed: note: {}\n", printable(note));
+            tell("splinefeed: note: {}\n", printable(note));
         }
     }
     if (!limits.has_value() || limits->segment_ticks >= target.least_segment_us() * ticks_per_us) {
@@ -124,10 +123,9 @@ Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& tar
     machine.settings.segments_per_sample = 1;
     limits = MotionLimits<S>::make(machine.settings);
     if (!quiet) {
-        fmt::print(stderr,
-                   "splinefeed: note: the drives' lines carry a segment every {:.2f} ms at most often: segments and "
-                   "samples are {:.2f} ms long, not {:.2f} ms; what that smoothes the path is in the summary\n",
-                   target.least_segment_us() * 1e-3, machine.settings.sample_period_us * 1e-3, asked_us * 1e-3);
+        tell("splinefeed: note: the drives' lines carry a segment every {:.2f} ms at most often: segments and "
+             "samples are {:.2f} ms long, not {:.2f} ms; what that smoothes the path is in the summary\n",
+             target.least_segment_us() * 1e-3, machine.settings.sample_period_us * 1e-3, asked_us * 1e-3);
     }
     return limits;
 }
@@ -184,7 +182,7 @@ int move_machine(const RunArguments& arguments) {
     if (stopped.empty()) {
         return 0;
     }
-    fmt::print(stderr, "splinefeed: {}\n", printable(stopped));
+    tell("splinefeed: {}\n", printable(stopped));
     return 1;
 }
 

@@ -2,6 +2,7 @@
 #include "host_sim/run/user_pause.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/standard_streams.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +20,8 @@ void UserPause::ask(const std::string& why) {
     if (terminal_ >= 0) {
         static_cast<void>(tcflush(terminal_, TCIFLUSH));
     }
-    fmt::print(stderr, "splinefeed: {}; to go on {}kill -USR2 {}\n", printable(why),
-               terminal_ >= 0 ? "press Enter, or " : "", getpid());
+    tell("splinefeed: {}; to go on {}kill -USR2 {}\n", printable(why), terminal_ >= 0 ? "press Enter, or " : "",
+         getpid());
 }
 
 // In the background a terminal belongs to others: reading it would stop the process.

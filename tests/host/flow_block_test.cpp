@@ -27,7 +27,7 @@ TEST_CASE("Each word of a structure knows the others") {
     FlowBlock block =
         block_of("o1 sub\no2 if [1]\no2 elseif [1]\nG0 X1\no2 else\no3 repeat [2]\no3 break\no3 endrepeat\n"
                  "o2 endif\no4 do\no4 continue\no4 while [1]\no4 while [1]\no4 endwhile\no1 endsub");
-    REQUIRE(block.link().text.empty());
+    REQUIRE(block.link().empty());
     const auto is = [&](std::size_t line, std::size_t begin, std::size_t end) {
         return block.place(line)->begin == begin && block.place(line)->end == end;
     };
@@ -49,15 +49,21 @@ TEST_CASE("Each word of a structure knows the others") {
 }
 
 TEST_CASE("What does not fit together is told at its line") {
-    FlowBlock open = block_of("o1 while [1]\no2 repeat [1]\n");
-    CHECK(open.link().text == "o2 has no end");
-    FlowBlock crossed = block_of("o1 while [1]\no2 repeat [1]\no1 endwhile\no2 endrepeat");
-    CHECK(crossed.link().line == 2);
-    FlowBlock outside = block_of("o1 while [1]\no1 endwhile\no1 break");
-    CHECK(outside.link().text == "there is no loop o1 around this line");
+    const auto problems = [](const std::string& text) {
+        return block_of(text).link();
+    };
+    const auto open = problems("o1 while [1]\no2 repeat [1]\n");
+    REQUIRE(open.size() == 2);
+    CHECK(open[0].text == "o1 has no end; write o1 endwhile behind its last line");
+    CHECK((open[1].line == 1 && open[1].text == "o2 has no end; write o2 endrepeat behind its last line"));
+    const auto crossed = problems("o1 while [1]\no2 repeat [1]\no1 endwhile\no2 endrepeat");
+    REQUIRE(crossed.size() == 2);
+    CHECK(crossed[0].line == 2);
+    CHECK(crossed[1].text == "o2 has no begin");
+    CHECK(problems("o1 while [1]\no1 endwhile\no1 break").at(0).text == "there is no loop o1 around this line");
     std::string deep;
     for (std::size_t i = 0; i <= FlowBlock::deepest; ++i) {
         deep += "o" + std::to_string(i) + " if [1]\n";
     }
-    CHECK(block_of(deep).link().text == "O words are nested more than 1000 deep");
+    CHECK(problems(deep).at(0).text == "O words are nested more than 1000 deep");
 }

@@ -27,8 +27,8 @@ private:
     std::uint64_t lines_ = 0;
 };
 
-/// The X of each move, or the error.
-std::string run(const std::string& text) {
+/// The X of each move, or the error; with `problems` all errors go there.
+std::string run(const std::string& text, std::vector<std::string>* problems = nullptr) {
     TextLines lines(text);
     ParameterMemory parameters;
     Expression expression(parameters);
@@ -36,7 +36,7 @@ std::string run(const std::string& text) {
     interpreter.start({});
     std::string out;
     try {
-        ProgramFlow flow(lines, "p.ngc", expression, interpreter, parameters);
+        ProgramFlow flow(lines, "p.ngc", expression, interpreter, parameters, problems);
         SourceLine line;
         ProgramItem<double> item;
         for (auto step = flow.next(line); step != ProgramFlow::Step::end; step = flow.next(line)) {
@@ -44,7 +44,9 @@ std::string run(const std::string& text) {
                 continue;
             }
             const BlockStatus status = interpreter.push(line.text, static_cast<std::uint32_t>(line.number));
-            if (!status.ok()) {
+            if (!status.ok() && problems != nullptr) {
+                problems->push_back("p.ngc:" + std::to_string(line.number) + ": no word");
+            } else if (!status.ok()) {
                 return out + " error " + describe(status.error);
             }
             while (interpreter.next(item) == Pull::item) {
@@ -132,19 +134,22 @@ TEST_CASE("Wrong O words are told with line and column") {
         CHECK(said.find(what) == 0);
     };
     says("G0 X1\no1 call", "p.ngc:2:2: there is no subprogram o1");
-    says("o1 if [1]", "p.ngc:1:1: o1 has no end");
+    says("o1 if [1]", "p.ngc:1:1: o1 has no end; write o1 endif behind its last line");
     says("o1 endif", "p.ngc:1:2: o1 has no begin");
-    says("o1 while [1]\no2 if [1]\no1 endwhile\no2 endif",
-         "p.ngc:3:2: o1 has no begin, or o2 of line 2 has no end before it");
-    says("o1 if [1]\no2 while [1]\no1 endif", "p.ngc:3:2: o1 has no begin, or o2 of line 2 has no end before it");
-    says("o1 if [1]\no2 else\no1 endif", "p.ngc:2:2: o2 has no begin, or o1 of line 1 has no end before it");
+    says("o1 while [1]\no2 if [1]\no1 endwhile\no2 endif", "p.ngc:3:2: o2 of line 2 has no end before this one");
+    says("o1 if [1]\no2 while [1]\no1 endif", "p.ngc:3:2: o2 of line 2 has no end before this one");
+    says("o1 if [1]\no2 else\no1 endif", "p.ngc:2:2: o2 has no begin; what is open here is o1 of line 1");
+    says("o1 if [1]\no1 else\no1 else\no1 endif",
+         "p.ngc:3:2: o1 has its else in line 2; it has one, behind each elseif");
+    says("o1 if [1]\no1 else\no1 elseif [1]\no1 endif", "p.ngc:3:2: o1 has its else in line 2");
+    says("o1 sub\no2 endsub\nG0 X1", "p.ngc:2:2: o2 has no begin; what is open here is o1 of line 1");
     says("o1 if [1]\no2 break\no1 endif", "p.ngc:2:2: there is no loop o2 around this line");
     says("o1 repeat [1]\no2 sub\no1 break\no2 endsub\no1 endrepeat", "p.ngc:3:2: there is no loop o1 around");
     says("o1 if [1]\no#1 repeat [1]\no1 endif", "p.ngc:2:2: only call takes an expression");
     says("o1 hop", "p.ngc:1:4: an O word has a number or a <name>");
     says("o sub", "p.ngc:1:1: an O word has a number or a <name>");
-    says("o1 break", "p.ngc:1:2: o1 has no begin");
-    says("o1 return", "p.ngc:1:2: o1 has no begin");
+    says("o1 break", "p.ngc:1:2: there is no loop o1 around this line");
+    says("o1 return", "p.ngc:1:2: return stands in a subprogram");
     says("o1 repeat [1]\no2 return\no1 endrepeat", "p.ngc:2:2: return stands in a subprogram");
     says("o1 if [1/0]\no1 endif", "p.ngc:1:");
     says("o1 if 1\no1 endif", "p.ngc:1:7: a condition stands in brackets");
@@ -152,6 +157,64 @@ TEST_CASE("Wrong O words are told with line and column") {
     says("o[1/2] call", "p.ngc:1:2: the number of an O word must be a whole number");
     says("o1 while [1]\no1 endwhile", "p.ngc:2:1: the program has executed");
     says("o1 sub\no1 call\no1 endsub\no1 call", "p.ngc:2:2: calls are nested more than 30 deep");
+}
+
+TEST_CASE("Words behind an O word are refused, comments are not") {
+    const auto says = [](const std::string& text, const char* where) {
+        const std::string said = run(text);
+        CAPTURE(text, said);
+        CHECK(said.find(std::string(where) + ": behind an O word there may be a comment only") == 0);
+    };
+    says("o1 if [1] G0 X5\no1 endif", "p.ngc:1:11");
+    says("o1 repeat [2] X5\no1 endrepeat", "p.ngc:1:15");
+    says("o1 if [0]\no1 else G0 X5\no1 endif", "p.ngc:2:9");
+    says("o1 sub\no1 endsub [1] X5\no1 call", "p.ngc:2:15");
+    says("o1 sub\no1 endsub\no1 call [1], [2]", "p.ngc:3:12");
+    CHECK(run("o1 sub (a)\nG0 X#1\no1 endsub ; b\no1 call [3] (c)\no2 if [1] ; d\nX4\no2 endif (e)") == " 3 4");
+}
+
+TEST_CASE("Each wrong O word is told once, and the lines around it are read as if it were not there") {
+    const auto says = [](const std::string& text, const std::string& moves, const std::vector<std::string>& expected) {
+        std::vector<std::string> problems;
+        const std::string moved = run(text, &problems);
+        CAPTURE(text, problems, moved);
+        CHECK(moved == moves);
+        REQUIRE(problems.size() == expected.size());
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            CAPTURE(expected[i]);
+            CHECK(problems[i].find("p.ngc:" + expected[i]) == 0);
+        }
+    };
+    says("o100 sub\nG0 X1\nG999\nX2", " 1 2",
+         {"1:1: o100 has no end; write o100 endsub behind its last line", "3: no"});
+    says("o1 if [0]\nG0 X1\no1 else\nX2\nG999\no2 repeat [2]\nX3\no2 endrepeat\nX4", " 1 2 3 3 4",
+         {"1:1: o1 has no end", "5: no"});
+    says("o1 while [1]\nG0 X1\no1 break\nG999\nX2", " 1 2", {"1:1: o1 has no end; write o1 endwhile", "4: no"});
+    says("o1 do\nG0 X1\nG999", " 1", {"1:1: o1 has no end; write o1 while [...]", "3: no"});
+    says("o1 if [1]\nG0 X1\no2 while [1]\no1 endif\no2 endwhile\nG999", " 1",
+         {"4:2: o2 of line 3 has no end before this one", "6: no"});
+    says("o1 do\no2 if [1]\nG0 X1\no1 while [0]\no2 endif\nX2", " 1 2", {"4:2: o2 of line 2 has no end before"});
+    says("o1 if [1]\nG0 X1\no1 else\nX2\no1 else\nX3\no1 endif\nG999", " 1",
+         {"5:2: o1 has its else in line 3", "8: no"});
+    says("o1 sub\nG0 X#1\no2 endsub\nX5\no1 call [7]\nG999", " 7", // X5 is no line: there is no motion yet
+         {"3:2: o2 has no begin; what is open here is o1 of line 1", "4: no", "6: no"});
+    says("G0 X1\no1 endif\nX2\no1 break\no1 return\nG999", " 1 2",
+         {"2:2: o1 has no begin", "4:2: there is no loop", "5:2: return stands", "6: no"});
+    says("G0 X1\no1 hop\nX2\no sub\nX3", " 1 2 3", {"2:4: an O word has", "4:1: an O word has"});
+    says("o1 if [1]\nG0 X1\no1 hop\nX2\no1 endif\nG999", " 1 2", {"3:4: an O word has", "6: no"});
+    says("o1 call\nG0 X1\no100 sub\nX2\no3 call\no100 call", " 1 2",
+         {"1:2: there is no subprogram o1", "3:1: o100 has no end", "5:2: there is no subprogram o3"});
+    says("o1 while 1\nG0 X1\no1 endwhile\nG999", " 1", {"1:10: a condition stands in brackets", "4: no"});
+    says("o1 repeat 3\nG0 X1\no1 endrepeat\nG999", " 1", {"1:11: repeat needs a number", "4: no"});
+    says("o1 if 1\nG0 X1\no1 elseif [1]\nX2\no1 endif\nX3", " 1 3", {"1:7: a condition stands in brackets"});
+    says("o1 if [0]\nG0 X1\no1 elseif 1\nG0 X2\no1 endif\nX3", " 2 3", {"3:11: a condition stands in brackets"});
+    says("o1 do\nG0 X1\no1 while 1\nX2", " 1 2", {"3:10: a condition stands in brackets"});
+    says("o9 repeat [3]\nG0 X1\no1 return\no9 endrepeat\nX2", " 1 1 1 2", {"3:2: return stands in a subprogram"});
+    says("#1=4\no1 sub\nG0 X#1\no1 endsub [1/0]\no1 call [3]\nX#1", " 3 4", {"4:"});
+    says("o1 sub\no1 call\no1 endsub\no1 call\nG0 X1", " 1", {"2:2: calls are nested more than 30 deep"});
+    says("o1 while [1]\no1 endwhile\nG0 X1", " 1", {"2:1: the program has executed"});
+    says("o1 while [1]\no2 call\no1 endwhile\nG0 X1", " 1", {"2:2: there is no subprogram o2"}); // not 10 million times
+    says("o1 if [1]\no1 if [1]\nG0 X1\no1 endif\nX2\no1 endif\nX3", " 1 2 3", {});
 }
 
 TEST_CASE("A number of the program stands before its first block") {

@@ -34,6 +34,22 @@ TEST_CASE("check tells every problem of a program, each with its line") {
     CHECK(tool("check - --format gcode </dev/null").status == 2);
 }
 
+TEST_CASE("check goes on behind O words that are wrong, and tells a line that runs often once") {
+    const Tool tool;
+    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"
+                         "max_acceleration_mm_s2 = 1000\ntravel_mm = [0, 5]\n");
+    tool.write("part.ngc", "o100 sub\nG999\no1 repeat [9]\nG91 G0 X1\nG998\no1 endrepeat\n");
+    const Call call = tool("check part.ngc -m m.toml");
+    CAPTURE(call.output);
+    CHECK(call.status == 1);
+    for (const char* const part :
+         {"part.ngc:1:1: o100 has no end; write o100 endsub behind its last line\n", "\npart.ngc:2:1: 'G999'",
+          "\npart.ngc:4: axis x goes to 6.0000 mm, above", "\npart.ngc:5:1: 'G998'", "\n4 problems\n"}) {
+        CAPTURE(part);
+        CHECK(call.output.find(part) != std::string::npos);
+    }
+}
+
 TEST_CASE("check takes the time of a real plan, and its parts make the whole") {
     const Tool tool;
     const std::string program = "'" + source_folder() + "/examples/bracket.ngc'";

@@ -203,3 +203,49 @@ TEST_CASE("a coordinate that grows for ever is refused with its line, and the ma
     CHECK(contains(call.error, "p.csv:4: "));
     CHECK(contains(call.error, "1048576"));
 }
+
+TEST_CASE("closed standard streams: no message gets into an output, and the exit status is right") {
+    const Tool tool;
+    write_inputs(tool);
+    tool.write("bad.csv", "0,0\nx\n");
+    REQUIRE(tool("run p.csv --quiet --trace t.csv").status == 0);
+    const std::string trace = tool.read("t.csv");
+    struct Started {
+        const char* streams;
+        int status; // of a run whose summary is standard output
+    };
+    for (const Started& started : {Started{"<&-", 0}, Started{"2>&-", 0}, Started{"<&- 2>&-", 0}, Started{">&-", 2},
+                                   Started{">&- 2>&-", 2}, Started{"<&- >&- 2>&-", 2}}) {
+        const std::string streams = started.streams;
+        CAPTURE(streams);
+        CHECK(tool("run p.csv --quiet --trace t.csv " + streams).status == started.status);
+        CHECK((started.status != 0 || tool.read("t.csv") == trace));
+        CHECK(tool("run bad.csv --trace bad_t.csv " + streams).status == 2);
+        CHECK(tool("run p.csv --nonsense " + streams).status == 2);
+        CHECK(tool("run p.csv --corner-angle 1 --curve polyline --trace t.csv " + streams).status != 0);
+    }
+    CHECK(tool.holds_only(inputs + " bad.csv t.csv"));
+    const Call input = tool("run - <&-");
+    CHECK(input.status == 2);
+    CHECK(input.error == "-: cannot be read; it must be a file or a pipe\n");
+}
+
+TEST_CASE("a full disk under standard error ends nothing, one under standard output is told") {
+    const Tool tool;
+    write_inputs(tool);
+    tool.write("talks.ngc", "(MSG,here)\nG0 X1\n(MSG,there)\nM2\n");
+    tool.write("bad.csv", "0,0\nx\n");
+    CHECK(tool("run talks.ngc --trace t.csv 2>/dev/full").status == 0);
+    CHECK(tool.read("t.csv").find("\n0.065") != std::string::npos);
+    CHECK(tool("run bad.csv 2>/dev/full").status == 2);
+    CHECK(tool("run p.csv --nonsense 2>/dev/full").status == 2);
+    CHECK(tool("run p.csv --trace /dev/full 2>/dev/full").status == 2);
+    for (const char* const command : {"run p.csv --quiet", "check talks.ngc", "check talks.ngc --json", "--version",
+                                      "run --help", "curve p.csv", "drive --list-profiles"}) {
+        CAPTURE(command);
+        const Call call = tool(std::string(command) + " >/dev/full");
+        CHECK(call.status == 2);
+        CHECK(one_line(call.error));
+        CHECK(contains(call.error, "splinefeed: standard output: "));
+    }
+}

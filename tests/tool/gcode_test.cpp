@@ -243,8 +243,11 @@ TEST_CASE("The simulated spindle takes its time at standstill, and has the speed
     CHECK(seconds(tool, stops, "-m spindle.toml") == Approx(waiting_s + 8.0).margin(0.01));
     CHECK(
         error_of(tool, "S30000 M3\nG1 X10 F3000\nM2\n", "-m spindle.toml") ==
-        "part.ngc:1: the spindle would turn with S30000; S must be above 0 to 20000, as [spindle] of the machine file "
-        "has it\n");
+        "part.ngc:1: the spindle would turn with S30000; S must be at most 20000, as [spindle] of the machine file has "
+        "it, or 0 to stand\n");
+    // S0 in between: 2 s down and 2 s up; at the begin it takes no time
+    CHECK(seconds(tool, "M3 S0\nS10000\nG1 X10 F3000\nS0\nX20\nS10000\nX30\nM5\nM2\n", "-m spindle.toml") ==
+          Approx(seconds(tool, "M3 S10000\nG1 X10 F3000\nM5\nX20\nM3\nX30\nM5\nM2\n", "-m spindle.toml")).margin(0.01));
     tool.write("part.ngc", "S30000 M3\nG1 X10 F3000\nM2\n");
     const Call checked = tool("check part.ngc -m spindle.toml");
     CHECK(checked.status == 1);

@@ -22,21 +22,24 @@ public:
         std::size_t begin = 0; ///< first line of the structure; of break and continue: of the loop that they name
         std::size_t end = 0;   ///< its last line, but not of break and continue
         std::size_t next = 0;  ///< of if and elseif: the next elseif, else or endif
+        bool wrong = false;    ///< it belongs to nothing, or its structure has no end
     };
 
     /// What is wrong with the order of the words.
     struct Problem {
         std::size_t line = 0;
         std::size_t at = 0; ///< offset in the line
-        std::string text;   ///< empty: nothing is wrong
+        std::string text;
     };
+    static constexpr std::size_t most_problems = 1000;
 
     explicit FlowBlock(std::uint64_t number) noexcept : number_(number) {}
 
     void add(SourceLine line);
     void add(SourceLine line, FlowWord word);
-    /// Finds where the words lead, after the last line.
-    [[nodiscard]] Problem link();
+    /// Finds where the words lead, after the last line. Empty: they fit. Otherwise the words that do not are `wrong`;
+    /// without them, and with the label of its begin for an end that names another, what remains fits.
+    [[nodiscard]] std::vector<Problem> link();
 
     /// Tells blocks apart, those that are gone, too.
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
@@ -51,17 +54,27 @@ public:
 
 private:
     [[nodiscard]] Place& known(std::size_t line) { return places_[place_of_[line] - 1]; }
-    /// The word at the line ends the innermost structure, or is a branch of it. False: that is another one.
-    [[nodiscard]] bool close(std::size_t line, FlowKind begin);
-    [[nodiscard]] bool branch(std::size_t line);
-    [[nodiscard]] bool leave(std::size_t line);
-    [[nodiscard]] bool enter(std::size_t line);
+    void link_word(std::size_t line);
+    void enter(std::size_t line);
+    /// A word that ends or divides a structure.
+    void end_or_branch(std::size_t line);
+    void branch(std::size_t line);
+    void close(std::size_t line);
+    void leave(std::size_t line);
+    /// Whether the structure of the line has its end behind another line.
+    [[nodiscard]] bool ends_behind(std::size_t begin, std::size_t line) const;
+    [[nodiscard]] std::size_t open_place(FlowKind begin, const std::string& label) const;
+    /// The structure of the line is none.
+    void give_up(std::size_t begin, std::size_t last_line);
+    void add_problem(std::size_t line, std::size_t at, std::string text);
+    void add_stray(std::size_t line);
 
     std::uint64_t number_;
     std::vector<SourceLine> lines_;
     std::vector<std::uint32_t> place_of_; // of each line, from 1; 0: none
     std::vector<Place> places_;
     std::vector<std::size_t> open_; // first lines of the structures around a line, while it is linked
+    std::vector<Problem> problems_;
 };
 
 } // namespace splinefeed::host

@@ -5,6 +5,7 @@
 #include "host_sim/program/element_cast.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
+#include "host_sim/program/gcode/problem_list.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
 #include "host_sim/program/gcode/program_spindle.hpp"
 
@@ -78,7 +79,7 @@ public:
 private:
     void read_line();
     /// Throws, unless problems are collected.
-    void report(const InputError& error) const;
+    void report(const InputError& error) { problems_.add(error); }
     void take(SourceStep<S>& out);
     void take_move(SourceStep<S>& out) const;
     void take_event(SourceStep<S>& out);
@@ -90,6 +91,7 @@ private:
     const GcodeSettings* settings_;
     std::string file_;
     std::unique_ptr<SourceLines> lines_;
+    ProblemList problems_;
     std::optional<MachineTools> tools_;
     ParameterMemory parameters_;
     Expression expression_{parameters_};
@@ -104,11 +106,11 @@ private:
 
 template <Scalar S>
 GcodeMoves<S>::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines)
-    : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)),
+    : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(settings.problems),
       tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
                             : std::nullopt),
       interpreter_(program_settings(settings, tools_ ? &*tools_ : nullptr), &expression_),
-      flow_(*lines_, file_, expression_, interpreter_, parameters_) {}
+      flow_(*lines_, file_, expression_, interpreter_, parameters_, settings.problems) {}
 
 template <Scalar S>
 bool GcodeMoves<S>::start(PerAxis<Position>& position) {
@@ -145,14 +147,6 @@ void GcodeMoves<S>::read_line() {
         return;
     }
     report({file_, line_.number, std::uint64_t{status.column}, in_the_line(status) + describe(status.error)});
-}
-
-template <Scalar S>
-void GcodeMoves<S>::report(const InputError& error) const {
-    if (settings_->problems == nullptr) {
-        throw error;
-    }
-    settings_->problems->emplace_back(error.what());
 }
 
 // One line at a time: whoever waits for a pipe wants to know after each.

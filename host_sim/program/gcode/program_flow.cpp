@@ -11,7 +11,7 @@
 namespace splinefeed::host {
 
 void ProgramFlow::fail(const SourceLine& line, std::size_t at, std::string_view text) const {
-    throw InputError(file_, line.number, std::uint64_t{at} + 1U, text);
+    throw WordError(file_, line.number, std::uint64_t{at} + 1U, text);
 }
 
 FlowWord ProgramFlow::word_of(const SourceLine& line) const {
@@ -22,7 +22,23 @@ FlowWord ProgramFlow::word_of(const SourceLine& line) const {
              "an O word has a number or a <name>, and then sub, endsub, call, return, if, elseif, else, endif, while, "
              "endwhile, do, repeat, endrepeat, break or continue");
     }
+    const bool takes_value = word->kind == FlowKind::call || word->kind == FlowKind::return_ ||
+                             word->kind == FlowKind::endsub || word->kind == FlowKind::if_ ||
+                             word->kind == FlowKind::elseif || word->kind == FlowKind::while_ ||
+                             word->kind == FlowKind::repeat;
+    if (!takes_value) {
+        require_end(line, word->rest);
+    }
     return *word;
+}
+
+// Words behind an O word would be left out.
+void ProgramFlow::require_end(const SourceLine& line, std::size_t at) const {
+    TextCursor cursor(line.text);
+    cursor.go_to(at);
+    if (!cursor.at_end() && cursor.peek() != '(' && cursor.peek() != ';') {
+        fail(line, cursor.at(), "behind an O word there may be a comment only; write the rest on a line of its own");
+    }
 }
 
 Decimal ProgramFlow::value(std::string_view text, std::size_t& at, const SourceLine& line) {
@@ -54,60 +70,9 @@ bool ProgramFlow::condition(const FlowWord& word, const SourceLine& line) {
     if (at >= line.text.size() || line.text[at] != '[') {
         fail(line, std::min(at, line.text.size()), "a condition stands in brackets, like [#1 LT 5]");
     }
-    return value(line.text, at, line).raw != 0;
-}
-
-// A block of the input is read to its end before it runs: loops go back, and conditions go forward.
-void ProgramFlow::begin(const FlowWord& word, const SourceLine& line) {
-    switch (word.kind) {
-    case FlowKind::sub:
-    case FlowKind::if_:
-    case FlowKind::while_:
-    case FlowKind::do_:
-    case FlowKind::repeat:
-        if (word.label.empty()) {
-            fail(line, word.label_at, "only call takes an expression as its number");
-        }
-        collects_ = true;
-        block_ = std::make_shared<FlowBlock>(++blocks_);
-        block_->add(line, word);
-        block_label_ = word.label;
-        block_kind_ = word.kind;
-        break;
-    case FlowKind::call: execute_call(word, line); break;
-    default: fail(line, word.label_at, fmt::format("o{} has no begin", word.label));
-    }
-}
-
-ProgramFlow::Step ProgramFlow::collect(SourceLine& line) {
-    if (block_->size() + kept_ >= most_lines) {
-        fail(line, 0, fmt::format("subprograms and loops have more than {} lines", most_lines));
-    }
-    if (!has_flow_word(line.text)) {
-        block_->add(line);
-        return Step::nothing;
-    }
-    const FlowWord word = word_of(line);
-    block_->add(line, word);
-    const FlowKind end = block_kind_ == FlowKind::sub      ? FlowKind::endsub
-                         : block_kind_ == FlowKind::if_    ? FlowKind::endif
-                         : block_kind_ == FlowKind::repeat ? FlowKind::endrepeat
-                         : block_kind_ == FlowKind::do_    ? FlowKind::while_
-                                                           : FlowKind::endwhile;
-    if (word.label != block_label_ || word.kind != end) {
-        return Step::nothing;
-    }
-    collects_ = false;
-    if (const FlowBlock::Problem problem = block_->link(); !problem.text.empty()) {
-        fail(block_->line(problem.line), problem.at, problem.text);
-    }
-    if (block_kind_ == FlowKind::sub) {
-        keep(block_label_, {block_, block_->number(), 0});
-    } else {
-        frames_.push_back({block_, 0, false, {}});
-    }
-    block_.reset();
-    return Step::nothing;
+    const Decimal out = value(line.text, at, line);
+    require_end(line, at);
+    return out.raw != 0;
 }
 
 // In the place of one that had the same number.
@@ -147,6 +112,9 @@ void ProgramFlow::go_to(std::size_t line) {
 void ProgramFlow::execute_call(const FlowWord& word, const SourceLine& line) {
     const std::string label = label_of(word, line);
     const auto sub = subs_.find(label);
+    if (sub == subs_.end() && lost_.contains(label)) {
+        return;
+    }
     if (sub == subs_.end()) {
         fail(line, word.label_at,
              fmt::format("there is no subprogram o{} before this line; those of other files are not read", label));
@@ -155,12 +123,14 @@ void ProgramFlow::execute_call(const FlowWord& word, const SourceLine& line) {
         fail(line, word.label_at, fmt::format("calls are nested more than {} deep", deepest));
     }
     std::vector<Decimal> arguments;
-    for (std::size_t at = word.rest; at < line.text.size() && line.text[at] == '[';) {
+    std::size_t at = word.rest;
+    while (at < line.text.size() && line.text[at] == '[') {
         if (arguments.size() == most_arguments) {
             fail(line, at, fmt::format("a call has at most {} arguments", most_arguments));
         }
         arguments.push_back(value(line.text, at, line));
     }
+    require_end(line, at);
     parameters_->enter(arguments);
     frames_.push_back({sub->second.code, 1, true, {}});
 }
@@ -169,14 +139,14 @@ void ProgramFlow::leave_sub(const FlowWord& word, const SourceLine& line) {
     std::size_t at = word.rest;
     const bool has_value = at < line.text.size() && line.text[at] == '[';
     const Decimal result = has_value ? value(line.text, at, line) : Decimal{};
-    while (!frames_.empty() && !frames_.back().called) {
-        frames_.pop_back();
-    }
-    if (frames_.empty()) {
+    require_end(line, at);
+    if (std::none_of(frames_.begin(), frames_.end(), [](const Frame& frame) { return frame.called; })) {
         fail(line, word.label_at, "return stands in a subprogram");
     }
-    frames_.pop_back();
-    parameters_->leave();
+    while (!frames_.back().called) {
+        leave_frame();
+    }
+    leave_frame();
     parameters_->write("_value", result);
     parameters_->write("_value_returned", Decimal::from_integer(has_value ? 1 : 0));
 }
@@ -199,6 +169,7 @@ void ProgramFlow::execute_repeat(const FlowBlock::Place& place, const SourceLine
         fail(line, std::min(at, line.text.size()), "repeat needs a number in brackets, like [5]");
     }
     const std::int64_t count = value(line.text, at, line).raw / Decimal::one;
+    require_end(line, at);
     if (count <= 0) {
         go_to(place.end + 1);
     } else {
@@ -240,40 +211,63 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
     }
 }
 
+void ProgramFlow::leave_frame() {
+    if (frames_.back().called) {
+        parameters_->leave();
+    }
+    frames_.pop_back();
+}
+
+// The program goes on behind the block that runs.
+void ProgramFlow::abandon() {
+    while (!frames_.empty()) {
+        leave_frame();
+    }
+    words_ = repeated_ = 0;
+}
+
+// A word was wrong: what is in its structure runs once.
+void ProgramFlow::go_on_behind(const FlowBlock::Place& place, bool is_new) {
+    switch (place.word.kind) {
+    case FlowKind::while_:
+        if (!is_new && place.end > place.begin && frames_.back().code->place(place.begin)->word.kind != FlowKind::do_) {
+            go_to(place.end + 1);
+        }
+        break;
+    case FlowKind::repeat: frames_.back().repeats.push_back({place.begin, 1}); break;
+    case FlowKind::call: // calls that go on for ever
+        if (frames_.size() >= deepest) {
+            abandon();
+        }
+        break;
+    default: break;
+    }
+}
+
 ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
-    if (in_memory()) {
+    if (runs_block()) {
         return next_in_memory(out);
     }
-    if (!lines_->next(out)) {
-        if (collects_) {
-            fail(block_->line(0), 0, fmt::format("o{} has no end", block_label_));
+    std::optional<FlowWord> known;
+    if (!next_line(out, known)) {
+        if (!collects_) {
+            return Step::end;
         }
-        return Step::end;
-    }
-    if (collects_) {
-        return collect(out);
-    }
-    if (!has_flow_word(out.text)) {
-        const char first = TextCursor(out.text).peek();
-        begun_ = begun_ || (first >= 'a' && first <= 'z');
-        return Step::line;
-    }
-    if (!begun_ && is_program_number(out.text)) {
+        end_block();
         return Step::nothing;
     }
-    begun_ = true;
-    if (!out.whole) {
-        throw InputError(file_, out.number, cut_line);
+    if (collects_ || known || has_flow_word(out.text)) {
+        return take_word(out, known);
     }
-    count_word(out);
-    begin(word_of(out), out);
-    return Step::nothing;
+    const char first = TextCursor(out.text).peek();
+    begun_ = begun_ || (first >= 'a' && first <= 'z');
+    return Step::line;
 }
 
 ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
     Frame& frame = frames_.back();
     if (frame.at >= frame.code->size()) {
-        frames_.pop_back();
+        leave_frame();
         return Step::nothing;
     }
     const std::shared_ptr<const FlowBlock> code = frame.code; // the frame may go
@@ -283,8 +277,18 @@ ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
     if (place == nullptr) {
         return Step::line;
     }
-    count_word(out);
-    execute(*place, code->line(at));
+    try {
+        count_word(out);
+        execute(*place, code->line(at));
+    } catch (const WordError& error) {
+        const bool is_new = problems_.add(error);
+        repeated_ += is_new ? 0U : 1U;
+        if (words_ > most_words || repeated_ > most_repeated) {
+            abandon();
+        } else {
+            go_on_behind(*place, is_new);
+        }
+    }
     return Step::nothing;
 }
 

@@ -2,14 +2,19 @@
 // ProgramFlow: the lines of a program in the order in which they are executed: subprograms, conditions, loops.
 #pragma once
 
+#include "host_sim/base/input_error.hpp"
 #include "host_sim/program/gcode/flow_block.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
+#include "host_sim/program/gcode/problem_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
 #include "splinefeed/s0_program/word_evaluator.hpp"
 
+#include <deque>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <vector>
 
 namespace splinefeed::host {
@@ -20,6 +25,7 @@ class ProgramFlow {
 public:
     static constexpr std::size_t most_lines = 1'000'000;    ///< kept in memory
     static constexpr std::uint64_t most_words = 10'000'000; ///< O words executed
+    static constexpr std::uint64_t most_repeated = 10'000;  ///< times that a block may come to problems that are known
     static constexpr std::size_t deepest = 30;              ///< calls within calls
     static constexpr std::int32_t most_arguments = 30;
 
@@ -30,14 +36,17 @@ public:
     };
 
     /// Everything must outlive it.
+    /// @param problems  gets what is wrong with O words, and the program goes on as if they were not there, so that the
+    ///                  other lines are read, too; null: the first problem ends it
     ProgramFlow(SourceLines& lines, std::string file, WordEvaluator& evaluator, const BlockInterpreter& system,
-                ParameterMemory& parameters)
-        : lines_(&lines), file_(std::move(file)), evaluator_(&evaluator), system_(&system), parameters_(&parameters) {}
+                ParameterMemory& parameters, std::vector<std::string>* problems = nullptr)
+        : lines_(&lines), file_(std::move(file)), evaluator_(&evaluator), system_(&system), parameters_(&parameters),
+          problems_(problems) {}
 
-    /// Throws InputError. May wait for the input.
+    /// Throws InputError where problems are not collected, or the input cannot be read. May wait for the input.
     Step next(SourceLine& out);
     /// Whether next() needs no more input.
-    [[nodiscard]] bool in_memory() const noexcept { return !frames_.empty() && !collects_; }
+    [[nodiscard]] bool in_memory() const noexcept { return runs_block() || !again_.empty(); }
 
 private:
     struct Repeat {
@@ -57,8 +66,27 @@ private:
         std::size_t line = 0;
     };
 
-    Step collect(SourceLine& line);
+    /// A line of a block that cannot run, to be read once more without the words that are wrong.
+    struct Again {
+        SourceLine line;
+        std::optional<FlowWord> word;
+    };
+
+    /// What is wrong with an O word, in contrast to an input that cannot be read.
+    struct WordError : InputError {
+        using InputError::InputError;
+    };
+
+    [[nodiscard]] bool runs_block() const noexcept { return !frames_.empty() && !collects_; }
+    [[nodiscard]] bool next_line(SourceLine& out, std::optional<FlowWord>& word);
+    Step take_word(const SourceLine& line, const std::optional<FlowWord>& known);
+    Step collect(const SourceLine& line, const std::optional<FlowWord>& known);
+    void end_block();
     void begin(const FlowWord& word, const SourceLine& line);
+    void begin_stray(const FlowWord& word, const SourceLine& line);
+    void go_on_behind(const FlowBlock::Place& place, bool is_new);
+    void leave_frame();
+    void abandon();
     Step next_in_memory(SourceLine& out);
     void count_word(const SourceLine& line);
     void execute(const FlowBlock::Place& place, const SourceLine& line);
@@ -74,6 +102,7 @@ private:
     [[nodiscard]] std::string label_of(const FlowWord& word, const SourceLine& line);
     [[nodiscard]] Decimal value(std::string_view text, std::size_t& at, const SourceLine& line);
     [[nodiscard]] bool condition(const FlowWord& word, const SourceLine& line);
+    void require_end(const SourceLine& line, std::size_t at) const;
     [[noreturn]] void fail(const SourceLine& line, std::size_t at, std::string_view text) const;
 
     SourceLines* lines_;
@@ -83,14 +112,19 @@ private:
     ParameterMemory* parameters_;
     std::map<std::string, Sub> subs_;
     std::vector<Frame> frames_;
-    bool begun_ = false;    // there was a block: a number of the program would have come before it
-    bool collects_ = false; // a block is read to its end
+    ProblemList problems_;
+    std::deque<Again> again_;
+    std::set<std::string> lost_; // labels whose structure was wrong: what else names them is not told
+    bool begun_ = false;         // there was a block: a number of the program would have come before it
+    bool collects_ = false;      // a block is read to its end
     std::shared_ptr<FlowBlock> block_;
     std::string block_label_;
     FlowKind block_kind_ = FlowKind::sub;
-    std::size_t kept_ = 0; // lines of subprograms
+    std::size_t block_depth_ = 0; // structures of the same kind and label around a line of it
+    std::size_t kept_ = 0;        // lines of subprograms
     std::uint64_t words_ = 0;
-    std::uint64_t blocks_ = 0; // that have been read
+    std::uint64_t repeated_ = 0; // problems that were told before
+    std::uint64_t blocks_ = 0;   // that have been read
 };
 
 } // namespace splinefeed::host

@@ -16,15 +16,15 @@ std::string ProgramSpindle::take(EventKind kind, double rpm, const SpindleDescri
     change_s_ = 0.0;
     int direction = kind == EventKind::spindle_clockwise ? 1 : kind == EventKind::spindle_counterclockwise ? -1 : 0;
     if (kind == EventKind::spindle_speed) {
-        direction = signed_rpm_ > 0.0 ? 1 : signed_rpm_ < 0.0 ? -1 : 0;
+        direction = direction_;
         if (direction == 0) {
             return {};
         }
     }
-    if (direction != 0 && !(rpm > 0.0 && rpm >= machine.min_rpm && rpm <= machine.max_rpm)) {
-        return fmt::format("the spindle would turn with S{:g}; S must be {} to {:g}, as [spindle] of the machine file "
-                           "has it",
-                           rpm, machine.min_rpm > 0.0 ? fmt::format("{:g}", machine.min_rpm) : "above 0",
+    if (direction != 0 && rpm != 0.0 && !(rpm >= machine.min_rpm && rpm <= machine.max_rpm)) {
+        return fmt::format("the spindle would turn with S{:g}; S must be {}at most {:g}, as [spindle] of the machine "
+                           "file has it, or 0 to stand",
+                           rpm, machine.min_rpm > 0.0 ? fmt::format("at least {:g} and ", machine.min_rpm) : "",
                            machine.max_rpm);
     }
     if (direction < 0 && !machine.reverses()) {
@@ -32,10 +32,11 @@ std::string ProgramSpindle::take(EventKind kind, double rpm, const SpindleDescri
                    ? fmt::format("M4: the profile {} has no command to reverse; use M3", machine.vfd->profile.name)
                    : "M4: the spindle has no line to reverse; name it in [spindle.reverse], or use M3";
     }
+    direction_ = direction;
     const double wanted = direction * rpm;
     change_s_ = machine.change_s(signed_rpm_, wanted);
     signed_rpm_ = wanted;
-    turn_ = SpindleTurn{direction, direction == 0 ? 0.0 : rpm};
+    turn_ = wanted == 0.0 ? SpindleTurn{} : SpindleTurn{direction, rpm};
     return {};
 }
 

@@ -13,7 +13,8 @@ namespace splinefeed::host {
 class ProgramSpindle {
 public:
     /// @param kind  of an event of the spindle   @param rpm  its S   @param machine  the spindle; must outlive it
-    /// Returns why the machine cannot do this; empty: it can. S alone changes a spindle that turns.
+    /// Returns why the machine cannot do this; empty: it can. S alone changes a spindle that was
+    /// switched on. With S0 it stands, as in LinuxCNC: it is still switched on, and turns with the next S above 0.
     [[nodiscard]] std::string take(EventKind kind, double rpm, const SpindleDescription& machine);
 
     /// What the last event asks for; nothing: nothing that the spindle has to wait for.
@@ -25,6 +26,7 @@ public:
     [[nodiscard]] static bool is_of(EventKind kind) noexcept;
 
 private:
+    int direction_ = 0; // as it was switched on: 1, -1; 0: off
     double signed_rpm_ = 0.0;
     std::optional<SpindleTurn> turn_;
     double change_s_ = 0.0;

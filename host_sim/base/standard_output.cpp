@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/output/standard_output.hpp"
+#include "host_sim/base/standard_output.hpp"
 
 #include "host_sim/base/output_file.hpp"
 

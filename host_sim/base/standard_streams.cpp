@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/base/standard_streams.hpp"
+
+#include <cerrno>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace splinefeed::host {
+
+// In the order of their numbers, so that each gets its own. Input that can only be written and output that can only be
+// read are errors when they are used.
+void keep_standard_streams() noexcept {
+    constexpr int modes[] = {O_WRONLY, O_RDONLY, O_WRONLY};
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+        if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
+            static_cast<void>(open("/dev/null", modes[stream])); // NOLINT(cppcoreguidelines-pro-type-vararg)
+        }
+    }
+}
+
+void tell(std::string_view text) noexcept {
+    while (!text.empty()) {
+        const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+        if (written > 0) {
+            text.remove_prefix(static_cast<std::size_t>(written));
+        } else if (written == 0 || errno != EINTR) {
+            return;
+        }
+    }
+}
+
+} // namespace splinefeed::host

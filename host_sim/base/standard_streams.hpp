@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// standard_streams: messages on standard error, and standard streams that the process was started without.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace splinefeed::host {
+
+/// To be called before anything is opened. A file that is opened gets the lowest free number: where a standard stream
+/// is closed, messages would go into an output. Such a stream is then one that cannot be read or written; what is
+/// written to standard error is dropped.
+void keep_standard_streams() noexcept;
+
+/// Writes to standard error. What cannot be written is dropped: a full disk must not end a run that moves a machine.
+void tell(std::string_view text) noexcept;
+
+/// As tell(fmt::format(...)).
+template <class... T>
+void tell(fmt::format_string<T...> format, T&&... values) {
+    tell(std::string_view(fmt::format(format, std::forward<T>(values)...)));
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// How ProgramFlow takes the blocks of its input.
+#include "host_sim/program/gcode/program_flow.hpp"
+
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+// A block of the input is read to its end before it runs: loops go back, and conditions go forward.
+void ProgramFlow::begin(const FlowWord& word, const SourceLine& line) {
+    switch (word.kind) {
+    case FlowKind::sub:
+    case FlowKind::if_:
+    case FlowKind::while_:
+    case FlowKind::do_:
+    case FlowKind::repeat:
+        if (word.label.empty()) {
+            fail(line, word.label_at, "only call takes an expression as its number");
+        }
+        collects_ = true;
+        block_ = std::make_shared<FlowBlock>(++blocks_);
+        block_->add(line, word);
+        block_label_ = word.label;
+        block_kind_ = word.kind;
+        block_depth_ = 1;
+        break;
+    case FlowKind::call: execute_call(word, line); break;
+    default: begin_stray(word, line);
+    }
+}
+
+void ProgramFlow::begin_stray(const FlowWord& word, const SourceLine& line) {
+    if (lost_.contains(word.label)) {
+        return;
+    }
+    if (word.kind == FlowKind::break_ || word.kind == FlowKind::continue_) {
+        fail(line, word.label_at, fmt::format("there is no loop o{} around this line", word.label));
+    }
+    if (word.kind == FlowKind::return_) {
+        fail(line, word.label_at, "return stands in a subprogram");
+    }
+    fail(line, word.label_at, fmt::format("o{} has no begin", word.label));
+}
+
+ProgramFlow::Step ProgramFlow::collect(const SourceLine& line, const std::optional<FlowWord>& known) {
+    if (block_->size() + kept_ >= most_lines) {
+        throw InputError(file_, line.number, fmt::format("subprograms and loops have more than {} lines", most_lines));
+    }
+    if (!known && !has_flow_word(line.text)) {
+        block_->add(line);
+        return Step::nothing;
+    }
+    const FlowWord word = known ? *known : word_of(line);
+    block_->add(line, word);
+    const FlowKind end = block_kind_ == FlowKind::sub      ? FlowKind::endsub
+                         : block_kind_ == FlowKind::if_    ? FlowKind::endif
+                         : block_kind_ == FlowKind::repeat ? FlowKind::endrepeat
+                         : block_kind_ == FlowKind::do_    ? FlowKind::while_
+                                                           : FlowKind::endwhile;
+    if (word.label != block_label_) {
+        return Step::nothing;
+    }
+    block_depth_ += word.kind == block_kind_ ? 1U : 0U;
+    block_depth_ -= word.kind == end ? 1U : 0U;
+    if (block_depth_ == 0) {
+        end_block();
+    }
+    return Step::nothing;
+}
+
+// A block that is wrong is read again without the words that are.
+void ProgramFlow::end_block() {
+    collects_ = false;
+    const std::shared_ptr<FlowBlock> block = std::move(block_);
+    const std::vector<FlowBlock::Problem> problems = block->link();
+    for (const FlowBlock::Problem& problem : problems) {
+        const SourceLine& line = block->line(problem.line);
+        problems_.add({file_, line.number, std::uint64_t{problem.at} + 1U, problem.text});
+    }
+    if (!problems.empty()) {
+        std::deque<Again> rest;
+        for (std::size_t i = 0; i < block->size(); ++i) {
+            const FlowBlock::Place* const place = block->place(i);
+            if (place == nullptr) {
+                rest.push_back({block->line(i), std::nullopt});
+            } else if (place->wrong) {
+                lost_.insert(place->word.label);
+            } else {
+                rest.push_back({block->line(i), place->word});
+            }
+        }
+        again_.insert(again_.begin(), rest.begin(), rest.end());
+    } else if (block_kind_ == FlowKind::sub) {
+        keep(block_label_, {block, block->number(), 0});
+    } else {
+        frames_.push_back({block, 0, false, {}});
+    }
+}
+
+// From the input, or from a block that was wrong.
+bool ProgramFlow::next_line(SourceLine& out, std::optional<FlowWord>& word) {
+    word.reset();
+    if (again_.empty()) {
+        return lines_->next(out);
+    }
+    out = std::move(again_.front().line);
+    word = std::move(again_.front().word);
+    again_.pop_front();
+    return true;
+}
+
+ProgramFlow::Step ProgramFlow::take_word(const SourceLine& line, const std::optional<FlowWord>& known) {
+    try {
+        if (collects_) {
+            return collect(line, known);
+        }
+        if (!begun_ && !known && is_program_number(line.text)) {
+            return Step::nothing;
+        }
+        begun_ = true;
+        if (!line.whole) {
+            throw InputError(file_, line.number, cut_line);
+        }
+        count_word(line);
+        begin(known ? *known : word_of(line), line);
+    } catch (const WordError& error) {
+        problems_.add(error);
+    }
+    return Step::nothing;
+}
+
+} // namespace splinefeed::host
