@@ -3,6 +3,7 @@
 
 #include "host_sim/config/decimal_number.hpp"
 #include "host_sim/program/element_cast.hpp"
+#include "host_sim/program/gcode/impossible_event.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
@@ -83,7 +84,6 @@ private:
     void take_move(SourceStep<S>& out) const;
     void take_event(SourceStep<S>& out);
     void take_spindle(SourceStep<S>& out, EventKind kind);
-    void require_possible(const ProgramEvent& event) const;
     void require_possible(MoveKind kind) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
 
@@ -221,8 +221,8 @@ void GcodeMoves<S>::take_move(SourceStep<S>& out) const {
 template <Scalar S>
 void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     const ProgramEvent& event = item_.event;
-    if (!settings_->simulated) {
-        require_possible(event);
+    if (const std::string why = settings_->simulated ? std::string() : impossible(event, *settings_); !why.empty()) {
+        throw InputError(file_, line_.number, std::uint64_t{0}, why);
     }
     out.action.kind = event.kind;
     out.action.number = event.number;
@@ -262,75 +262,6 @@ void GcodeMoves<S>::take_spindle(SourceStep<S>& out, EventKind kind) {
     } else {
         out.action.spindle = spindle_.turn();
     }
-}
-
-// What the machine has no output for is refused, rather than left out.
-template <Scalar S>
-void GcodeMoves<S>::require_possible(const ProgramEvent& event) const {
-    static const ProgramLines none;
-    const ProgramLines& lines = settings_->lines != nullptr ? *settings_->lines : none;
-    std::string missing;
-    switch (event.kind) {
-    case EventKind::message:
-    case EventKind::print:
-    case EventKind::debug:
-    case EventKind::tool_select:
-    case EventKind::tool_set:
-    case EventKind::tool_change:
-    case EventKind::pause:
-    case EventKind::optional_pause:
-    case EventKind::pallet_pause:
-    case EventKind::program_end:
-    case EventKind::overrides_on:
-    case EventKind::feed_override:
-    case EventKind::spindle_override:
-    case EventKind::offsets_changed: return;
-    case EventKind::spindle_speed:
-    case EventKind::spindle_clockwise:
-    case EventKind::spindle_counterclockwise:
-    case EventKind::spindle_stop:
-        if (settings_->spindle != nullptr && settings_->spindle->is_controlled()) {
-            return;
-        }
-        missing = "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
-                  "enable = { line = ... }, in [spindle]";
-        break;
-    case EventKind::mist_on:
-        if (lines.mist) {
-            return;
-        }
-        missing = "line for this; name it in [coolant.mist]";
-        break;
-    case EventKind::flood_on:
-        if (lines.flood) {
-            return;
-        }
-        missing = "line for this; name it in [coolant.flood]";
-        break;
-    case EventKind::coolant_off:
-        if (lines.mist || lines.flood) {
-            return;
-        }
-        missing = "coolant; name its line in [coolant.mist] or [coolant.flood]";
-        break;
-    case EventKind::output_on_with_motion:
-    case EventKind::output_off_with_motion:
-    case EventKind::output_on:
-    case EventKind::output_off:
-        if (lines.output(event.number) != nullptr) {
-            return;
-        }
-        missing = fmt::format("output {}; name its line in [[output]] with number = {}", event.number, event.number);
-        break;
-    default:
-        throw InputError(file_, line_.number, std::uint64_t{0},
-                         fmt::format("{}: only the simulated machine does this so far; take it out of the program, or "
-                                     "add its word to --ignore",
-                                     action_name(event.kind)));
-    }
-    throw InputError(
-        file_, line_.number, std::uint64_t{0},
-        fmt::format("{}: the machine file has no {}, or add the word to --ignore", action_name(event.kind), missing));
 }
 
 // A probe and a switch that nobody watches would be run into.
