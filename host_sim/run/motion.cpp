@@ -93,7 +93,8 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
 // The input pauses: a machine that moves cannot wait, one that stands does for a while.
 template <Scalar S>
 bool Motion<S>::late() const {
-    return paused_ && target_->room() && (moves_ || Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms));
+    return paused_ && target_->room() &&
+           (moves_ || feeder_.awaits_answer() || Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms));
 }
 
 // All that is known is travelled. False where nothing will ever move the machine.
@@ -180,7 +181,14 @@ bool Motion<S>::stand() {
 // Whether the program wants the machine to stand for another segment.
 template <Scalar S>
 bool Motion<S>::dwell(FeedSegment& segment) {
-    if (moves_ || steps_.empty() || !steps_.stands(machine_.position_mm(), machine_.cycle_time_s())) {
+    if (moves_ || held_by_target_ || steps_.empty()) {
+        return false;
+    }
+    const bool stands = steps_.stands(machine_.position_mm(), machine_.cycle_time_s());
+    if (const auto answer = steps_.take_answer()) {
+        feeder_.program().answer(*answer);
+    }
+    if (!stands) {
         return false;
     }
     if (steps_.moved()) {

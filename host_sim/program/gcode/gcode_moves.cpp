@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace splinefeed::host {
@@ -63,6 +64,11 @@ public:
     bool start(PerAxis<Position>& position) override;
     bool next(SourceStep<S>& out) override;
     [[nodiscard]] bool wait(typename MoveSource<S>::Patience patience) override;
+    [[nodiscard]] bool awaits_answer() const noexcept override { return asked_.has_value(); }
+    void answer(int value) override;
+    [[nodiscard]] int expected_answer() const noexcept override {
+        return asked_ == InputWait::rise || asked_ == InputWait::high ? 1 : 0;
+    }
     [[nodiscard]] bool knows_stops() const noexcept override { return false; }
     void pushed(const SourceStep<S>& step) override { history_.add(step.line); }
 
@@ -83,6 +89,7 @@ private:
     void take(SourceStep<S>& out);
     void take_move(SourceStep<S>& out) const;
     void take_event(SourceStep<S>& out);
+    void take_input(SourceStep<S>& out);
     void take_spindle(SourceStep<S>& out, EventKind kind);
     void require_possible(MoveKind kind) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
@@ -99,7 +106,8 @@ private:
     ProgramItem<S> item_;
     LineHistory history_;
     ProgramSpindle spindle_;
-    bool pending_ = false; // the block has more items
+    bool pending_ = false;           // the block has more items
+    std::optional<InputWait> asked_; // nothing is interpreted before the input has answered
 };
 
 template <Scalar S>
@@ -122,6 +130,10 @@ bool GcodeMoves<S>::start(PerAxis<Position>& position) {
 
 template <Scalar S>
 bool GcodeMoves<S>::wait(typename MoveSource<S>::Patience patience) {
+    if (asked_) {
+        std::this_thread::sleep_for(patience);
+        return false;
+    }
     return pending_ || flow_.in_memory() || interpreter_.has_ended() || lines_->wait(patience);
 }
 
@@ -159,6 +171,9 @@ void GcodeMoves<S>::report(const InputError& error) const {
 template <Scalar S>
 bool GcodeMoves<S>::next(SourceStep<S>& out) {
     out.kind = StepKind::nothing;
+    if (asked_) {
+        return true;
+    }
     if (!pending_) {
         if (interpreter_.has_ended()) {
             return false;
@@ -236,11 +251,34 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     }
     out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
                                                            : nullptr;
-    if (event.kind == EventKind::input_wait) { // inputs of the simulated machine are low, and stay so
-        const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
-        out.dwell_s = met ? 0.0 : number_of(event.value);
-        interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
+    if (event.kind == EventKind::input_wait) {
+        take_input(out);
     }
+}
+
+// Inputs of the simulated machine are low, and stay so. Those of a real one are asked where it stands.
+template <Scalar S>
+void GcodeMoves<S>::take_input(SourceStep<S>& out) {
+    const ProgramEvent& event = item_.event;
+    if (!settings_->simulated) {
+        out.action.wait = event.wait;
+        asked_ = event.wait;
+        return;
+    }
+    if (!event.analog && settings_->lines != nullptr && !settings_->lines->inputs.empty()) {
+        if (const std::string why = impossible(event, *settings_); !why.empty()) {
+            report({file_, line_.number, std::uint64_t{0}, why});
+        }
+    }
+    const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
+    out.dwell_s = met ? 0.0 : number_of(event.value);
+    interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
+}
+
+template <Scalar S>
+void GcodeMoves<S>::answer(int value) {
+    interpreter_.report_input(Decimal::from_integer(value));
+    asked_.reset();
 }
 
 // A real spindle is waited for at standstill; the simulated one takes its time.

@@ -64,6 +64,18 @@ std::string impossible(const ProgramEvent& event, const GcodeSettings& settings)
         }
         missing = fmt::format("output {}; name its line in [[output]] with number = {}", event.number, event.number);
         break;
+    case EventKind::input_wait:
+        if (event.analog) {
+            return fmt::format(
+                "{}: M66 E reads an analog input, and only digital ones are read, M66 P; take it out of the "
+                "program, or add the word to --ignore",
+                action_name(event.kind));
+        }
+        if (lines.input(event.number) != nullptr) {
+            return {};
+        }
+        missing = fmt::format("input {}; name its line in [[input]] with number = {}", event.number, event.number);
+        break;
     default:
         return fmt::format("{}: only the simulated machine does this so far; take it out of the program, or add its "
                            "word to --ignore",
