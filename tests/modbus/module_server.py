@@ -25,7 +25,7 @@ class Module:
     def __init__(self, inputs, record):
         self.file = inputs
         self.record = open(record, "w", encoding="ascii", buffering=1)
-        self.coils = [True] * BITS  # as somebody left them
+        self.coils = [True] + [False] * (BITS - 1)  # as somebody left them
         self.inputs = [False] * BITS
 
     def look(self):
