@@ -35,8 +35,8 @@ public:
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
         check_.require_known(root,
-                             {"name", "sample_period_us", "drives_at_end", "path", "step", "spindle", "lines",
-                              "coolant", "output", "axis"},
+                             {"name", "sample_period_us", "drives_at_end", "path", "step", "spindle", "lines", "module",
+                              "coolant", "output", "input", "axis"},
                              "the machine file");
         MachineDescription machine;
         machine.file = file_;

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-// ProgramLines: the GPIO lines that a program switches, as the machine file names them.
+// ProgramLines: the GPIO lines, and the bits of Modbus I/O modules, that a program switches and reads, as the machine
+// file names them.
 #pragma once
 
+#include "host_sim/config/target_address.hpp"
+
 #include "splinefeed/hal/gpio/line_map.hpp"
+#include "splinefeed/hal/modbus/link/modbus_line.hpp"
 
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace splinefeed::host {
@@ -18,6 +24,29 @@ struct SensedLine {
     hal::gpio::LineBit line; ///< of ProgramLines::chips
     bool active_level = true;
 };
+
+/// A device with coils and discrete inputs.
+struct IoModule {
+    std::string name;
+    TargetAddress address;
+    std::uint32_t answer_ms = 100; ///< it answers within this time
+};
+
+struct SwitchedCoil {
+    std::size_t module = 0; ///< index in ProgramLines::modules
+    int address = 0;
+    bool on_level = true;
+};
+
+struct SensedBit {
+    std::size_t module = 0; ///< as above
+    hal::modbus::BitTable table = hal::modbus::BitTable::inputs;
+    int address = 0;
+    bool active_level = true;
+};
+
+using ProgramSwitch = std::variant<SwitchedLine, SwitchedCoil>;
+using ProgramSensor = std::variant<SensedLine, SensedBit>;
 
 /// A spindle that lines switch on and off; its speed is set elsewhere.
 struct SpindleLines {
@@ -33,21 +62,37 @@ struct DigitalOutput {
     static constexpr int most = 63; ///< largest number
 
     int number = 0; ///< their P
-    SwitchedLine line;
+    ProgramSwitch line;
     bool safe_on = false; ///< as it is before the run, after it and after an e-stop
+};
+
+/// A digital input of M66.
+struct DigitalInput {
+    static constexpr int most = 63; ///< largest number
+
+    int number = 0; ///< its P
+    ProgramSensor line;
 };
 
 struct ProgramLines {
     std::vector<hal::gpio::ChipLines> chips; ///< the safe level of a line of the coolant is off
-    std::optional<SwitchedLine> mist;        ///< M7
-    std::optional<SwitchedLine> flood;       ///< M8
-    std::vector<DigitalOutput> outputs;      ///< in the order of the file
+    std::vector<IoModule> modules;
+    std::optional<ProgramSwitch> mist;  ///< M7
+    std::optional<ProgramSwitch> flood; ///< M8
+    std::vector<DigitalOutput> outputs; ///< in the order of the file
+    std::vector<DigitalInput> inputs;   ///< likewise
 
+    /// Whether the machine has none on GPIO lines.
     [[nodiscard]] bool empty() const noexcept { return chips.empty(); }
-    [[nodiscard]] const DigitalOutput* output(int number) const noexcept {
-        for (const DigitalOutput& output : outputs) {
-            if (output.number == number) {
-                return &output;
+    [[nodiscard]] const DigitalOutput* output(int number) const noexcept { return of_number(outputs, number); }
+    [[nodiscard]] const DigitalInput* input(int number) const noexcept { return of_number(inputs, number); }
+
+private:
+    template <class Numbered>
+    [[nodiscard]] static const Numbered* of_number(const std::vector<Numbered>& all, int number) noexcept {
+        for (const Numbered& one : all) {
+            if (one.number == number) {
+                return &one;
             }
         }
         return nullptr;

@@ -2,6 +2,7 @@
 #include "host_sim/config/program_lines_section.hpp"
 
 #include "host_sim/config/gpio_map_lines.hpp"
+#include "host_sim/config/io_modules.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -30,6 +31,15 @@ SwitchedLine switched_line(const TomlChecker& check, GpioMapLines& lines, const 
     return switched;
 }
 
+/// The line or the coil of a table.
+ProgramSwitch program_switch(const TomlChecker& check, GpioMapLines& lines, IoModules& modules,
+                             const toml::table& table, const std::string& where, bool safe_on) {
+    if (!modules.is_named(table, where)) {
+        return switched_line(check, lines, table, where, safe_on);
+    }
+    return modules.coil(table, where, choice_of(check, table, "active", line_levels, 1) == 1);
+}
+
 /// [OF.KEY], off where it is safe.
 std::optional<SwitchedLine> optional_line(const TomlChecker& check, GpioMapLines& lines, const toml::table& of,
                                           std::string_view of_name, std::string_view key) {
@@ -43,9 +53,22 @@ std::optional<SwitchedLine> optional_line(const TomlChecker& check, GpioMapLines
     return switched_line(check, lines, table, where, false);
 }
 
-DigitalOutput digital_output(const TomlChecker& check, GpioMapLines& lines, const toml::table& table,
-                             const ProgramLines& before) {
-    check.require_known(table, {"number", "line", "active", "safe"}, "[[output]]");
+/// [coolant.KEY], likewise.
+std::optional<ProgramSwitch> coolant(const TomlChecker& check, GpioMapLines& lines, IoModules& modules,
+                                     const toml::table& of, std::string_view key) {
+    const toml::node* const node = of.get(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    const std::string where = fmt::format("[coolant.{}]", key);
+    const toml::table& table = check.table(*node, fmt::format("coolant.{}", key));
+    check.require_known(table, {"line", "module", "coil", "active"}, where);
+    return program_switch(check, lines, modules, table, where, false);
+}
+
+DigitalOutput digital_output(const TomlChecker& check, GpioMapLines& lines, IoModules& modules,
+                             const toml::table& table, const ProgramLines& before) {
+    check.require_known(table, {"number", "line", "module", "coil", "active", "safe"}, "[[output]]");
     const toml::node& number = check.required(table, "number", "[[output]]", "the P of M62 to M65");
     DigitalOutput output;
     output.number = static_cast<int>(check.whole(number, "number", {0, DigitalOutput::most}));
@@ -53,19 +76,36 @@ DigitalOutput digital_output(const TomlChecker& check, GpioMapLines& lines, cons
         check.fail(number, fmt::format("this is the second output {}; give each a number of its own", output.number));
     }
     output.safe_on = choice_of(check, table, "safe", output_states, 0) == 1;
-    output.line = switched_line(check, lines, table, fmt::format("output {}", output.number), output.safe_on);
+    output.line = program_switch(check, lines, modules, table, fmt::format("output {}", output.number), output.safe_on);
     return output;
 }
 
-SensedLine sensed_line(const TomlChecker& check, GpioMapLines& lines, const toml::node& node, std::string_view key) {
-    const std::string where = fmt::format("[spindle.{}]", key);
-    const toml::table& table = check.table(node, fmt::format("spindle.{}", key));
-    check.require_known(table, {"line", "active", "bias"}, where);
+/// The line of a table with `line`, `active` and `bias`.
+SensedLine sensed_line(const TomlChecker& check, GpioMapLines& lines, const toml::table& table,
+                       const std::string& where) {
     SensedLine sensed;
     sensed.active_level = choice_of(check, table, "active", line_levels, 1) == 1;
     sensed.line = lines.input(check.required(table, "line", where, "a line"), "line of " + where,
                               static_cast<hal::gpio::Bias>(choice_of(check, table, "bias", line_biases, 0)));
     return sensed;
+}
+
+DigitalInput digital_input(const TomlChecker& check, GpioMapLines& lines, const IoModules& modules,
+                           const toml::table& table, const ProgramLines& before) {
+    check.require_known(table, {"number", "line", "bias", "module", "input", "coil", "active"}, "[[input]]");
+    const toml::node& number = check.required(table, "number", "[[input]]", "the P of M66");
+    DigitalInput input;
+    input.number = static_cast<int>(check.whole(number, "number", {0, DigitalInput::most}));
+    if (before.input(input.number) != nullptr) {
+        check.fail(number, fmt::format("this is the second input {}; give each a number of its own", input.number));
+    }
+    const std::string where = fmt::format("input {}", input.number);
+    if (modules.is_named(table, where)) {
+        input.line = modules.bit(table, where, choice_of(check, table, "active", line_levels, 1) == 1);
+    } else {
+        input.line = sensed_line(check, lines, table, where);
+    }
+    return input;
 }
 
 std::optional<SpindleLines> spindle_lines(const TomlChecker& check, GpioMapLines& lines, const toml::table& table) {
@@ -89,7 +129,9 @@ std::optional<SpindleLines> spindle_lines(const TomlChecker& check, GpioMapLines
     out.enable = *enable;
     out.reverse = optional_line(check, lines, table, "spindle", "reverse");
     if (const toml::node* const node = table.get("at_speed")) {
-        out.at_speed = sensed_line(check, lines, *node, "at_speed");
+        const toml::table& sensed = check.table(*node, "spindle.at_speed");
+        check.require_known(sensed, {"line", "active", "bias"}, "[spindle.at_speed]");
+        out.at_speed = sensed_line(check, lines, sensed, "[spindle.at_speed]");
     }
     out.spin_up_s = check.number(
         check.required(table, "spin_up_s", "[spindle]", "the time from standstill to the speed, 0 to 600 s"),
@@ -112,17 +154,21 @@ ProgramLines read_program_lines(const TomlChecker& check, const toml::table& roo
     }
     ProgramLines out;
     GpioMapLines lines(check, chip, out.chips);
+    IoModules modules(check, root, out.modules);
     if (const toml::node* const node = root.get("coolant")) {
-        const toml::table& coolant = check.table(*node, "coolant");
-        check.require_known(coolant, {"mist", "flood"}, "[coolant]");
-        out.mist = optional_line(check, lines, coolant, "coolant", "mist");
-        out.flood = optional_line(check, lines, coolant, "coolant", "flood");
+        const toml::table& table = check.table(*node, "coolant");
+        check.require_known(table, {"mist", "flood"}, "[coolant]");
+        out.mist = coolant(check, lines, modules, table, "mist");
+        out.flood = coolant(check, lines, modules, table, "flood");
     }
     if (spindle) {
         spindle->lines = spindle_lines(check, lines, check.table(*root.get("spindle"), "spindle"));
     }
     for (const toml::table* const table : check.tables(root, "output")) {
-        out.outputs.push_back(digital_output(check, lines, *table, out));
+        out.outputs.push_back(digital_output(check, lines, modules, *table, out));
+    }
+    for (const toml::table* const table : check.tables(root, "input")) {
+        out.inputs.push_back(digital_input(check, lines, modules, *table, out));
     }
     return out;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// program_lines_section: the tables [lines], [coolant] and [[output]] of a machine file, and the lines of [spindle].
+// program_lines_section: the tables [lines], [[module]], [coolant], [[output]] and [[input]] of a machine
+// file, and the lines of [spindle].
 #pragma once
 
 #include "host_sim/base/toml_checker.hpp"

@@ -46,6 +46,10 @@ public:
         pushed = {};
         return elements_ && elements_->release(pushed.program);
     }
+    /// Whether more() has nothing until the program's input has answered: MoveSource::answer(), of program().
+    [[nodiscard]] bool awaits_answer() const noexcept { return elements_ && elements_->awaits_answer(); }
+    /// The program. @pre the path is one within a tolerance
+    [[nodiscard]] MoveSource<S>& program() noexcept { return elements_->program(); }
     /// Whether more() would return without waiting; waits for that up to the given time. A closed curve is read
     /// completely before.
     [[nodiscard]] bool wait_for_row(WaypointRows::Patience patience) {

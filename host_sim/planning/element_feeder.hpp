@@ -45,6 +45,10 @@ public:
     /// The machine needs what there is, and the input pauses: a move that waits is pushed, with a stop at its end.
     /// false: none waits. @pre the path is starved
     bool release(Pushed& pushed);
+    /// MoveSource::awaits_answer(), once everything before is delivered.
+    [[nodiscard]] bool awaits_answer() const noexcept {
+        return !finished_ && failure_ == nullptr && due_ == 0 && program_->awaits_answer();
+    }
     [[nodiscard]] bool wait_for_row(typename MoveSource<S>::Patience patience) {
         return finished_ || failure_ != nullptr || due_ > 0 || program_->wait(patience);
     }

@@ -52,6 +52,14 @@ public:
     /// Whether start() or next() would return without waiting; waits for that up to the given time.
     [[nodiscard]] virtual bool wait(Patience /*patience*/) { return true; }
 
+    /// Whether the program waits for what an input says (M66): until answer() is called next() returns nothing, and
+    /// wait() is false, since everything behind it may depend on that.
+    [[nodiscard]] virtual bool awaits_answer() const noexcept { return false; }
+    /// The answer: 0 or 1, -1 after the time-out. @pre awaits_answer()
+    virtual void answer(int /*value*/) {}
+    /// The answer that the program waits for. @pre as above
+    [[nodiscard]] virtual int expected_answer() const noexcept { return 0; }
+
     /// Whether a move says itself that the machine has to stand at its end, before the step that needs it is known.
     [[nodiscard]] virtual bool knows_stops() const noexcept { return true; }
     /// The path has taken a move. Not all are: some have no length.

@@ -22,6 +22,7 @@ struct ProgramAction {
     double value = 0.0;
     std::string text;
     std::optional<SpindleTurn> spindle{}; ///< the motion waits until a real spindle turns like this
+    InputWait wait = InputWait::now;      ///< input_wait: for what, of input `number`, for `value` s at most
 };
 
 /// M0, M1, M60 and M6: the machine stands until the user says that it may go on.

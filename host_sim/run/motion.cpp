@@ -2,7 +2,6 @@
 #include "host_sim/run/motion.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/output/place_text.hpp"
 #include "host_sim/output/progress.hpp"
 
 #include <cmath>
@@ -94,7 +93,8 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
 // The input pauses: a machine that moves cannot wait, one that stands does for a while.
 template <Scalar S>
 bool Motion<S>::late() const {
-    return paused_ && target_->room() && (moves_ || Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms));
+    return paused_ && target_->room() &&
+           (moves_ || feeder_.awaits_answer() || Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms));
 }
 
 // All that is known is travelled. False where nothing will ever move the machine.
@@ -114,53 +114,6 @@ bool Motion<S>::wait() {
         return !trajectory_.stand(segment) || execute(segment); // drives that wait for more before they begin get it
     }
     return false;
-}
-
-template <Scalar S>
-std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
-    try {
-        execute_all(waypoints);
-    } catch (const OutputError& error) {
-        if (target_ == nullptr || segments_ == 0) {
-            throw;
-        }
-        // Nobody would know where the drives are: they come to rest at the end of what they have.
-        static_cast<void>(target_->finish());
-        throw OutputError(error.what() + target_->where());
-    }
-    if (tee_.failure()) {
-        keep_failure(tee_.failure());
-    } else if (const Status status = trajectory_.status(); !status.ok()) {
-        keep_failure(std::make_exception_ptr(InputError(input_->name(), 0, describe(status.error()))));
-    }
-    if (trajectory_.activity() == Activity::aborted) {
-        stopped_ = "aborted by an event";
-    } else if (trajectory_.activity() == Activity::held && trajectory_.state() == Pull::held && !held_by_target_) {
-        stopped_ = "held, and no event resumes it";
-    }
-    machine_.finish();
-    optimum_.finish();
-    require_tolerance();
-    if (const auto& fault = machine_.fault()) {
-        Fault whole = *fault;
-        whole.waypoint = feeder_.whole_row(static_cast<std::uint32_t>(fault->waypoint));
-        const auto row = static_cast<std::uint32_t>(whole.waypoint);
-        stopped_ =
-            describe(whole, input_->within_tolerance() && !input_->lines_within_tolerance() ? feeder_.name_of_row(row)
-                                                                                            : std::string());
-    }
-    if (target_ == nullptr) {
-        keep_state();
-        return stopped_.empty() ? stopped_ : stopped_ + where();
-    }
-    // Whatever ended the run: the drives come to rest at the end of what they have.
-    if (!target_->finish()) {
-        keep_places();
-        stopped_ = target_->ending();
-        return stopped_;
-    }
-    keep_state();
-    return stopped_.empty() ? stopped_ : stopped_ + target_->where();
 }
 
 template <Scalar S>
@@ -228,7 +181,14 @@ bool Motion<S>::stand() {
 // Whether the program wants the machine to stand for another segment.
 template <Scalar S>
 bool Motion<S>::dwell(FeedSegment& segment) {
-    if (moves_ || steps_.empty() || !steps_.stands(machine_.position_mm(), machine_.cycle_time_s())) {
+    if (moves_ || held_by_target_ || steps_.empty()) {
+        return false;
+    }
+    const bool stands = steps_.stands(machine_.position_mm(), machine_.cycle_time_s());
+    if (const auto answer = steps_.take_answer()) {
+        feeder_.program().answer(*answer);
+    }
+    if (!stands) {
         return false;
     }
     if (steps_.moved()) {
@@ -260,33 +220,6 @@ void Motion<S>::come_to(std::uint64_t line) {
     if (outputs_->trace() != nullptr) {
         outputs_->trace()->set_line(line_);
     }
-}
-
-// Offsets as the motion has come to them, and where the machine stands.
-template <Scalar S>
-void Motion<S>::keep_state() {
-    if (state_.empty()) {
-        return;
-    }
-    if (steps_.offsets() != nullptr) {
-        kept_.offsets = *steps_.offsets();
-    }
-    if (segments_ > 0) {
-        kept_.position_mm = machine_.position_mm();
-    }
-    write_state_file(state_, input_->axes(), kept_);
-}
-
-// The drives did not come to the end of the plan.
-template <Scalar S>
-void Motion<S>::keep_places() {
-    if (state_.empty()) {
-        return;
-    }
-    for (const RunTarget::AxisPlace& at : target_->places()) {
-        kept_.position_mm[at.axis] = at.mm;
-    }
-    write_state_file(state_, input_->axes(), kept_);
 }
 
 // Gives the curve one more waypoint, or tells it that there are none.
@@ -352,43 +285,6 @@ void Motion<S>::measure(const typename CurveFeeder<S>::Pushed& pushed) {
         deviation_.move(program.move->programmed, program.move->line);
         exact_stop_.move(program.move->programmed);
     }
-}
-
-// A path that is too far from its moves is a fault, whatever else happened.
-template <Scalar S>
-void Motion<S>::require_tolerance() {
-    if (!input_->within_tolerance()) {
-        return;
-    }
-    if (trajectory_.state() == Pull::finished && stopped_.empty()) {
-        deviation_.finish();
-    }
-    if (enforce_ && stopped_.empty()) {
-        stopped_ = excess();
-    }
-}
-
-// Before the first move what is wrong is thrown; after it, it is why the machine stopped.
-template <Scalar S>
-void Motion<S>::keep_failure(const std::exception_ptr& failure) {
-    try {
-        std::rethrow_exception(failure);
-    } catch (const InputError& error) {
-        if (segments_ == 0) {
-            throw;
-        }
-        stopped_ = error.what();
-    }
-}
-
-template <Scalar S>
-std::string Motion<S>::where() const {
-    PlaceText place("; the machine stands at", 6);
-    const PerAxis<double> position = machine_.position_mm();
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
-        place.add(description_->axis_name[k], position[k]);
-    }
-    return place.text() + fmt::format(", {:.6f} s after its start", machine_.cycle_time_s()) + on_line(line_);
 }
 
 template class Motion<double>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ProgramOrders: passes what a program orders to the outputs when the machine itself has come to its place.
+// ProgramOrders: passes what a program orders to the outputs and inputs when the machine itself has come to its place.
 #pragma once
 
 #include "host_sim/program/program_action.hpp"
@@ -12,8 +12,10 @@ public:
     /// The outputs get the order when everything that was submitted before is executed, in order.
     /// @param standing  the machine stands there: it has done so for a moment then
     virtual void order(const ProgramAction& action, bool standing) = 0;
-    /// Whether all orders are carried out, and the spindle has its speed.
+    /// Whether all orders are carried out: the spindle has its speed, the input has answered.
     [[nodiscard]] virtual bool carried_out() const = 0;
+    /// The answer of the last M66: 0 or 1, -1 after its time-out. @pre it was ordered, and carried_out()
+    [[nodiscard]] virtual int input() const = 0;
     /// Whether the spindle is known to stand.
     [[nodiscard]] virtual bool spindle_stands() const = 0;
 

@@ -49,6 +49,9 @@ void ProgramSteps<S>::happen(double time_s) {
         return;
     }
     const ProgramAction& action = step.action;
+    if (orders_ != nullptr && action.kind == EventKind::input_wait) {
+        answer_ = orders_->input();
+    }
     if (orders_ != nullptr && !action.spindle && ProgramOutputs::is_of(action)) {
         orders_->order(action, false);
     }
@@ -78,12 +81,13 @@ void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
     row_ = segment.waypoint;
 }
 
-// The machine stands until it has come to the step's place, the spindle turns as the step says, and the user wants to
-// go on.
+// The machine stands until it has come to the step's place, the spindle turns as the step says, the input has answered,
+// and the user wants to go on.
 template <Scalar S>
 bool ProgramSteps<S>::waits_for_order(const PendingStep& step) {
     const bool asks = host::waits_for_user(step.action.kind);
-    if (orders_ == nullptr || !(step.action.spindle || asks)) {
+    const bool reads = step.action.kind == EventKind::input_wait;
+    if (orders_ == nullptr || !(step.action.spindle || asks || reads)) {
         return false;
     }
     if (!ordered_) {

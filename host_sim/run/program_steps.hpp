@@ -46,6 +46,9 @@ public:
     void at_start(FeedSegment& segment) const noexcept;
     [[nodiscard]] bool moved() const noexcept { return row_.has_value(); }
 
+    /// What the input of an M66 has answered since the last call.
+    [[nodiscard]] std::optional<int> take_answer() noexcept { return std::exchange(answer_, std::nullopt); }
+
     /// The user's signal to go on.
     void go_on() noexcept { pause_.go_on(); }
 
@@ -63,6 +66,7 @@ private:
 
     const MotionLimits<S>* limits_;
     ProgramOrders* orders_;
+    std::optional<int> answer_;
     bool ordered_ = false; // the machine stands for the first step's order
     UserPause pause_;
     enum class Asked { no, spindle, user };

@@ -88,7 +88,7 @@ void Supervision::order(const ProgramAction& action, bool standing) {
 
 bool Supervision::carried_out() const {
     const std::lock_guard lock(order_mutex_);
-    return orders_.empty() && (outputs_ == nullptr || outputs_->spindle_reached());
+    return orders_.empty() && (outputs_ == nullptr || outputs_->reached());
 }
 
 void Supervision::end_outputs() {
@@ -151,18 +151,19 @@ std::string Supervision::with_trouble(const std::string& ending) const {
     return rest.empty() ? trouble_ : trouble_ + "; " + rest;
 }
 
-// A spindle that was ended comes to a standstill by its own ramp; a further signal does not wait for it.
-std::string Supervision::spindle_standstill() const {
+// A spindle that was ended comes to a standstill by its own ramp, and modules confirm what they were told; a further
+// signal does not wait for it.
+std::string Supervision::outputs_end() const {
     if (outputs_ == nullptr) {
         return {};
     }
     const int signals = SignalWatch::interrupts();
     const std::uint64_t until_us =
-        system_clock().now_us() + static_cast<std::uint64_t>(outputs_->spindle_stop_timeout_s() * us_per_s);
-    while (!outputs_->spindle_stands() && system_clock().now_us() < until_us && SignalWatch::interrupts() == signals) {
+        system_clock().now_us() + static_cast<std::uint64_t>(outputs_->end_timeout_s() * us_per_s);
+    while (!outputs_->unended().empty() && system_clock().now_us() < until_us && SignalWatch::interrupts() == signals) {
         system_clock().sleep_us(poll_every_us);
     }
-    return outputs_->spindle_stands() ? std::string() : "the spindle did not confirm that it stands and may still turn";
+    return outputs_->unended();
 }
 
 void Supervision::hand_over() {
@@ -260,7 +261,7 @@ void Supervision::work() noexcept {
         target_->quick_stop();
         add(error.what());
     }
-    add(spindle_standstill());
+    add(outputs_end());
     const std::string sentence =
         (ending_.empty() ? std::string("interrupted while outputs were written; the motion was complete") : ending_) +
         where_;

@@ -55,6 +55,7 @@ public:
     [[nodiscard]] bool over() const noexcept { return over_.load(); }
     void order(const ProgramAction& action, bool standing) override;
     [[nodiscard]] bool carried_out() const override;
+    [[nodiscard]] int input() const override { return outputs_ != nullptr ? outputs_->answer() : 0; }
     [[nodiscard]] bool spindle_stands() const override { return outputs_ == nullptr || outputs_->spindle_stands(); }
     /// Whether the plan has to be held, and ends there.
     [[nodiscard]] bool hold_asked() const noexcept { return hold_asked_.load(); }
@@ -80,7 +81,7 @@ private:
     void begin_line(std::uint64_t line);
     void come_to(std::uint64_t executed);
     void end_outputs();
-    [[nodiscard]] std::string spindle_standstill() const;
+    [[nodiscard]] std::string outputs_end() const;
     [[nodiscard]] std::string with_trouble(const std::string& ending) const;
     void await_planner() noexcept;
 

@@ -1,14 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/target/program_outputs.hpp"
 
+#include <algorithm>
+
 namespace splinefeed::host {
 
 void ProgramOutputs::act(const ProgramAction& action) {
     if (action.spindle && spindle_ != nullptr) {
         spindle_->order(action.spindle->direction, action.spindle->rpm);
     }
-    if (switches_ != nullptr && RunSwitches::is_of(action.kind)) {
-        switches_->act(action.kind, action.number);
+    if (RunSwitches::is_of(action.kind)) {
+        for (const auto& switches : switches_) {
+            switches->act(action.kind, action.number);
+        }
+    }
+    if (action.kind == EventKind::input_wait) {
+        ask(action);
+    }
+}
+
+void ProgramOutputs::ask(const ProgramAction& action) {
+    for (const auto& inputs : inputs_) {
+        if (inputs->watch(action.number)) {
+            asked_ = inputs.get();
+            question_.emplace(action.wait, action.value, clock_->now_us());
+            asks_.store(true);
+            return;
+        }
+    }
+}
+
+void ProgramOutputs::update() {
+    if (spindle_ != nullptr) {
+        spindle_->update();
+    }
+    if (!question_) {
+        return;
+    }
+    const auto reading = asked_->take();
+    const auto answer = reading ? question_->take(reading->active, reading->asked_us) : std::nullopt;
+    if (answer) {
+        asked_->unwatch();
+        question_.reset();
+        answer_.store(*answer);
+        asks_.store(false);
     }
 }
 
@@ -16,14 +51,36 @@ void ProgramOutputs::end() {
     if (spindle_ != nullptr) {
         spindle_->end();
     }
-    if (switches_ != nullptr) {
-        switches_->end();
+    for (const auto& switches : switches_) {
+        switches->end();
     }
 }
 
 std::string ProgramOutputs::trouble() const {
     std::string what = spindle_ != nullptr ? spindle_->trouble() : std::string();
-    return what.empty() && switches_ != nullptr ? switches_->trouble() : what;
+    for (const auto& switches : switches_) {
+        what = what.empty() ? switches->trouble() : what;
+    }
+    for (const auto& inputs : inputs_) {
+        what = what.empty() ? inputs->trouble() : what;
+    }
+    return what;
+}
+
+std::string ProgramOutputs::unended() const {
+    std::string what =
+        spindle_stands() ? std::string() : "the spindle did not confirm that it stands and may still turn";
+    for (const auto& switches : switches_) {
+        const std::string line = switches->unconfirmed();
+        what += line.empty() ? "" : (what.empty() ? "" : "; ") + line + " did not confirm its last level";
+    }
+    return what;
+}
+
+double ProgramOutputs::end_timeout_s() const {
+    constexpr double switches_s = 1.0;
+    const double spindle_s = spindle_ != nullptr ? spindle_->stop_timeout_s() : 0.0;
+    return switches_.empty() ? spindle_s : std::max(spindle_s, switches_s);
 }
 
 } // namespace splinefeed::host

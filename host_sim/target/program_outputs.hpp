@@ -1,42 +1,54 @@
 // SPDX-License-Identifier: MIT
-// ProgramOutputs: everything that the events of a program act on in a run on a real target: spindle, coolant and
-// digital outputs.
+// ProgramOutputs: everything that the events of a program act on or wait for in a run on a real target: spindle,
+// coolant, digital outputs and inputs.
 #pragma once
 
 #include "host_sim/program/program_action.hpp"
+#include "host_sim/target/input_question.hpp"
+#include "host_sim/target/run_inputs.hpp"
 #include "host_sim/target/run_spindle.hpp"
 #include "host_sim/target/run_switches.hpp"
 
+#include "splinefeed/hal/rt/clock.hpp"
+
+#include <atomic>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace splinefeed::host {
 
-/// All functions return at once and may be called by any thread. After end(), or once there is trouble, nothing is
-/// turned on any more.
+/// All functions return at once; but act() and update(), which one thread calls, they may be called by any thread.
+/// After end(), or once there is trouble, nothing is turned on any more.
 class ProgramOutputs {
 public:
-    /// Null: the machine has none.
-    ProgramOutputs(std::unique_ptr<RunSpindle> spindle, std::unique_ptr<RunSwitches> switches)
-        : spindle_(std::move(spindle)), switches_(std::move(switches)) {}
+    using Switches = std::vector<std::unique_ptr<RunSwitches>>;
+    using Inputs = std::vector<std::unique_ptr<RunInputs>>;
 
-    /// Carries out what an event asks for. @pre the machine has what it acts on
+    /// @param spindle  null: the machine has none
+    ProgramOutputs(std::unique_ptr<RunSpindle> spindle, Switches switches, Inputs inputs = {},
+                   hal::Clock& clock = hal::system_clock())
+        : spindle_(std::move(spindle)), switches_(std::move(switches)), inputs_(std::move(inputs)), clock_(&clock) {}
+
+    /// Carries out what an event asks for, or begins to wait for its input. @pre the machine has what it is about
     void act(const ProgramAction& action);
-    /// Called each millisecond, by the thread that calls act().
-    void update() {
-        if (spindle_ != nullptr) {
-            spindle_->update();
-        }
-    }
-    /// Whether the spindle has carried out its last order: the motion waits for that.
-    [[nodiscard]] bool spindle_reached() const { return spindle_ == nullptr || spindle_->reached(); }
+    /// Called each millisecond.
+    void update();
+    /// Whether the last order is carried out: the spindle turns as it was told, the input has answered. The motion
+    /// waits for that.
+    [[nodiscard]] bool reached() const { return !asks_.load() && (spindle_ == nullptr || spindle_->reached()); }
+    /// What the last input answered: its level as 0 or 1, -1 after the time-out.
+    [[nodiscard]] int answer() const noexcept { return answer_.load(); }
     /// Stops the spindle, turns the coolant off, and makes the outputs safe, for good.
     void end();
     /// Why something is not as ordered; empty: all is.
     [[nodiscard]] std::string trouble() const;
-    /// Whether the spindle is known to stand, and how long it may take to come to that. [s]
+    /// Whether the spindle is known to stand.
     [[nodiscard]] bool spindle_stands() const { return spindle_ == nullptr || spindle_->stands(); }
-    [[nodiscard]] double spindle_stop_timeout_s() const { return spindle_ ? spindle_->stop_timeout_s() : 0.0; }
+    /// After end(): what may not have ended yet, "the spindle did not confirm ..."; empty: everything has.
+    [[nodiscard]] std::string unended() const;
+    /// How long that may take. [s]
+    [[nodiscard]] double end_timeout_s() const;
 
     /// Whether an event acts on an output.
     [[nodiscard]] static bool is_of(const ProgramAction& action) noexcept {
@@ -44,8 +56,16 @@ public:
     }
 
 private:
+    void ask(const ProgramAction& action);
+
     std::unique_ptr<RunSpindle> spindle_;
-    std::unique_ptr<RunSwitches> switches_;
+    Switches switches_;
+    Inputs inputs_;
+    hal::Clock* clock_;
+    RunInputs* asked_ = nullptr; // those of the question
+    std::optional<InputQuestion> question_;
+    std::atomic<bool> asks_{false};
+    std::atomic<int> answer_{0};
 };
 
 } // namespace splinefeed::host

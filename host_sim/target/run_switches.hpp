@@ -23,6 +23,8 @@ public:
     virtual void end() noexcept = 0;
     /// Why they are not as they should be; empty: they are.
     [[nodiscard]] virtual std::string trouble() const = 0;
+    /// The first one that has not confirmed its last level yet; empty: all have.
+    [[nodiscard]] virtual std::string unconfirmed() const { return {}; }
 
     /// Whether an event is one for switches.
     [[nodiscard]] static bool is_of(EventKind kind) noexcept {

@@ -8,7 +8,7 @@ namespace splinefeed::host {
 LineOutputs make_line_outputs(const MachineDescription& machine) {
     if (!machine.lines.empty()) {
         throw UsageError(machine.file +
-                         ": its lines of spindle, coolant and outputs need libgpiod, which this splinefeed "
+                         ": its lines of spindle, coolant, outputs and inputs need libgpiod, which this splinefeed "
                          "was built without; install it (Debian: libgpiod-dev) and build again");
     }
     return {};

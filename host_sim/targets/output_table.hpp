@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// output_table: spindle, coolant and digital outputs of a run, of the kinds that the machine file names.
+// output_table: spindle, coolant, digital outputs and inputs of a run, of the kinds that the machine file names.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"

@@ -23,9 +23,11 @@ public:
         }
     }
     [[nodiscard]] std::string trouble() const override { return lost ? "a line is lost" : ""; }
+    [[nodiscard]] std::string unconfirmed() const override { return hangs ? "output 3" : ""; }
 
     std::atomic<bool> ended{false};
     std::atomic<bool> lost{false};
+    std::atomic<bool> hangs{false};
 
 private:
     TalkingTarget* target_;
@@ -58,16 +60,45 @@ private:
     TalkingTarget* target_;
 };
 
-/// A machine with a spindle, or with switches.
+/// Input 4 alone; it has a level, or none has been read.
+class TalkingInputs final : public RunInputs {
+public:
+    explicit TalkingInputs(TalkingTarget& target) : target_(&target) {}
+
+    [[nodiscard]] bool watch(std::int32_t number) override {
+        target_->said("watch " + std::to_string(number));
+        return number == 4;
+    }
+    void unwatch() override { target_->said("unwatch"); }
+    [[nodiscard]] std::optional<InputReading> take() override {
+        const int now = level;
+        return now < 0 ? std::nullopt : std::optional(InputReading{now > 0, hal::system_clock().now_us()});
+    }
+    [[nodiscard]] std::string trouble() const override { return lost ? "an input is lost" : ""; }
+
+    std::atomic<int> level{-1};
+    std::atomic<bool> lost{false};
+
+private:
+    TalkingTarget* target_;
+};
+
+/// A machine with a spindle, switches or inputs.
 template <class Output>
 struct With {
     explicit With(TalkingTarget& target) {
         auto made = std::make_unique<Output>(target);
         output = made.get();
         if constexpr (std::is_same_v<Output, TalkingSpindle>) {
-            outputs = std::make_unique<ProgramOutputs>(std::move(made), nullptr);
+            outputs = std::make_unique<ProgramOutputs>(std::move(made), ProgramOutputs::Switches{});
+        } else if constexpr (std::is_same_v<Output, TalkingSwitches>) {
+            ProgramOutputs::Switches switches;
+            switches.push_back(std::move(made));
+            outputs = std::make_unique<ProgramOutputs>(nullptr, std::move(switches));
         } else {
-            outputs = std::make_unique<ProgramOutputs>(nullptr, std::move(made));
+            ProgramOutputs::Inputs inputs;
+            inputs.push_back(std::move(made));
+            outputs = std::make_unique<ProgramOutputs>(nullptr, ProgramOutputs::Switches{}, std::move(inputs));
         }
     }
     Output* output;
@@ -85,6 +116,13 @@ ProgramAction switching(EventKind kind, std::int32_t number = 0) {
     ProgramAction action;
     action.kind = kind;
     action.number = number;
+    return action;
+}
+
+ProgramAction question(InputWait wait, double timeout_s) {
+    ProgramAction action = switching(EventKind::input_wait, 4);
+    action.wait = wait;
+    action.value = timeout_s;
     return action;
 }
 
@@ -243,4 +281,66 @@ TEST_CASE("trouble of a line holds the motion and ends the run; nothing is switc
         REQUIRE(comes([&] { return supervision.over(); }));
         CHECK(target.told() == Told{"prepare", "segment 0", "switches end", "finish"});
     }
+}
+
+TEST_CASE("an input is read when the machine stands, until it answers", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingInputs> machine(target);
+    Supervision supervision(target, signals, machine.outputs.get());
+    machine.output->level = 1; // as it was before
+    REQUIRE(supervision.submit(segment(0)));
+    supervision.order(question(InputWait::low, 60.0), true);
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    machine.output->level = 0;
+    target.executed = 2;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(target.told().size() == 2);
+    machine.output->level = 1;
+    target.executed = 3;
+    REQUIRE(comes([&] { return target.told().back() == "watch 4"; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK_FALSE(supervision.carried_out());
+    machine.output->level = 0;
+    CHECK(comes([&] { return supervision.carried_out(); }));
+    CHECK(supervision.input() == 0);
+    supervision.order(question(InputWait::high, 0.05), true);
+    CHECK(comes([&] { return supervision.carried_out(); }));
+    CHECK(supervision.input() == -1);
+    CHECK(supervision.finish());
+    CHECK(target.told() ==
+          Told{"prepare", "segment 0", "watch 4", "unwatch", "watch 4", "unwatch", "complete", "finish"});
+}
+
+TEST_CASE("an input that never answers does not keep a run from its end", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingInputs> machine(target);
+    Supervision supervision(target, signals, machine.outputs.get());
+    target.executed = 10;
+    REQUIRE(supervision.submit(segment(0)));
+    SECTION("a signal") {
+        supervision.order(question(InputWait::high, 1000.0), true);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        request(1);
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK(supervision.ending() == "held; there");
+    }
+    SECTION("its trouble") {
+        machine.output->lost = true;
+        REQUIRE(comes([&] { return supervision.over(); }));
+        CHECK(supervision.ending() == "an input is lost; held; there");
+    }
+    CHECK_FALSE(supervision.carried_out() && supervision.input() == 1);
+}
+
+TEST_CASE("an output that does not confirm its end is said", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    const With<TalkingSwitches> machine(target);
+    Supervision supervision(target, signals, machine.outputs.get());
+    machine.output->hangs = true;
+    REQUIRE(supervision.submit(segment(0)));
+    CHECK_FALSE(supervision.finish());
+    CHECK(supervision.ending() == "output 3 did not confirm its last level; there");
 }

@@ -15,6 +15,7 @@ public:
         told += std::string(action_name(action.kind)) + (standing ? "! " : " ");
     }
     [[nodiscard]] bool carried_out() const override { return reached; }
+    [[nodiscard]] int input() const override { return 1; }
     [[nodiscard]] bool spindle_stands() const override { return stands; }
 
     std::string told;
@@ -32,7 +33,7 @@ struct Bench {
         step.stops = stops;
         step.line = row + 1;
         step.action.kind = kind;
-        if (stops && !waits_for_user(kind)) {
+        if (stops && !waits_for_user(kind) && kind != EventKind::input_wait) {
             step.action.spindle = SpindleTurn{1, 1000.0};
         }
         SourceStep<double> move;
@@ -123,4 +124,23 @@ TEST_CASE("A pause begins when the machine has come to its place, and ends when 
     bench.steps.go_on();
     CHECK_FALSE(bench.steps.stands(here, 0.0));
     CHECK(bench.steps.summary().events == 2);
+}
+
+TEST_CASE("An input is asked at standstill, and the program gets its answer once") {
+    Bench bench;
+    bench.add(EventKind::input_wait, 0, 10.0, true);
+    bench.begin(0);
+    PerAxis<double> here{};
+    CHECK_FALSE(bench.steps.stands(here, 0.0)); // on the way
+    CHECK(bench.orders.told.empty());
+    here[0] = 10.0;
+    CHECK(bench.steps.stands(here, 0.0));
+    CHECK(bench.steps.stands(here, 0.0));
+    CHECK(bench.orders.told == "input_wait! ");
+    CHECK_FALSE(bench.steps.take_answer());
+    bench.orders.reached = true;
+    CHECK_FALSE(bench.steps.stands(here, 0.0));
+    CHECK(bench.steps.take_answer() == 1);
+    CHECK_FALSE(bench.steps.take_answer());
+    CHECK(bench.steps.empty());
 }

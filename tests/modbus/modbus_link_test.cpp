@@ -22,10 +22,10 @@ ScriptedPeer::Reply rtu(const Bytes& bytes) {
     return {.bytes = with_crc(bytes)};
 }
 
-/// A server made of libmodbus with 64 holding registers from address 0 on.
+/// A server made of libmodbus with 64 holding registers, 8 coils and 8 discrete inputs from address 0 on.
 class Server {
 public:
-    Server() : context_(modbus_new_tcp("127.0.0.1", 0)), mapping_(modbus_mapping_new(0, 0, 64, 0)) {
+    Server() : context_(modbus_new_tcp("127.0.0.1", 0)), mapping_(modbus_mapping_new(8, 8, 64, 0)) {
         listener_ = modbus_tcp_listen(context_, 1);
         sockaddr_in bound{};
         socklen_t size = sizeof(bound);
@@ -42,6 +42,8 @@ public:
         modbus_free(context_);
     }
     [[nodiscard]] LinkAddress address() const { return {.port = port_}; }
+    /// Before the first request.
+    void turn_on(int input) { mapping_->tab_input_bits[input] = 1; }
 
 private:
     void serve() {
@@ -99,6 +101,28 @@ TEST_CASE("Link: functions 03, 16 and 23 against a server of libmodbus, and an e
     CHECK(std::string(exception_name(beyond.exception)) == "illegal address");
     CHECK(link.connected());
     CHECK(link.read(1, 0, in).ok());
+}
+
+TEST_CASE("Link: functions 01, 02 and 05 against a server of libmodbus") {
+    Server server;
+    server.turn_on(3);
+    ModbusLink link(server.address(), patient);
+    REQUIRE(link.connect());
+    bool on = true;
+    CHECK(link.read_bit(1, BitTable::coils, 5, on).ok());
+    CHECK_FALSE(on);
+    CHECK(link.write_coil(1, 5, true).ok());
+    CHECK(link.read_bit(1, BitTable::coils, 5, on).ok());
+    CHECK(on);
+    CHECK(link.write_coil(1, 5, false).ok());
+    CHECK(link.read_bit(1, BitTable::coils, 5, on).ok());
+    CHECK_FALSE(on);
+    CHECK(link.read_bit(1, BitTable::inputs, 3, on).ok());
+    CHECK(on);
+    CHECK(link.read_bit(1, BitTable::inputs, 8, on).exception == 2);
+    CHECK(on); // a fault changes nothing
+    CHECK(link.write_coil(1, 8, true).refused());
+    CHECK(link.connected());
 }
 
 TEST_CASE("Link: on a serial line each fault has its name") {

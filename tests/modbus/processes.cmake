@@ -68,6 +68,7 @@ set_tests_properties(modbus_raster3d_tcp modbus_raster3d_rtu PROPERTIES RUN_SERI
 process_test(modbus_pymodbus_drive pymodbus_drives.py ${path61} --drives 1 --tolerance-mm 0.0005)
 process_test(modbus_pymodbus_three_drives pymodbus_drives.py ${path61} --drives 3 --tolerance-mm 0.003)
 process_test(modbus_spindle spindle_runs.py)
+process_test(modbus_inputs input_runs.py)
 process_test(modbus_pauses pause_runs.py)
 process_test(modbus_faulted_runs faulted_runs.py --runs 30 --long-runs 200)
 process_test(modbus_paused_input paused_input.py)

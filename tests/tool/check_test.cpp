@@ -66,3 +66,24 @@ TEST_CASE("check takes the time of a real plan, and its parts make the whole") {
     CHECK(report["slowest_lines"].size() == 10);
     CHECK(tool("check " + program).output.find("0 problems\n") == 0);
 }
+
+TEST_CASE("check knows M66: the time-outs of inputs that are low, and a number that the machine file lacks") {
+    const Tool tool;
+    const std::string axis = "[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n";
+    tool.write("bare.toml", "[path]\nmax_feed_mm_s = 20\n" + axis);
+    tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[module]]\nname = \"io\"\naddress = \"modbus-tcp://127.0.0.1\"\n"
+                         "[[input]]\nnumber = 2\nmodule = \"io\"\ninput = 7\n" +
+                             axis);
+    tool.write("part.ngc",
+               "G1 X10 F600\nM66 P2 L3 Q2.5\nX[20+5*#5399]\nM66 P2 L4 Q2\nM66 P4 L1 Q1\nM66 P2 L0\nM66 P2 L2 Q0.5\n");
+    const Call bare = tool("check part.ngc -m bare.toml --json");
+    CHECK(bare.status == 0);
+    const json report = json::parse(bare.output);
+    CHECK(report["dwell_s"] == 4.0);
+    CHECK(report["feed_box"]["x"][1] == 15.0);
+    const Call call = tool("check part.ngc -m m.toml");
+    CHECK(call.status == 1);
+    CHECK(call.output.find(
+              "part.ngc:5: input_wait: the machine file has no input 4; name its line in [[input]] with number = "
+              "4, or add the word to --ignore\n\n1 problem\n") == 0);
+}

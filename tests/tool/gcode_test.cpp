@@ -333,6 +333,16 @@ TEST_CASE("A real target refuses coolant and outputs that the machine file does 
           "3, or add the word to --ignore\n");
 }
 
+TEST_CASE("A real target refuses inputs that the machine file does not name before anything moves") {
+    const Tool tool;
+    const std::string target = "--target modbus-tcp://127.0.0.1:1";
+    CHECK(error_of(tool, "G1 X10 F3000\nM66 P3 L3 Q1\nX20\nM2\n", target) ==
+          "part.ngc:2: input_wait: the machine file has no input 3; name its line in [[input]] with number = 3, or add "
+          "the word to --ignore\n");
+    CHECK(error_of(tool, "G1 X10 F3000\nM66 E0 L0\nM2\n", target)
+              .rfind("part.ngc:2: input_wait: M66 E reads an analog", 0) == 0);
+}
+
 TEST_CASE("A dwell behind a message takes its time") {
     const Tool tool;
     const double without_s = seconds(tool, "G64\nG1 X10 F3000\nG4 P2\nX20\nM2\n", "");

@@ -3,6 +3,7 @@
 
 #include "host_sim/config/decimal_number.hpp"
 #include "host_sim/program/element_cast.hpp"
+#include "host_sim/program/gcode/impossible_event.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
 #include "host_sim/program/gcode/problem_list.hpp"
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace splinefeed::host {
@@ -63,6 +65,11 @@ public:
     bool start(PerAxis<Position>& position) override;
     bool next(SourceStep<S>& out) override;
     [[nodiscard]] bool wait(typename MoveSource<S>::Patience patience) override;
+    [[nodiscard]] bool awaits_answer() const noexcept override { return asked_.has_value(); }
+    void answer(int value) override;
+    [[nodiscard]] int expected_answer() const noexcept override {
+        return asked_ == InputWait::rise || asked_ == InputWait::high ? 1 : 0;
+    }
     [[nodiscard]] bool knows_stops() const noexcept override { return false; }
     void pushed(const SourceStep<S>& step) override { history_.add(step.line); }
 
@@ -83,8 +90,8 @@ private:
     void take(SourceStep<S>& out);
     void take_move(SourceStep<S>& out) const;
     void take_event(SourceStep<S>& out);
+    void take_input(SourceStep<S>& out);
     void take_spindle(SourceStep<S>& out, EventKind kind);
-    void require_possible(const ProgramEvent& event) const;
     void require_possible(MoveKind kind) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
 
@@ -101,7 +108,8 @@ private:
     ProgramItem<S> item_;
     LineHistory history_;
     ProgramSpindle spindle_;
-    bool pending_ = false; // the block has more items
+    bool pending_ = false;           // the block has more items
+    std::optional<InputWait> asked_; // nothing is interpreted before the input has answered
 };
 
 template <Scalar S>
@@ -124,6 +132,10 @@ bool GcodeMoves<S>::start(PerAxis<Position>& position) {
 
 template <Scalar S>
 bool GcodeMoves<S>::wait(typename MoveSource<S>::Patience patience) {
+    if (asked_) {
+        std::this_thread::sleep_for(patience);
+        return false;
+    }
     return pending_ || flow_.in_memory() || interpreter_.has_ended() || lines_->wait(patience);
 }
 
@@ -153,6 +165,9 @@ void GcodeMoves<S>::read_line() {
 template <Scalar S>
 bool GcodeMoves<S>::next(SourceStep<S>& out) {
     out.kind = StepKind::nothing;
+    if (asked_) {
+        return true;
+    }
     if (!pending_) {
         if (interpreter_.has_ended()) {
             return false;
@@ -215,8 +230,8 @@ void GcodeMoves<S>::take_move(SourceStep<S>& out) const {
 template <Scalar S>
 void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     const ProgramEvent& event = item_.event;
-    if (!settings_->simulated) {
-        require_possible(event);
+    if (const std::string why = settings_->simulated ? std::string() : impossible(event, *settings_); !why.empty()) {
+        throw InputError(file_, line_.number, std::uint64_t{0}, why);
     }
     out.action.kind = event.kind;
     out.action.number = event.number;
@@ -230,11 +245,34 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     }
     out.offsets = event.kind == EventKind::offsets_changed ? std::make_shared<const WorkOffsets>(interpreter_.offsets())
                                                            : nullptr;
-    if (event.kind == EventKind::input_wait) { // inputs of the simulated machine are low, and stay so
-        const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
-        out.dwell_s = met ? 0.0 : number_of(event.value);
-        interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
+    if (event.kind == EventKind::input_wait) {
+        take_input(out);
     }
+}
+
+// Inputs of the simulated machine are low, and stay so. Those of a real one are asked where it stands.
+template <Scalar S>
+void GcodeMoves<S>::take_input(SourceStep<S>& out) {
+    const ProgramEvent& event = item_.event;
+    if (!settings_->simulated) {
+        out.action.wait = event.wait;
+        asked_ = event.wait;
+        return;
+    }
+    if (!event.analog && settings_->lines != nullptr && !settings_->lines->inputs.empty()) {
+        if (const std::string why = impossible(event, *settings_); !why.empty()) {
+            report({file_, line_.number, std::uint64_t{0}, why});
+        }
+    }
+    const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
+    out.dwell_s = met ? 0.0 : number_of(event.value);
+    interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
+}
+
+template <Scalar S>
+void GcodeMoves<S>::answer(int value) {
+    interpreter_.report_input(Decimal::from_integer(value));
+    asked_.reset();
 }
 
 // A real spindle is waited for at standstill; the simulated one takes its time.
@@ -256,75 +294,6 @@ void GcodeMoves<S>::take_spindle(SourceStep<S>& out, EventKind kind) {
     } else {
         out.action.spindle = spindle_.turn();
     }
-}
-
-// What the machine has no output for is refused, rather than left out.
-template <Scalar S>
-void GcodeMoves<S>::require_possible(const ProgramEvent& event) const {
-    static const ProgramLines none;
-    const ProgramLines& lines = settings_->lines != nullptr ? *settings_->lines : none;
-    std::string missing;
-    switch (event.kind) {
-    case EventKind::message:
-    case EventKind::print:
-    case EventKind::debug:
-    case EventKind::tool_select:
-    case EventKind::tool_set:
-    case EventKind::tool_change:
-    case EventKind::pause:
-    case EventKind::optional_pause:
-    case EventKind::pallet_pause:
-    case EventKind::program_end:
-    case EventKind::overrides_on:
-    case EventKind::feed_override:
-    case EventKind::spindle_override:
-    case EventKind::offsets_changed: return;
-    case EventKind::spindle_speed:
-    case EventKind::spindle_clockwise:
-    case EventKind::spindle_counterclockwise:
-    case EventKind::spindle_stop:
-        if (settings_->spindle != nullptr && settings_->spindle->is_controlled()) {
-            return;
-        }
-        missing = "spindle for this; name its frequency inverter, vfd = \"modbus-rtu://...\", or its line, "
-                  "enable = { line = ... }, in [spindle]";
-        break;
-    case EventKind::mist_on:
-        if (lines.mist) {
-            return;
-        }
-        missing = "line for this; name it in [coolant.mist]";
-        break;
-    case EventKind::flood_on:
-        if (lines.flood) {
-            return;
-        }
-        missing = "line for this; name it in [coolant.flood]";
-        break;
-    case EventKind::coolant_off:
-        if (lines.mist || lines.flood) {
-            return;
-        }
-        missing = "coolant; name its line in [coolant.mist] or [coolant.flood]";
-        break;
-    case EventKind::output_on_with_motion:
-    case EventKind::output_off_with_motion:
-    case EventKind::output_on:
-    case EventKind::output_off:
-        if (lines.output(event.number) != nullptr) {
-            return;
-        }
-        missing = fmt::format("output {}; name its line in [[output]] with number = {}", event.number, event.number);
-        break;
-    default:
-        throw InputError(file_, line_.number, std::uint64_t{0},
-                         fmt::format("{}: only the simulated machine does this so far; take it out of the program, or "
-                                     "add its word to --ignore",
-                                     action_name(event.kind)));
-    }
-    throw InputError(
-        file_, line_.number, std::uint64_t{0},
-        fmt::format("{}: the machine file has no {}, or add the word to --ignore", action_name(event.kind), missing));
 }
 
 // A probe and a switch that nobody watches would be run into.

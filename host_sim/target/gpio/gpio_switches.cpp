@@ -8,10 +8,11 @@
 
 namespace splinefeed::host {
 
-// The first trouble is told.
-void GpioSwitches::turn(const SwitchedLine& line, bool on) {
-    if (!chips_.set(line, on) && trouble_.empty()) {
-        trouble_ = fmt::format("{} cannot be set: {}", name_of_output(*lines_, line.line), std::strerror(errno));
+// The first trouble is told. Coils are those of others.
+void GpioSwitches::turn(const SwitchTurn& turn) {
+    const auto* const line = std::get_if<SwitchedLine>(turn.line);
+    if (line != nullptr && !chips_.set(*line, turn.on) && trouble_.empty()) {
+        trouble_ = fmt::format("{} cannot be set: {}", name_of_output(*lines_, line->line), std::strerror(errno));
     }
 }
 
@@ -20,18 +21,8 @@ void GpioSwitches::act(EventKind kind, std::int32_t number) {
     if (ended_ || !trouble_.empty()) {
         return;
     }
-    const bool on = kind == EventKind::mist_on || kind == EventKind::flood_on ||
-                    kind == EventKind::output_on_with_motion || kind == EventKind::output_on;
-    if (lines_->mist && (kind == EventKind::mist_on || kind == EventKind::coolant_off)) {
-        turn(*lines_->mist, on);
-    }
-    if (lines_->flood && (kind == EventKind::flood_on || kind == EventKind::coolant_off)) {
-        turn(*lines_->flood, on);
-    }
-    const DigitalOutput* const output = lines_->output(number);
-    if (output != nullptr && (kind == EventKind::output_on_with_motion || kind == EventKind::output_on ||
-                              kind == EventKind::output_off_with_motion || kind == EventKind::output_off)) {
-        turn(output->line, on);
+    for (const SwitchTurn& each : switch_turns(*lines_, kind, number)) {
+        turn(each);
     }
 }
 
@@ -41,13 +32,8 @@ void GpioSwitches::end() noexcept {
     if (std::exchange(ended_, true)) {
         return;
     }
-    for (const auto& line : {lines_->mist, lines_->flood}) {
-        if (line) {
-            turn(*line, false);
-        }
-    }
-    for (const DigitalOutput& output : lines_->outputs) {
-        turn(output.line, output.safe_on);
+    for (const SwitchTurn& each : safe_turns(*lines_)) {
+        turn(each);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "host_sim/target/gpio/program_chips.hpp"
 #include "host_sim/target/run_switches.hpp"
+#include "host_sim/target/switch_turns.hpp"
 
 #include <mutex>
 
@@ -20,7 +21,7 @@ public:
     [[nodiscard]] std::string trouble() const override;
 
 private:
-    void turn(const SwitchedLine& line, bool on);
+    void turn(const SwitchTurn& turn);
 
     const ProgramLines* lines_;
     ProgramChips chips_;

@@ -2,6 +2,7 @@
 #include "host_sim/target/gpio/line_outputs.hpp"
 
 #include "host_sim/target/gpio/gpio_switches.hpp"
+#include "host_sim/target/gpio/line_inputs.hpp"
 #include "host_sim/target/gpio/line_spindle.hpp"
 
 namespace splinefeed::host {
@@ -17,6 +18,7 @@ LineOutputs make_line_outputs(const MachineDescription& machine) {
                                                     machine.spindle->at_speed_timeout_s, chips);
     }
     out.switches = std::make_unique<GpioSwitches>(machine.lines, chips);
+    out.inputs = std::make_unique<LineInputs>(machine.lines, chips);
     return out;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// LineOutputs: what a program switches by GPIO lines in a run.
+// LineOutputs: what a program switches and reads by GPIO lines in a run.
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
+#include "host_sim/target/run_inputs.hpp"
 #include "host_sim/target/run_spindle.hpp"
 #include "host_sim/target/run_switches.hpp"
 
@@ -14,6 +15,7 @@ namespace splinefeed::host {
 struct LineOutputs {
     std::unique_ptr<RunSpindle> spindle;
     std::unique_ptr<RunSwitches> switches;
+    std::unique_ptr<RunInputs> inputs;
 };
 
 /// Requests the lines: all are as they are safe. Throws TargetError. `machine` must outlive them.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/target/modbus/vfd_run_spindle.hpp"
 
-#include "host_sim/base/input_error.hpp"
+#include "host_sim/target/modbus/own_wire.hpp"
 #include "host_sim/target/run_target.hpp"
 
 #include "splinefeed/hal/modbus/spindle/vfd_spindle.hpp"
@@ -41,27 +41,10 @@ private:
     VfdSpindle vfd_;
 };
 
-// The inverter has a wire of its own: the drives' threads do not wait for it.
-void require_own_wire(const SpindleDescription::Vfd& vfd, const MachineDescription& machine,
-                      const std::string& target) {
-    const bool all = target == "modbus";
-    if (!all && target.rfind("modbus-", 0) != 0) {
-        return;
-    }
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
-        const TargetAddress drive = parse_target_address(all ? machine.drive[k] : target);
-        if (drive.link.same_wire(vfd.address.link)) {
-            throw UsageError(fmt::format("{}: the spindle shares the line of the drive of axis {}; give it a line, or "
-                                         "a port, of its own",
-                                         vfd.address.text, machine.axis_name[k]));
-        }
-    }
-}
-
 } // namespace
 
 std::unique_ptr<RunSpindle> make_vfd_spindle(const MachineDescription& machine, const std::string& target) {
-    require_own_wire(*machine.spindle->vfd, machine, target);
+    require_own_wire(machine.spindle->vfd->address, "the spindle", machine, target);
     return std::make_unique<VfdRunSpindle>(*machine.spindle);
 }
 

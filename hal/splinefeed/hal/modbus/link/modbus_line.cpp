@@ -7,6 +7,12 @@
 
 namespace splinefeed::hal::modbus {
 
+namespace {
+
+constexpr LinkAnswer no_bits{.fault = LinkFault::exception, .exception = 1};
+
+} // namespace
+
 const char* describe(LinkFault fault) noexcept {
     switch (fault) {
     case LinkFault::none: return "it answers";
@@ -42,6 +48,14 @@ const char* exception_name(std::uint8_t code) noexcept {
         "none", "illegal function",     "illegal address", "illegal value",         "device failure", "acknowledge",
         "busy", "negative acknowledge", "memory parity",   "not a known exception", "gateway path",   "gateway target"};
     return code < names.size() ? names[code] : names[9];
+}
+
+LinkAnswer ModbusLine::read_bit(int /*unit*/, BitTable /*table*/, int /*address*/, bool& /*out*/) noexcept {
+    return no_bits;
+}
+
+LinkAnswer ModbusLine::write_coil(int /*unit*/, int /*address*/, bool /*on*/) noexcept {
+    return no_bits;
 }
 
 std::unique_ptr<ModbusLine> make_link(const LinkAddress& address, const LinkTiming& timing, Clock& clock) {

@@ -20,6 +20,12 @@ enum class LinkFault : std::uint8_t {
     bad_unit,     ///< the unit number is invalid (is_unit); nothing was sent
 };
 
+/// What of single bits a device has.
+enum class BitTable : std::uint8_t {
+    coils,  ///< written and read
+    inputs, ///< discrete inputs: read
+};
+
 struct LinkAnswer {
     LinkFault fault = LinkFault::none;
     std::uint8_t exception = 0;    ///< exception code of the Modbus application protocol, if fault is exception
@@ -68,6 +74,11 @@ public:
     }
     virtual LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
                                 std::span<std::uint16_t> out) noexcept = 0;
+
+    /// Functions 01 and 02, of one bit, and 05. By default the line has no device with bits: an exception, illegal
+    /// function.
+    virtual LinkAnswer read_bit(int unit, BitTable table, int address, bool& out) noexcept;
+    virtual LinkAnswer write_coil(int unit, int address, bool on) noexcept;
 
     /// Call when an answer belonged to an earlier request, which a serial frame does not show. The next request then
     /// waits until all outstanding answers have arrived, and discards them. Does nothing on tcp, where answers have

@@ -256,4 +256,24 @@ LinkAnswer ModbusLink::exchange(int unit, int write_address, std::span<const std
     return answer;
 }
 
+// The request is as long as that of registers, and one byte of the answer has the bit.
+LinkAnswer ModbusLink::read_bit(int unit, BitTable table, int address, bool& out) noexcept {
+    const std::size_t request = exchange_bytes(context_->address, 0, 1).request;
+    std::uint8_t bit = 0;
+    const LinkAnswer answer = transact(unit, {request, request - 2}, 1, [&](modbus_t* modbus) {
+        return table == BitTable::coils ? modbus_read_bits(modbus, address, 1, &bit)
+                                        : modbus_read_input_bits(modbus, address, 1, &bit);
+    });
+    if (answer.ok()) {
+        out = bit != 0;
+    }
+    return answer;
+}
+
+LinkAnswer ModbusLink::write_coil(int unit, int address, bool on) noexcept {
+    const std::size_t bytes = exchange_bytes(context_->address, 0, 1).request;
+    return transact(unit, {bytes, bytes}, 1,
+                    [&](modbus_t* modbus) { return modbus_write_bit(modbus, address, on ? 1 : 0); });
+}
+
 } // namespace splinefeed::hal::modbus

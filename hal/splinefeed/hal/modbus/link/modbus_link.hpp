@@ -27,6 +27,9 @@ public:
     LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
                         std::span<std::uint16_t> out) noexcept override;
 
+    LinkAnswer read_bit(int unit, BitTable table, int address, bool& out) noexcept override;
+    LinkAnswer write_coil(int unit, int address, bool on) noexcept override;
+
     void resynchronise() noexcept override;
     [[nodiscard]] std::uint64_t next_us() const noexcept override;
     [[nodiscard]] const LinkAddress& address() const noexcept override;

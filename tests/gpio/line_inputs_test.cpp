@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/target/gpio/line_inputs.hpp"
+
+#include "host_sim/config/machine_file.hpp"
+#include "recorded_chips.hpp"
+#include "support/catch.hpp"
+#include "support/virtual_clock.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr const char* machine_text = R"(
+[path]
+max_feed_mm_s = 80
+[lines]
+chip = "/dev/gpiochip0"
+[[module]]
+name = "io"
+address = "modbus-tcp://127.0.0.1"
+[[input]]
+number = 4
+line = "DOOR"
+[[input]]
+number = 0
+line = { offset = 9 }
+active = "low"
+bias = "pull-up"
+[[input]]
+number = 7
+module = "io"
+input = 0
+[[axis]]
+name = 'x'
+max_velocity_mm_s = 100
+max_acceleration_mm_s2 = 1000
+)";
+
+} // namespace
+
+TEST_CASE("Inputs are lines with a level each, read when they are watched", "[inputs]") {
+    const MachineDescription machine = parse_machine(machine_text, "m.toml");
+    REQUIRE(machine.lines.chips.size() == 1);
+    CHECK(machine.lines.chips[0].inputs[1].bias == hal::gpio::Bias::pull_up);
+    RecordedChips chips{machine.lines};
+    VirtualClock clock;
+    LineInputs inputs(machine.lines, chips.all, clock);
+    CHECK_FALSE(inputs.take());
+    CHECK_FALSE(inputs.watch(5));
+    CHECK_FALSE(inputs.watch(7)); // of a module
+    CHECK_FALSE(inputs.take());
+    REQUIRE(inputs.watch(4));
+    CHECK(inputs.take()->active == false);
+    chips.inputs[0]->now = 1;
+    CHECK(inputs.take()->active);
+    CHECK(inputs.take()->asked_us == clock.now_us());
+    REQUIRE(inputs.watch(0));
+    CHECK(inputs.take()->active);
+    chips.inputs[0]->now = 3;
+    CHECK_FALSE(inputs.take()->active);
+    inputs.unwatch();
+    CHECK_FALSE(inputs.take());
+    CHECK(inputs.trouble().empty());
+}
+
+TEST_CASE("An input that cannot be read is trouble that names it", "[inputs]") {
+    const MachineDescription machine = parse_machine(machine_text, "m.toml");
+    RecordedChips chips{machine.lines};
+    LineInputs inputs(machine.lines, chips.all);
+    REQUIRE(inputs.watch(4));
+    chips.inputs[0]->now.reset();
+    CHECK_FALSE(inputs.take());
+    CHECK(inputs.trouble().rfind("the line of input 4 cannot be read", 0) == 0);
+}
