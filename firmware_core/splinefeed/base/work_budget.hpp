@@ -22,10 +22,10 @@ public:
         charge();
         return left;
     }
-    /// Counts a step that is done in any case, because it belongs to the one before it.
-    constexpr void charge() noexcept {
-        if (steps_ > 0 && steps_ != unlimited) {
-            --steps_;
+    /// Counts steps that are done in any case, because they belong to the one before them.
+    constexpr void charge(unsigned steps = 1) noexcept {
+        if (steps_ != unlimited) {
+            steps_ -= steps < steps_ ? steps : steps_;
         }
     }
 
