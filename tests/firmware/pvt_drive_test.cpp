@@ -40,6 +40,27 @@ TEST_CASE("Drive: a motion to its end, and every step of it", "[drive]") {
     }
 }
 
+TEST_CASE("Drive: it starts at its instant, and a segment is executed when its steps are made", "[drive]") {
+    DriveBench bench;
+    constexpr std::uint32_t duration_us = 4000;
+    bench.enable_and_begin();
+    bench.give_all(0, there_and_stop(30, 8 * duration_us, 150.0));
+    bench.run_us(350); // no multiple of a slot
+    const std::uint32_t start_us = bench.drive.clock_us() + 7450;
+    bench.command(PvtCommand::start, start_us);
+    std::uint32_t executed = 0;
+    while (executed < 30 && bench.drive.clock_us() < start_us + 200'000) {
+        bench.run_us(drive_tick_us);
+        const std::uint32_t now_us = bench.drive.clock_us();
+        if (bench.status().executed != executed) {
+            executed = bench.status().executed;
+            CHECK(now_us >= start_us + executed * duration_us);
+            CHECK(now_us <= start_us + executed * duration_us + slot_us + 4 * drive_tick_us);
+        }
+    }
+    CHECK(executed == 30);
+}
+
 TEST_CASE("Drive: the ring ends, it stands on the path, and resumes", "[drive]") {
     DriveBench bench;
     const std::vector<PvtSegment> segments = there_and_stop(50, 8 * ms_ticks, 700.0);
