@@ -26,6 +26,20 @@ TEST_CASE("what is done in any case counts, and never below zero", "[work]") {
     CHECK_FALSE(budget.take());
 }
 
+TEST_CASE("a long piece of work waits for a call of its own, and is done there however small the budget is", "[work]") {
+    WorkBudget rest(3);
+    CHECK(rest.take());
+    CHECK_FALSE(rest.take(3));
+    CHECK(rest.spent()); // nothing else comes first
+    WorkBudget small(1);
+    CHECK(small.take(3));
+    CHECK(small.spent());
+    WorkBudget enough(4);
+    CHECK(enough.take());
+    CHECK(enough.take(3));
+    CHECK(enough.spent());
+}
+
 TEST_CASE("an unlimited budget does not end", "[work]") {
     WorkBudget budget;
     for (int i = 0; i < 1'000'000; ++i) {

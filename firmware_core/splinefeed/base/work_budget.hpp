@@ -16,11 +16,13 @@ public:
     explicit constexpr WorkBudget(unsigned steps = unlimited) noexcept : steps_(steps) {}
 
     [[nodiscard]] constexpr bool spent() const noexcept { return steps_ == 0; }
-    /// Takes a step. false: none is left.
-    [[nodiscard]] constexpr bool take() noexcept {
-        const bool left = !spent();
-        charge();
-        return left;
+    /// Takes a piece of work that is as long as so many steps. false: too few are left, and the rest is forfeited. The
+    /// first piece of a call is always taken.
+    [[nodiscard]] constexpr bool take(unsigned steps = 1) noexcept {
+        const bool enough = fresh_ || steps <= steps_;
+        fresh_ = false;
+        charge(enough ? steps : steps_);
+        return enough;
     }
     /// Counts steps that are done in any case, because they belong to the one before them.
     constexpr void charge(unsigned steps = 1) noexcept {
@@ -31,6 +33,7 @@ public:
 
 private:
     unsigned steps_;
+    bool fresh_ = true;
 };
 
 } // namespace splinefeed

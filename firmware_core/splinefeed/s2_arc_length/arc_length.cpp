@@ -350,18 +350,18 @@ void ArcLength<S>::split() noexcept {
 
 template <Scalar S>
 Pull ArcLength<S>::next(Cell<S>& out, WorkBudget& work) noexcept {
-    if (depth_ == 0 && work.take()) {
-        if (const Pull pull = load(); pull != Pull::item) {
+    if (depth_ == 0) {
+        const Pull pull = work.take(segment_steps) ? load() : Pull::busy;
+        if (pull != Pull::item) {
             return pull;
         }
     }
     while (work.take()) {
-        const Verdict verdict = judge(top());
-        if (verdict == Verdict::coarse) {
+        if (const Verdict verdict = judge(top()); verdict == Verdict::coarse) {
             split();
         } else if (verdict == Verdict::fine) {
-            if (in_cusp_) { // the cusp comes first; this piece is judged again
-                fill_chord(false, out);
+            if (in_cusp_) {
+                fill_chord(false, out); // it comes first; this piece is judged again
                 return Pull::item;
             }
             fill(top(), out);

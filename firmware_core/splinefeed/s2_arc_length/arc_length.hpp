@@ -52,7 +52,8 @@ public:
 private:
     friend struct CounterSeam; // a test starts counters near their ends
 
-    static constexpr int deepest = 18; ///< halvings of a segment; after that a piece is accepted as it is
+    static constexpr int deepest = 18;           ///< halvings of a segment; after that a piece is accepted as it is
+    static constexpr unsigned segment_steps = 3; ///< a segment of a curve takes as long as so many pieces
 
     enum class Verdict : std::uint8_t { fine, coarse, cusp };
 

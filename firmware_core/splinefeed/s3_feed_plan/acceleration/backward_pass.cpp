@@ -17,13 +17,13 @@ void BackwardPass<S>::begin(const CellWindow<S>& window, S ratio, bool open_end)
 template <Scalar S>
 bool BackwardPass<S>::run(CellWindow<S>& window, const MotionLimits<S>& limits, WorkBudget& work) noexcept {
     while (cells_ > 0) {
-        if (!work.take()) {
+        PlannedCell<S>& here = window.at(cells_ - 1);
+        const bool comes_first = here.peak.entry_sq < S{};
+        if (!work.take(comes_first ? 2 : 1)) {
             return false;
         }
-        PlannedCell<S>& here = window.at(cells_ - 1);
-        if (here.peak.entry_sq < S{}) {
+        if (comes_first) {
             here.peak = AccelerationBound<S>(here.cell, limits).peak(here.cap_sq);
-            work.charge();
         }
         visit(window, limits);
     }
