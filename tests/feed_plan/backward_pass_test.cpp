@@ -75,7 +75,7 @@ TEMPLATE_TEST_CASE("a pass in parts is the same as a whole one", "[pass]", doubl
         for (const unsigned work : {1U, 2U, 7U}) {
             const Passed<S> parts = pass_over<S>(cells, *limits, ratio, open_end, work);
             CHECK(parts.pass.last_final() == whole.pass.last_final());
-            // A cell is two steps, because its peak is not known yet, or one where the budget ends between the two.
+            // The peak of a cell, which is not known yet, may take a call of its own.
             CHECK(parts.calls * work + 1 >= cells.size());
             CHECK(parts.calls <= 2 * cells.size() + 1);
             for (std::size_t i = 0; i < cells.size(); ++i) {

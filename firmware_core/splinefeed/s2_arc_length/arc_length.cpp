@@ -291,10 +291,10 @@ template <Scalar S>
 Pull ArcLength<S>::load() noexcept {
     if (!has_current_) {
         const Pull pull = has_ahead_ ? Pull::item : source_.next(slots_[current_]);
-        if (pull != Pull::item) {
+        has_current_ = pull == Pull::item;
+        if (!has_current_ || !has_ahead_) { // the first segment of all: the one after it is another step
             return pull;
         }
-        has_current_ = true;
         has_ahead_ = false;
     }
     CurveSegment<S>& ahead = slots_[1 - current_];
@@ -350,13 +350,13 @@ void ArcLength<S>::split() noexcept {
 
 template <Scalar S>
 Pull ArcLength<S>::next(Cell<S>& out, WorkBudget& work) noexcept {
-    if (depth_ == 0) {
+    while (depth_ == 0) {
         const Pull pull = work.take(segment_steps) ? load() : Pull::busy;
         if (pull != Pull::item) {
             return pull;
         }
     }
-    while (work.take()) {
+    while (work.take(piece_steps)) {
         if (const Verdict verdict = judge(top()); verdict == Verdict::coarse) {
             split();
         } else if (verdict == Verdict::fine) {

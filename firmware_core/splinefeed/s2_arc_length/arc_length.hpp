@@ -35,7 +35,8 @@ public:
         slow_before_ = slow_ = slow_after_ = false;
     }
     /// Writes the next cell in the order of travel. The path ends before a segment that does not fit the machine: see
-    /// status(). `busy`: the budget is spent; call again. A step is a piece that is judged, or a segment of the source.
+    /// status(). `busy`: the budget is spent; call again. A piece that is judged is three steps, a segment
+    /// of the source four.
     Pull next(Cell<S>& out, WorkBudget& work) noexcept;
     /// The same without a bound.
     Pull next(Cell<S>& out) noexcept {
@@ -53,7 +54,8 @@ private:
     friend struct CounterSeam; // a test starts counters near their ends
 
     static constexpr int deepest = 18;           ///< halvings of a segment; after that a piece is accepted as it is
-    static constexpr unsigned segment_steps = 3; ///< a segment of a curve takes as long as so many pieces
+    static constexpr unsigned segment_steps = 4; ///< of the budget, for a segment of the source
+    static constexpr unsigned piece_steps = 3;   ///< for a piece that is judged, and filled in where it is a cell
 
     enum class Verdict : std::uint8_t { fine, coarse, cusp };
 

@@ -18,12 +18,14 @@ template <Scalar S>
 bool BackwardPass<S>::run(CellWindow<S>& window, const MotionLimits<S>& limits, WorkBudget& work) noexcept {
     while (cells_ > 0) {
         PlannedCell<S>& here = window.at(cells_ - 1);
-        const bool comes_first = here.peak.entry_sq < S{};
-        if (!work.take(comes_first ? 2 : 1)) {
-            return false;
-        }
-        if (comes_first) {
+        if (here.peak.entry_sq < S{}) {
+            if (!work.take(peak_steps)) {
+                return false;
+            }
             here.peak = AccelerationBound<S>(here.cell, limits).peak(here.cap_sq);
+        }
+        if (!work.take()) {
+            return false;
         }
         visit(window, limits);
     }

@@ -12,7 +12,7 @@ namespace splinefeed {
 /// Goes over a window from its end to its front, in as many parts as its caller wants. In every cell that it has
 /// passed, `entry_sq` is the largest entry from which the machine's K after the cell can be reached, and `exit_sq` the
 /// K of the steering there. The window must not change while the pass runs. Cost: a step of the budget for each cell,
-/// and one for a cell that comes for the first time; a step is two products and sums for each axis, and as much again
+/// and four for a cell that comes for the first time; a step is two products and sums for each axis, and as much again
 /// under a reduced feed.
 template <Scalar S>
 class BackwardPass {
@@ -35,6 +35,8 @@ public:
     [[nodiscard]] std::size_t last_final() const noexcept { return last_final_; }
 
 private:
+    static constexpr unsigned peak_steps = 4;
+
     void visit(CellWindow<S>& window, const MotionLimits<S>& limits) noexcept;
 
     std::size_t cells_ = 0; // that are still to be visited
