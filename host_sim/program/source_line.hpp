@@ -24,7 +24,8 @@ inline constexpr std::string_view cut_line =
 
 using SourceLines = RowSource<SourceLine>;
 
-/// Memory: one line. What lines are: plain_text; the last one may end with the file. After stop() there is no further line, and none that is cut off.
+/// Memory: one line. What lines are: plain_text; the last one may end with the file. After stop() there is no further
+/// line, and none that is cut off.
 class LineReader final : public SourceLines {
 public:
     static constexpr std::size_t longest_line = 65536; ///< bytes, comments included
