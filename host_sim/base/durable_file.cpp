@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -32,11 +33,20 @@ bool write_all(int descriptor, std::string_view text) {
 
 } // namespace
 
-void replace_durably(const std::string& path, std::string_view text) {
+// A symbolic link stays one, and the file keeps its permissions.
+void replace_durably(const std::string& name, std::string_view text) {
+    std::error_code is_new;
+    const std::filesystem::path real = std::filesystem::canonical(name, is_new);
+    const std::string path = is_new ? name : real.string();
+    struct stat old {};
+    const bool exists = ::stat(path.c_str(), &old) == 0;
     const std::string aside = path + ".new";
     const int file = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) {
         fail(path, errno);
+    }
+    if (exists) {
+        static_cast<void>(::fchmod(file, old.st_mode & 07777)); // best effort
     }
     const bool written = write_all(file, text) && ::fsync(file) == 0;
     const int error = errno;

@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/input_stream.hpp"
+#include "host_sim/base/plain_text.hpp"
 
 #include <array>
 #include <filesystem>
@@ -26,7 +27,7 @@ std::string read_text_file(const std::string& path, std::size_t largest) {
     } catch (const std::ios_base::failure&) {
         throw InputError(path, 0, "cannot be read; it must be a file or a pipe");
     }
-    return text;
+    return std::string(plain_text(text, path));
 }
 
 bool is_regular_file(const std::string& path) {

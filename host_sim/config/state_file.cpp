@@ -2,6 +2,7 @@
 #include "host_sim/config/state_file.hpp"
 
 #include "host_sim/base/durable_file.hpp"
+#include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/json_text.hpp"
 #include "host_sim/base/text_file.hpp"
@@ -127,6 +128,7 @@ bool is_there(const std::string& path) {
 
 std::optional<MachineState> read_state_file(const std::string& path, const std::vector<std::string>& axes) {
     if (!is_there(path)) {
+        FileClaims::writes(path); // no other output may be the state that comes to be
         return std::nullopt;
     }
     const nlohmann::json json = parse_json(read_text_file(path, largest_file), path);

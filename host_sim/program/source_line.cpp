@@ -2,6 +2,7 @@
 #include "host_sim/program/source_line.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/plain_text.hpp"
 #include "host_sim/base/text_file.hpp"
 
 #include <algorithm>
@@ -14,15 +15,6 @@ namespace splinefeed::host {
 LineReader::LineReader(const std::string& path, const std::string& name)
     : input_(path, name), name_(name), file_(is_regular_file(path == "-" ? "/dev/stdin" : path)) {}
 
-// Editors begin a text with the mark of its encoding.
-void LineReader::leave_out_mark(std::string& text) const {
-    if (text.starts_with("\xef\xbb\xbf")) {
-        text.erase(0, 3);
-    } else if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-        throw InputError(name_, lines_, "the text is UTF-16; save it as UTF-8 or ASCII");
-    }
-}
-
 bool LineReader::next(SourceLine& out) {
     using Traits = std::streambuf::traits_type;
     out.text.clear();
@@ -32,7 +24,11 @@ bool LineReader::next(SourceLine& out) {
         for (;;) {
             if (Traits::eq_int_type(input_.sgetc(), Traits::eof())) {
                 out.whole = file_;
-                return !out.text.empty() && !stopped_;
+                if (stopped_) {
+                    return false;
+                }
+                out.text = plain_line(out.text, name_, lines_, true);
+                return !out.text.empty();
             }
             const std::string_view here = input_.arrived();
             const std::size_t end = here.find('\n');
@@ -44,12 +40,7 @@ bool LineReader::next(SourceLine& out) {
             out.text += part;
             input_.skip(std::min(part.size() + 1, here.size()));
             if (end != std::string_view::npos) {
-                if (!out.text.empty() && out.text.back() == '\r') {
-                    out.text.pop_back();
-                }
-                if (lines_ == 1) {
-                    leave_out_mark(out.text);
-                }
+                out.text = plain_line(out.text, name_, lines_, false);
                 return true;
             }
         }

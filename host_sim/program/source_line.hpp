@@ -24,8 +24,8 @@ inline constexpr std::string_view cut_line =
 
 using SourceLines = RowSource<SourceLine>;
 
-/// Memory: one line. Lines end with \n or \r\n; the last one may end with the file. A mark of UTF-8
-/// at the beginning is left out. After stop() there is no further line, and none that is cut off.
+/// Memory: one line. What lines are: plain_text; the last one may end with the file. After stop() there is no further
+/// line, and none that is cut off.
 class LineReader final : public SourceLines {
 public:
     static constexpr std::size_t longest_line = 65536; ///< bytes, comments included
@@ -41,8 +41,6 @@ public:
     }
 
 private:
-    void leave_out_mark(std::string& text) const;
-
     InputStream input_;
     std::string name_;
     std::uint64_t lines_ = 0;

@@ -4,6 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
+#include "host_sim/base/plain_text.hpp"
 
 #include "host_sim/config/path_tolerances.hpp"
 
@@ -155,12 +156,7 @@ bool WaypointReader::next_line(std::string_view& line) {
         searched = length;
         ended_ = !fill();
     }
-    if (line_ == 1 && line.substr(0, 3) == "\xef\xbb\xbf") {
-        line.remove_prefix(3);
-    }
-    if (line.find('\0') != std::string_view::npos) {
-        fail("the line holds a NUL byte; a waypoint file is plain text (ASCII or UTF-8)");
-    }
+    line = plain_line(line, file_, line_, ended_ && begin_ == end_);
     return true;
 }
 

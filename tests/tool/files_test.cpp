@@ -5,6 +5,7 @@
 #include "tool.hpp"
 
 #include <nlohmann/json.hpp>
+#include <vector>
 
 using splinefeed::test::Call;
 using splinefeed::test::Tool;
@@ -247,5 +248,45 @@ TEST_CASE("a full disk under standard error ends nothing, one under standard out
         CHECK(call.status == 2);
         CHECK(one_line(call.error));
         CHECK(contains(call.error, "splinefeed: standard output: "));
+    }
+}
+
+TEST_CASE("what counts as text is the same for every input") {
+    const Tool tool;
+    write_inputs(tool);
+    struct Input {
+        const char* name;
+        std::string text;
+        const char* use;
+    };
+    const std::vector<Input> all{{"i.csv", program, "plan i.csv --quiet"},
+                                 {"i.ngc", "G0 X1\nX2\n", "plan i.ngc --quiet"},
+                                 {"i.toml", machine, "plan p.csv --quiet -m i.toml"},
+                                 {"i_events.csv", events, "plan p.csv --quiet --events i_events.csv"},
+                                 {"i.tbl", "T1 P1 Z5\n", "plan g.ngc --quiet --tools i.tbl"}};
+    tool.write("g.ngc", "G0 X1\n");
+    const auto with_returns = [](std::string text, const std::string& end) {
+        for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + end.size())) {
+            text.replace(at, 1, end);
+        }
+        return text;
+    };
+    for (const Input& input : all) {
+        CAPTURE(input.name);
+        const auto call = [&](const std::string& text) {
+            tool.write(input.name, text);
+            return tool(input.use);
+        };
+        for (const std::string& text : {input.text, "\xef\xbb\xbf" + input.text, with_returns(input.text, "\r\n"),
+                                        with_returns(input.text, "\r\n") + "\x1a"}) {
+            const Call taken = call(text);
+            CAPTURE(text, taken.error);
+            CHECK(taken.status == 0);
+        }
+        const std::string first = std::string(input.name) + ":1: ";
+        CHECK(contains(call("\xff\xfe" + input.text).error, first + "the text is UTF-16; save it as UTF-8 or ASCII\n"));
+        CHECK(contains(call(std::string(1, '\0') + input.text).error, first + "the line holds a NUL byte; "));
+        CHECK(contains(call("\r" + with_returns(input.text, "\r")).error, first + "the line holds a CR alone; "));
+        CHECK(call("\r" + with_returns(input.text, "\r")).status == 2);
     }
 }

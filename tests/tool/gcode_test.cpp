@@ -164,7 +164,7 @@ TEST_CASE("What is wrong is said with line and column, before anything moves") {
     CHECK(error_of(tool, "G1 X10\n").find("part.ngc:1:1: 'G1': ") == 0);
     CHECK(error_of(tool, "G1 X10 (open\n").find("part.ngc:1:8: ") == 0);
     CHECK(error_of(tool, "M104 S200\n").find("part.ngc:1:1: 'M104': ") == 0);
-    CHECK(error_of(tool, std::string("G1 \0X1 F100\n", 12)).find("part.ngc:1:4: ") == 0);
+    CHECK(error_of(tool, std::string("G1 \0X1 F100\n", 12)).find("part.ngc:1: the line holds a NUL byte; ") == 0);
     CHECK(error_of(tool, std::string(1'000'000, 'X')).find("part.ngc:1: the line is longer than") == 0);
     CHECK(error_of(tool, "G1 X" + std::string(200, '9') + " F100\n").find("part.ngc:1:4: ") == 0);
     CHECK(error_of(tool, "G1 X1 F100\n", "--curve g2").find("splinefeed: --curve: ") == 0);

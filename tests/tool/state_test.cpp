@@ -110,3 +110,17 @@ TEST_CASE("A crash while the state is written leaves the old one or the new one"
     }
     CHECK(written > 0);
 }
+
+TEST_CASE("A state that is a symbolic link stays one, keeps its permissions, and is no other output") {
+    const Tool tool;
+    tool.write("a.ngc", "G0 X10\nM2\n");
+    REQUIRE(tool("run a.ngc --state s.json --trace s.json --quiet").status == 2);
+    REQUIRE(tool.holds_only("a.ngc"));
+    REQUIRE(tool("run a.ngc --state s.json --quiet").status == 0);
+    REQUIRE(tool.shell("chmod 600 s.json && mkdir d && ln -s ../s.json d/link.json").status == 0);
+    tool.write("b.ngc", "G0 X20\nM2\n");
+    REQUIRE(tool("run b.ngc --state d/link.json --quiet").status == 0);
+    CHECK(tool.shell("test -L d/link.json").status == 0);
+    CHECK(json::parse(tool.read("s.json"))["position_mm"][0] == 20.0);
+    CHECK(tool.shell("stat -c %a s.json").output == "600\n");
+}

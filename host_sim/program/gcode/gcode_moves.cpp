@@ -3,6 +3,7 @@
 
 #include "host_sim/config/decimal_number.hpp"
 #include "host_sim/program/element_cast.hpp"
+#include "host_sim/program/gcode/dialect_hint.hpp"
 #include "host_sim/program/gcode/impossible_event.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
@@ -14,6 +15,7 @@
 #include "splinefeed/s0_program/interpreter.hpp"
 #include "splinefeed/s0_program/text_cursor.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
@@ -158,7 +160,11 @@ void GcodeMoves<S>::read_line() {
     if (status.ok()) {
         return;
     }
-    report({file_, line_.number, std::uint64_t{status.column}, in_the_line(status) + describe(status.error)});
+    const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
+    const std::string_view hint =
+        dialect_hint(text.substr(std::min(at, text.size())), status.error, settings_->dialect);
+    report({file_, line_.number, std::uint64_t{status.column},
+            in_the_line(status) + (hint.empty() ? describe(status.error) : std::string(hint))});
 }
 
 // One line at a time: whoever waits for a pipe wants to know after each.

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/gcode/dialect_hint.hpp"
+
+#include "splinefeed/s0_program/code_table.hpp"
+#include "splinefeed/s0_program/decimal.hpp"
+#include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/text_cursor.hpp"
+
+namespace splinefeed::host {
+
+namespace {
+
+bool is_printer_word(std::string_view text) {
+    TextCursor cursor(text);
+    Decimal number;
+    if (!cursor.take('m') || !read_decimal(cursor, number).ok() || number.raw % Decimal::one != 0) {
+        return false;
+    }
+    const CodeInfo info = find_m_code(static_cast<std::int32_t>(number.raw / Decimal::one), Dialect::marlin);
+    return info.group == CodeGroup::printer && info.refusal == Error::none;
+}
+
+} // namespace
+
+std::string_view dialect_hint(std::string_view text, Error error, Dialect dialect) {
+    const char first = TextCursor(text).peek();
+    switch (error) {
+    case Error::m_code_unknown:
+    case Error::user_code_unsupported:
+        return dialect != Dialect::marlin && is_printer_word(text)
+                   ? "this dialect does not have the word; --dialect marlin does"
+                   : "";
+    case Error::word_unused:
+        return dialect != Dialect::marlin && first == 'e'
+                   ? "E is the filament of a printer; --dialect marlin has it, and --ignore E leaves it out"
+                   : "";
+    case Error::character_invalid:
+        if (first == '$' && dialect != Dialect::grbl) {
+            return "$ begins a command of grbl; --dialect grbl has $H";
+        }
+        if (first == '?' || first == '!' || first == '~' || first == '\x18') {
+            return "grbl takes this byte as a command of the sender, at once; in a program write M0 to pause, or leave "
+                   "it out";
+        }
+        return "";
+    default: return "";
+    }
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// dialect_hint: a word that another dialect has.
+#pragma once
+
+#include "splinefeed/base/status.hpp"
+#include "splinefeed/s0_program/program_settings.hpp"
+
+#include <string_view>
+
+namespace splinefeed::host {
+
+/// What would be right where a line was refused because it is another control's. Empty: describe(error) says it.
+/// @param text  of the line, from what is wrong on
+[[nodiscard]] std::string_view dialect_hint(std::string_view text, Error error, Dialect dialect);
+
+} // namespace splinefeed::host
