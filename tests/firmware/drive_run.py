@@ -17,8 +17,8 @@ import time
 
 from board_in_qemu import Board, BoardFailed
 from faulty_line import FaultyLine
-from firmware_run import (AXES, ESTOP, LIMIT, LINES, MACHINE, STEPS_PER_MM, Plan, check, counts_after, counts_at, of_axis, steps_of,
-                          waypoints)
+from firmware_run import (AXES, ESTOP, LIMIT, LINES, MACHINE, STEPS_PER_MM, Plan, check, counts_after, counts_at, of_axis, slowed,
+                          steps_of, waypoints)
 
 PROFILE = "hal/profiles/splinefeed-pvt.toml"
 SHARE = 0.03  # of the frames
@@ -28,7 +28,7 @@ RUN_S = 600
 
 def patient(profile):
     """The profile, for a host that is busy."""
-    profile = re.sub(r"^response_timeout_ms = \d+$", "response_timeout_ms = 500", profile, flags=re.MULTILINE)
+    profile = re.sub(r"^response_timeout_ms = \d+$", "response_timeout_ms = 1000", profile, flags=re.MULTILINE)
     return re.sub(r"^timeout_ms = \d+ +#", "timeout_ms = 20000 #", profile, flags=re.MULTILINE)
 
 
@@ -40,6 +40,11 @@ class Drive:
         self.profile = f"{folder}/drive.toml"
         with open(PROFILE, encoding="utf-8") as shipped, open(self.profile, "w", encoding="utf-8") as out:
             out.write(patient(shipped.read()))
+        self.machine = MACHINE
+        if self.board.kind.slow:
+            self.machine = f"{folder}/slow.toml"
+            with open(MACHINE, encoding="utf-8") as fast, open(self.machine, "w", encoding="utf-8") as out:
+                out.write(slowed(fast.read()))
         if self.board.kind.buttons:  # QEMU shows them as pressed until each was released once
             for key in (LIMIT, ESTOP):
                 self.board.key(key, True)
@@ -59,7 +64,7 @@ class Drive:
         begun = time.monotonic()
         try:
             address = f"modbus-rtu://{line.path}?parity=N&stop=1&profile={self.profile}"
-            run = subprocess.run([self.tool, "run", path, "-m", MACHINE, "--target", address, "--summary", "json"],
+            run = subprocess.run([self.tool, "run", path, "-m", self.machine, "--target", address, "--summary", "json"],
                                  capture_output=True, text=True, timeout=RUN_S, check=False)
         finally:
             line.close()
