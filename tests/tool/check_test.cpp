@@ -79,7 +79,7 @@ TEST_CASE("check knows M66: the time-outs of inputs that are low, and a number t
     const Call bare = tool("check part.ngc -m bare.toml --json");
     CHECK(bare.status == 0);
     const json report = json::parse(bare.output);
-    CHECK(report["dwell_s"] == 4.0);
+    CHECK(report["dwell_s"].get<double>() == Approx(4.0));
     CHECK(report["feed_box"]["x"][1] == 15.0);
     const Call call = tool("check part.ngc -m m.toml");
     CHECK(call.status == 1);

@@ -161,7 +161,8 @@ S BlendedPath<S>::wish(std::uint64_t i) const noexcept {
     return joint.kind == JointKind::blend && i + 1 < known_ ? joint.way : S{};
 }
 
-// Decides the blend at the end of the present move. @pre the two moves behind it are known, or the input has finished
+// Decides the blend at the end of the present move. @pre the two moves behind it are known, or there is a stop before
+// them, or the input has finished
 template <Scalar S>
 void BlendedPath<S>::fit_joint() noexcept {
     Entry& present = entry(next_);
@@ -336,7 +337,8 @@ Pull BlendedPath<S>::next(CurveSegment<S>& out) noexcept {
         if (next_ == known_) {
             return finished_ ? Pull::finished : Pull::starved;
         }
-        if (!finished_ && next_ + 2 >= known_) {
+        // What comes behind a stop does not shape what comes before it.
+        if (!finished_ && next_ + 2 >= known_ && !entry(known_ - 1).stop_at_end) {
             return Pull::starved;
         }
         fit_joint();

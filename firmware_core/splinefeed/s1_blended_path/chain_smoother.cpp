@@ -368,7 +368,10 @@ Pull ChainSmoother<S>::next(IndexedMove<S>& out) noexcept {
         if (finished_) {
             close();
         } else if (points_.last() - front_ < look_ahead) {
-            return Pull::starved;
+            if (end_.passes_end()) {
+                return Pull::starved;
+            }
+            close(); // behind a stop nothing goes on
         }
     }
     const ChainPoint<S>& ahead = points_[front_ + 1];

@@ -286,7 +286,7 @@ void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     after_cusp_ = true;
 }
 
-// Makes the next segment current. It waits for the segment after it, because a stop at its end shapes its cells.
+// Makes the next segment current. Unless it stops, it waits for the one after it: a stop at its end shapes its cells.
 template <Scalar S>
 Pull ArcLength<S>::load() noexcept {
     if (!has_current_) {
@@ -299,7 +299,7 @@ Pull ArcLength<S>::load() noexcept {
     }
     CurveSegment<S>& ahead = slots_[1 - current_];
     const Pull pull = source_.next(ahead);
-    if (pull == Pull::starved) {
+    if (pull == Pull::starved && !current().stop_at_end) {
         return Pull::starved;
     }
     has_ahead_ = pull == Pull::item;
