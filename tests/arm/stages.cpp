@@ -195,8 +195,7 @@ void write_parts() {
     FeedSegment& segment = Static<FeedSegment>::build();
     SegmentHash hash;
     const Work work = pull(
-        curve, [&] { return trajectory.next(segment, UnderrunPolicy::wait, work_a_call); },
-        [&] { hash.add(segment); });
+        curve, [&] { return trajectory.next(segment, UnderrunPolicy::wait, work_a_call); }, [&] { hash.add(segment); });
     write_cost("parts_waypoint", work.counts, waypoints);
     write_cost("parts_longest_call", work.most, 1);
     write_value("parts hash", hash.value());
