@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any O words, with blocks between them: a program goes on, ends, or is refused at one of its lines; what is executed
-// are its lines; a call leaves the parameters of its caller as they were.
+// are its lines; a call leaves the parameters of its caller as they were. Where problems are collected, as by `check`,
+// each names a line of the program, once.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -108,7 +110,8 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-void run(const std::vector<std::string>& text) {
+/// @param problems  null: the first one ends the program
+void run(const std::vector<std::string>& text, std::vector<std::string>* problems) {
     constexpr int most_steps = 4'000; // loops without an end would only take time
     TextLines lines(text);
     ParameterMemory parameters;
@@ -116,7 +119,7 @@ void run(const std::vector<std::string>& text) {
     const ProgramSettings settings;
     Interpreter<double> interpreter(settings, &expression);
     interpreter.start({});
-    ProgramFlow flow(lines, "p", expression, interpreter, parameters);
+    ProgramFlow flow(lines, "p", expression, interpreter, parameters, problems);
     SourceLine line;
     ProgramItem<double> item;
     for (int steps = 0; steps < most_steps && !interpreter.has_ended(); ++steps) {
@@ -137,20 +140,34 @@ void run(const std::vector<std::string>& text) {
     }
 }
 
+/// Whether it begins with a place in this program, "p:LINE".
+bool names_a_line(const std::string& what, std::size_t lines) {
+    const int line = what.rfind("p:", 0) == 0 ? std::atoi(what.c_str() + 2) : 0;
+    return line >= 1 && line <= static_cast<int>(lines);
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     splinefeed_test::Bytes bytes{data, size};
-    const bool as_text = (bytes.take() & 1U) != 0;
+    const unsigned choices = bytes.take();
+    const bool as_text = (choices & 1U) != 0;
+    const bool checks = (choices & 2U) != 0;
     const std::vector<std::string> lines =
         lines_of(as_text ? std::string(reinterpret_cast<const char*>(bytes.data), bytes.left) : text_of_parts(bytes));
+    std::vector<std::string> problems;
     try {
-        run(lines);
+        run(lines, checks ? &problems : nullptr);
     } catch (const InputError& error) {
-        const std::string what = error.what();
-        if (what.rfind("p:", 0) != 0 || std::atoi(what.c_str() + 2) < 1 ||
-            std::atoi(what.c_str() + 2) > static_cast<int>(lines.size())) {
-            fail("an error without its line", what);
+        problems.emplace_back(error.what());
+    }
+    std::set<std::string> told;
+    for (const std::string& problem : problems) {
+        if (!names_a_line(problem, lines.size())) {
+            fail("an error without its line", problem);
+        }
+        if (!told.insert(problem).second) {
+            fail("told twice", problem);
         }
     }
     return 0;
