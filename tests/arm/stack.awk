@@ -15,7 +15,9 @@ BEGIN {
     # plan: a FeedPlan, or where motions are averaged a SmoothPlan. What makes the trajectory asks its planner.
     # A call asks for those of the method that it names.
     of = "I" (scalar == "float" ? "f" : "NS_5FixedE") "E"
-    plan = "^_ZNK?10splinefeed" (smooth ? "10SmoothPlan" : "8FeedPlan") of "(4cell|5clear|5steer|7advance|7prepare|7rest_at|8standing)E"
+    served = of "(4cell|5clear|5steer|6replan|7advance|7prepare|7rest_at|8standing)E"
+    plan = smooth ? "^_ZNK?10splinefeed10SmoothPlan" served "|^_ZN10splinefeed10MotionPlan" of "6replanE" \
+                  : "^_ZNK?10splinefeed8FeedPlan" served
     sampler = "^_ZNK?10splinefeed" (smooth ? "13SmoothSampler" : "14ProfileSampler") of "(4next|5clear|7at_rest)E"
     planner = "^_ZNK?10splinefeed" (smooth ? "14BoundedPlanner" : "19AccelerationPlanner") of "(4fits|5build)E"
     curve = scalar == "float" ? "_ZN10splinefeed18ControlPointStreamIfNS_11PlainJointsIfEEE4nextERNS_12CurveSegmentIfEE" \
@@ -120,7 +122,7 @@ END {
         samplers += name ~ sampler
         planners += name ~ planner
     }
-    # Seven functions of a plan, three of a sampler, two of a planner: those that were renamed would be left out.
+    # Eight functions of a plan, three of a sampler, two of a planner: those that were renamed would be left out.
     if (smooth != "none" && (plans < 5 || samplers < 2 || planners < 2)) {
         fail(plans " functions of plans, " samplers " of samplers and " planners " of planners have the names that are known here")
     }
