@@ -31,13 +31,26 @@ bool write_all(int descriptor, std::string_view text) {
     return true;
 }
 
+/// The file itself, where the name is that of a symbolic link; it need not be there yet.
+std::string file_of(const std::string& name) {
+    constexpr int most_links = 40; // as the kernel has it
+    std::filesystem::path path = name;
+    std::error_code no_link;
+    for (int i = 0; i < most_links; ++i) {
+        const std::filesystem::path target = std::filesystem::read_symlink(path, no_link);
+        if (no_link) {
+            return path.string();
+        }
+        path = path.parent_path() / target;
+    }
+    fail(name, ELOOP);
+}
+
 } // namespace
 
 // A symbolic link stays one, and the file keeps its permissions.
 void replace_durably(const std::string& name, std::string_view text) {
-    std::error_code is_new;
-    const std::filesystem::path real = std::filesystem::canonical(name, is_new);
-    const std::string path = is_new ? name : real.string();
+    const std::string path = file_of(name);
     struct stat old {};
     const bool exists = ::stat(path.c_str(), &old) == 0;
     const std::string aside = path + ".new";

@@ -50,7 +50,7 @@ function quoted(line, key) {
 }
 
 function place_of(line) {
-    return substr(line, match(line, /label: "/) + 8, length(line)) 
+    return substr(line, match(line, /label: "/) + 8, length(line))
 }
 
 # The method that is called in FILE:LINE:COLUMN, which is behind its name.

@@ -34,6 +34,9 @@ TEST_CASE("a long piece of work waits for a call of its own, and is done there h
     WorkBudget small(1);
     CHECK(small.take(3));
     CHECK(small.spent());
+    WorkBudget begun(1);
+    begun.charge();
+    CHECK_FALSE(begun.take()); // something was done already
     WorkBudget enough(4);
     CHECK(enough.take());
     CHECK(enough.take(3));

@@ -8,6 +8,8 @@
 
 #include <random>
 
+#include <filesystem>
+
 using namespace splinefeed;
 using namespace splinefeed::host;
 using namespace splinefeed_test;
@@ -65,6 +67,22 @@ TEST_CASE("What is no state of this machine is refused, not taken for offsets of
         replace_durably(file, text);
         CHECK(refusal(xyz) != "accepted");
     }
+}
+
+TEST_CASE("A symbolic link to a state that is not there yet stays one, and so does one to a link") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.file("kept"));
+    std::filesystem::create_symlink("kept/state.json", folder.file("near"));
+    std::filesystem::create_symlink(folder.file("near"), folder.file("far"));
+    for (const char* const name : {"far", "near", "far"}) {
+        write_state_file(folder.file(name), xyz, {});
+        CHECK(std::filesystem::is_symlink(folder.file("near")));
+        CHECK(std::filesystem::is_symlink(folder.file("far")));
+        CHECK(std::filesystem::is_regular_file(folder.file("kept/state.json")));
+        std::filesystem::remove(folder.file("kept/state.json"));
+    }
+    std::filesystem::create_symlink("loop", folder.file("loop"));
+    CHECK_THROWS(write_state_file(folder.file("loop"), xyz, {}));
 }
 
 TEST_CASE("A state that may be there and cannot be read is an error, and no state of 0") {

@@ -70,8 +70,8 @@ Round random_round(Random& random, PlanKind planner) {
     round.window = windows[random.integer(0, 3)];
     round.policy = random.chance(0.5) ? UnderrunPolicy::drain : UnderrunPolicy::wait;
     round.pace = random.decades(0.001, 0.3);
-    round.work = random.chance(0.5) ? static_cast<unsigned>(random.integer(1, 20)) : WorkBudget::unlimited;
     round.events = random_orders(random);
+    round.work = random.chance(0.5) ? static_cast<unsigned>(random.integer(1, 20)) : WorkBudget::unlimited;
     return round;
 }
 
@@ -114,24 +114,23 @@ void emit(AnyTrajectory<S>& any, Curve& curve, const std::vector<Feed<S>>& feeds
     std::size_t next = 0;
     Stop stop;
     bool stopping = false;
-    FeedSegment segment;
-    while (!out.endless) {
-        // A request may come in the middle of a part, too.
-        const std::size_t now = out.segments.size() + (trajectory.state() == Pull::busy ? 1U : 0U);
+    const auto order = [&](std::size_t now) {
         for (; next < round.events.size() && round.events[next].segment <= now; ++next) {
             const bool before = stopping;
             give(trajectory, round.events[next]);
             stopping = trajectory.activity() == Activity::holding || trajectory.activity() == Activity::aborting;
             stop = stopping && !before ? Stop{out.segments.size(), 0, any.smoothing_q8()} : stop;
         }
+    };
+    FeedSegment segment;
+    while (!out.endless) {
+        order(out.segments.size());
         if (random.chance(round.pace)) {
             push();
         }
-        if (round.work != WorkBudget::unlimited && random.chance(0.3)) {
+        while (trajectory.next(segment, round.policy, round.work) == Pull::busy) {
+            order(out.segments.size() + 1); // requests come in the middle of a plan, too
             trajectory.measure_ahead(round.work);
-        }
-        if (trajectory.next(segment, round.policy, round.work) == Pull::busy) {
-            continue; // the machine has segments in store
         }
         const bool item = trajectory.state() == Pull::item;
         const Activity activity = trajectory.activity();

@@ -202,8 +202,9 @@ void PvtDrive::fail(PvtFault fault, unsigned axis) noexcept {
 
 void PvtDrive::poll(bool limit) noexcept {
     notice_inputs(limit);
+    const bool done = drained(); // first: what was executed until then is published with the new state
     publish_executed();
-    if (ends_ && drained()) {
+    if (ends_ && done) {
         const bool left_path = motion_ == Motion::each_axis;
         stand(then_);
         if (left_path) {

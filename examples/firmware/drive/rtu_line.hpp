@@ -19,7 +19,8 @@ struct RtuTiming {
     unsigned patience = 1; ///< for the rest of a request to this unit: shorter than any master waits for an answer
 };
 
-/// Half duplex: what comes in while a request is answered is dropped, an echo too.
+/// Half duplex: what comes in while a request is answered is dropped. An echo is not all of that: the UART still sends
+/// its last bytes then. So an adapter must not echo.
 ///
 /// A request ends with a silence. Adapters and computers leave gaps within frames, so one to this unit that is shorter
 /// than its head says may go on for some time; what is for others ends with the first silence.

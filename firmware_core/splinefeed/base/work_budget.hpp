@@ -20,12 +20,12 @@ public:
     /// first piece of a call is always taken.
     [[nodiscard]] constexpr bool take(unsigned steps = 1) noexcept {
         const bool enough = fresh_ || steps <= steps_;
-        fresh_ = false;
         charge(enough ? steps : steps_);
         return enough;
     }
     /// Counts steps that are done in any case, because they belong to the one before them.
     constexpr void charge(unsigned steps = 1) noexcept {
+        fresh_ = false;
         if (steps_ != unlimited) {
             steps_ -= steps < steps_ ? steps : steps_;
         }

@@ -185,6 +185,8 @@ Pull FeedPlan<S>::fill(WorkBudget& work) noexcept {
             if (pull != Pull::item) {
                 return pull;
             }
+        } else if (!work.take()) {
+            return Pull::busy;
         }
         const Cell<S>& added = cell_at(window_.size());
         if (added.stop_before && window_.size() > 0) {
