@@ -6,9 +6,8 @@
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 
-#include <random>
-
 #include <filesystem>
+#include <random>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
