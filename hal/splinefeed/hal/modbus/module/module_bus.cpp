@@ -191,20 +191,19 @@ void ModuleBus::work() {
 
 // What is set while another coil is written comes before the rest: each is looked at again. No lock is held meanwhile.
 void ModuleBus::write_coils() {
-    for (std::size_t i = 0; i < coils_.size(); ++i) {
+    for (Coil& coil : coils_) {
         bool on = false;
         {
             const std::lock_guard lock(mutex_);
-            Coil& coil = coils_[i];
             if (coil.told == coil.wanted) {
                 continue;
             }
             on = coil.wanted;
             coil.told.reset(); // it may take what it does not confirm
         }
-        if (took(coils_[i].bit, write(coils_[i].bit, on))) {
+        if (took(coil.bit, write(coil.bit, on))) {
             const std::lock_guard lock(mutex_);
-            coils_[i].told = on;
+            coil.told = on;
         }
     }
 }
