@@ -8,6 +8,7 @@ pulled_cable.py TOOL PROGRAM MACHINE [--far 1|3] [--away-s S | --netem "loss 3% 
 
 Exit status 77: skipped, with the reason (no root, no ip from iproute2, a kernel without name spaces or netem)."""
 import argparse
+import ipaddress
 import os
 import shutil
 import subprocess
@@ -33,11 +34,11 @@ class Cable:
     """From here (address .1) over a switch to a name space (address .2)."""
 
     def __init__(self):
-        number = os.getpid() % 65000
+        number = os.getpid() % 32768  # as many pairs of names, and networks of four addresses in 198.18/15, which is for tests
         self.space, self.switch = f"sf{number}", f"sfs{number}"
         self.near, self.port, self.behind, self.far = (f"sf{end}{number}" for end in "npbf")
-        net = f"198.18.{number // 256}.{number % 256 // 4 * 4}".rsplit(".", 1)  # 198.18/15 is for tests of networks
-        self.here, self.there = (f"{net[0]}.{int(net[1]) + k}" for k in (1, 2))
+        net = ipaddress.IPv4Address("198.18.0.0") + 4 * number
+        self.here, self.there = str(net + 1), str(net + 2)
 
     def __enter__(self):
         self.missing = ""
