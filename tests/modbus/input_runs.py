@@ -11,10 +11,10 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 
+from case_runs import pymodbus_missing, run_cases
 from drive_processes import Drive
 
 STEPS = 320
@@ -255,22 +255,11 @@ def endless(tool, folder):
 
 
 def main():
-    tool = os.path.abspath(sys.argv[1])
-    try:
-        import pymodbus.server.async_io  # noqa: F401
-    except ImportError as missing:
-        print(f"SKIPPED: {missing} (Debian: apt-get install python3-pymodbus)")
+    if why := pymodbus_missing():
+        print(f"SKIPPED: {why}")
         return 77
-    problems = []
     cases = (whole, held, interrupted, twice, lost, cut, missing_input, analog, missing_coil, endless)
-    for case in [case for case in cases if len(sys.argv) < 3 or case.__name__ in sys.argv[2:]]:
-        with tempfile.TemporaryDirectory(prefix="splinefeed-inputs-") as folder:
-            found = case(tool, folder)
-        print(f"{case.__name__}: {len(found) or 'no'} problems", flush=True)
-        problems += [f"{case.__name__}: {problem}" for problem in found]
-    for problem in problems:
-        print(problem)
-    return 1 if problems else 0
+    return run_cases(os.path.abspath(sys.argv[1]), cases, sys.argv[2:])
 
 
 if __name__ == "__main__":

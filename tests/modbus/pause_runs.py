@@ -9,9 +9,9 @@ import pty
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
+from case_runs import run_cases
 from drive_processes import Drive
 
 STEPS = 320
@@ -107,18 +107,8 @@ def ended(tool, folder):
 
 
 def main():
-    tool = os.path.abspath(sys.argv[1])
-    problems = []
-    for case in (by_signal, optional, by_enter, ended):
-        if len(sys.argv) > 2 and case.__name__ not in sys.argv[2:]:
-            continue
-        with tempfile.TemporaryDirectory(prefix="splinefeed-pause-") as folder:
-            found = case(tool, folder)
-        print(f"{case.__name__}: {len(found) or 'no'} problems", flush=True)
-        problems += [f"{case.__name__}: {problem}" for problem in found]
-    for problem in problems:
-        print(problem)
-    return 1 if problems else 0
+    cases = (by_signal, optional, by_enter, ended)
+    return run_cases(os.path.abspath(sys.argv[1]), cases, sys.argv[2:])
 
 
 if __name__ == "__main__":

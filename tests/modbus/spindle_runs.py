@@ -10,10 +10,10 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 
+from case_runs import pymodbus_missing, run_cases
 from drive_processes import Drive
 
 STEPS = 320
@@ -221,23 +221,11 @@ def absent(tool, folder):
 
 
 def main():
-    tool = os.path.abspath(sys.argv[1])
-    try:
-        import pymodbus.server.async_io  # noqa: F401
-    except ImportError as missing:
-        print(f"SKIPPED: {missing} (Debian: apt-get install python3-pymodbus)")
+    if why := pymodbus_missing():
+        print(f"SKIPPED: {why}")
         return 77
-    problems = []
-    chosen = [case for case in (whole, held, interrupted, twice, drive_fault, lost, silent, too_slow, absent)
-              if len(sys.argv) < 3 or case.__name__ in sys.argv[2:]]
-    for case in chosen:
-        with tempfile.TemporaryDirectory(prefix="splinefeed-spindle-") as folder:
-            found = case(tool, folder)
-        print(f"{case.__name__}: {len(found) or 'no'} problems", flush=True)
-        problems += [f"{case.__name__}: {problem}" for problem in found]
-    for problem in problems:
-        print(problem)
-    return 1 if problems else 0
+    cases = (whole, held, interrupted, twice, drive_fault, lost, silent, too_slow, absent)
+    return run_cases(os.path.abspath(sys.argv[1]), cases, sys.argv[2:])
 
 
 if __name__ == "__main__":
