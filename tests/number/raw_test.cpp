@@ -46,17 +46,19 @@ void check_sum(std::int64_t a, std::int64_t b) {
 
 template <int exponent>
 void check_shift(std::int64_t value) {
-    if (detail::shifted(value, exponent) != detail::checked_shift(value, exponent).raw) {
+    const std::int64_t expected = detail::checked_shift(value, exponent).raw;
+    if (detail::shifted(value, exponent) != expected || detail::any_shift(value, exponent) != expected) {
         FAIL_SAMPLE(value, exponent);
     }
     if constexpr (exponent < 0 && exponent >= -31) {
-        if (detail::halved(value, -exponent) != detail::checked_shift(value, exponent).raw) {
+        if (detail::halved(value, -exponent) != expected) {
             FAIL_SAMPLE(value, exponent);
         }
     }
 }
 
 void check_shifts(std::int64_t value) {
+    check_shift<-80>(value);
     check_shift<-32>(value);
     check_shift<-31>(value);
     check_shift<-30>(value);
@@ -75,6 +77,7 @@ void check_shifts(std::int64_t value) {
     check_shift<30>(value);
     check_shift<31>(value);
     check_shift<32>(value);
+    check_shift<80>(value);
 }
 
 template <class Check>

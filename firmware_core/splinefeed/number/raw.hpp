@@ -77,7 +77,7 @@ inline constexpr int fixed_fraction_bits = 32;
 /// factor * word for a factor of 16 bits.
 [[nodiscard]] constexpr std::int64_t short_times_word(std::int32_t factor, std::uint32_t word) noexcept {
     return static_cast<std::int64_t>(factor * static_cast<std::int32_t>(word & 0xffffU)) +
-           static_cast<std::int64_t>(factor * static_cast<std::int32_t>(word >> 16)) * 65536;
+           (static_cast<std::int64_t>(factor * static_cast<std::int32_t>(word >> 16)) << 16);
 }
 
 /// The same by digits of 16 bits.
@@ -212,9 +212,20 @@ nearest_limit(std::int64_t value) noexcept {
     return (value >> count) + static_cast<std::int64_t>(up);
 }
 
+/// value * 2^count, 0 <= count <= 31; saturates.
+[[nodiscard]] constexpr std::int64_t shifted_up(std::int64_t value, int count) noexcept {
+    const auto upper = static_cast<std::uint32_t>(upper_word(value));
+    return ((upper + (1U << (31 - count))) >> (31 - count)) > 1U
+               ? nearest_limit(value)
+               : static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << count);
+}
+
 /// value * 2^exponent rounded to nearest, ties away from zero; saturates. Any exponent is allowed.
 SPLINEFEED_CALLED [[nodiscard]] constexpr std::int64_t any_shift(std::int64_t value, int exponent) noexcept {
-    return checked_shift(value, exponent).raw;
+    if (exponent < 0) {
+        return exponent >= -31 ? halved(value, -exponent) : checked_shift(value, exponent).raw;
+    }
+    return exponent <= 31 ? shifted_up(value, exponent) : checked_shift(value, exponent).raw;
 }
 
 /// The same; for a constant without a call.
@@ -224,10 +235,7 @@ SPLINEFEED_CALLED [[nodiscard]] constexpr std::int64_t any_shift(std::int64_t va
             return halved(value, -exponent);
         }
         if (exponent >= 0 && exponent < 31) {
-            const auto upper = static_cast<std::uint32_t>(upper_word(value));
-            return ((upper + (1U << (31 - exponent))) >> (31 - exponent)) > 1U
-                       ? nearest_limit(value)
-                       : static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << exponent);
+            return shifted_up(value, exponent);
         }
     }
     return any_shift(value, exponent);
