@@ -6,11 +6,20 @@
 
 #include "splinefeed/number/fixed.hpp"
 #include "splinefeed/number/floating.hpp"
+#include "splinefeed/number/short_fixed.hpp"
 
 namespace splinefeed {
 
 template <class S>
 concept Scalar = Floating<S> || std::same_as<S, Fixed>;
+
+/// What an algorithm over S uses for numbers from -2 to 2, as ratios and directions are: S itself, but one word of Fixed.
+template <Scalar S>
+using Ratio = std::conditional_t<std::same_as<S, Fixed>, ShortFixed, S>;
+
+/// A Scalar, or a shorter number that serves one.
+template <class N>
+concept Numeric = Scalar<N> || std::same_as<N, ShortFixed>;
 
 /// The largest number of S. For float and double it is rounded by far less than matters to anything compared with it.
 template <Scalar S>
@@ -107,6 +116,18 @@ template <Floating S>
     return Fixed::from_raw(detail::shifted(x.raw(), exponent));
 }
 
+/// x / 2, rounded as by scale2.
+template <Numeric N>
+[[nodiscard, gnu::always_inline]] constexpr N half(N x) noexcept {
+    return scale2(x, -1);
+}
+
+/// factor * x.
+template <Scalar S>
+[[nodiscard, gnu::always_inline]] constexpr S times(int factor, S x) noexcept {
+    return static_cast<S>(factor) * x;
+}
+
 /// x|, exact. Fixed::lowest() has no positive counterpart: it overflows to the largest number.
 template <Scalar S>
 [[nodiscard]] constexpr S absolute(S x) noexcept {
@@ -115,14 +136,14 @@ template <Scalar S>
 
 /// The smaller of two numbers.
 template <typename S>
-requires Scalar<S> || std::integral<S>
+requires Numeric<S> || std::integral<S>
 [[nodiscard]] constexpr S smaller(S a, S b) noexcept {
     return b < a ? b : a;
 }
 
 /// The larger of two numbers.
 template <typename S>
-requires Scalar<S> || std::integral<S>
+requires Numeric<S> || std::integral<S>
 [[nodiscard]] constexpr S larger(S a, S b) noexcept {
     return a < b ? b : a;
 }
@@ -149,37 +170,61 @@ template <Floating S>
 
 // ---- conversions
 
-/// An integer as a number of S. Exact, except in float from 2^24 on: rounded to nearest.
-template <Scalar S>
-[[nodiscard]] constexpr S from_integer(std::int32_t value) noexcept {
-    return static_cast<S>(value);
+/// An integer as a number of N. Exact, except in float from 2^24 on: rounded to nearest. @pre it is in the range of N
+template <Numeric N>
+[[nodiscard]] constexpr N from_integer(std::int32_t value) noexcept {
+    if constexpr (Scalar<N>) {
+        return static_cast<N>(value);
+    } else {
+        return N::from_raw(detail::word_of(value, N::fraction_bits));
+    }
 }
 
-/// The nearest number of S, for the host only: on a microcontroller it would need arithmetic in double. @pre value is
-/// in the range of S
-template <Scalar S>
-[[nodiscard]] constexpr S from_double(double value) noexcept {
-    if constexpr (std::same_as<S, Fixed>) {
-        return Fixed::from_double(value);
+/// x * 2^log2 as an N: rounded to nearest, ties away from zero; saturates. In float and double N is S.
+template <Numeric N, Scalar S>
+[[nodiscard, gnu::always_inline]] constexpr N shortened(S x, int log2 = 0) noexcept {
+    if constexpr (std::same_as<N, S>) {
+        return scale2(x, log2);
     } else {
-        return static_cast<S>(value);
+        return N::from_raw(detail::word_of(x.raw(), log2 + N::fraction_bits - detail::fixed_fraction_bits));
+    }
+}
+
+/// The reverse: x * 2^log2 as an S.
+template <Scalar S, Numeric N>
+[[nodiscard, gnu::always_inline]] constexpr S lengthened(N x, int log2 = 0) noexcept {
+    if constexpr (std::same_as<N, S>) {
+        return scale2(x, log2);
+    } else {
+        return S::from_raw(detail::shifted(x.raw(), log2 + detail::fixed_fraction_bits - N::fraction_bits));
+    }
+}
+
+/// The nearest number of N, for the host only: on a microcontroller it would need arithmetic in double. @pre value is
+/// in the range of N
+template <Numeric N>
+[[nodiscard]] constexpr N from_double(double value) noexcept {
+    if constexpr (Floating<N>) {
+        return static_cast<N>(value);
+    } else {
+        return N::from_double(value);
     }
 }
 
 /// The value as a double, for the host. Exact, except for Fixed from 2^21 on: rounded to nearest.
-template <Scalar S>
-[[nodiscard]] constexpr double to_double(S value) noexcept {
-    if constexpr (std::same_as<S, Fixed>) {
-        return value.to_double();
-    } else {
+template <Numeric N>
+[[nodiscard]] constexpr double to_double(N value) noexcept {
+    if constexpr (Floating<N>) {
         return static_cast<double>(value);
+    } else {
+        return value.to_double();
     }
 }
 
-/// The number of S nearest to a constant, computed by the compiler: `literal<S>(0.25)`.
-template <Scalar S>
-[[nodiscard]] consteval S literal(double value) noexcept {
-    return from_double<S>(value);
+/// The number of N nearest to a constant, computed by the compiler: `literal<S>(0.25)`.
+template <Numeric N>
+[[nodiscard]] consteval N literal(double value) noexcept {
+    return from_double<N>(value);
 }
 
 /// "double", "float" or "fixed".

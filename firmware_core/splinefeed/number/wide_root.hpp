@@ -56,6 +56,21 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
 
 } // namespace detail
 
+/// sqrt(a) rounded to nearest, for a < 2^63. Cost: seven multiplies.
+[[nodiscard]] constexpr std::uint32_t square_root_rounded(std::uint64_t a) noexcept {
+    SPLINEFEED_ASSERT((a >> 63) == 0);
+    if (a == 0) {
+        return 0;
+    }
+    // With a shift of at least two the root has one more bit, which decides; otherwise the remainder does.
+    const int shift = std::countl_zero(a) & 62;
+    const std::uint64_t root = detail::normalised_root(a << shift);
+    if (shift == 0) {
+        return static_cast<std::uint32_t>(root + (a - root * root > root ? 1U : 0U));
+    }
+    return static_cast<std::uint32_t>(((root >> ((shift >> 1) - 1)) + 1U) >> 1);
+}
+
 /// floor(sqrt(a)), exact for every a. Cost: ten multiplies and one 64/32 division.
 [[nodiscard]] constexpr std::uint64_t square_root(Wide a) noexcept {
     if (a.high == 0 && a.low == 0) {

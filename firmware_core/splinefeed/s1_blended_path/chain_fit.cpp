@@ -97,9 +97,6 @@ void ChainFit<S>::place(S u, PerAxis<S>& out) const noexcept {
 
 template <Scalar S>
 void ChainFit<S>::derivatives(S u, PerAxis<S>& first, PerAxis<S>& second) const noexcept {
-    const auto times = [](int n, S x) {
-        return from_integer<S>(n) * x;
-    };
     for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
         const PerDegree<S>& a = power_[k];
         first[k] = a[1] + u * (times(2, a[2]) + u * (times(3, a[3]) + u * (times(4, a[4]) + u * times(5, a[5]))));

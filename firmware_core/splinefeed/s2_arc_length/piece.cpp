@@ -15,20 +15,6 @@
 
 namespace splinefeed {
 
-namespace {
-
-template <Scalar S>
-S half(S x) noexcept {
-    return scale2(x, -1);
-}
-
-template <Scalar S>
-S times(int factor, S x) noexcept {
-    return from_integer<S>(factor) * x;
-}
-
-} // namespace
-
 template <Scalar S>
 void PieceMeasure<S>::differentiate(const Piece<S>& piece, int degree, int axes) noexcept {
     const auto n = static_cast<unsigned>(degree);

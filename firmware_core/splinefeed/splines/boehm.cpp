@@ -29,14 +29,9 @@ N share(N x, int times, int parts) noexcept {
     }
 }
 
-// Halves of scalars are exact except for the last bit of Fixed.
-template <BoehmNumber N>
-N half(N x) noexcept {
-    if constexpr (std::same_as<N, std::int64_t>) {
-        return x / 2;
-    } else {
-        return scale2(x, -1);
-    }
+// As that of scalars, which is exact except for the last bit of Fixed.
+std::int64_t half(std::int64_t x) noexcept {
+    return x / 2;
 }
 
 template <BoehmNumber N>

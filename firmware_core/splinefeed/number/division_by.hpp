@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// DivisionBy: a divisor that serves several quotients, which then share what a division needs to know of it.
+#pragma once
+
+#include "splinefeed/number/scalar.hpp"
+
+namespace splinefeed {
+
+namespace detail {
+
+/// A divisor of one word, as Divisor is one of two: Moeller and Granlund's algorithm 4.
+class WordDivisor {
+public:
+    /// @pre value > 0
+    constexpr explicit WordDivisor(std::uint32_t value) noexcept
+        : normalised_(value << std::countl_zero(value)), reciprocal_(word_reciprocal(normalised_)),
+          shift_(std::countl_zero(value)) {}
+
+    [[nodiscard]] constexpr std::uint32_t value() const noexcept { return normalised_ >> shift_; }
+    /// The divisor times 2^shift(); its top bit is set.
+    [[nodiscard]] constexpr std::uint32_t normalised() const noexcept { return normalised_; }
+    [[nodiscard]] constexpr int shift() const noexcept { return shift_; }
+
+    /// (rest * 2^32 + digit) / normalised(): returns the quotient and updates the rest. @pre rest < normalised()
+    constexpr std::uint32_t divide(std::uint32_t& rest, std::uint32_t digit) const noexcept {
+        const std::uint64_t estimate =
+            long_product(reciprocal_, rest) + ((static_cast<std::uint64_t>(rest) << 32) | digit);
+        auto quotient = static_cast<std::uint32_t>(estimate >> 32) + 1U;
+        std::uint32_t left = digit - quotient * normalised_;
+        if (left > static_cast<std::uint32_t>(estimate)) {
+            --quotient;
+            left += normalised_;
+        }
+        if (left >= normalised_) [[unlikely]] {
+            ++quotient;
+            left -= normalised_;
+        }
+        rest = left;
+        return quotient;
+    }
+
+private:
+    std::uint32_t normalised_;
+    std::uint32_t reciprocal_;
+    int shift_;
+};
+
+} // namespace detail
+
+/// Divides by one number of N. Of a type without reciprocals it is the number.
+template <Numeric N>
+class DivisionBy {
+public:
+    constexpr DivisionBy() noexcept = default;
+    /// @pre divisor > 0
+    constexpr explicit DivisionBy(N divisor) noexcept : divisor_(divisor) {}
+
+    [[nodiscard]] friend constexpr N operator/(N a, const DivisionBy& by) noexcept { return a / by.divisor_; }
+
+private:
+    N divisor_{from_integer<N>(1)};
+};
+
+/// Cost: a short divide and four multiplies for the divisor, then two multiplies for a quotient.
+template <>
+class DivisionBy<ShortFixed> {
+public:
+    /// By the largest number.
+    constexpr DivisionBy() noexcept = default;
+    /// @pre divisor > 0; otherwise by one ulp
+    constexpr explicit DivisionBy(ShortFixed divisor) noexcept
+        : by_(divisor.raw() > 0 ? static_cast<std::uint32_t>(divisor.raw()) : 1U) {}
+
+    /// Rounded to nearest, ties away from zero; saturates.
+    [[nodiscard]] friend constexpr ShortFixed operator/(ShortFixed a, const DivisionBy& by) noexcept {
+        return by.quotient(a);
+    }
+
+private:
+    [[nodiscard]] constexpr ShortFixed quotient(ShortFixed a) const noexcept {
+        const auto sign = static_cast<std::uint32_t>(a.raw() >> 31);
+        const std::uint32_t size = (static_cast<std::uint32_t>(a.raw()) ^ sign) - sign;
+        if ((size >> 1) >= by_.value()) [[unlikely]] { // a quotient of 2 at least
+            return sign != 0 ? ShortFixed::lowest() : ShortFixed::max();
+        }
+        const int shift = ShortFixed::fraction_bits + by_.shift() - 32; // -1 at least
+        std::uint32_t rest = shift < 0 ? size >> 1 : size << shift;
+        std::uint32_t result = by_.divide(rest, shift < 0 ? size << 31 : 0U);
+        result += rest >= by_.normalised() - rest ? 1U : 0U;
+        result -= result >> 31; // rounded up to 2
+        return ShortFixed::from_raw(static_cast<std::int32_t>((result ^ sign) - sign));
+    }
+
+    detail::WordDivisor by_{static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max())};
+};
+
+/// a / b for a >= 0 and b > 0, rounded up by one ulp at most; the largest number if it does not fit. Cost: a short
+/// divide and ten multiplies.
+[[nodiscard]] constexpr Fixed quotient_up(Fixed a, ShortFixed b) noexcept {
+    SPLINEFEED_ASSERT(a.raw() >= 0 && b.raw() > 0);
+    const auto divisor = static_cast<std::uint32_t>(b.raw());
+    if ((a.raw() >> 33) >= divisor) [[unlikely]] {
+        return Fixed::max(); // a 2^30 / b is 2^63 at least
+    }
+    // The digits of a 2^30 2^shift, with the upper one below the normalised divisor.
+    const detail::WordDivisor by(divisor);
+    const auto raw = static_cast<std::uint64_t>(a.raw());
+    const std::uint64_t numerator = by.shift() == 1 ? raw >> 1 : raw << (by.shift() - 2);
+    auto rest = static_cast<std::uint32_t>(numerator >> 32);
+    const std::uint32_t whole = by.divide(rest, static_cast<std::uint32_t>(numerator));
+    const std::uint32_t fraction = by.divide(rest, by.shift() == 1 ? static_cast<std::uint32_t>(raw) << 31 : 0U);
+    return Fixed::from_raw(static_cast<std::int64_t>((static_cast<std::uint64_t>(whole) << 32) | fraction) +
+                           (rest != 0 ? 1 : 0));
+}
+
+/// a / b for a >= 0 and b > 0, rounded to nearest: quotient_or_max.
+template <Floating S>
+[[nodiscard]] constexpr S quotient_up(S a, S b) noexcept {
+    return quotient_or_max(a, b);
+}
+
+} // namespace splinefeed
