@@ -48,7 +48,7 @@ void position_at_length(benchmark::State& state) {
     for (unsigned k = 0; k < 3; ++k) {
         cell.power[k] = cubic<S>().control[k];
     }
-    cell.inverse = {from_double<S>(0.9), from_double<S>(0.1), S{}, S{}, S{}, S{}};
+    cell.inverse = {from_double<Ratio<S>>(-0.4), from_double<Ratio<S>>(0.4)};
     PerAxis<Position> position{};
     const S step = from_double<S>(0.0001);
     S x{};

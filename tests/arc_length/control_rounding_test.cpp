@@ -89,7 +89,7 @@ TEMPLATE_TEST_CASE("an axis that hardly moves holds nothing back", "[arc_length]
     const BezierPath path{line_shape(2, 1, {100.0, 0.1})};
     const CurveSegment<S> segment = segments_of<S>(path).front();
     const auto speed = [&](double jump_x, double jump_y) {
-        const PerAxis<S> direction{from_integer<S>(1), from_double<S>(0.001)};
+        const PerAxis<Ratio<S>> direction{from_integer<Ratio<S>>(1), from_double<Ratio<S>>(0.001)};
         return to_double(ControlRounding<S>::of(segment, 0, from_double<S>(0.5), direction)
                              .steady_speed({from_double<S>(jump_x), from_double<S>(jump_y)}, 2));
     };

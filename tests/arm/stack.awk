@@ -8,7 +8,7 @@ BEGIN {
     library["__aeabi_uldivmod"] = 80
     library["__aeabi_uidivmod"] = library["__aeabi_idivmod"] = library["__aeabi_uidiv"] = library["__aeabi_idiv"] = 16
     library["__aeabi_lmul"] = 32
-    library["__clzdi2"] = 16
+    library["__clzdi2"] = library["__clzsi2"] = 16
     library["__aeabi_llsl"] = library["__aeabi_llsr"] = library["__aeabi_lasr"] = 0
     if (root == "") { root = "_ZN12_GLOBAL__N_18on_resetEv" }
     # Virtual calls: the arc length asks the curve, which is a G2Spline here, the stream its samples, and those their

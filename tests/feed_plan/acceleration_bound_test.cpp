@@ -40,8 +40,7 @@ public:
     SmallestExits(const Cell<S>& cell, const MotionLimits<S>& limits, const CellInterval<S>& stretch, Real entry)
         : planes_(half_planes_of(cell, limits, exact(stretch.from), exact(stretch.to))), entry_(entry) {
         for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
-            spread_.push_back(exact(cell.shape[k].error_bound) * std::ldexp(1.0L, -limits.refinement.shape_log2) *
-                              exact(stretch.length()));
+            spread_.push_back(exact(cell.shape[k].error_bound) * exact(stretch.length()));
         }
     }
 

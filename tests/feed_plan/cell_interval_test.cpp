@@ -24,31 +24,32 @@ Real value_of(const std::array<T, N>& points, Real x) {
     return sum;
 }
 
+/// As a shape has them: between -1 and 1.
 template <Scalar S, std::size_t N>
-std::array<S, N> random_points(Random& random) {
-    std::array<S, N> points;
-    for (S& point : points) {
-        point = from_double<S>(random.between(-1000.0, 1000.0));
+std::array<Ratio<S>, N> random_points(Random& random) {
+    std::array<Ratio<S>, N> points;
+    for (Ratio<S>& point : points) {
+        point = from_double<Ratio<S>>(random.between(-0.99, 0.99));
     }
     return points;
 }
 
 template <Scalar S, std::size_t N>
 void require_same_polynomial(Random& random) {
-    const std::array<S, N> points = random_points<S, N>(random);
+    const std::array<Ratio<S>, N> points = random_points<S, N>(random);
     CellInterval<S> stretch{from_double<S>(random.between(0.0, 1.0)), from_double<S>(random.between(0.0, 1.0))};
     if (stretch.to < stretch.from) {
         std::swap(stretch.from, stretch.to);
     }
-    const std::array<S, N> part = points_on(stretch, points);
-    const Real close = 64.0L * 1000.0L * rounding<S>();
-    S low = points[0];
-    S high = points[0];
-    for (const S point : points) {
+    const std::array<Ratio<S>, N> part = points_on<S>(stretch, points);
+    const Real close = 64.0L * ratio_rounding<S>();
+    Ratio<S> low = points[0];
+    Ratio<S> high = points[0];
+    for (const Ratio<S> point : points) {
         low = smaller(low, point);
         high = larger(high, point);
     }
-    for (const S point : part) { // convex combinations
+    for (const Ratio<S> point : part) { // convex combinations
         REQUIRE(exact(point) >= exact(low) - close);
         REQUIRE(exact(point) <= exact(high) + close);
     }
@@ -82,12 +83,12 @@ TEMPLATE_TEST_CASE("the whole cell is a stretch that changes nothing", "[feed_pl
     CHECK(rest.length() == literal<S>(0.75));
     CHECK_FALSE(CellInterval<S>{S{}, literal<S>(0.5)}.whole());
     for (int run = 0; run < 50; ++run) {
-        const std::array<S, 4> points = random_points<S, 4>(random);
-        const std::array<S, 4> part = points_on(whole, points);
+        const std::array<Ratio<S>, 4> points = random_points<S, 4>(random);
+        const std::array<Ratio<S>, 4> part = points_on<S>(whole, points);
         // The first point is met exactly; the last by a difference and a sum
         REQUIRE(part[0] == points[0]);
         for (unsigned i = 0; i < 4; ++i) {
-            REQUIRE(std::fabs(exact(part[i]) - exact(points[i])) <= 8000.0L * rounding<S>());
+            REQUIRE(std::fabs(exact(part[i]) - exact(points[i])) <= 8.0L * ratio_rounding<S>());
         }
     }
 }

@@ -21,11 +21,10 @@ std::vector<Cell<S>> random_cells(const MotionLimits<S>& limits) {
 
 /// q'' of an axis by the parabola of its shape at x.
 template <Scalar S>
-Real second_at(const Cell<S>& cell, unsigned k, Real x, Real unit) {
+Real second_at(const Cell<S>& cell, unsigned k, Real x) {
     const auto& c = cell.shape[k].bend;
     const Real y = 1.0L - x;
-    return (exact(c[0]) * y * y + 2.0L * exact(c[1]) * x * y + exact(c[2]) * x * x) * unit /
-           (2.0L * exact(cell.length_mm));
+    return (exact(c[0]) * y * y + 2.0L * exact(c[1]) * x * y + exact(c[2]) * x * x) / (2.0L * exact(cell.length_mm));
 }
 
 } // namespace
@@ -34,17 +33,16 @@ TEMPLATE_TEST_CASE("a demand is no less than the derivatives, sign by sign", "[f
                    Fixed) {
     using S = TestType;
     const auto limits = MotionLimits<S>::make(machine_of(3, 100.0, 1000.0, 100.0)).value();
-    const Real unit = 1.0L / static_cast<Real>(1 << limits.refinement.shape_log2);
     const Real slack = std::same_as<S, float> ? 1e-4L : 1e-6L;
     for (const Cell<S>& cell : random_cells<S>(limits)) {
-        const auto demand = PathDerivativeBounds<S>::of(cell, limits, S{}, S{});
+        const auto demand = PathDerivativeBounds<S>::of(cell, S{}, S{});
         for (unsigned k = 0; k < 3; ++k) {
             const AxisDemand<S>& at = demand.axis[k];
             for (int i = 0; i <= 16; ++i) {
                 const Real x = static_cast<Real>(i) / 16.0L;
-                const Real second = second_at(cell, k, x, unit);
+                const Real second = second_at(cell, k, x);
                 const Real step = 1e-4L;
-                const Real third = (second_at(cell, k, x + step, unit) - second_at(cell, k, x - step, unit)) /
+                const Real third = (second_at(cell, k, x + step) - second_at(cell, k, x - step)) /
                                    (2.0L * step * exact(cell.length_mm));
                 REQUIRE(exact(at.second) * (1.0L + slack) + slack >= std::fabs(second));
                 const S bound = second * third > 0.0L ? at.third_with : at.third_against;
@@ -57,9 +55,9 @@ TEMPLATE_TEST_CASE("a demand is no less than the derivatives, sign by sign", "[f
 TEST_CASE("a joined demand is that of both parts", "[feed_plan][smooth]") {
     const auto limits = MotionLimits<double>::make(machine_of(3, 100.0, 1000.0, 100.0)).value();
     const auto cells = random_cells<double>(limits);
-    auto first = PathDerivativeBounds<double>::of(cells[0], limits, 100.0, 50.0);
+    auto first = PathDerivativeBounds<double>::of(cells[0], 100.0, 50.0);
     const auto alone = first;
-    const auto second = PathDerivativeBounds<double>::of(cells[5], limits, 90.0, 60.0);
+    const auto second = PathDerivativeBounds<double>::of(cells[5], 90.0, 60.0);
     first.join(second, 3);
     CHECK(first.cap_sq == 90.0);
     CHECK(first.programmed_sq == 50.0);

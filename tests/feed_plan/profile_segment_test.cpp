@@ -15,11 +15,11 @@ constexpr std::uint64_t seed = 91;
 
 /// A straight cell along one axis.
 template <Scalar S>
-Cell<S> straight_cell(const MotionLimits<S>& limits, double length_mm) {
+Cell<S> straight_cell(double length_mm) {
     Cell<S> cell;
     cell.axes = 1;
     cell.length_mm = from_double<S>(length_mm);
-    cell.shape[0].tangent[0] = cell.shape[0].tangent[1] = scale2(from_integer<S>(1), limits.refinement.shape_log2);
+    cell.shape[0].tangent[0] = cell.shape[0].tangent[1] = from_integer<Ratio<S>>(1);
     cell.heading[0] = 1;
     return cell;
 }
@@ -105,7 +105,7 @@ private:
             half_planes_of(*cell_, *limits_, exact(profile_segment.stretch.from), exact(profile_segment.stretch.to));
         for (std::size_t i = 0; i < planes.size(); ++i) {
             const HalfPlane& plane = planes[i];
-            const Real spread = std::ldexp(exact(cell_->shape[i / 8].error_bound), -limits_->refinement.shape_log2);
+            const Real spread = exact(cell_->shape[i / 8].error_bound);
             const Real excess = plane.entry * b0 + plane.exit * b1 - plane.limit;
             CAPTURE(i, to_double(profile_segment.stretch.from), to_double(profile_segment.stretch.to),
                     static_cast<double>(b0), static_cast<double>(b1));
@@ -130,7 +130,7 @@ TEMPLATE_TEST_CASE("on a straight cell profile_segments are those of constant ac
     const double up = 2.0 * to_double(limits.acceleration_mm_s2[0]); // of v^2, per mm
     const double down = 2.0 * to_double(limits.braking_mm_s2[0]);
     const double length = GENERATE(0.02, 0.5, 12.0); // 12 mm: many braking distances of the slower ones
-    const Cell<S> cell = straight_cell(limits, length);
+    const Cell<S> cell = straight_cell<S>(length);
     for (const double from : {0.0, 0.3, 0.9}) {
         const double left = (1.0 - from) * length;
         CAPTURE(length, from);
@@ -183,7 +183,7 @@ TEMPLATE_TEST_CASE("a stop in a small part of a long cell is found", "[feed_plan
     using S = TestType;
     const MachineSettings machine = machine_of(1, 1000.0, 1000.0, 1000.0);
     const auto limits = MotionLimits<S>::make(machine).value();
-    const Cell<S> cell = straight_cell(limits, 16.0);
+    const Cell<S> cell = straight_cell<S>(16.0);
     for (const double part : {1e-1, 1e-2, 1e-3, 1e-4}) {
         SteeringTarget<S> rest = aim_of<S>(0.5, part * 16.0 * 2.0 * to_double(limits.braking_mm_s2[0]), 1e6, 1e6, 1e6);
         rest.rest = true;
@@ -207,7 +207,7 @@ TEMPLATE_TEST_CASE("what a profile_segment asks of the axes its cell allows, and
         const auto limits = MotionLimits<S>::make(machine).value();
         Cell<S> cell = random_cell(random, limits);
         // Some axis has inertia, as on every path
-        cell.shape[0].tangent[0] = scale2(from_integer<S>(random.chance(0.5) ? 1 : -1), limits.refinement.shape_log2);
+        cell.shape[0].tangent[0] = from_integer<Ratio<S>>(random.chance(0.5) ? 1 : -1);
         const S cap = limits.feed_mm_s * limits.feed_mm_s * from_double<S>(random.decades(1e-3, 1.0));
         const auto peak = AccelerationBound<S>(cell, limits).peak(cap);
         // A part of the peak is allowed, as (0, 0) is; then every larger exit will do for most_sq

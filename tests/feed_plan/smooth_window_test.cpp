@@ -81,10 +81,10 @@ TEST_CASE("a cell's demand is that of all that the average can reach", "[feed_pl
             const Real from = way - real(cells[i].cell.length_mm);
             const Real to = way + real(cells[j].cell.length_mm);
             if (from < 1.01L * ahead && -to < 1.01L * behind) {
-                most.join(PathDerivativeBounds<double>::of(cells[j].cell, limits, 1e4, 1e4), 2);
+                most.join(PathDerivativeBounds<double>::of(cells[j].cell, 1e4, 1e4), 2);
             }
             if (from < ahead && -to < behind) {
-                const auto own = PathDerivativeBounds<double>::of(cells[j].cell, limits, 1e4, 1e4);
+                const auto own = PathDerivativeBounds<double>::of(cells[j].cell, 1e4, 1e4);
                 for (unsigned k = 0; k < 2; ++k) {
                     CAPTURE(seed, i, j, k);
                     REQUIRE(cells[i].demand.axis[k].first >= own.axis[k].first);

@@ -26,13 +26,13 @@ void check_quotient(std::int32_t a, std::int32_t b) {
     }
 }
 
-void check_quotient_up(std::int64_t a, std::int32_t b) {
+void check_up(std::int64_t a, std::int32_t b) {
     if (a < 0 || b <= 0) {
         return;
     }
-    const Int128 numerator = static_cast<Int128>(a) << 30;
+    const Int128 numerator = static_cast<Int128>(a) << 32;
     const Int128 up = (numerator + b - 1) / b;
-    const std::int64_t actual = quotient_up(Fixed::from_raw(a), ShortFixed::from_raw(b)).raw();
+    const std::int64_t actual = quotient_by_quarter(Fixed::from_raw(a), ShortFixed::from_raw(b)).raw();
     if (actual != clamped(up)) {
         FAIL_SAMPLE(a, b);
     }
@@ -60,23 +60,36 @@ TEST_CASE("division by a number of one word is rounded to nearest or saturates",
     }
 }
 
-TEST_CASE("a quotient of Fixed by a number of one word is rounded up", "[number][division]") {
+TEST_CASE("a quotient of Fixed by a quarter of a number of one word is rounded up", "[number][division]") {
     for (const std::int64_t a : signed_edges()) {
         for (unsigned k = 0; k < 31; ++k) {
             for (const int below : {0, 1}) {
-                check_quotient_up(a, (std::int32_t{1} << k) - below);
-                check_quotient_up(a, std::numeric_limits<std::int32_t>::max() - (1 << k) + below);
+                check_up(a, (std::int32_t{1} << k) - below);
+                check_up(a, std::numeric_limits<std::int32_t>::max() - (1 << k) + below);
             }
         }
     }
     Operands random;
     for (int i = 0; i < samples; ++i) {
-        check_quotient_up(random.signed64(), random_word(random));
+        check_up(random.signed64(), random_word(random));
     }
+}
+
+TEST_CASE("a divisor of Fixed gives the quotients that the operator gives", "[number][division]") {
+    Operands random;
+    for (int i = 0; i < samples; ++i) {
+        const Fixed a = Fixed::from_raw(random.signed64());
+        const Fixed b = Fixed::from_raw(std::max<std::int64_t>(1, random.signed64()));
+        if ((a / DivisionBy(b)).raw() != detail::quotient(a.raw(), b.raw())) {
+            FAIL_SAMPLE(a.raw(), b.raw());
+        }
+    }
+    CHECK(Fixed{3} / DivisionBy<Fixed>() == Fixed{3});
 }
 
 TEST_CASE("a number type with quotients of its own divides by them", "[number][division]") {
     CHECK(3.0 / DivisionBy(7.0) == 3.0 / 7.0);
     CHECK(Fixed{3} / DivisionBy(Fixed{7}) == Fixed{3} / Fixed{7});
-    CHECK(quotient_up(3.0, 0.375) == 8.0);
+    CHECK(quotient_by_quarter(3.0, 0.375) == 32.0);
+    CHECK(quarter_product(3.0, 0.5) == 0.375);
 }

@@ -27,13 +27,18 @@ void check_pair(std::int32_t a, std::int32_t b) {
     if ((x + y).raw() != nearest_word(static_cast<Int128>(a) + b) ||
         (x - y).raw() != nearest_word(static_cast<Int128>(a) - b) ||
         (x * y).raw() != nearest_word(rounded_quotient(product, Uint128{1} << 30)) ||
-        times(a, y).raw() != nearest_word(product) || (x < y) != (a < b)) {
+        times(a, y).raw() != nearest_word(product) || detail::signed_product_of_halves(a, b) != product ||
+        (x < y) != (a < b)) {
         FAIL_SAMPLE(a, b);
     }
 }
 
 void check_long_product(std::int64_t value, std::int32_t word) {
     const Int128 nearest = (static_cast<Int128>(value) * word + (Int128{1} << 29)) >> 30;
+    const Int128 quarter = (static_cast<Int128>(value) * word) >> 32;
+    if (quarter_product(Fixed::from_raw(value), ShortFixed::from_raw(word)).raw() != quarter) {
+        FAIL_SAMPLE(value, word);
+    }
     const Int128 error = (Fixed::from_raw(value) * ShortFixed::from_raw(word)).raw() - clamped(nearest);
     const bool near_limit = size_of(nearest) > (Uint128{1} << 63) - (Uint128{1} << 34);
     if (size_of(error) > (near_limit ? Uint128{1} << 34 : 0)) {
@@ -94,6 +99,10 @@ TEST_CASE("numbers of one word: conversions are rounded to nearest or saturate",
                                            : rounded_quotient(x.raw(), Uint128{1} << -exponent);
         const std::int32_t word = shortened<ShortFixed>(x, log2).raw();
         const Fixed back = lengthened<Fixed>(ShortFixed::from_raw(word), 5);
+        const bool fits = log2 >= -29 && log2 <= 29 && exact == nearest_word(exact);
+        if (fits && shortened_to_fit<ShortFixed>(x, log2).raw() != word) {
+            FAIL_SAMPLE(x.raw(), log2);
+        }
         if (word != nearest_word(exact) || back.raw() != std::int64_t{word} * 128) {
             FAIL_SAMPLE(x.raw(), log2);
         }
@@ -108,6 +117,17 @@ TEST_CASE("numbers of one word: conversions are rounded to nearest or saturate",
     REQUIRE(-ShortFixed::lowest() == ShortFixed::max());
     REQUIRE(absolute(literal<ShortFixed>(-0.5)) == literal<ShortFixed>(0.5));
     REQUIRE(half(ShortFixed::from_raw(-3)) == ShortFixed::from_raw(-2));
+}
+
+TEST_CASE("a small multiple of Fixed is exact or saturates", "[number][short]") {
+    Operands random;
+    for (int i = 0; i < samples; ++i) {
+        const std::int64_t raw = random.signed64();
+        const int factor = random.between(-20000, 20000);
+        if (times(factor, Fixed::from_raw(raw)).raw() != clamped(static_cast<Int128>(raw) * factor)) {
+            FAIL_SAMPLE(raw, factor);
+        }
+    }
 }
 
 TEST_CASE("numbers of one word: the length of a vector is the nearest or saturates", "[number][short]") {
@@ -129,6 +149,6 @@ TEST_CASE("numbers of one word: the length of a vector is the nearest or saturat
         }
     }
     const std::array<ShortFixed, 6> longest{ShortFixed::lowest(), ShortFixed::lowest(), ShortFixed::lowest(),
-                                              ShortFixed::lowest(), ShortFixed::lowest(), ShortFixed::lowest()};
+                                            ShortFixed::lowest(), ShortFixed::lowest(), ShortFixed::lowest()};
     REQUIRE(norm(longest.data(), 6) == ShortFixed::max());
 }

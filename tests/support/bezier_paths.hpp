@@ -64,6 +64,12 @@ constexpr Real rounding() {
     return std::same_as<S, float> ? 0x1p-24L : std::same_as<S, Fixed> ? 0x1p-32L : 0x1p-53L;
 }
 
+/// That of its Ratio.
+template <Scalar S>
+constexpr Real ratio_rounding() {
+    return std::same_as<S, Fixed> ? 0x1p-30L : rounding<S>();
+}
+
 template <Scalar S>
 std::vector<CurveSegment<S>> segments_of(const BezierPath& path, const PerAxis<double>& start = {}) {
     std::vector<CurveSegment<S>> segments;

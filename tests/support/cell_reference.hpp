@@ -56,8 +56,8 @@ Real inverse_at(const Cell<S>& cell, Real x, Real& slope) {
         slope = slope * x + w;
         w = w * x + exact(cell.inverse[i]);
     }
-    slope = slope * x + w;
-    return w * x;
+    slope = 1.0L + (slope * x + w) / 4.0L;
+    return x + w * x / 4.0L;
 }
 
 /// A piece that is taken as it is, because another halving would only add rounding: at the deepest level a piece is

@@ -12,10 +12,12 @@ namespace splinefeed_test {
 
 using Real = long double;
 
-template <splinefeed::Scalar S>
+template <splinefeed::Numeric S>
 Real exact(S x) {
     if constexpr (std::same_as<S, splinefeed::Fixed>) {
         return std::ldexp(static_cast<Real>(x.raw()), -32);
+    } else if constexpr (std::same_as<S, splinefeed::ShortFixed>) {
+        return std::ldexp(static_cast<Real>(x.raw()), -30);
     } else {
         return static_cast<Real>(x);
     }

@@ -15,17 +15,16 @@ Cell<S> random_cell(Random& random, const MotionLimits<S>& limits) {
     Cell<S> cell;
     cell.axes = limits.axes;
     cell.length_mm = from_double<S>(random.decades(1e-3, 1.0));
-    const double unit = std::ldexp(1.0, limits.refinement.shape_log2);
+    using R = Ratio<S>;
     for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
         const double bend = random.integer(0, 3) == 0 ? 0.0 : random.decades(1e-4, 0.4);
         const double tangent = random.integer(0, 5) == 0 ? 0.0 : random.between(-1.0, 1.0);
         AxisShape<S>& shape = cell.shape[k];
         for (unsigned j = 0; j < 3; ++j) {
-            shape.bend[j] = from_double<S>(unit * bend * random.between(-1.0, 1.0));
+            shape.bend[j] = from_double<R>(bend * random.between(-1.0, 1.0));
         }
-        shape.tangent = {from_double<S>(unit * tangent),
-                         from_double<S>(unit * (tangent + bend * random.between(-0.5, 0.5)))};
-        shape.error_bound = from_double<S>(unit * random.decades(1e-8, 1e-5));
+        shape.tangent = {from_double<R>(tangent), from_double<R>(tangent + bend * random.between(-0.5, 0.5))};
+        shape.error_bound = from_double<R>(random.decades(1e-8, 1e-5));
     }
     return cell;
 }
@@ -74,26 +73,19 @@ template <Scalar S>
 std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>& limits, Real from = 0.0L,
                                       Real to = 1.0L) {
     std::vector<HalfPlane> planes;
-    const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
     for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
         const AxisShape<S>& shape = cell.shape[k];
         const Real speeding = exact(limits.acceleration_mm_s2[k]);
         const Real braking = exact(limits.braking_mm_s2[k]);
         const int way =
             cell.heading[k] == 1 || cell.heading[k] == -1 ? cell.heading[k] : 0; // proved on what is emitted
-        auto [t, c] = part_of(shape, from, to);
-        for (Real& point : t) {
-            point *= unit;
-        }
-        for (Real& point : c) {
-            point *= unit;
-        }
+        const auto [t, c] = part_of(shape, from, to);
         // Of 2 L q'' b, as a cubic
         const std::array<Real, 4> entry{c[0], 2.0L * c[1] / 3.0L, c[2] / 3.0L, 0.0L};
         const std::array<Real, 4> exit{0.0L, c[0] / 3.0L, 2.0L * c[1] / 3.0L, c[2]};
         for (unsigned j = 0; j < 4; ++j) {
             for (const Real sign : {1.0L, -1.0L}) {
-                const Real spread = exact(shape.error_bound) * unit * (to - from);
+                const Real spread = exact(shape.error_bound) * (to - from);
                 const Real most = static_cast<Real>(way) * sign > 0.0L   ? speeding
                                   : static_cast<Real>(way) * sign < 0.0L ? braking
                                                                          : std::min(speeding, braking);
@@ -132,14 +124,13 @@ Real share_of(const Cell<S>& cell, const MotionLimits<S>& limits) {
     if (!limits.mixed) {
         return 1.0L;
     }
-    const Real unit = std::ldexp(1.0L, -limits.refinement.shape_log2);
     std::array<Real, 2> largest{};
     for (unsigned j = 0; j < 4; ++j) {
         std::array<Real, 2> sum{};
         for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
             const AxisShape<S>& shape = cell.shape[k];
             const Real inner = j == 1 ? exact(shape.bend[0]) : j == 2 ? -exact(shape.bend[2]) : 0.0L;
-            const Real q1 = (exact(shape.tangent[j / 2]) + inner / 6.0L) * unit;
+            const Real q1 = exact(shape.tangent[j / 2]) + inner / 6.0L;
             sum[limits.rotary[k] ? 1 : 0] += q1 * q1;
         }
         largest = {std::max(largest[0], std::sqrt(sum[0])), std::max(largest[1], std::sqrt(sum[1]))};
@@ -211,7 +202,7 @@ std::vector<Real> reachable_speeds(const std::vector<PlannedCell<S>>& cells, con
 template <class S>
 Real tolerance(std::size_t cells, Real b) {
     const Real rounded =
-        256.0L * static_cast<Real>(cells) * rounding<S>() * (b + (std::same_as<S, Fixed> ? 1.0L : 0.0L));
+        256.0L * static_cast<Real>(cells) * ratio_rounding<S>() * (b + (std::same_as<S, Fixed> ? 1.0L : 0.0L));
     return std::max(rounded, 1e-7L * b);
 }
 

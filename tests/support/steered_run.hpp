@@ -232,7 +232,7 @@ private:
     /// stricter.
     [[nodiscard]] Real unsure_bend(const Cell<S>& cell, unsigned k) const {
         if constexpr (std::same_as<S, float>) {
-            return std::ldexp(exact(cell.shape[k].error_bound), -limits_.refinement.shape_log2) / exact(cell.length_mm);
+            return exact(cell.shape[k].error_bound) / exact(cell.length_mm);
         }
         return 0.0L;
     }

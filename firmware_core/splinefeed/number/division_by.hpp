@@ -94,29 +94,58 @@ private:
     detail::WordDivisor by_{static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max())};
 };
 
-/// a / b for a >= 0 and b > 0, rounded up by one ulp at most; the largest number if it does not fit. Cost: a short
-/// divide and ten multiplies.
-[[nodiscard]] constexpr Fixed quotient_up(Fixed a, ShortFixed b) noexcept {
+/// Division by Fixed, as by its operator. Cost: a short divide and ten multiplies for the divisor, then three
+/// multiplies for a quotient below 1, or five.
+template <>
+class DivisionBy<Fixed> {
+public:
+    /// By 1.
+    constexpr DivisionBy() noexcept = default;
+    /// @pre divisor > 0; otherwise by one ulp
+    constexpr explicit DivisionBy(Fixed divisor) noexcept
+        : divisor_(divisor.raw() > 0 ? divisor.raw() : 1), by_(static_cast<std::uint64_t>(divisor_)) {}
+
+    /// Rounded to nearest, ties away from zero; saturates.
+    [[nodiscard]] friend constexpr Fixed operator/(Fixed a, const DivisionBy& by) noexcept {
+        if (detail::quotient_overflows(detail::magnitude(a.raw()), static_cast<std::uint64_t>(by.divisor_)))
+            [[unlikely]] {
+            return a < Fixed{} ? Fixed::lowest() : Fixed::max();
+        }
+        return Fixed::from_raw(detail::quotient_of_digits(a.raw(), by.divisor_, by.by_).raw);
+    }
+
+private:
+    std::int64_t divisor_ = std::int64_t{1} << detail::fixed_fraction_bits;
+    detail::Divisor by_{std::uint64_t{1} << detail::fixed_fraction_bits};
+};
+
+/// a / (b / 4) for a >= 0 and b > 0, rounded up by one ulp at most; the largest number if it does not fit. The quotient
+/// that belongs to quarter_product. Cost: a short divide and ten multiplies.
+[[nodiscard]] constexpr Fixed quotient_by_quarter(Fixed a, ShortFixed b) noexcept {
     SPLINEFEED_ASSERT(a.raw() >= 0 && b.raw() > 0);
     const auto divisor = static_cast<std::uint32_t>(b.raw());
-    if ((a.raw() >> 33) >= divisor) [[unlikely]] {
-        return Fixed::max(); // a 2^30 / b is 2^63 at least
+    if ((a.raw() >> 31) >= divisor) [[unlikely]] {
+        return Fixed::max(); // a 2^32 / b is 2^63 at least
     }
-    // The digits of a 2^30 2^shift, with the upper one below the normalised divisor.
     const detail::WordDivisor by(divisor);
-    const auto raw = static_cast<std::uint64_t>(a.raw());
-    const std::uint64_t numerator = by.shift() == 1 ? raw >> 1 : raw << (by.shift() - 2);
+    const auto numerator = static_cast<std::uint64_t>(a.raw()) << by.shift();
     auto rest = static_cast<std::uint32_t>(numerator >> 32);
     const std::uint32_t whole = by.divide(rest, static_cast<std::uint32_t>(numerator));
-    const std::uint32_t fraction = by.divide(rest, by.shift() == 1 ? static_cast<std::uint32_t>(raw) << 31 : 0U);
+    const std::uint32_t fraction = by.divide(rest, 0);
     return Fixed::from_raw(static_cast<std::int64_t>((static_cast<std::uint64_t>(whole) << 32) | fraction) +
                            (rest != 0 ? 1 : 0));
 }
 
-/// a / b for a >= 0 and b > 0, rounded to nearest: quotient_or_max.
+/// a * b / 4
 template <Floating S>
-[[nodiscard]] constexpr S quotient_up(S a, S b) noexcept {
-    return quotient_or_max(a, b);
+[[nodiscard]] constexpr S quarter_product(S a, S b) noexcept {
+    return a * b * S(0.25);
+}
+
+/// a / (b / 4) for a >= 0 and b > 0; the largest number if it does not fit.
+template <Floating S>
+[[nodiscard]] constexpr S quotient_by_quarter(S a, S b) noexcept {
+    return quotient_or_max(a, b * S(0.25));
 }
 
 } // namespace splinefeed

@@ -120,6 +120,11 @@ SPLINEFEED_CALLED [[nodiscard]] constexpr std::int64_t product(std::int64_t a, s
     return (numerator >> 31) > denominator || denominator == 0;
 }
 
+/// Whether a * 2^32 / b is sure to be below one half, for magnitudes.
+[[nodiscard]] constexpr bool quotient_vanishes(std::uint64_t numerator, std::uint64_t denominator) noexcept {
+    return numerator < denominator >> 33;
+}
+
 /// a * 2^32 / b rounded to nearest, ties away from zero. Division by zero counts as an overflow; its sign is that of a.
 [[nodiscard]] constexpr Checked checked_wide_quotient(std::int64_t a, std::int64_t b) noexcept {
     const bool negative = (a ^ b) < 0;
@@ -156,6 +161,9 @@ SPLINEFEED_CALLED [[nodiscard]] constexpr std::int64_t product(std::int64_t a, s
 #else
     if (quotient_overflows(magnitude(a), magnitude(b))) [[unlikely]] {
         return saturated((a ^ b) < 0);
+    }
+    if (quotient_vanishes(magnitude(a), magnitude(b))) {
+        return {};
     }
     return quotient_of_digits(a, b, Divisor(magnitude(b)));
 #endif

@@ -13,7 +13,8 @@ namespace splinefeed {
 template <class S>
 concept Scalar = Floating<S> || std::same_as<S, Fixed>;
 
-/// What an algorithm over S uses for numbers from -2 to 2, as ratios and directions are: S itself, but one word of Fixed.
+/// What an algorithm over S uses for numbers from -2 to 2, as ratios and directions are: S itself, but one word of
+/// Fixed.
 template <Scalar S>
 using Ratio = std::conditional_t<std::same_as<S, Fixed>, ShortFixed, S>;
 
@@ -123,9 +124,17 @@ template <Numeric N>
 }
 
 /// factor * x.
-template <Scalar S>
+template <Floating S>
 [[nodiscard, gnu::always_inline]] constexpr S times(int factor, S x) noexcept {
     return static_cast<S>(factor) * x;
+}
+
+/// factor * x, exact; saturates.
+[[nodiscard]] constexpr Fixed times(int factor, Fixed x) noexcept {
+    // Between -2^15 and 2^15, as nearly all are, times a small factor.
+    const bool fits = (static_cast<std::uint32_t>(detail::upper_word(x.raw())) + 0x8000U) >> 16 == 0 &&
+                      (static_cast<unsigned>(factor) + 0x4000U) >> 15 == 0;
+    return Fixed::from_raw(fits ? x.raw() * factor : detail::product(Fixed(factor).raw(), x.raw()));
 }
 
 /// x|, exact. Fixed::lowest() has no positive counterpart: it overflows to the largest number.
@@ -187,6 +196,16 @@ template <Numeric N, Scalar S>
         return scale2(x, log2);
     } else {
         return N::from_raw(detail::word_of(x.raw(), log2 + N::fraction_bits - detail::fixed_fraction_bits));
+    }
+}
+
+/// The same of a result that is known to fit, |log2| <= 29.
+template <Numeric N, Scalar S>
+[[nodiscard, gnu::always_inline]] constexpr N shortened_to_fit(S x, int log2) noexcept {
+    if constexpr (std::same_as<N, S>) {
+        return scale2(x, log2);
+    } else {
+        return N::from_raw(detail::fitting_word(x.raw(), log2 + N::fraction_bits - detail::fixed_fraction_bits));
     }
 }
 

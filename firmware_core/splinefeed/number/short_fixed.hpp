@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Fixed-point numbers in one word, for quantities that are known to be small: a product costs a quarter of one of Fixed.
+// Fixed-point numbers in one word, for quantities that are known to be small: a product costs a quarter of one of
+// Fixed.
 #pragma once
 
 #include "splinefeed/number/fixed.hpp"
@@ -10,21 +11,32 @@ namespace splinefeed {
 
 namespace detail {
 
+/// a * b by digits of 16 bits, of which the upper ones are signed.
+[[nodiscard]] constexpr std::int64_t signed_product_of_halves(std::int32_t a, std::int32_t b) noexcept {
+    const std::uint32_t a0 = static_cast<std::uint32_t>(a) & 0xffffU;
+    const std::uint32_t b0 = static_cast<std::uint32_t>(b) & 0xffffU;
+    const std::int32_t a1 = a >> 16;
+    const std::int32_t b1 = b >> 16;
+    // An upper digit is at most 2^15 - 1: its product leaves room for one more lower digit.
+    const std::uint32_t bottom = a0 * b0;
+    const std::int32_t middle = a1 * static_cast<std::int32_t>(b0) + static_cast<std::int32_t>(bottom >> 16);
+    const std::int32_t cross = static_cast<std::int32_t>(a0) * b1 + (middle & 0xffff);
+    const std::int32_t top = a1 * b1 + (middle >> 16) + (cross >> 16);
+    return static_cast<std::int64_t>((static_cast<std::uint64_t>(static_cast<std::uint32_t>(top)) << 32) |
+                                     ((static_cast<std::uint32_t>(cross) << 16) | (bottom & 0xffffU)));
+}
+
 /// a * b, exact.
 [[nodiscard]] constexpr std::int64_t signed_product(std::int32_t a, std::int32_t b) noexcept {
 #ifdef SPLINEFEED_SHORT_PRODUCTS
-    const auto a0 = static_cast<std::uint32_t>(a);
-    const auto b0 = static_cast<std::uint32_t>(b);
-    // A negative word was taken for one larger by 2^32.
-    const std::uint32_t excess = (b0 & static_cast<std::uint32_t>(a >> 31)) + (a0 & static_cast<std::uint32_t>(b >> 31));
-    return static_cast<std::int64_t>(product_of_halves(a0, b0) - (static_cast<std::uint64_t>(excess) << 32));
+    return signed_product_of_halves(a, b);
 #else
     return static_cast<std::int64_t>(a) * b;
 #endif
 }
 
 /// The nearest word.
-[[nodiscard]] constexpr std::int32_t saturated_word(std::int64_t value) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr std::int32_t saturated_word(std::int64_t value) noexcept {
     const auto word = static_cast<std::int32_t>(lower_word(value));
     const std::int32_t upper = upper_word(value);
     return upper == word >> 31 ? word : (upper >> 31) ^ std::numeric_limits<std::int32_t>::max();
@@ -33,6 +45,41 @@ namespace detail {
 /// value / 2^count rounded to nearest, ties away from zero, 1 <= count <= 63; |value| <= 2^62.
 [[nodiscard, gnu::always_inline]] constexpr std::int64_t rounded_down(std::int64_t value, int count) noexcept {
     return (value + (std::int64_t{1} << (count - 1)) + (value >> 63)) >> count;
+}
+
+/// word / 2^count rounded to nearest, ties away from zero, 1 <= count <= 31.
+[[nodiscard, gnu::always_inline]] constexpr std::int32_t halved_word(std::int32_t word, int count) noexcept {
+    const std::uint32_t lost = static_cast<std::uint32_t>(word) & ((1U << count) - 1U);
+    // Less by one last bit for negative values: a tie is rounded down.
+    const std::uint32_t up = (lost + (1U << (count - 1)) + static_cast<std::uint32_t>(word >> 31)) >> count;
+    return (word >> count) + static_cast<std::int32_t>(up);
+}
+
+/// a * b / 2^count rounded to nearest, ties away from zero, as the nearest word, 1 <= count <= 63.
+#ifdef SPLINEFEED_SHORT_PRODUCTS
+[[gnu::noinline]]
+#else
+[[gnu::always_inline]]
+#endif
+[[nodiscard]] constexpr std::int32_t
+rounded_product(std::int32_t a, std::int32_t b, int count) noexcept {
+    return saturated_word(rounded_down(signed_product(a, b), count));
+}
+
+/// value * 2^exponent rounded to nearest, ties away from zero, exponent >= -31. @pre it fits
+[[nodiscard, gnu::always_inline]] constexpr std::int32_t fitting_word(std::int64_t value, int exponent) noexcept {
+    return static_cast<std::int32_t>(exponent >= 0 ? lower_word(value) << exponent
+                                                   : lower_word(halved(value, -exponent)));
+}
+
+/// value * word / 2^32 rounded down. It always fits.
+[[nodiscard]] constexpr std::int64_t word_product(std::int64_t value, std::int32_t word) noexcept {
+    const std::uint32_t lower = lower_word(value);
+    // With the sign of the word, which was taken for one larger by 2^32.
+    const std::uint32_t below =
+        static_cast<std::uint32_t>(long_product(lower, static_cast<std::uint32_t>(word)) >> 32) -
+        (lower & static_cast<std::uint32_t>(word >> 31));
+    return signed_product(upper_word(value), word) + static_cast<std::int32_t>(below);
 }
 
 /// value * 2^exponent rounded to nearest, ties away from zero, as the nearest word. Any exponent is allowed.
@@ -44,8 +91,8 @@ namespace detail {
 
 /// The number raw * 2^-30, from -2 to 2 - 2^-30. One ulp is 2^-30, about 9.3e-10.
 ///
-/// Sums are exact; products and quotients are rounded to nearest, ties away from zero: error <= 1/2 ulp. Unlike Fixed it
-/// may overflow: the result is then the largest or lowest number, depending on the sign.
+/// Sums are exact; products and quotients are rounded to nearest, ties away from zero: error <= 1/2 ulp. Unlike Fixed
+/// it may overflow: the result is then the largest or lowest number, depending on the sign.
 class ShortFixed {
 public:
     static constexpr int fraction_bits = 30;
@@ -82,9 +129,7 @@ public:
         return static_cast<double>(raw_) / static_cast<double>(std::int64_t{1} << fraction_bits);
     }
 
-    [[nodiscard, gnu::always_inline]] constexpr ShortFixed operator-() const noexcept {
-        return ShortFixed{} - *this;
-    }
+    [[nodiscard, gnu::always_inline]] constexpr ShortFixed operator-() const noexcept { return ShortFixed{} - *this; }
 
     [[nodiscard, gnu::always_inline]] friend constexpr ShortFixed operator+(ShortFixed a, ShortFixed b) noexcept {
         std::int32_t sum = 0;
@@ -99,13 +144,17 @@ public:
 
     /// Cost: one 32x32->64 multiply.
     [[nodiscard, gnu::always_inline]] friend constexpr ShortFixed operator*(ShortFixed a, ShortFixed b) noexcept {
-        return from_raw(detail::saturated_word(detail::rounded_down(detail::signed_product(a.raw_, b.raw_), fraction_bits)));
+        return from_raw(detail::rounded_product(a.raw_, b.raw_, fraction_bits));
     }
 
     [[gnu::always_inline]] constexpr ShortFixed& operator+=(ShortFixed other) noexcept { return *this = *this + other; }
 
     [[nodiscard]] friend constexpr bool operator==(ShortFixed a, ShortFixed b) noexcept = default;
-    [[nodiscard]] friend constexpr auto operator<=>(ShortFixed a, ShortFixed b) noexcept = default;
+    // One by one, as of Fixed.
+    [[nodiscard]] friend constexpr bool operator<(ShortFixed a, ShortFixed b) noexcept { return a.raw_ < b.raw_; }
+    [[nodiscard]] friend constexpr bool operator>(ShortFixed a, ShortFixed b) noexcept { return a.raw_ > b.raw_; }
+    [[nodiscard]] friend constexpr bool operator<=(ShortFixed a, ShortFixed b) noexcept { return a.raw_ <= b.raw_; }
+    [[nodiscard]] friend constexpr bool operator>=(ShortFixed a, ShortFixed b) noexcept { return a.raw_ >= b.raw_; }
 
 private:
     [[nodiscard, gnu::always_inline]] static constexpr ShortFixed limit(ShortFixed side) noexcept {
@@ -115,18 +164,26 @@ private:
     std::int32_t raw_ = 0;
 };
 
-/// a * b rounded to nearest, halves up; within 4 of the limits of Fixed it may saturate. Cost: two 32x32->64 multiplies.
+/// a * b rounded to nearest, halves up; within 4 of the limits of Fixed it may saturate. Cost: two 32x32->64
+/// multiplies.
 [[nodiscard]] constexpr Fixed operator*(Fixed a, ShortFixed b) noexcept {
     constexpr int bits = ShortFixed::fraction_bits;
     const std::uint32_t lower = detail::lower_word(a.raw());
-    const auto word = static_cast<std::uint32_t>(b.raw());
     // With the sign of b: its word was taken for one larger by 2^32.
-    const auto product = static_cast<std::int64_t>(
-        detail::long_product(lower, word) -
+    const auto below = static_cast<std::int64_t>(
+        detail::long_product(lower, static_cast<std::uint32_t>(b.raw())) -
         (static_cast<std::uint64_t>(lower & static_cast<std::uint32_t>(b.raw() >> 31)) << 32));
-    return Fixed::from_raw(
-        detail::sum(detail::shifted(detail::signed_product(detail::upper_word(a.raw()), b.raw()), 32 - bits),
-                    (product + (std::int64_t{1} << (bits - 1))) >> bits));
+    const std::int64_t above = detail::signed_product(detail::upper_word(a.raw()), b.raw());
+    const std::int64_t rounded = (below + (std::int64_t{1} << (bits - 1))) >> bits;
+    if ((static_cast<std::uint32_t>(detail::upper_word(above)) + 0x1000'0000U) >> 29 != 0) [[unlikely]] {
+        return Fixed::from_raw(detail::sum(detail::any_shift(above, 32 - bits), rounded));
+    }
+    return Fixed::from_raw((above << (32 - bits)) + rounded);
+}
+
+/// a * b / 4 rounded down. It always fits. Cost: two 32x32->64 multiplies.
+[[nodiscard, gnu::always_inline]] constexpr Fixed quarter_product(Fixed a, ShortFixed b) noexcept {
+    return Fixed::from_raw(detail::word_product(a.raw(), b.raw()));
 }
 
 /// factor * x, exact; saturates.
@@ -136,10 +193,11 @@ private:
 
 /// x * 2^exponent rounded to nearest, ties away from zero; saturates.
 [[nodiscard, gnu::always_inline]] constexpr ShortFixed scale2(ShortFixed x, int exponent) noexcept {
-    return ShortFixed::from_raw(detail::word_of(x.raw(), exponent));
+    return ShortFixed::from_raw(exponent < 0 && exponent >= -31 ? detail::halved_word(x.raw(), -exponent)
+                                                                : detail::word_of(x.raw(), exponent));
 }
 
-[[nodiscard]] constexpr ShortFixed absolute(ShortFixed x) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr ShortFixed absolute(ShortFixed x) noexcept {
     return x.raw() < 0 ? -x : x;
 }
 

@@ -155,8 +155,11 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     for (unsigned k = 0; k < in_plane(); ++k) {
         height += distance<S>(from_[k], to_[k], chord_unit_log2) * arc.normal[k];
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
-        rise[k] = k < 3 ? height * arc.normal[k] : distance<S>(from_[k], to_[k], chord_unit_log2);
+    for (unsigned k = 0; k < in_plane(); ++k) {
+        rise[k] = height * arc.normal[k];
+    }
+    for (unsigned k = 3; k < static_cast<unsigned>(smaller(axes_, max_axes)); ++k) {
+        rise[k] = distance<S>(from_[k], to_[k], chord_unit_log2);
     }
     const std::array<S, 2> legs{radius * sweep_, norm(rise.data(), axes_)};
     length_ = norm(legs.data(), 2);

@@ -7,13 +7,6 @@ namespace splinefeed {
 
 namespace {
 
-// Control points are below 2^16 units. The second derivative of a cubic contains 24 of their roundings; twice that is
-// allowed. Rounding is no reason to halve: halving makes it larger in proportion.
-template <Scalar S>
-constexpr S control_noise = literal<S>(1e-8);
-template <>
-constexpr float control_noise<float> = 48.0F * 65536.0F / 16777216.0F;
-
 // Below this, halving adds more rounding to a float than it removes error: the piece is accepted as it is.
 template <Scalar S>
 constexpr S finest = S{};
@@ -83,14 +76,12 @@ bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
 
 template <Scalar S>
 bool ArcLength<S>::bends_too_much() const noexcept {
-    const S noise = control_noise<S>; // as seen by second / sigma
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
-        const auto& q2 = m_.second;
-        const S scale = m_.length_mm * m_.slowest;
-        const S change = absolute(q2[2][k] - q2[0][k]) * scale;
-        const S bend = absolute(q2[2][k] - q2[1][k] - (q2[1][k] - q2[0][k])) * scale;
-        if (change > refinement_.curvature_change * m_.slowest + noise ||
-            bend > refinement_.curvature_bend * m_.slowest + noise) {
+        const auto& bend = m_.second;
+        const Ratio<S> change = absolute(bend[2][k] - bend[0][k]) * m_.slowest;
+        const Ratio<S> uneven = absolute(bend[2][k] - bend[1][k] - (bend[1][k] - bend[0][k])) * m_.slowest;
+        if (change > refinement_.curvature_change * m_.slowest + m_.noise ||
+            uneven > refinement_.curvature_bend * m_.slowest + m_.noise) {
             return true;
         }
     }
@@ -102,18 +93,18 @@ template <Scalar S>
 auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     const int axes = current().axes;
     m_.differentiate(piece, current().degree, axes);
-    const bool last = piece.level == deepest || m_.fastest < finest<S>; // then it is a cell or a cusp
-    if (m_.slowest < nothing_ || m_.fastest > m_.slowest * refinement_.metric_ratio) {
+    const bool last = piece.level == deepest || m_.in_segment(m_.fastest) < finest<S>; // then it is a cell or a cusp
+    if (m_.in_segment(m_.slowest) < nothing_ || m_.fastest > m_.slowest * refinement_.metric_ratio) {
         return last || piece.vanishes(current().axes, current().degree, nothing_) ? Verdict::cusp : Verdict::coarse;
     }
     m_.measure_length(axes, current().unit_log2);
     if (!last && too_long(piece)) {
         return Verdict::coarse;
     }
-    if (!last && absolute(m_.length - m_.low_order_length) > refinement_.metric_error * m_.length + control_noise<S>) {
+    if (!last && m_.length_error > refinement_.metric_error * m_.length + m_.noise) {
         return Verdict::coarse;
     }
-    S turn{};
+    Ratio<S> turn{};
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         turn = larger(turn, absolute(m_.first[2][k] - m_.first[0][k]));
     }
@@ -121,8 +112,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
         return last ? Verdict::cusp : Verdict::coarse;
     }
     m_.invert();
-    const S error = m_.slope_error();
-    if (!last && (error > refinement_.inverse_error * m_.length + control_noise<S> ||
+    if (!last && (m_.slope_error() > refinement_.inverse_error * m_.length + m_.noise ||
                   m_.shape_error > scale2(refinement_.inverse_error, 14))) {
         return Verdict::coarse;
     }
@@ -131,7 +121,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
         return Verdict::coarse;
     }
     // For a piece that bends more, even the slowest speed of a plan is too fast.
-    return m_.sharpest_bend(axes) < refinement_.sharpest ? Verdict::fine : Verdict::cusp;
+    return lengthened<S>(m_.sharpest_bend(axes)) < refinement_.sharpest * m_.length_mm ? Verdict::fine : Verdict::cusp;
 }
 
 template <Scalar S>
@@ -161,16 +151,12 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
         out.origin[k] = displaced(origin, piece.control[k][0], current().unit_log2);
         out.power[k][0] = piece.control[k][0] - distance<S>(origin, out.origin[k], current().unit_log2);
     }
-    const auto per_mm = [this](S x, int shift) {
-        return !(x > S{}) ? S{}
-                          : smaller(scale2(quotient_or_max(x, m_.length_mm), shift),
-                                    from_integer<S>(PieceMeasure<S>::sharpest));
-    };
-    // In units of 2^-12: otherwise Fixed would lose the digits of a small error over a small length. Each estimate is 0
-    // somewhere: the two lengths are the same where sigma is a quadratic, and that is so on a straight cubic.
-    const S estimate = larger(absolute(m_.length - m_.low_order_length), scale2(m_.slope_error(), -2));
-    const S error = m_.shape_error + scale2(estimate, 12) / m_.length;
-    const S ripple = per_mm(from_integer<S>(40) * error, -12);
+    // In units of 2^-12: otherwise Fixed would lose the digits of a small error. Each estimate is 0 somewhere: the two
+    // lengths are the same where sigma is a quadratic, and that is so on a straight cubic.
+    using R = Ratio<S>;
+    const R estimate = larger(m_.length_error, scale2(m_.slope_error(), -2));
+    const R error = m_.shape_error + m_.by_length(scale2(estimate, 12));
+    const R ripple = scale2(times(40, scale2(error, -6)), -6);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S>& power = out.power[k]; // the differences of the control points, without power[0]
         for (unsigned j = n; j >= 1; --j) {
@@ -183,25 +169,29 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
         }
         for (unsigned i = 1, binomial = 1; i <= n; ++i) {
             binomial = binomial * (n - i + 1) / i;
-            power[i] = from_integer<S>(static_cast<std::int32_t>(binomial)) * power[i];
+            power[i] = times(static_cast<int>(binomial), power[i]);
         }
-        out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<S>(1));
+        out.tangent_max[k] = smaller(PieceMeasure<S>::bound(m_.first, k), from_integer<R>(1));
     }
-    const ControlRounding<S> rounded = ControlRounding<S>::of(current(), piece.level, m_.slowest, out.tangent_max);
+    const DivisionBy<S> by_length(out.length_mm);
+    const ControlRounding<S> rounded =
+        ControlRounding<S>::of(current(), piece.level, m_.in_segment(m_.slowest), out.tangent_max);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         // The remaining error of the inverse is about c x^3 (1-x)^3 (x-1/2). With the slope e in the middle its second
         // derivative reaches 8 e, an acceleration of 8 e v^2 / L along the tangent; 10 e is allowed for. Of the other
         // estimates of e, which are of the right order only, it is 40 e. Rounding of the control points bends the
         // curve.
-        const S rounding = out.tangent_max[k] * ripple + per_mm(rounded.bend[k], 0);
-        out.curvature_max[k] =
-            smaller(PieceMeasure<S>::bound(m_.second, k) + rounding, from_integer<S>(PieceMeasure<S>::sharpest));
-        out.shape[k] = shape_of(k, rounding, out);
+        const R rounding = out.tangent_max[k] * ripple + shortened<R>(rounded.bend[k]) + half(AxisShape<S>::rounding);
+        const R bend = PieceMeasure<S>::bound(m_.second, k) + rounding;
+        out.curvature_max[k] = smaller(lengthened<S>(bend) / by_length, from_integer<S>(PieceMeasure<S>::sharpest));
+        out.shape[k] = shape_of(k, bend, rounding, out);
     }
     if (piece.at_end || counts_from_own_start<S>) {
         arrive(out);
     }
-    out.inverse = m_.inverse;
+    for (unsigned i = 0; i < m_.inverse.size(); ++i) {
+        out.inverse[i] = times(4, i == 0 ? m_.inverse[0] - from_integer<R>(1) : m_.inverse[i]);
+    }
     out.steady_mm_s = rounded.steady_speed(refinement_.jump_mm_s, out.axes);
 }
 
@@ -233,20 +223,19 @@ void ArcLength<S>::arrive(Cell<S>& cell) const noexcept {
 // The shape of an axis without curvature, with the largest slope that it has anywhere in the cell.
 template <Scalar S>
 AxisShape<S> ArcLength<S>::largest_shape(unsigned axis, const Cell<S>& cell) const noexcept {
-    const S tangent = scale2(cell.tangent_max[axis], refinement_.shape_log2);
-    return {{tangent, tangent}, {}, S{}};
+    const Ratio<S> tangent = cell.tangent_max[axis];
+    return {{tangent, tangent}, {}, {}};
 }
 
 // A piece that was accepted as it is may turn by more than normal cells. Then the largest values are used for the whole
-// cell. To prevent an overflow in Fixed, the plan also limits its speed (SpeedCaps).
+// cell. To prevent an overflow in Fixed, the plan also limits its speed (SpeedCaps). `bend`: largest length |d2q/ds2|.
 template <Scalar S>
-AxisShape<S> ArcLength<S>::shape_of(unsigned axis, S rounding, const Cell<S>& cell) const noexcept {
-    const S twice = cell.length_mm + cell.length_mm;
-    const S turn = twice * cell.curvature_max[axis];
-    const bool sharp = turn > literal<S>(Cell<S>::sharp_turn);
-    AxisShape<S> shape = sharp ? largest_shape(axis, cell) : m_.shape(axis, refinement_.shape_log2);
-    shape.error_bound = sharp ? scale2(smaller(turn, from_integer<S>(2)), refinement_.shape_log2)
-                              : shape.error_bound + scale2(twice, refinement_.shape_log2) * rounding;
+AxisShape<S> ArcLength<S>::shape_of(unsigned axis, Ratio<S> bend, Ratio<S> rounding,
+                                    const Cell<S>& cell) const noexcept {
+    const bool sharp = bend > literal<Ratio<S>>(Cell<S>::sharp_turn / 2.0);
+    AxisShape<S> shape = sharp ? largest_shape(axis, cell) : m_.shape(axis);
+    shape.error_bound =
+        sharp ? smaller(times(2, bend), from_integer<Ratio<S>>(2)) : shape.error_bound + times(2, rounding);
     return shape;
 }
 
@@ -270,13 +259,13 @@ void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
         chord[k] = distance<S>(cusp_from_[k], cusp_to_[k], current().unit_log2);
         out.power[k][0] = S{};
         out.power[k][1] = chord[k];
-        out.tangent_max[k] = from_integer<S>(1);
+        out.tangent_max[k] = from_integer<Ratio<S>>(1);
         out.curvature_max[k] = S{};
         out.shape[k] = largest_shape(k, out);
     }
     // Not zero, so that time passes.
     out.length_mm = larger(scale2(norm(chord.data(), current().axes), current().unit_log2), literal<S>(1e-8));
-    out.inverse = {from_integer<S>(1), S{}, S{}, S{}, S{}, S{}};
+    out.inverse = {};
     out.steady_mm_s = largest<S>();
     out.degree = 1;
     out.stop_before = true;
@@ -336,8 +325,7 @@ void ArcLength<S>::split() noexcept {
     left.at_start = right.at_start;
     left.at_end = false;
     right.at_start = false;
-    left.control = m_.left;
-    right.control = m_.right;
+    right.halve(current().axes, current().degree, left.control, right.control);
     if constexpr (counts_from_own_start<S>) {
         left.start = right.start;
         for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {

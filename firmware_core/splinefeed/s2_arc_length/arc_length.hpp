@@ -71,7 +71,8 @@ private:
     [[nodiscard]] Position end_of(int piece, unsigned axis) const noexcept;
     void arrive(Cell<S>& cell) const noexcept;
     [[nodiscard]] AxisShape<S> largest_shape(unsigned axis, const Cell<S>& cell) const noexcept;
-    [[nodiscard]] AxisShape<S> shape_of(unsigned axis, S rounding, const Cell<S>& cell) const noexcept;
+    [[nodiscard]] AxisShape<S> shape_of(unsigned axis, Ratio<S> bend, Ratio<S> rounding,
+                                        const Cell<S>& cell) const noexcept;
     void extend_cusp(const Piece<S>& piece) noexcept;
     void fill_chord(bool at_end, Cell<S>& out) noexcept;
     void fill_common(bool at_end, Cell<S>& out) noexcept;

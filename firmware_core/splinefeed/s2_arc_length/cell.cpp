@@ -5,11 +5,12 @@ namespace splinefeed {
 
 template <Scalar S>
 S Cell<S>::parameter_at(S x) const noexcept {
-    S w = inverse[5];
+    const auto fraction = shortened<Ratio<S>>(x);
+    Ratio<S> deviation = inverse[5];
     for (unsigned i = 5; i-- > 0;) {
-        w = w * x + inverse[i];
+        deviation = deviation * fraction + inverse[i];
     }
-    return w * x;
+    return x + lengthened<S>(deviation * fraction, -2);
 }
 
 template <Scalar S>

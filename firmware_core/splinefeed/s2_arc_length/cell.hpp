@@ -12,13 +12,23 @@
 namespace splinefeed {
 
 /// How an axis moves along a cell of length L: dq/ds, a cubic given by its values and slopes at both ends, and 2 L
-/// d2q/ds2, a parabola. All numbers are multiplied by 2^k, with k = `Refinement::shape_log2`.
+/// d2q/ds2, a parabola.
 template <Scalar S>
 struct AxisShape {
-    std::array<S, 2> tangent{}; ///< dq/ds at both ends
-    std::array<S, 3> bend{};    ///< Bezier points of 2 L d2q/ds2
-    S error_bound{};            ///< times v0^2 + v1^2 it bounds the error that these polynomials cause in 2 L times an
-                                ///< acceleration
+    /// What rounding is allowed for in `bend`, and is part of `error_bound`. Most comes from the inverse: it misses
+    /// w = 1/2 by up to two roundings of 2^-30, of which the second derivative is 24 times as large.
+    /// Nothing like it is lost in double, which allows for as much, so that both plan alike.
+    static constexpr Ratio<S> rounding = literal<Ratio<S>>(std::same_as<S, float> ? 0.0 : 0x1p-23);
+
+    std::array<Ratio<S>, 2> tangent{}; ///< dq/ds at both ends
+    std::array<Ratio<S>, 3> bend{};    ///< Bezier points of 2 L d2q/ds2
+    Ratio<S> error_bound{}; ///< times v0^2 + v1^2 it bounds the error that these polynomials cause in 2 L times an
+                            ///< acceleration
+
+    /// The part of `error_bound` by which the shape of the curve differs from these polynomials, so that their
+    /// derivatives differ, too. Rounding moves no point by more than 2^-29 of the cell: no sample shows its
+    /// derivatives.
+    [[nodiscard]] Ratio<S> shape_error() const noexcept { return larger(error_bound - rounding, Ratio<S>{}); }
 };
 
 template <Scalar S>
@@ -31,12 +41,12 @@ struct Cell {
     /// Direction in which an axis moves in the cell and near it, 1 or -1; otherwise it may turn round there (Turning).
     PerAxis<std::int8_t> heading{};
     PerAxis<Position> origin{};
-    PerAxis<Position> end{};       ///< the exact end point; meaningful if stop_at_end
-    PerAxis<PerDegree<S>> power{}; ///< offset = sum power[axis][i] w^i, w in [0, 1], in units of 2^unit_log2 mm
-    std::array<S, 6> inverse{};    ///< w = sum inverse[i] x^(i+1), x = s / length_mm
+    PerAxis<Position> end{};           ///< the exact end point; meaningful if stop_at_end
+    PerAxis<PerDegree<S>> power{};     ///< offset = sum power[axis][i] w^i, w in [0, 1], in units of 2^unit_log2 mm
+    std::array<Ratio<S>, 6> inverse{}; ///< w = x + sum inverse[i] x^(i+1) / 4, x = s / length_mm; their sum is 0
     S length_mm{};
-    PerAxis<S> tangent_max{};   ///< bound of |dq/ds| over the cell, at most 1
-    PerAxis<S> curvature_max{}; ///< bound of |d2q/ds2| over the cell [1/mm]
+    PerAxis<Ratio<S>> tangent_max{}; ///< bound of |dq/ds| over the cell, at most 1
+    PerAxis<S> curvature_max{};      ///< bound of |d2q/ds2| over the cell [1/mm]
     PerAxis<AxisShape<S>> shape{};
     S feed_mm_s{};            ///< programmed feed; 0: the machine's feed
     S max_feed_mm_s{};        ///< upper limit for every feed override; 0: none

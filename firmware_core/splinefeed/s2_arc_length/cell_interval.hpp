@@ -23,12 +23,15 @@ struct CellInterval {
 /// ends of the part (de Casteljau). These are convex combinations: a bound that holds for the points of the cell also
 /// holds for those of the part.
 template <Scalar S, std::size_t N>
-[[nodiscard]] std::array<S, N> points_on(const CellInterval<S>& stretch, const std::array<S, N>& points) noexcept {
-    std::array<S, N> out{};
+[[nodiscard]] std::array<Ratio<S>, N> points_on(const CellInterval<S>& stretch,
+                                                const std::array<Ratio<S>, N>& points) noexcept {
+    const auto from = shortened<Ratio<S>>(stretch.from);
+    const auto to = shortened<Ratio<S>>(stretch.to);
+    std::array<Ratio<S>, N> out{};
     for (std::size_t i = 0; i < N; ++i) {
-        std::array<S, N> d = points;
+        std::array<Ratio<S>, N> d = points;
         for (std::size_t r = 1; r < N; ++r) {
-            const S w = r + i < N ? stretch.from : stretch.to;
+            const Ratio<S> w = r + i < N ? from : to;
             for (std::size_t j = 0; j + r < N; ++j) {
                 d[j] = d[j] + (d[j + 1] - d[j]) * w;
             }

@@ -6,6 +6,8 @@
 // parabola, which are per length of the cell, shrink with the length.
 #include "splinefeed/s2_arc_length/cell_part.hpp"
 
+#include "splinefeed/number/division_by.hpp"
+
 #include <span>
 
 namespace splinefeed {
@@ -13,8 +15,8 @@ namespace splinefeed {
 namespace {
 
 // Coefficients of the polynomial in x - x0.
-template <Scalar S>
-void shift(std::span<S> power, S x0) noexcept {
+template <Numeric N, Numeric X>
+void shift(std::span<N> power, X x0) noexcept {
     for (std::size_t i = 0; i + 1 < power.size(); ++i) {
         for (std::size_t j = power.size() - 1; j-- > i;) {
             power[j] = power[j] + power[j + 1] * x0;
@@ -26,14 +28,16 @@ void shift(std::span<S> power, S x0) noexcept {
 
 template <Scalar S>
 Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
+    using R = Ratio<S>;
     const S one = from_integer<S>(1);
     const S length = stretch.length();
+    const auto share = shortened<R>(length);
     Cell<S> out = cell;
     const S w0 = stretch.from == S{} ? S{} : cell.parameter_at(stretch.from);
     const S w1 = stretch.to == one ? one : cell.parameter_at(stretch.to);
     const S width = w1 - w0;
     const auto degree = static_cast<std::size_t>(cell.degree);
-    const S third = literal<S>(1.0 / 3.0);
+    const R sixth = literal<R>(1.0 / 6.0);
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
         PerDegree<S>& power = out.power[k];
         shift(std::span<S>(power).first(degree + 1), w0);
@@ -45,27 +49,29 @@ Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
         out.origin[k] = displaced(cell.origin[k], power[0], cell.unit_log2);
         power[0] = power[0] - distance<S>(cell.origin[k], out.origin[k], cell.unit_log2);
         AxisShape<S>& shape = out.shape[k];
-        const std::array<S, 4> tangent = points_on(
-            stretch, std::array<S, 4>{shape.tangent[0], shape.tangent[0] + scale2(third * shape.bend[0], -1),
-                                      shape.tangent[1] - scale2(third * shape.bend[2], -1), shape.tangent[1]});
+        const std::array<R, 4> tangent =
+            points_on(stretch, std::array<R, 4>{shape.tangent[0], shape.tangent[0] + sixth * shape.bend[0],
+                                                shape.tangent[1] - sixth * shape.bend[2], shape.tangent[1]});
         shape.tangent = {tangent[0], tangent[3]};
         shape.bend = points_on(stretch, shape.bend);
-        for (S& b : shape.bend) {
-            b = b * length;
+        for (R& b : shape.bend) {
+            b = b * share;
         }
-        shape.error_bound = shape.error_bound * length;
+        shape.error_bound = shape.error_bound * share;
     }
-    // inverse[i] belongs to x^(i+1)
-    std::array<S, 7> inverse{};
+    // inverse[i] belongs to x^(i+1). With l and omega as above omega = xi + ((l - width) xi + deviation / 4) / width.
+    std::array<R, 7> deviation{};
     for (std::size_t i = 0; i < 6; ++i) {
-        inverse[i + 1] = cell.inverse[i];
+        deviation[i + 1] = cell.inverse[i];
     }
-    shift(std::span<S>(inverse), stretch.from);
-    S scale = length / width;
+    shift(std::span<R>(deviation), shortened<R>(stretch.from));
+    const DivisionBy<R> by_width(shortened<R>(width));
+    R scale = share;
     for (std::size_t i = 0; i < 6; ++i) {
-        out.inverse[i] = inverse[i + 1] * scale;
-        scale = scale * length;
+        out.inverse[i] = deviation[i + 1] * scale / by_width;
+        scale = scale * share;
     }
+    out.inverse[0] = out.inverse[0] + shortened<R>(length - width, 2) / by_width;
     out.length_mm = cell.length_mm * length;
     out.stop_before = cell.stop_before && stretch.from == S{};
     if (!(stretch.to == one)) {

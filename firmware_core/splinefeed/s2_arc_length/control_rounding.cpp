@@ -39,7 +39,7 @@ float reach(const CurveSegment<float>& segment, unsigned axis, int level) noexce
 
 template <Scalar S>
 ControlRounding<S> ControlRounding<S>::of(const CurveSegment<S>& segment, int level, S slowest,
-                                          const PerAxis<S>& tangent_max) noexcept {
+                                          const PerAxis<Ratio<S>>& tangent_max) noexcept {
     ControlRounding out;
     S jump_along{};
     S bend_along{};
@@ -58,12 +58,15 @@ ControlRounding<S> ControlRounding<S>::of(const CurveSegment<S>& segment, int le
             out.jump[k] = out.jump[0];
             out.bend[k] = out.bend[0];
         }
-        jump_along += tangent_max[k] * out.jump[k];
-        bend_along += tangent_max[k] * out.bend[k];
+        jump_along += out.jump[k] * tangent_max[k];
+        bend_along += out.bend[k] * tangent_max[k];
+    }
+    if (jump_along == S{} && bend_along == S{}) {
+        return out; // in Fixed, of a long piece
     }
     for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
-        out.jump[k] = out.jump[k] + tangent_max[k] * jump_along;
-        out.bend[k] = out.bend[k] + tangent_max[k] * bend_along;
+        out.jump[k] = out.jump[k] + jump_along * tangent_max[k];
+        out.bend[k] = out.bend[k] + bend_along * tangent_max[k];
     }
     return out;
 }

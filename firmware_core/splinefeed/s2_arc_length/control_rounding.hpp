@@ -16,7 +16,7 @@ struct ControlRounding {
     /// @param slowest  smallest |dr/dw| in the cell, in units of the segment; `tangent_max`: bound of |dq/ds| in the
     ///                 cell
     [[nodiscard]] static ControlRounding of(const CurveSegment<S>& segment, int level, S slowest,
-                                            const PerAxis<S>& tangent_max) noexcept;
+                                            const PerAxis<Ratio<S>>& tangent_max) noexcept;
     /// Largest speed along the path at which no axis's speed jumps by more than `jump_mm_s` where two cells meet.
     [[nodiscard]] S steady_speed(const PerAxis<S>& jump_mm_s, int axes) const noexcept;
 };

@@ -2,6 +2,7 @@
 // Piece: a part of a Bezier segment that may become a cell, and its measures at w = 0, 1/2 and 1.
 #pragma once
 
+#include "splinefeed/number/division_by.hpp"
 #include "splinefeed/s1_curve/curve_segment.hpp"
 #include "splinefeed/s2_arc_length/cell.hpp"
 
@@ -35,6 +36,8 @@ struct Piece {
         }
         return true;
     }
+    /// The control points of its halves, by de Casteljau at 1/2. Either may be this piece.
+    void halve(int axes, int degree, PerAxis<PerDegree<S>>& left, PerAxis<PerDegree<S>>& right) const noexcept;
     /// What the control points of an axis count from.
     [[nodiscard]] Position origin(const CurveSegment<S>& segment, unsigned axis) const noexcept {
         if constexpr (counts_from_own_start<S>) {
@@ -61,43 +64,58 @@ struct Piece {
     }
 };
 
-/// Derivatives, length and inverse of a piece. The members are computed in this order, each from earlier ones.
-/// Derivation: piece.cpp. Cost: one de Casteljau triangle, three roots, 3 + 3 + 3 divisions per axis count.
+/// Derivatives, length and inverse of a piece. The members are computed in this order, each from earlier ones, in units
+/// of 2^unit_log2 times that of the segment: in Fixed one in which they fit in a word. Derivation: piece.cpp. Cost:
+/// three roots, 4 + 3 divisors and 6 divisions per axis, a dozen more.
 template <Scalar S>
 struct PieceMeasure {
+    using R = Ratio<S>;
+
     static constexpr int points = 3;         // w = 0, 1/2, 1
     static constexpr int sharpest = 1 << 24; ///< curvatures above this count as infinite [1/mm]
-
-    PerAxis<PerDegree<S>> left{}; ///< the halves, by de Casteljau at 1/2
-    PerAxis<PerDegree<S>> right{};
-    std::array<PerAxis<S>, points> first{};  ///< dr/dw; after measure_length: dq/ds
-    std::array<PerAxis<S>, points> second{}; ///< d2r/dw2; after measure_curvature: d2q/ds2 [1/mm]
-    std::array<S, points> sigma{};           ///< |dr/dw|
-    std::array<S, points> slope{};           ///< dsigma/dw
-    S slowest{};                             ///< smallest sigma
-    S fastest{};                             ///< largest sigma
-    S length{};                              ///< in units of the segment
-    S low_order_length{};                    ///< the length by a rule two orders lower
+    int unit_log2 = 0;
+    R noise{};                               ///< what rounding may do to `second`
+    std::array<PerAxis<R>, points> first{};  ///< dr/dw; after measure_length: dq/ds
+    std::array<PerAxis<R>, points> second{}; ///< d2r/dw2; after measure_curvature: length d2q/ds2
+    std::array<R, points> sigma{};           ///< |dr/dw|
+    std::array<R, points> slope{};           ///< dsigma/dw
+    R slowest{};                             ///< smallest sigma
+    R fastest{};                             ///< largest sigma
+    R length{};
+    R length_error{}; ///< difference to a rule two orders lower
     S length_mm{};
-    std::array<S, 6> inverse{}; ///< w = sum inverse[i] x^(i+1), x = fraction of the length
-    S shape_error{};            ///< 2^12 times the relative error of the inverse, estimated from the shape of sigma
-    S middle{};                 ///< x at w = 1/2
-    S middle_slope{};           ///< dw/dx of the inverse at `middle`; times sigma/length it should be 1
+    std::array<R, 6> inverse{}; ///< w = sum inverse[i] x^(i+1), x = fraction of the length
+    R shape_error{};            ///< 2^12 times the relative error of the inverse, estimated from the shape of sigma
+    R middle{};                 ///< x at w = 1/2
+    R middle_slope{};           ///< dw/dx of the inverse at `middle`; times sigma/length it should be 1
 
-    /// Halves the piece and computes dr/dw, d2r/dw2 and sigma.
+    /// Chooses the unit, and computes dr/dw, d2r/dw2 and sigma.
     void differentiate(const Piece<S>& piece, int degree, int axes) noexcept;
     /// @pre slowest > 0
-    void measure_length(int axes, int unit_log2) noexcept;
+    void measure_length(int axes, int segment_unit_log2) noexcept;
     void invert() noexcept;
-    void measure_curvature(int axes, int unit_log2) noexcept;
+    void measure_curvature(int axes, int segment_unit_log2) noexcept;
     /// How far the slope of the inverse is off in the middle, times the length.
-    [[nodiscard]] S slope_error() const noexcept { return absolute(middle_slope * sigma[1] - length); }
-    /// Largest |d2q/ds2| of an axis at the three points.
-    [[nodiscard]] S sharpest_bend(int axes) const noexcept;
+    [[nodiscard]] R slope_error() const noexcept { return absolute(middle_slope * sigma[1] - length); }
+    /// Largest length |d2q/ds2| of an axis at the three points.
+    [[nodiscard]] R sharpest_bend(int axes) const noexcept;
     /// The shape of one axis, without its error bound.
-    [[nodiscard]] AxisShape<S> shape(unsigned axis, int log2) const noexcept;
+    [[nodiscard]] AxisShape<S> shape(unsigned axis) const noexcept;
+    /// In the unit of the segment.
+    [[nodiscard]] S in_segment(R x) const noexcept { return lengthened<S>(x, unit_log2); }
+    /// x / length, for x in any unit.
+    [[nodiscard]] R by_length(R x) const noexcept { return x / by_length_; }
     /// Largest magnitude over the piece of a function that is known at the three points.
-    [[nodiscard]] static S bound(const std::array<PerAxis<S>, points>& f, unsigned axis) noexcept;
+    [[nodiscard]] static R bound(const std::array<PerAxis<R>, points>& f, unsigned axis) noexcept;
+
+private:
+    void choose_unit(const Piece<S>& piece, unsigned degree, int axes) noexcept;
+
+    int fine_log2_ = 0; // the differences of control points are in units of 2^(unit_log2 - fine_log2_)
+    std::array<DivisionBy<R>, points> by_sigma_{};
+    DivisionBy<R> by_length_{};
+    DivisionBy<R> by_hump_{};         // x (1 - x) at the middle
+    std::array<R, points> stretch_{}; // length / sigma
 };
 
 } // namespace splinefeed

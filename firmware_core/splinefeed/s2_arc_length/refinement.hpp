@@ -23,7 +23,6 @@ struct Refinement {
     S grade_per_feed_sq{}; ///< a cell next to a joint is at most feed^2 times this: a fraction of the braking distance
     int finest_grade_log2 = 0;          ///< next to a stop it is 2^-this of that length: jerk-limited motion starts
                                         ///< slowly
-    int shape_log2 = 0;                 ///< unit of AxisShape: 2^-shape_log2
     int axes = 0;                       ///< number of axes that a segment must have; 0: any
     PerAxis<PositionRange> countable{}; ///< range in which the control points of a segment must be
     PerAxis<PositionRange> open{};      ///< range in which an axis may move at full speed; outside it is near the ends
@@ -31,16 +30,17 @@ struct Refinement {
     S end_piece_mm{};                   ///< longest cell across a border of `open`; 0: no axis has one
     PerAxis<S> jump_mm_s{};             ///< largest jump of an axis's speed at a joint of cells that rounding may cause
     S direction_jump{};                 ///< a larger change of dq/ds at a joint is a corner: the machine stops
-    S turn = literal<S>(0.0613);        ///< largest change of direction within a cell [rad]
-    S curvature_change = literal<S>(0.0127); ///< largest change of curvature times length within a cell [rad]
-    S curvature_bend = literal<S>(0.0037);   ///< the same for the second difference of curvature
-    S metric_ratio = literal<S>(1.2173);     ///< largest ratio of two |dr/dw| within a cell
+    Ratio<S> turn = literal<Ratio<S>>(0.0613); ///< largest change of direction within a cell [rad]
+    Ratio<S> curvature_change =
+        literal<Ratio<S>>(0.0127); ///< largest change of curvature times length within a cell [rad]
+    Ratio<S> curvature_bend = literal<Ratio<S>>(0.0037); ///< the same for the second difference of curvature
+    Ratio<S> metric_ratio = literal<Ratio<S>>(1.2173);   ///< largest ratio of two |dr/dw| within a cell
     /// largest |d2q/ds2| of an axis [1/mm]; a piece that bends more is passed as a cusp
     S sharpest = from_integer<S>(PieceMeasure<S>::sharpest);
     /// largest relative difference of a 4th and a 6th order length; float cannot resolve less
-    S metric_error = literal<S>(std::same_as<S, float> ? 1.13e-5 : 1.13e-6);
+    Ratio<S> metric_error = literal<Ratio<S>>(std::same_as<S, float> ? 1.13e-5 : 1.13e-6);
     /// largest relative error of the inverse's slope in the middle of a cell: it bounds the fluctuation of the feed
-    S inverse_error = literal<S>(std::same_as<S, float> ? 3.1e-5 : 3.1e-6);
+    Ratio<S> inverse_error = literal<Ratio<S>>(std::same_as<S, float> ? 3.1e-5 : 3.1e-6);
 };
 
 } // namespace splinefeed

@@ -68,6 +68,7 @@ ProfileMotion<S>::ProfileMotion(const ProfileSegment<S>& profile_segment, S cell
     const S one = from_integer<S>(1);
     if (shape_ == SpeedShape::cubic) {
         duration_ = profile_segment.duration_ms * (per_s / from_integer<S>(1000)); // in s Fixed would lose digits
+        by_duration_ = DivisionBy<S>(duration_);
         linear_ = profile_segment.linear;
         quadratic_ = profile_segment.quadratic;
         return;
@@ -78,6 +79,7 @@ ProfileMotion<S>::ProfileMotion(const ProfileSegment<S>& profile_segment, S cell
     const S v1 = square_root(profile_segment.exit_sq);
     if (shape_ == SpeedShape::line) {
         duration_ = quotient_or_max((length + length) * per_s, v0 + v1);
+        by_duration_ = DivisionBy<S>(duration_);
         linear_ = quotient_or_max(v0 + v0, v0 + v1);
         quadratic_ = one - linear_;
         return;
@@ -112,6 +114,7 @@ ProfileMotion<S>::ProfileMotion(const ProfileSegment<S>& profile_segment, S cell
         time_ = next;
     }
     duration_ = time_ * length * per_s / unit;
+    by_duration_ = DivisionBy<S>(duration_);
 }
 
 // The time is halved until the series converges fast, and the result doubled again: with s = t S, x = t^2 C: s(2 t) = 2

@@ -2,6 +2,7 @@
 // ProfileMotion: the distance along a profile segment after a fraction of its time. Derivation: profile_motion.cpp.
 #pragma once
 
+#include "splinefeed/number/division_by.hpp"
 #include "splinefeed/s3_feed_plan/steering/motion_plan.hpp"
 
 namespace splinefeed {
@@ -14,6 +15,8 @@ public:
     ProfileMotion(const ProfileSegment<S>& profile_segment, S cell_length_mm, S per_s) noexcept;
 
     [[nodiscard]] S duration() const noexcept { return duration_; }
+    /// time / duration()
+    [[nodiscard]] S share_of(S time) const noexcept { return time / by_duration_; }
     /// Fraction of the profile segment's length after the fraction y of its time, both 0 to 1. Cost: 2 products; 50 for
     /// a parabola with a rounded top or bottom.
     [[nodiscard]] S at(S y) const noexcept;
@@ -23,6 +26,7 @@ private:
 
     SpeedShape shape_ = SpeedShape::line;
     S duration_{};
+    DivisionBy<S> by_duration_{};
     S linear_{};    // as in ProfileSegment; parabola: the entry speed
     S quadratic_{}; // parabola: the acceleration at the entry
     S curvature_{}; // parabola: half of the curvature of v^2

@@ -67,7 +67,7 @@ Pull ProfileSampler<S>::enter_segment(UnderrunPolicy underrun, WorkBudget& work)
 // Fraction of the cell's length where the machine is at a time since the start of the profile segment.
 template <Scalar S>
 S ProfileSampler<S>::fraction_at(S time) const noexcept {
-    const S x = motion_.at(time / motion_.duration());
+    const S x = motion_.at(motion_.share_of(time));
     const CellInterval<S>& stretch = plan_->profile_segment().stretch;
     return stretch.whole() ? x : stretch.from + stretch.length() * x;
 }
@@ -106,7 +106,7 @@ template <Scalar S>
 void ProfileSampler<S>::follow_steering() noexcept {
     const S v0 = square_root(plan_->profile_segment().entry_sq);
     const S v1 = square_root(plan_->profile_segment().exit_sq);
-    const S share = elapsed_ / motion_.duration();
+    const S share = motion_.share_of(elapsed_);
     const S x = fraction_at(elapsed_);
     S speed = v0 + (v1 - v0) * share;
     // Without a jump of the acceleration the hold needs no correction at its start.

@@ -22,7 +22,7 @@ AxisVector minus(const AxisVector& a, const AxisVector& b) {
     return out;
 }
 
-AxisVector times(double factor, AxisVector a) {
+AxisVector multiple(double factor, AxisVector a) {
     for (double& x : a) {
         x *= factor;
     }
@@ -95,10 +95,10 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
     const Rounding e1 = rounding_of(after, agreement);
     const double h0 = length_of(curve, from);
     const double h1 = length_of(curve, to);
-    const AxisVector q1 = times(1.0 / h0, end.first);
-    const AxisVector r1 = times(1.0 / h1, start.first);
-    const AxisVector q2 = times(1.0 / (h0 * h0), end.second);
-    const AxisVector r2 = times(1.0 / (h1 * h1), start.second);
+    const AxisVector q1 = multiple(1.0 / h0, end.first);
+    const AxisVector r1 = multiple(1.0 / h1, start.first);
+    const AxisVector q2 = multiple(1.0 / (h0 * h0), end.second);
+    const AxisVector r2 = multiple(1.0 / (h1 * h1), start.second);
     const auto agree = [&agreement](double jump, double a, double b, double noise) {
         return jump <= agreement.relative * std::max(a, b) + noise;
     };
@@ -123,7 +123,7 @@ nlohmann::ordered_json joint_of(const DescribedCurve& curve, const Agreement& ag
     if (regular) {
         const double n0 = size(end.first);
         const double n1 = size(start.first);
-        const AxisVector turn = minus(times(1.0 / n1, start.first), times(1.0 / n0, end.first));
+        const AxisVector turn = minus(multiple(1.0 / n1, start.first), multiple(1.0 / n0, end.first));
         g1 = c0 && size(turn) <= agreement.relative + e0.first / n0 + e1.first / n1;
         const double k0 = size(end.curvature);
         const double k1 = size(start.curvature);
@@ -182,8 +182,8 @@ CurveSample sample_of(const BezierPiece<double>& piece, int axes, double u) {
     const double n_sq = inner_product(out.first, out.first);
     out.regular = std::sqrt(n_sq) > 2.0 * n * least_regular * largest;
     if (out.regular) {
-        const AxisVector normal = minus(out.second, times(inner_product(out.first, out.second) / n_sq, out.first));
-        out.curvature = times(1.0 / n_sq, normal);
+        const AxisVector normal = minus(out.second, multiple(inner_product(out.first, out.second) / n_sq, out.first));
+        out.curvature = multiple(1.0 / n_sq, normal);
         out.kappa = axes == 2 ? (out.first[0] * out.second[1] - out.first[1] * out.second[0]) / (n_sq * std::sqrt(n_sq))
                               : size(out.curvature);
     }

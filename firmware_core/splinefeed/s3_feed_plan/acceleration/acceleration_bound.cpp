@@ -47,52 +47,65 @@ constexpr int least_step_log2 = std::same_as<S, double>  ? -50
                                 : std::same_as<S, float> ? -22
                                                          : -30;
 
+// By how much rounding may change the numbers of a half-plane, each the sum of at most four roundings, and a sum of
+// four products. In float and double the error bound of a cell covers it.
+template <Scalar S>
+constexpr Ratio<S> factor_rounding = literal<Ratio<S>>(std::same_as<S, Fixed> ? 3.0 * 0x1p-30 : 0.0);
+template <Scalar S>
+constexpr S sum_rounding = literal<S>(std::same_as<S, Fixed> ? 4.0 * 0x1p-32 : 0.0);
+
 } // namespace
 
-// The eight half-planes of an axis: for each of the four points one against accelerations > 0 and one against those <
-// 0.
+// The half-planes of the four points of an axis.
 template <Scalar S>
 auto AccelerationBound<S>::rows_of(unsigned k) const noexcept -> AxisRows {
     const AxisShape<S>& shape = cell_.shape[k];
-    const S third = literal<S>(1.0 / 3.0);
-    AxisRows out;
+    const R third = literal<R>(1.0 / 3.0);
     S length = cell_.length_mm;
-    S e = shape.error_bound;
-    std::array<S, 3> bend = shape.bend;
-    S c0 = third * bend[0];
-    S c2 = third * bend[2];
-    std::array<S, 4> t{shape.tangent[0], shape.tangent[0] + scale2(c0, -1), shape.tangent[1] - scale2(c2, -1),
-                       shape.tangent[1]};
+    R e = shape.error_bound;
+    std::array<R, 3> bend = shape.bend;
+    R c0 = third * bend[0];
+    R c2 = third * bend[2];
+    std::array<R, 4> t{shape.tangent[0], shape.tangent[0] + half(c0), shape.tangent[1] - half(c2), shape.tangent[1]};
     if (!stretch_.whole()) {
-        const S share = stretch_.length();
-        length = length * share;
+        const auto share = shortened<R>(stretch_.length());
+        length = length * stretch_.length();
         e = e * share;
         t = points_on(stretch_, t);
         bend = points_on(stretch_, bend);
-        for (S& b : bend) {
+        for (R& b : bend) {
             b = b * share; // 2 L q'' of the shorter length
         }
         c0 = third * bend[0];
         c2 = third * bend[2];
     }
-    const S c1 = third * (bend[1] + bend[1]);
-    out.entry = {bend[0] - t[0], c1 - t[1], c2 - t[2], -t[3]};
-    out.exit = {t[0], t[1] + c0, t[2] + c1, t[3] + bend[2]};
-    out.e = e;
-    const S twice = length + length;
-    const auto scaled = [&](S acceleration) {
-        return smaller(scale2(twice * acceleration, limits_.refinement.shape_log2),
-                       from_integer<S>(1 << 30)); // never reached
+    const R c1 = third * (bend[1] + bend[1]);
+    const auto scaled = [&](S acceleration) { // a quarter of 2 L A
+        return smaller(larger(half(length * acceleration) - sum_rounding<S>, S{}),
+                       from_integer<S>(1 << 29)); // never reached
     };
     const S speeding = scaled(limits_.acceleration_mm_s2[k]);
-    out.limit = {speeding, speeding};
+    S forward = speeding;
+    S backward = speeding;
     if (!(limits_.braking_mm_s2[k] == limits_.acceleration_mm_s2[k])) {
         const S braking = scaled(limits_.braking_mm_s2[k]);
         const int way = speeding == braking ? 1 : cell_.heading[k];
-        out.limit[0] = way == 1 ? speeding : way == -1 ? braking : smaller(speeding, braking);
-        out.limit[1] = way == 1 ? braking : way == -1 ? speeding : out.limit[0];
+        forward = way == 1 ? speeding : way == -1 ? braking : smaller(speeding, braking);
+        backward = way == 1 ? braking : way == -1 ? speeding : forward;
     }
-    return out;
+    if (e > literal<R>(0.25)) [[unlikely]] { // their sums would not fit in a Ratio: half of all
+        const auto halved = [](R x, R y) {
+            return half(x) + half(y);
+        };
+        return {{halved(bend[0], -t[0]), halved(c1, -t[1]), halved(c2, -t[2]), -half(t[3])},
+                {half(t[0]), halved(t[1], c0), halved(t[2], c1), halved(t[3], bend[2])},
+                half(e) + factor_rounding<S>,
+                {half(forward), half(backward)}};
+    }
+    return {{bend[0] - t[0], c1 - t[1], c2 - t[2], -t[3]},
+            {t[0], t[1] + c0, t[2] + c1, t[3] + bend[2]},
+            e + factor_rounding<S>,
+            {forward, backward}};
 }
 
 // A violated half-plane reduces the end that is wanted: the quotient stays below it, whatever the divisor.
@@ -102,15 +115,20 @@ S AccelerationBound<S>::lowered(S given_sq, S at_most) const noexcept {
     S best = at_most;
     for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
         const AxisRows axis = rows_of(k);
-        for (unsigned i = 0; i < 8; ++i) {
-            const Row row = axis[i];
-            if (!(row.*Asked > S{})) {
-                continue;
-            }
-            const S asked = row.*Asked * best;
-            const S excess = row.*Given * given_sq + asked - row.limit;
-            if (excess > S{}) {
-                best = excess < asked ? best - excess / row.*Asked : S{};
+        const S given_e = quarter_product(given_sq, axis.e);
+        S of_e = given_e + quarter_product(best, axis.e);
+        for (unsigned j = 0; j < 4; ++j) {
+            const R asked = (axis.*Asked)[j];
+            const S given = quarter_product(given_sq, (axis.*Given)[j]);
+            S of_point = given + quarter_product(best, asked);
+            for (unsigned side = 0; side < 2; ++side) {
+                const S excess = (side == 0 ? of_e + of_point : of_e - of_point) - axis.limit[side];
+                const R divisor = side == 0 ? axis.e + asked : axis.e - asked;
+                if (excess > S{} && divisor > R{}) {
+                    best = larger(best - quotient_by_quarter(excess, divisor), S{});
+                    of_e = given_e + quarter_product(best, axis.e);
+                    of_point = given + quarter_product(best, asked);
+                }
             }
         }
     }
@@ -119,12 +137,12 @@ S AccelerationBound<S>::lowered(S given_sq, S at_most) const noexcept {
 
 template <Scalar S>
 S AccelerationBound<S>::largest_exit(S entry_sq, S at_most) const noexcept {
-    return lowered<&Row::entry, &Row::exit>(entry_sq, at_most);
+    return lowered<&AxisRows::entry, &AxisRows::exit>(entry_sq, at_most);
 }
 
 template <Scalar S>
 S AccelerationBound<S>::largest_entry(S exit_sq, S at_most) const noexcept {
-    return lowered<&Row::exit, &Row::entry>(exit_sq, at_most);
+    return lowered<&AxisRows::exit, &AxisRows::entry>(exit_sq, at_most);
 }
 
 // A violated half-plane increases the exit. The error bound is proportional to |v^2|: below zero it acts on the other
@@ -135,15 +153,21 @@ S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept 
     S best = exit_sq;
     for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
         const AxisRows axis = rows_of(k);
-        for (unsigned i = 0; i < 8; ++i) {
-            const Row row = axis[i];
-            const S exit = below_zero ? -axis.exit_of(i ^ 1U) : row.exit;
-            if (!(exit < S{})) {
-                continue;
-            }
-            const S excess = row.entry * entry_sq + exit * best - row.limit;
-            if (excess > S{}) {
-                best = best + smaller(quotient_or_max(excess, -exit), at_most - best);
+        const R exit_e = below_zero ? -axis.e : axis.e;
+        const S entry_e = quarter_product(entry_sq, axis.e);
+        S of_e = entry_e + quarter_product(best, exit_e);
+        for (unsigned j = 0; j < 4; ++j) {
+            const R exit = axis.exit[j];
+            const S entry = quarter_product(entry_sq, axis.entry[j]);
+            S of_point = entry + quarter_product(best, exit);
+            for (unsigned side = 0; side < 2; ++side) {
+                const S excess = (side == 0 ? of_e + of_point : of_e - of_point) - axis.limit[side];
+                const R divisor = side == 0 ? -exit_e - exit : exit - exit_e;
+                if (excess > S{} && divisor > R{}) {
+                    best = best + smaller(quotient_by_quarter(excess, divisor), at_most - best);
+                    of_e = entry_e + quarter_product(best, exit_e);
+                    of_point = entry + quarter_product(best, exit);
+                }
             }
         }
     }
@@ -162,57 +186,71 @@ S AccelerationBound<S>::reach_from_standstill(S at_most) const noexcept {
     const S twice = cell_.length_mm + cell_.length_mm;
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
-        reach = smaller(reach, quotient_or_max(twice * limit, cell_.tangent_max[k] + twice * cell_.curvature_max[k]));
+        reach = smaller(reach, quotient_or_max(twice * limit,
+                                               lengthened<S>(cell_.tangent_max[k]) + twice * cell_.curvature_max[k]));
     }
     return reach;
 }
 
-// The entry where two half-planes meet; their exits cancel with the weight 0 ... 1 of the second.
+// The entry where two half-planes meet: their exits, of which that of the second is not smaller, cancel with the weight
+// 0 ... 1 of the second.
 template <Scalar S>
-S AccelerationBound<S>::crossing_of(const Row& first, const Row& second, S weight) noexcept {
-    const S entry = first.entry + second.entry * weight;
-    return entry > S{} ? quotient_or_max(first.limit + second.limit * weight, entry) : largest<S>();
+S AccelerationBound<S>::crossing_of(const Row& first, const Row& second) noexcept {
+    const R weight = absolute(first.exit) / DivisionBy<R>(absolute(second.exit));
+    const R entry = half(first.entry) + half(second.entry * weight);
+    return entry > R{} ? quotient_by_quarter(half(first.limit) + half(second.limit * weight), entry) : largest<S>();
+}
+
+// All exits from an entry up to a cap; none if low > high, and then no more than what shows it.
+template <Scalar S>
+auto AccelerationBound<S>::exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRows>& rows) const noexcept -> Exits {
+    const R one = from_integer<R>(1);
+    const S beyond = cap_sq + cap_sq;                                       // larger than every exit
+    const Row none{R{}, -one, S{}};                                         // exit >= 0
+    Exits out{S{}, cap_sq, none, {R{}, one, quarter_product(cap_sq, one)}}; // exit <= cap
+    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+        const AxisRows& axis = rows[k];
+        const S entry_e = quarter_product(entry_sq, axis.e);
+        for (unsigned i = 0; i < 8; ++i) {
+            const unsigned j = i / 2;
+            const bool against = i % 2 != 0;
+            const S of_entry = quarter_product(entry_sq, axis.entry[j]);
+            const S of_point = (against ? entry_e - of_entry : entry_e + of_entry) - axis.limit[i % 2];
+            const R exit = against ? axis.e - axis.exit[j] : axis.e + axis.exit[j];
+            if (exit > R{}) {
+                const S excess = of_point + quarter_product(out.high, exit);
+                if (excess > S{} && out.high > -cap_sq) {
+                    out.high = out.high - smaller(quotient_by_quarter(excess, exit), out.high + cap_sq);
+                    out.above = axis.row(j, i % 2);
+                }
+                continue;
+            }
+            const S excess = out.low == S{} ? of_point : of_point + quarter_product(out.low, exit);
+            if (excess > S{} && out.low < beyond) {
+                const S step = exit < R{} ? smaller(quotient_by_quarter(excess, -exit), beyond) : beyond;
+                out.low = smaller(out.low + step, beyond);
+                out.below = axis.row(j, i % 2);
+            }
+        }
+    }
+    return out;
 }
 
 template <Scalar S>
 PeakSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
-    const S one = from_integer<S>(1);
-    const S beyond = cap_sq + cap_sq; // larger than every exit
-    const auto axes = static_cast<unsigned>(cell_.axes);
     PerAxis<AxisRows> rows;
-    for (unsigned k = 0; k < axes; ++k) {
+    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
         rows[k] = rows_of(k);
     }
     S entry = cap_sq;
     S back = larger(scale2(cap_sq, least_step_log2<S>), literal<S>(0x1p-32));
     for (int step = 0; step < most_steps; ++step) {
-        Row above{S{}, one, cap_sq}; // exit <= cap
-        Row below{S{}, -one, S{}};   // exit >= 0
-        S high = cap_sq;
-        S low{};
-        for (unsigned k = 0; k < axes; ++k) {
-            for (unsigned i = 0; i < 8; ++i) {
-                const Row row = rows[k][i];
-                if (row.exit > S{}) {
-                    const S excess = row.entry * entry + row.exit * high - row.limit;
-                    if (excess > S{} && high > -cap_sq) {
-                        high = high - smaller(quotient_or_max(excess, row.exit), high + cap_sq);
-                        above = row;
-                    }
-                } else {
-                    const S excess = row.entry * entry + row.exit * low - row.limit;
-                    if (excess > S{} && low < beyond) {
-                        low = smaller(low + smaller(quotient_or_max(excess, -row.exit), beyond), beyond);
-                        below = row;
-                    }
-                }
-            }
+        const Exits exits = exits_from(entry, cap_sq, rows);
+        if (exits.low <= exits.high) {
+            return {entry, exits.low, exits.high};
         }
-        if (low <= high) {
-            return {entry, low, high};
-        }
-        const S crossing = -below.exit < above.exit ? crossing_of(below, above, -below.exit / above.exit)
-                                                    : crossing_of(above, below, above.exit / -below.exit);
+        const S crossing = -exits.below.exit < exits.above.exit ? crossing_of(exits.below, exits.above)
+                                                                : crossing_of(exits.above, exits.below);
         if (!(crossing < entry)) { // the same pair again: rounding, which nearly parallel lines magnify
             entry = larger(entry - back, S{});
             back += back;

@@ -3,6 +3,7 @@
 // limits at every point of the cell. Derivation: acceleration_bound.cpp.
 #pragma once
 
+#include "splinefeed/number/division_by.hpp"
 #include "splinefeed/s2_arc_length/cell.hpp"
 #include "splinefeed/s2_arc_length/cell_interval.hpp"
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
@@ -41,27 +42,38 @@ public:
     [[nodiscard]] PeakSpeeds<S> peak(S cap_sq) const noexcept;
 
 private:
-    struct Row { // entry * entry_sq + exit * exit_sq <= limit
-        S entry{};
-        S exit{};
+    using R = Ratio<S>;
+
+    struct Row { // entry * entry_sq + exit * exit_sq <= limit, each side as a quarter_product
+        R entry{};
+        R exit{};
         S limit{};
     };
 
-    struct AxisRows { // as few numbers as say it: those of all axes lie on the stack of peak()
-        std::array<S, 4> entry;
-        std::array<S, 4> exit;
-        S e;                    // of all of them
-        std::array<S, 2> limit; // of accelerations > 0 and < 0, in turn
+    /// The half-planes of an axis: point j bounds the accelerations > 0 with (e + entry[j], e + exit[j], limit[0]), and
+    /// those < 0 with (e - entry[j], e - exit[j], limit[1]).
+    struct AxisRows {
+        std::array<R, 4> entry;
+        std::array<R, 4> exit;
+        R e; // of all of them
+        std::array<S, 2> limit;
 
-        [[nodiscard]] S exit_of(unsigned i) const noexcept { return i % 2 == 0 ? e + exit[i / 2] : e - exit[i / 2]; }
-        [[nodiscard]] Row operator[](unsigned i) const noexcept {
-            return {i % 2 == 0 ? e + entry[i / 2] : e - entry[i / 2], exit_of(i), limit[i % 2]};
+        [[nodiscard]] Row row(unsigned j, unsigned side) const noexcept {
+            return side == 0 ? Row{e + entry[j], e + exit[j], limit[0]} : Row{e - entry[j], e - exit[j], limit[1]};
         }
     };
 
-    [[nodiscard]] static S crossing_of(const Row& first, const Row& second, S weight) noexcept;
+    struct Exits { // those from low to high, and the half-planes that bound them
+        S low{};
+        S high{};
+        Row below{};
+        Row above{};
+    };
+
+    [[nodiscard]] Exits exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRows>& rows) const noexcept;
+    [[nodiscard]] static S crossing_of(const Row& first, const Row& second) noexcept;
     [[nodiscard]] AxisRows rows_of(unsigned k) const noexcept;
-    template <auto Given, auto Asked> // members of Row
+    template <auto Given, auto Asked> // members of AxisRows
     [[nodiscard]] S lowered(S given_sq, S at_most) const noexcept;
     [[nodiscard]] S lifted(S entry_sq, S exit_sq, S at_most) const noexcept;
 

@@ -22,8 +22,8 @@ S SpeedCaps<S>::cap_sq(const Cell<S>& cell) const noexcept {
     S speed = path_speed(cell, most);
     for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
         const S velocity = axis_velocity(cell, limits_, k);
-        if (cell.tangent_max[k] * speed > velocity) {
-            speed = velocity / cell.tangent_max[k];
+        if (speed * cell.tangent_max[k] > velocity) {
+            speed = velocity / lengthened<S>(cell.tangent_max[k]);
         }
     }
     speed = smaller(speed, cell.steady_mm_s);

@@ -13,17 +13,18 @@ namespace {
 
 // The smallest |q'| in a cell, with its sign; 0 if q' may vanish.
 template <Scalar S>
-S least_tangent(const Cell<S>& cell, unsigned axis, int shape_log2) noexcept {
+Ratio<S> least_tangent(const Cell<S>& cell, unsigned axis) noexcept {
+    using R = Ratio<S>;
     if ((cell.length_mm + cell.length_mm) * cell.curvature_max[axis] > literal<S>(Cell<S>::sharp_turn)) {
-        return S{}; // the shape has no sign
+        return {}; // the shape has no sign
     }
     const AxisShape<S>& shape = cell.shape[axis];
-    const S sixth = literal<S>(1.0 / 6.0);
-    const S t1 = shape.tangent[0] + sixth * shape.bend[0];
-    const S t2 = shape.tangent[1] - sixth * shape.bend[2];
-    const S lowest = smaller(smaller(shape.tangent[0], shape.tangent[1]), smaller(t1, t2)) - shape.error_bound;
-    const S highest = larger(larger(shape.tangent[0], shape.tangent[1]), larger(t1, t2)) + shape.error_bound;
-    return scale2(lowest > S{} ? lowest : highest < S{} ? highest : S{}, -shape_log2);
+    const R sixth = literal<R>(1.0 / 6.0);
+    const R t1 = shape.tangent[0] + sixth * shape.bend[0];
+    const R t2 = shape.tangent[1] - sixth * shape.bend[2];
+    const R lowest = smaller(smaller(shape.tangent[0], shape.tangent[1]), smaller(t1, t2)) - shape.error_bound;
+    const R highest = larger(larger(shape.tangent[0], shape.tangent[1]), larger(t1, t2)) + shape.error_bound;
+    return lowest > R{} ? lowest : highest < R{} ? highest : R{};
 }
 
 } // namespace
@@ -46,14 +47,14 @@ void Turning<S>::clear() noexcept {
 }
 
 template <Scalar S>
-int Turning<S>::way_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept {
-    const S least = least_tangent(cell, axis, limits.refinement.shape_log2);
-    return least > S{} ? 1 : least < S{} ? -1 : 0;
+int Turning<S>::way_in(const Cell<S>& cell, unsigned axis) noexcept {
+    const Ratio<S> least = least_tangent(cell, axis);
+    return least > Ratio<S>{} ? 1 : least < Ratio<S>{} ? -1 : 0;
 }
 
 template <Scalar S>
-S Turning<S>::travel_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept {
-    return absolute(least_tangent(cell, axis, limits.refinement.shape_log2)) * cell.length_mm;
+S Turning<S>::travel_in(const Cell<S>& cell, unsigned axis) noexcept {
+    return cell.length_mm * absolute(least_tangent(cell, axis));
 }
 
 template class Turning<double>;

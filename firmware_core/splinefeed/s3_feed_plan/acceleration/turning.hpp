@@ -16,7 +16,7 @@ public:
     explicit Turning(const MotionLimits<S>& limits) noexcept : limits_(&limits) { clear(); }
 
     /// Which way an axis moves all along a cell: 1, -1, or 0 if it may turn round in it.
-    [[nodiscard]] static int way_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
+    [[nodiscard]] static int way_in(const Cell<S>& cell, unsigned axis) noexcept;
 
     /// Looks at the newest of `count` cells and at those before it.
     /// @param cell_at  returns the cell of an index; `settled` is called with the index of every cell whose heading
@@ -47,19 +47,19 @@ private:
 
     /// The distance near a turn within which an axis has no heading; 0: the axis has only one limit.
     [[nodiscard]] S near_mm_of(unsigned axis) const noexcept;
-    [[nodiscard]] static S travel_in(const Cell<S>& cell, unsigned axis, const MotionLimits<S>& limits) noexcept;
+    [[nodiscard]] static S travel_in(const Cell<S>& cell, unsigned axis) noexcept;
 
     template <class CellAt, class Settled>
     void take(unsigned k, S near_mm, std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
         Cell<S>& cell = cell_at(count - 1);
-        const int way = way_in(cell, k, *limits_);
+        const int way = way_in(cell, k);
         if (way == 0 || way == -way_[k]) {
             travelled_mm_[k] = S{};
         }
         way_[k] = static_cast<std::int8_t>(way);
         cell.heading[k] = static_cast<std::int8_t>(travelled_mm_[k] < near_mm ? 0 : way * unsettled);
         if (way != 0) {
-            travelled_mm_[k] = smaller(travelled_mm_[k] + travel_in(cell, k, *limits_), near_mm);
+            travelled_mm_[k] = smaller(travelled_mm_[k] + travel_in(cell, k), near_mm);
             settle(k, near_mm, count, S{}, cell_at, settled);
         }
     }
@@ -70,14 +70,14 @@ private:
                 const Settled& settled) noexcept {
         for (std::size_t i = count; i-- > 0;) {
             Cell<S>& cell = cell_at(i);
-            if (way_in(cell, k, *limits_) != way_[k] || cell.heading[k] == 0 || cell.heading[k] == way_[k]) {
+            if (way_in(cell, k) != way_[k] || cell.heading[k] == 0 || cell.heading[k] == way_[k]) {
                 break;
             }
             if (!(ahead_mm < near_mm)) {
                 cell.heading[k] = way_[k];
                 settled(i);
             }
-            ahead_mm = smaller(ahead_mm + travel_in(cell, k, *limits_), near_mm);
+            ahead_mm = smaller(ahead_mm + travel_in(cell, k), near_mm);
         }
     }
 

@@ -24,30 +24,29 @@ S per_length(S x, S length, bool& beyond) noexcept {
 } // namespace
 
 template <Scalar S>
-PathDerivativeBounds<S> PathDerivativeBounds<S>::of(const Cell<S>& cell, const MotionLimits<S>& limits, S cap_sq,
-                                                    S programmed_sq) noexcept {
+PathDerivativeBounds<S> PathDerivativeBounds<S>::of(const Cell<S>& cell, S cap_sq, S programmed_sq) noexcept {
     PathDerivativeBounds out;
     out.cap_sq = cap_sq;
     out.programmed_sq = programmed_sq;
     const S length = cell.length_mm;
-    const int down = -limits.refinement.shape_log2;
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
         const AxisShape<S>& shape = cell.shape[k];
-        const auto& c = shape.bend;
-        const S highest = larger(c[0], larger(c[1], c[2])) + shape.error_bound;
-        const S lowest = smaller(c[0], smaller(c[1], c[2])) - shape.error_bound;
-        const S rest = literal<S>(ripple / 2.0) * shape.error_bound;
+        const std::array<S, 3> c{lengthened<S>(shape.bend[0]), lengthened<S>(shape.bend[1]),
+                                 lengthened<S>(shape.bend[2])};
+        const S error = lengthened<S>(shape.error_bound);
+        const S highest = larger(c[0], larger(c[1], c[2])) + error;
+        const S lowest = smaller(c[0], smaller(c[1], c[2])) - error;
+        const S rest = literal<S>(ripple / 2.0) * lengthened<S>(shape.shape_error());
         const S rise = larger(c[1] - c[0], c[2] - c[1]) + rest;
         const S fall = larger(c[0] - c[1], c[1] - c[2]) + rest;
         const auto twice_per_length = [&](S x) {
-            // In two steps with the shift between them, so that neither long nor short cells lose digits.
-            return per_length(scale2(per_length(larger(x, S{}), length, out.beyond), down), length, out.beyond);
+            return per_length(per_length(larger(x, S{}), length, out.beyond), length, out.beyond);
         };
         const S up = twice_per_length(rise);
         const S downwards = twice_per_length(fall);
         AxisDemand<S>& at = out.axis[k];
-        at.first = cell.tangent_max[k];
-        at.second = scale2(per_length(larger(highest, -lowest), length, out.beyond), down - 1);
+        at.first = lengthened<S>(cell.tangent_max[k]);
+        at.second = half(per_length(larger(highest, -lowest), length, out.beyond));
         at.third_with = larger(highest > S{} ? up : S{}, lowest < S{} ? downwards : S{});
         at.third_against = larger(highest > S{} ? downwards : S{}, lowest < S{} ? up : S{});
     }

@@ -28,8 +28,7 @@ struct PathDerivativeBounds {
                                     ///< crawling speed
 
     /// The bounds of one cell. @param cap_sq, programmed_sq  of that cell
-    [[nodiscard]] static PathDerivativeBounds of(const Cell<S>& cell, const MotionLimits<S>& limits, S cap_sq,
-                                                 S programmed_sq) noexcept;
+    [[nodiscard]] static PathDerivativeBounds of(const Cell<S>& cell, S cap_sq, S programmed_sq) noexcept;
     /// Makes the bounds valid for both parts of the path.
     void join(const PathDerivativeBounds& other, int axes) noexcept;
 };

@@ -14,11 +14,11 @@ namespace splinefeed {
 
 namespace {
 
-// Rounding of q'', times the length of the cell (see JerkWindow).
+// Rounding of q'' where two cells meet, times their length (see JerkWindow).
 template <Scalar S>
 constexpr double bend_noise = std::same_as<S, double>  ? 0x1p-48
                               : std::same_as<S, float> ? 0x1p-20
-                                                       : 0x1p-30;
+                                                       : 0x1p-25;
 
 constexpr double crawl_sq = 1e-6; // v^2 if a derivative is beyond the range of the scalar
 constexpr double rounding = 1e-3; // part by which a reach is made longer
@@ -32,10 +32,8 @@ template <Scalar S>
 bool SmoothWindow<S>::bend_jumps(const Cell<S>& before, const Cell<S>& after, S speed_sq) const noexcept {
     const S per_s = literal<S>(0.75) * limits_->segments_per_s;
     const S noise = quotient_or_max(literal<S>(bend_noise<S>), smaller(before.length_mm, after.length_mm));
-    const int down = -limits_->refinement.shape_log2 - 1;
-    const auto second = [down](S bend, S length) { // |q''|; a large one is divided with fewer digits
-        const S all = quotient_or_max(absolute(bend), length);
-        return all < largest<S>() ? scale2(all, down) : quotient_or_max(scale2(absolute(bend), down), length);
+    const auto second = [](Ratio<S> bend, S length) { // |q''|
+        return quotient_or_max(lengthened<S>(absolute(bend), -1), length);
     };
     for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
         const S second_before = second(before.shape[k].bend[2], before.length_mm);
@@ -43,7 +41,7 @@ bool SmoothWindow<S>::bend_jumps(const Cell<S>& before, const Cell<S>& after, S 
         if (!(larger(second_before, second_after) < scale2(largest<S>(), -1))) { // their sum must fit
             return true;
         }
-        const bool turns = (before.shape[k].bend[2] < S{}) != (after.shape[k].bend[0] < S{});
+        const bool turns = (before.shape[k].bend[2] < Ratio<S>{}) != (after.shape[k].bend[0] < Ratio<S>{});
         const S jump = absolute(second_after - (turns ? -second_before : second_before)) - noise;
         const S reserve = literal<S>(detail::jerk_reserve) * limits_->jerk_mm_s3[k] / per_s;
         if (jump > S{} && quotient_or_max(reserve, jump) < speed_sq) {
@@ -63,8 +61,8 @@ void SmoothWindow<S>::split_last() noexcept {
     second.cell = part_of(first.cell, CellInterval<S>{half, from_integer<S>(1)});
     first.cell = part_of(first.cell, CellInterval<S>{S{}, half});
     second.bound_sq = first.own.cap_sq;
-    first.own = PathDerivativeBounds<S>::of(first.cell, *limits_, first.own.cap_sq, first.own.programmed_sq);
-    second.own = PathDerivativeBounds<S>::of(second.cell, *limits_, second.own.cap_sq, second.own.programmed_sq);
+    first.own = PathDerivativeBounds<S>::of(first.cell, first.own.cap_sq, first.own.programmed_sq);
+    second.own = PathDerivativeBounds<S>::of(second.cell, second.own.cap_sq, second.own.programmed_sq);
     second.start = displaced(first.start, first.cell.length_mm, 0);
     ++size_;
     end_ = displaced(second.start, second.cell.length_mm, 0);
@@ -87,7 +85,7 @@ void SmoothWindow<S>::append(const Cell<S>& cell, S cap_sq, S programmed_sq, S e
     SmoothCell<S>& added = at(size_);
     added.cell = cell;
     added.bound_sq = end_bound_sq_;
-    added.own = PathDerivativeBounds<S>::of(cell, *limits_, cap_sq, programmed_sq);
+    added.own = PathDerivativeBounds<S>::of(cell, cap_sq, programmed_sq);
     added.start = end_;
     end_ = displaced(end_, cell.length_mm, 0);
     end_bound_sq_ = cell.stop_at_end ? S{} : exit_bound_sq;
@@ -286,8 +284,7 @@ void SmoothWindow<S>::tighten(std::size_t first) noexcept {
             const S exit = exit_bound(i);
             // What was joined before is no longer the cell's own.
             const PathDerivativeBounds<S> own =
-                i < high_ ? PathDerivativeBounds<S>::of(here.cell, *limits_, here.own.cap_sq, here.own.programmed_sq)
-                          : here.own;
+                i < high_ ? PathDerivativeBounds<S>::of(here.cell, here.own.cap_sq, here.own.programmed_sq) : here.own;
             const FilteredLimits<S> bound(own, *limits_, smoothing_);
             here.bound_sq =
                 larger(bound.largest_entry(exit, here.bound_sq, here.cell.length_mm, bound.max_path_acceleration()),

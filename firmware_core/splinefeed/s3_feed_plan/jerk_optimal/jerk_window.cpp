@@ -12,10 +12,9 @@ namespace {
 // q'' has the slope 1 at the ends and reaches 0.096. That of the inverse, c x^3 (1-x)^3 (x-1/2), gives 24, but five
 // times that error is allowed for.
 constexpr double ripple = 10.4;
-// Rounding of q'', times the length of the cell: the error of a unit vector in Fixed is 2^-32; it is multiplied by the
-// change of |dr/dw| in the cell, which is at most as large.
+// Rounding of q'' where two cells meet, times their length: in Fixed about 2^-27 each.
 template <Scalar S>
-constexpr double bend_noise = std::same_as<S, double> ? 0x1p-48 : 0x1p-30;
+constexpr double bend_noise = std::same_as<S, double> ? 0x1p-48 : 0x1p-25;
 
 } // namespace
 
@@ -25,18 +24,17 @@ JerkCell jerk_cell_of(const Cell<S>& cell, const MotionLimits<S>& limits, double
     out.axes = cell.axes;
     out.length_mm = to_double(cell.length_mm);
     out.cap_sq = cap_sq;
-    const double unit = to_double(scale2(from_integer<S>(1), -limits.refinement.shape_log2));
     const double per_length = 1.0 / out.length_mm;
     for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
         const AxisShape<S>& shape = cell.shape[k];
         out.jerk_mm_s3[k] = to_double(limits.jerk_mm_s3[k]);
         for (unsigned e = 0; e < 2; ++e) {
             AxisEnd& at = out.end[e][k];
-            at.first = to_double(shape.tangent[e]) * unit;
-            at.second = 0.5 * per_length * unit * to_double(shape.bend[2 * e]);
-            at.third = per_length * per_length * unit * to_double(shape.bend[1 + e] - shape.bend[e]);
-            at.second_spread = 0.5 * per_length * unit * to_double(shape.error_bound);
-            at.third_spread = ripple * at.second_spread * per_length;
+            at.first = to_double(shape.tangent[e]);
+            at.second = 0.5 * per_length * to_double(shape.bend[2 * e]);
+            at.third = per_length * per_length * to_double(shape.bend[1 + e] - shape.bend[e]);
+            at.second_spread = 0.5 * per_length * to_double(shape.error_bound);
+            at.third_spread = ripple * 0.5 * per_length * per_length * to_double(shape.shape_error());
             at.most_forward = at.most_backward =
                 to_double(smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]));
         }

@@ -17,7 +17,7 @@ S axis_velocity(const Cell<S>& cell, const MotionLimits<S>& limits, unsigned axi
         moved += cell.power[axis][i];
     }
     const Position middle = displaced(cell.origin[axis], cell.power[axis][0] + scale2(moved, -1), cell.unit_log2);
-    const S reach = scale2(cell.tangent_max[axis] * cell.length_mm, -1);
+    const S reach = half(cell.length_mm * cell.tangent_max[axis]);
     const PositionRange& open = limits.refinement.open[axis];
     const bool inside =
         displaced(middle, -reach, 0).raw >= open.low.raw && displaced(middle, reach, 0).raw <= open.high.raw;

@@ -9,11 +9,11 @@ namespace splinefeed {
 namespace {
 
 template <Scalar S>
-S share_of(const Cell<S>& cell, const MotionLimits<S>& limits, bool rotary) noexcept {
-    const S sixth = literal<S>(1.0 / 6.0);
-    S largest{};
+Ratio<S> share_of(const Cell<S>& cell, const MotionLimits<S>& limits, bool rotary) noexcept {
+    const auto sixth = literal<Ratio<S>>(1.0 / 6.0);
+    Ratio<S> largest{};
     for (unsigned j = 0; j < 4; ++j) {
-        PerAxis<S> direction{};
+        PerAxis<Ratio<S>> direction{};
         for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
             const AxisShape<S>& shape = cell.shape[k];
             if (limits.rotary[k] == rotary) {
@@ -25,7 +25,7 @@ S share_of(const Cell<S>& cell, const MotionLimits<S>& limits, bool rotary) noex
         }
         largest = larger(largest, norm(direction.data(), cell.axes));
     }
-    return smaller(scale2(largest, -limits.refinement.shape_log2), from_integer<S>(1));
+    return smaller(largest, from_integer<Ratio<S>>(1));
 }
 
 } // namespace
@@ -35,8 +35,8 @@ S feed_share(const Cell<S>& cell, const MotionLimits<S>& limits) noexcept {
     if (!limits.mixed) {
         return from_integer<S>(1);
     }
-    const S linear = share_of(cell, limits, false);
-    return linear > literal<S>(0x1p-17) ? linear : share_of(cell, limits, true);
+    const Ratio<S> linear = share_of(cell, limits, false);
+    return lengthened<S>(linear > literal<Ratio<S>>(0x1p-17) ? linear : share_of(cell, limits, true));
 }
 
 #define SPLINEFEED_INSTANTIATE(S) template S feed_share(const Cell<S>&, const MotionLimits<S>&) noexcept;

@@ -173,16 +173,6 @@ constexpr double chord_limit(double error_mm, double period_s) noexcept {
     return limit < 1e9 ? limit : 1e9;
 }
 
-/// Numbers made from a shape are at most 3. Multiplied by v^2 they must stay below 2^29; the rest of the range is for
-/// the digits of Fixed.
-constexpr int shape_log2(double feed) noexcept {
-    int n = 0;
-    while (n < 16 && 3.0 * feed * feed * (2 << n) <= 400e6) {
-        ++n;
-    }
-    return n;
-}
-
 /// Speed of a path along which the linear axes keep the feed and each rotary axis its velocity. At most the value whose
 /// square, times the numbers of a shape, fits in Fixed.
 constexpr double fastest_path(double feed, double turning_sq) noexcept {
@@ -380,7 +370,6 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     refinement.axes = settings.axes;
     refinement.longest_mm = from_double<S>(longest);
     refinement.max_feed_mm_s = limits.feed_mm_s;
-    refinement.shape_log2 = detail::shape_log2(path);
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
     refinement.sharpest = from_double<S>(detail::sharpest_curvature(softest, smoothest));
