@@ -26,6 +26,11 @@ class OffTime(str):
         return cls(f"the shafts leave the planned path by {worst_mm:.6f} mm; {stated_mm} mm are stated",
                    max(0.001, (worst_mm - stated_mm) / speed_mm_s / DELAYS))
 
+    @classmethod
+    def too_long(cls, took_s, stated_s, what):
+        """The excess is what messages were late by: a shorter stall does not excuse it."""
+        return cls(f"{took_s:.3f} s {what}, stated {stated_s}", max(0.001, (took_s - stated_s) / DELAYS))
+
 
 class HostStoodStill(str):
     """What was off time while nothing else was wrong, on a host that stood still meanwhile."""

@@ -173,7 +173,7 @@ class Run:
             return
         limit_s = stated["twice" if self.signals.endswith("twice") else "once"]
         if self.standstill_s > limit_s:
-            self.problems.append(OffTime(f"{self.standstill_s:.3f} s to standstill, stated {limit_s}"))
+            self.problems.append(OffTime.too_long(self.standstill_s, limit_s, "to standstill"))
         self.check(status == 1, f"exit status {status}")
         self.check(sentence.count("\n") == 0 and sentence.startswith("splinefeed: "), f"no sentence: {sentence}")
         self.check(not [name for name in os.listdir(folder) if name.endswith(".tmp")], "a temporary file is left behind")
