@@ -48,11 +48,9 @@ set_tests_properties(firmware_lm3s6965 firmware_stm32f405 firmware_nrf51 PROPERT
 set_tests_properties(firmware_nrf51 PROPERTIES DEPENDS arm_link_m0 RESOURCE_LOCK arm_build_m0)
 set_tests_properties(firmware_lm3s6965 PROPERTIES DEPENDS arm_link_m3 RESOURCE_LOCK arm_build_m3)
 set_tests_properties(firmware_stm32f405 PROPERTIES DEPENDS arm_link_m4f RESOURCE_LOCK arm_build_m4f)
-# The boards as Modbus drives. The one that QEMU runs keeps time with the host: alone, so that the host has some.
-repository_test(firmware_modbus_lm3s6965 firmware/firmware_proof.sh cortex-m3 ${PROJECT_BINARY_DIR} lm3s6965 lm3s6965evb drive)
+# The boards as Modbus drives. The one that QEMU runs keeps time with the host (keeps_time/CMakeLists.txt).
 repository_test(firmware_modbus_stm32f405 firmware/firmware_proof.sh cortex-m4f ${PROJECT_BINARY_DIR} stm32f405 not-run drive)
 repository_test(firmware_modbus_nrf51 firmware/firmware_proof.sh cortex-m0 ${PROJECT_BINARY_DIR} nrf51 not-run drive)
-set_tests_properties(firmware_modbus_lm3s6965 PROPERTIES DEPENDS arm_link_m3 RESOURCE_LOCK arm_build_m3 RUN_SERIAL TRUE)
 set_tests_properties(firmware_modbus_stm32f405 PROPERTIES DEPENDS arm_link_m4f RESOURCE_LOCK arm_build_m4f)
 set_tests_properties(firmware_modbus_nrf51 PROPERTIES DEPENDS arm_link_m0 RESOURCE_LOCK arm_build_m0)
 # Behind all of these, whose figures it compares with docs/reference/budgets.md.
@@ -79,9 +77,8 @@ repository_test(doxygen tools/doxygen.sh ${PROJECT_BINARY_DIR})
 repository_test(hidden_names tools/hidden_names.py)
 repository_test(harness tools/harness.sh ${sanitized}/bin/base_tests)
 
-# Also the bits of both compilers' optimised arithmetic, and that each source includes what it uses.
-repository_test(gcc_tests LONG "35 minutes" ALONE tools/preset.sh dev g++ many)
-repository_test(clang_tests LONG "12 minutes" ALONE tools/preset.sh clang clang++)
+# Random tests make many more rounds without sanitizers; and each source of a test includes what it uses.
+repository_test(gcc_tests LONG "35 minutes" ALONE tools/gcc_tests.sh)
 repository_test(install_arduino LONG "a minute" ALONE install/arduino.sh)
 foreach(target gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3 aarch64 riscv64 s390x cortex-m0 cortex-m3 cortex-m4f cortex-m7)
     repository_test(equal_bits_${target} LONG "two minutes" ALONE bits/equal_bits.py ${target})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How many random runs a test makes: a few, and half of them under sanitizers, which take several times as long.
+// How many random runs a test makes: a few, and a quarter of them under sanitizers, which take several times as long.
 // ./check --long runs five times as many, or as many as the test says, in the build by g++ with assertions
 // (`gcc_tests`).
 #pragma once
@@ -33,7 +33,7 @@ inline int rounds(int few, int many) {
         return static_cast<int>(first_round()) + 1;
     }
     if (sanitized) {
-        return (few + 1) / 2;
+        return (few + 3) / 4;
     }
     const char* const set = std::getenv("SPLINEFEED_LONG");
     return set != nullptr && std::string_view(set) == "1" ? many : few;
