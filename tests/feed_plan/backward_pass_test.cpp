@@ -19,7 +19,7 @@ std::vector<PlannedCell<S>> planned_cells(const BezierPath& path, const MotionLi
         PlannedCell<S> planned;
         planned.cell = cell;
         planned.cap_sq = SpeedCaps<S>(limits).cap_sq(cell);
-        planned.peak = BackwardPass<S>::unknown_peak();
+        planned.peak = PeakSpeeds<S>::unknown();
         cells.push_back(planned);
     }
     return cells;

@@ -95,22 +95,34 @@ bool ControlPointStream<S, Joints>::eliminate_row(std::uint64_t i) noexcept {
     return true;
 }
 
-// Commits the offset of control point i, by back-substitution from the newest eliminated row.
+// Commits the offsets of the control points up to the end, by back-substitution from the newest eliminated row.
 template <Scalar S, class Joints>
-void ControlPointStream<S, Joints>::commit(std::uint64_t i) noexcept {
+void ControlPointStream<S, Joints>::commit(std::uint64_t end) noexcept {
+    if (committed_ == end) {
+        return;
+    }
     const auto axes_u = static_cast<unsigned>(this->axes());
     const std::uint64_t newest = rows_end_ - 1;
     const bool run_ended = newest > first_ && this->knot(newest).breaks;
     const S closing = run_ended ? S{} : from_integer<S>(1) / (from_integer<S>(1) + row(newest).gamma);
-    Row& target = row(i);
+    const auto behind = static_cast<unsigned>(rows_end_ - end); // rows that nothing is committed of yet
+    const auto rows = static_cast<unsigned>(rows_end_ - committed_);
     for (unsigned k = 0; k < axes_u; ++k) {
         S delta = run_ended ? row(newest).rho[k] : row(newest).rho[k] * closing;
-        for (std::uint64_t j = newest; j > i; --j) {
-            delta = row(j - 1).rho[k] - row(j - 1).gamma * delta;
+        for (unsigned back = 0;;) {
+            if (back >= behind) {
+                row(newest - back).delta[k] = delta;
+            }
+            if (++back == rows) {
+                break;
+            }
+            const Row& before = row(newest - back);
+            delta = before.rho[k] - before.gamma * delta;
         }
-        target.delta[k] = delta;
     }
-    close_seam(i);
+    while (committed_ < end) {
+        close_seam(committed_++);
+    }
 }
 
 // A closed curve must meet itself exactly: the three offsets around the seam are stored when they are first committed,
@@ -182,9 +194,7 @@ Pull ControlPointStream<S, Joints>::next(CurveSegment<S>& out) noexcept {
         if (!ended() && rows_end_ < i + look_ahead) {
             return Pull::starved;
         }
-        while (committed_ <= i + 2 && committed_ < rows_end_) {
-            commit(committed_++);
-        }
+        commit(larger(committed_, smaller(i + 3, rows_end_)));
         emit(i, out);
         const bool wanted = this->travelled(i);
         next_ = i + 1;

@@ -87,7 +87,7 @@ private:
     [[nodiscard]] Row& row(std::uint64_t i) noexcept { return rows_[i % WaypointCurve<S>::capacity]; }
 
     bool eliminate_row(std::uint64_t i) noexcept;
-    void commit(std::uint64_t i) noexcept;
+    void commit(std::uint64_t end) noexcept;
     void close_seam(std::uint64_t i) noexcept;
     void emit(std::uint64_t i, CurveSegment<S>& out) noexcept;
 

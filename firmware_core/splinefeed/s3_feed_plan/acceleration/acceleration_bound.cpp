@@ -39,7 +39,7 @@ namespace {
 
 // Each Newton step eliminates one half-plane, of which there are eight per axis. For six axes at most nine steps were
 // measured.
-constexpr int most_steps = 8 * max_axes + 64;
+constexpr int steps_a_part = 3;
 
 // The amount by which the entry is reduced if rounding hides the next step; it is doubled as often as needed.
 template <Scalar S>
@@ -238,27 +238,46 @@ auto AccelerationBound<S>::exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRo
 
 template <Scalar S>
 PeakSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
+    auto peak = PeakSpeeds<S>::unknown();
+    while (!peak.known()) {
+        approach_peak(cap_sq, peak);
+    }
+    return peak;
+}
+
+// While the peak is unknown, its exits hold how far the search is: the next entry, and by how much it is reduced where
+// rounding hides the next step.
+template <Scalar S>
+void AccelerationBound<S>::approach_peak(S cap_sq, PeakSpeeds<S>& peak) const noexcept {
     PerAxis<AxisRows> rows;
     for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
         rows[k] = rows_of(k);
     }
-    S entry = cap_sq;
-    S back = larger(scale2(cap_sq, least_step_log2<S>), literal<S>(0x1p-32));
-    for (int step = 0; step < most_steps; ++step) {
+    S& entry = peak.smallest_exit_sq;
+    S& back = peak.largest_exit_sq;
+    if (!(back > S{})) {
+        entry = cap_sq;
+        back = larger(scale2(cap_sq, least_step_log2<S>), literal<S>(0x1p-32));
+    }
+    for (int step = 0; step < steps_a_part; ++step) {
         const Exits exits = exits_from(entry, cap_sq, rows);
         if (exits.low <= exits.high) {
-            return {entry, exits.low, exits.high};
+            peak = {entry, exits.low, exits.high};
+            return;
+        }
+        if (!(entry > S{})) { // rounding: standstill is always allowed
+            peak = {};
+            return;
         }
         const S crossing = -exits.below.exit < exits.above.exit ? crossing_of(exits.below, exits.above)
                                                                 : crossing_of(exits.above, exits.below);
-        if (!(crossing < entry)) { // the same pair again: rounding, which nearly parallel lines magnify
+        if (crossing < entry) {
+            entry = larger(crossing, S{});
+        } else { // the same pair again: rounding, which nearly parallel lines magnify
             entry = larger(entry - back, S{});
             back += back;
-            continue;
         }
-        entry = crossing;
     }
-    return {}; // not reached
 }
 
 template class AccelerationBound<double>;

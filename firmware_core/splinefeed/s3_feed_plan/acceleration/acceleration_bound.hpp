@@ -13,9 +13,12 @@ namespace splinefeed {
 /// The fastest entry that a cell allows, as v^2, with the exits that are possible from it.
 template <Scalar S>
 struct PeakSpeeds {
-    S entry_sq{};
+    S entry_sq{}; ///< below zero: still unknown
     S smallest_exit_sq{};
     S largest_exit_sq{};
+
+    [[nodiscard]] static PeakSpeeds unknown() noexcept { return {.entry_sq = from_integer<S>(-1)}; }
+    [[nodiscard]] bool known() const noexcept { return !(entry_sq < S{}); }
 };
 
 /// The convex polygon of the pairs (entry_sq, exit_sq) that a cell, or a part of it, allows: eight half-planes per
@@ -40,6 +43,9 @@ public:
     [[nodiscard]] S reach_from_standstill(S at_most) const noexcept;
     /// The largest possible entry_sq if neither end is faster than cap_sq, with its exits.
     [[nodiscard]] PeakSpeeds<S> peak(S cap_sq) const noexcept;
+    /// A part of the search for it, which begins with an unknown peak and goes on until it is known. Cost: at most
+    /// three steps of Newton's method; most peaks take one.
+    void approach_peak(S cap_sq, PeakSpeeds<S>& peak) const noexcept;
 
 private:
     using R = Ratio<S>;

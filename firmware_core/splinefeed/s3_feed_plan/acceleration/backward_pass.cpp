@@ -18,11 +18,11 @@ template <Scalar S>
 bool BackwardPass<S>::run(CellWindow<S>& window, const MotionLimits<S>& limits, WorkBudget& work) noexcept {
     while (cells_ > 0) {
         PlannedCell<S>& here = window.at(cells_ - 1);
-        if (here.peak.entry_sq < S{}) {
+        while (!here.peak.known()) {
             if (!work.take(peak_steps)) {
                 return false;
             }
-            here.peak = AccelerationBound<S>(here.cell, limits).peak(here.cap_sq);
+            AccelerationBound<S>(here.cell, limits).approach_peak(here.cap_sq, here.peak);
         }
         if (!work.take()) {
             return false;

@@ -12,14 +12,11 @@ namespace splinefeed {
 /// Goes over a window from its end to its front, in as many parts as its caller wants. In every cell that it has
 /// passed, `entry_sq` is the largest entry from which the machine's K after the cell can be reached, and `exit_sq` the
 /// K of the steering there. The window must not change while the pass runs. Cost: a step of the budget for each cell,
-/// and four for a cell that comes for the first time; a step is two products and sums for each axis, and as much again
-/// under a reduced feed.
+/// and four for each part of the search for the peak of a cell that comes for the first time; a step is two products
+/// and sums for each axis, and as much again under a reduced feed.
 template <Scalar S>
 class BackwardPass {
 public:
-    /// A peak that the pass has yet to compute.
-    [[nodiscard]] static PeakSpeeds<S> unknown_peak() noexcept { return {.entry_sq = from_integer<S>(-1)}; }
-
     /// @param ratio  factor of the programmed feed
     /// @param open_end  the speed at the end is free: a motion that follows need not stop there
     void begin(const CellWindow<S>& window, S ratio, bool open_end) noexcept;

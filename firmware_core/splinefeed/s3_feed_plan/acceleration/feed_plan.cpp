@@ -152,7 +152,7 @@ Pull FeedPlan<S>::measure(WorkBudget& work) noexcept {
     if (pull == Pull::item) {
         slot.cap_sq = SpeedCaps<S>(limits_).cap_sq(slot.cell);
         slot.cell.heading = {};
-        slot.peak = BackwardPass<S>::unknown_peak();
+        slot.peak = PeakSpeeds<S>::unknown();
         window_.add_measured();
     }
     return pull;
@@ -173,7 +173,7 @@ Pull FeedPlan<S>::fill(WorkBudget& work) noexcept {
         return window_.at(i).cell;
     };
     const auto settled = [this](std::size_t i) {
-        window_.at(i).peak = BackwardPass<S>::unknown_peak();
+        window_.at(i).peak = PeakSpeeds<S>::unknown();
         planned_ = false;
     };
     while (window_.size() < window_.room()) {
