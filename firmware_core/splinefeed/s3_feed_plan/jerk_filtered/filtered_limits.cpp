@@ -27,6 +27,8 @@
 // T: it is then an acceleration like (1).
 #include "splinefeed/s3_feed_plan/jerk_filtered/filtered_limits.hpp"
 
+#include "splinefeed/number/division_by.hpp"
+
 #include <bit>
 
 namespace splinefeed {
@@ -103,12 +105,12 @@ S FilteredLimits<S>::change(unsigned axis) const noexcept {
     return demand_->beyond ? scale2(smoothing_->change_mm_s2[axis], -1) : smoothing_->change_mm_s2[axis];
 }
 
-// How far the worst axis exceeds its acceleration, or T times its jerk.
+// How far the worst axis exceeds its acceleration, or T times its jerk; `speed` is the root of speed_sq.
 template <Scalar S>
 template <bool Braking>
-S FilteredLimits<S>::excess(S speed_sq, S acceleration) const noexcept {
+S FilteredLimits<S>::excess(S speed_sq, S speed, S acceleration) const noexcept {
     const S t = smoothing_->seconds;
-    const S w = square_root(speed_sq) + acceleration * smoothing_->half_s;
+    const S w = speed + acceleration * smoothing_->half_s;
     const S w_t = w * t;
     if (!(w < from_integer<S>(1 << 15))) { // no path is that fast, and in Fixed its square does not fit
         return from_integer<S>(1 << 29);
@@ -143,7 +145,8 @@ S FilteredLimits<S>::excess(S speed_sq, S acceleration) const noexcept {
 template <Scalar S>
 S FilteredLimits<S>::max_steady(S at_most) const noexcept {
     const S level = largest_allowed(
-        S{}, at_most, smoothing_->close_mm_s2, [&](S speed_sq) { return excess<false>(speed_sq, S{}); }, level_steps);
+        S{}, at_most, smoothing_->close_mm_s2,
+        [&](S speed_sq) { return excess<false>(speed_sq, square_root(speed_sq), S{}); }, level_steps);
     return level < at_most ? truncated(level) : level;
 }
 
@@ -165,11 +168,14 @@ S FilteredLimits<S>::faster_end(S slower_sq, S at_most, S length_mm, S max_path_
     }
     const S twice = length_mm + length_mm;
     // The steepest line is allowed if nothing bends; a steeper one never is.
+    const DivisionBy<S> by_twice(twice);
+    const auto steepness = [&](S change) {
+        return twice > S{} ? smaller(change / by_twice, max_path_acceleration) : max_path_acceleration;
+    };
     const S change = at_most - slower_sq;
-    const S high =
-        quotient_or_max(change, twice) > max_path_acceleration ? slower_sq + twice * max_path_acceleration : at_most;
-    return largest_allowed(slower_sq, high, smoothing_->close_mm_s2, [&](S speed_sq) {
-        return excess<Braking>(speed_sq, smaller(quotient_or_max(speed_sq - slower_sq, twice), max_path_acceleration));
+    const S high = steepness(change) < max_path_acceleration ? at_most : slower_sq + twice * max_path_acceleration;
+    return largest_allowed(slower_sq, smaller(high, at_most), smoothing_->close_mm_s2, [&](S speed_sq) {
+        return excess<Braking>(speed_sq, square_root(speed_sq), steepness(speed_sq - slower_sq));
     });
 }
 
@@ -185,14 +191,16 @@ S FilteredLimits<S>::largest_entry(S exit_sq, S at_most, S length_mm, S max_path
 
 template <Scalar S>
 S FilteredLimits<S>::acceleration(S speed_sq, S max_path_acceleration) const noexcept {
+    const S speed = square_root(speed_sq);
     return largest_allowed(S{}, max_path_acceleration, smoothing_->close_mm_s2,
-                           [&](S a) { return excess<false>(speed_sq, a); });
+                           [&](S a) { return excess<false>(speed_sq, speed, a); });
 }
 
 template <Scalar S>
 S FilteredLimits<S>::braking(S speed_sq, S max_path_acceleration) const noexcept {
+    const S speed = square_root(speed_sq);
     return largest_allowed(S{}, max_path_acceleration, smoothing_->close_mm_s2,
-                           [&](S a) { return excess<true>(speed_sq, a); });
+                           [&](S a) { return excess<true>(speed_sq, speed, a); });
 }
 
 template class FilteredLimits<double>;

@@ -36,7 +36,7 @@ public:
 private:
     [[nodiscard]] S change(unsigned axis) const noexcept;
     template <bool Braking>
-    [[nodiscard]] S excess(S speed_sq, S acceleration) const noexcept;
+    [[nodiscard]] S excess(S speed_sq, S speed, S acceleration) const noexcept;
     template <bool Braking>
     [[nodiscard]] S faster_end(S slower_sq, S at_most, S length_mm, S max_path_acceleration) const noexcept;
 

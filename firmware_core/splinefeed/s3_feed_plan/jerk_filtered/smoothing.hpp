@@ -12,7 +12,7 @@ namespace splinefeed {
 template <Scalar S>
 [[nodiscard]] S bounded_product(S a, S b) noexcept {
     if constexpr (std::same_as<S, Fixed>) {
-        return smaller(Fixed::from_raw(detail::checked_product(a.raw(), b.raw()).raw), Fixed(1 << 29));
+        return smaller(Fixed::from_raw(detail::product(a.raw(), b.raw())), Fixed(1 << 29));
     } else {
         return a * b;
     }
