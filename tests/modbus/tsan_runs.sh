@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The threads of the buses under the thread sanitizer: tests of the link, of the drives and of GPIO lines, and runs with faults.
+# Threads under the thread sanitizer: the ring between two of them, steering from another one, tests of the link, of the drives and of
+# GPIO lines, and runs with faults.
 source "$(dirname "${BASH_SOURCE[0]}")/../tools/common.sh"
 
 need clang++ /usr/bin/python3
 
 cmake --preset tsan
-cmake --build --preset tsan --target splinefeed modbus_tests drive_tests gpio_tests
+cmake --build --preset tsan --target splinefeed base_tests firmware_tests modbus_tests drive_tests gpio_tests
 export TSAN_OPTIONS="exitcode=66 second_deadlock_stack=1"
 build=build/tsan
+"$build"/bin/base_tests "[ring]"
+"$build"/bin/firmware_tests "[steering]"
 "$build"/bin/modbus_tests
 "$build"/bin/drive_tests
 "$build"/bin/gpio_tests

@@ -14,6 +14,15 @@ namespace splinefeed {
 /// For one writer and one reader; either may be an interrupt. It needs no lock, and no read-modify-write instruction,
 /// which a Cortex-M0 does not have. The storage belongs to the caller and must outlive the ring. The ring holds one
 /// item less than the storage has places.
+///
+/// Memory order. Each index has one writer: the writer's side stores `head_`, the reader's side `tail_`. push() writes
+/// the item, then stores head_ with release; who loads that value of head_ with acquire (size(), empty()) sees the
+/// item. drop() stores tail_ with release after the item was read; the writer loads it with acquire (room()) before it
+/// writes that place again, so a place is never written while it is read. Each side may load its own index relaxed,
+/// because nobody else stores it. An old value of the other's index is safe: the writer then sees less room than there
+/// is, the reader fewer items. A precondition that was found true stays true, since only the own side can end it. On
+/// one core, between a main loop and an interrupt, the same orders keep the compiler from moving the accesses; the
+/// processor needs no barrier there.
 template <class T>
 class SpscRing {
 public:
