@@ -17,6 +17,10 @@ else()
 endif()
 
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
-set(CMAKE_CXX_FLAGS_INIT
-    "-mthumb ${cpu_flags} -ffreestanding -ffunction-sections -fdata-sections -fno-unwind-tables -fno-asynchronous-unwind-tables")
+# Options of the directory, not CMAKE_CXX_FLAGS: those are kept from the first configuration, also for another processor.
+separate_arguments(cpu_flags)
+add_compile_options(-mthumb ${cpu_flags} -ffreestanding -ffunction-sections -fdata-sections -fno-unwind-tables
+                    -fno-asynchronous-unwind-tables
+                    -Wno-psabi) # a note on GCC before 7.1, for each function that takes segments
+add_link_options(-mthumb ${cpu_flags})
 set(CMAKE_CXX_FLAGS_RELEASE "-Os -DNDEBUG" CACHE STRING "Flags of the build type Release")

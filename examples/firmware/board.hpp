@@ -16,11 +16,11 @@
 //   void start_watchdog();                     // a reset half a second after the last feeding
 //   void acknowledge_tick();
 //   void feed_watchdog();
-//   bool watchdog_bit();                       // this start is the watchdog's work
-//   void write_lines(firmware::Lines lines);   // all step and direction lines
+//   bool watchdog_bit();                       // this start is the watchdog's work; clears what says so
+//   void write_lines(firmware::Lines lines);   // levels: bit k of .step and of .up is axis k
 //   void enable_drives(bool on);
-//   firmware::Inputs read_inputs();
-//   int read_byte();                           // a byte, Serial::nothing or Serial::lost
+//   firmware::Inputs read_inputs();            // {emergency stop, limit switch}; true: stop
+//   int read_byte();                           // a byte, Serial::nothing, or Serial::lost: overrun, framing, break
 //   bool write_byte(std::uint8_t byte);        // false: the UART has no room now
 //   }
 #pragma once

@@ -96,6 +96,17 @@ class Nrf51Pins:
         return changes
 
 
+class NoPins:
+    """Of a board whose pins QEMU does not show, or that this file does not know."""
+    options = []
+
+    def __init__(self, _):
+        pass
+
+    def changes(self, _):
+        return []
+
+
 class Kind:
     """A board that QEMU has. `window` and `scalar` are those of its image; `shift`: an instruction takes 2^shift ns; `slow`: its machine
     has segments of 8 ms and ticks of 200 us, as machine.hpp makes it, and a window that is shorter than the tool's shortest: it makes
@@ -110,6 +121,9 @@ class Kind:
 KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, Pl061Pins, buttons=True, watchdog=True),
          "netduinoplus2": Kind(64, "float", 3, Stm32Pins),
          "microbit": Kind(16, "float", 6, Nrf51Pins, slow=True)}
+UNKNOWN = Kind(20, "fixed", 4, NoPins)  # any other: its serial line can be talked to
+
+
 class Board:
     """The emulator runs as fast as the host can, by a clock of its own that counts instructions. So nothing here may depend on the
     host's time; the board is waited for. `clock`: how its clock goes, if otherwise."""
@@ -120,7 +134,7 @@ class Board:
         for path in (trace_path, serial, monitor):
             if os.path.exists(path):
                 os.remove(path)
-        self.kind = KINDS[machine]
+        self.kind = KINDS.get(machine, UNKNOWN)
         self.pins = self.kind.pins(ENABLE)
         self.qemu = subprocess.Popen(
             ["qemu-system-arm", "-M", machine, "-display", "none", "-icount", clock or f"shift={self.kind.shift},sleep=off",

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import time
 
-from board_in_qemu import Board, BoardFailed, DIRECTION, ENABLE, STEP, WAIT_S
+from board_in_qemu import Board, BoardFailed, DIRECTION, ENABLE, KINDS, STEP, WAIT_S
 
 ESTOP, LIMIT = "ctrl", "up"  # the keys of the board's buttons
 STEPS_PER_MM = (80, 80, 400)
@@ -339,6 +339,8 @@ def bitten(bench):
 
 def main():
     tool, image, machine = sys.argv[1:]
+    if machine not in KINDS:
+        sys.exit(f"{machine}: board_in_qemu.py does not say how its pins are seen; it knows {', '.join(KINDS)}")
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(tool, image, machine, folder)
         try:

@@ -8,7 +8,7 @@
 //   PD7           enable, high: on       PA0 PA1   UART0, which the board's USB adapter carries: 115200 baud, 8N1
 //
 // The buttons are there to try it out. An emergency stop of a machine is a contact that opens, so that a broken wire
-// stops, too: then `pressed_level` of it is 1, with the same pull-up.
+// stops, too: then `estop_pressed_level` is 1, with the same pull-up.
 #pragma once
 
 #include "serial.hpp"
