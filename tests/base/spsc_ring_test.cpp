@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <thread>
 
 using splinefeed::SpscRing;
@@ -62,7 +63,8 @@ TEST_CASE("a ring between two threads loses nothing, and no item is torn", "[rin
     constexpr std::uint64_t items = 200'000;
     for (const std::size_t places : {2U, 3U, 64U}) {
         std::array<Item, 64> storage{};
-        SpscRing<Item> ring(std::span(storage).first(places));
+        const std::span<Item> all(storage);
+        SpscRing<Item> ring(all.first(places));
         std::thread writer([&ring] {
             for (std::uint64_t n = 1; n <= items;) {
                 if (ring.room() > 0) {
