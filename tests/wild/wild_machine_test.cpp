@@ -50,7 +50,7 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
     const TemporaryFolder folder;
     int compared = 0;
     int slow_in_float = 0; // where cells of long moves have few digits (docs/explanation/numbers.md)
-    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(20, 2000)); ++round) {
+    for (std::uint64_t round = first_round(); round < static_cast<std::uint64_t>(rounds(40, 2000)); ++round) {
         CAPTURE(seed, round);
         const WildRound wild = wild_round(seed + round);
         for (const WildPlan plan : {WildPlan::acceleration, WildPlan::optimal, WildPlan::bounded}) {
@@ -85,7 +85,7 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
         }
     }
     CAPTURE(compared, slow_in_float);
-    CHECK(4 * compared > rounds(20, 2000)); // else nothing is compared
+    CHECK(4 * compared > rounds(40, 2000)); // else nothing is compared
     CHECK(slow_in_float <= 1 + compared / 10);
 }
 

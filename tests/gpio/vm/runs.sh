@@ -62,7 +62,7 @@ elif ((status != 77)); then
     exit "$status"
 fi
 files=("$work"/{machine,short,lines,outputs,spindle}.toml "$work"/*.{csv,ngc})
-export GPIO_VM_TIME=virtual
+export GPIO_VM_TIME=virtual GPIO_VM_SECONDS=600 # time of the machine; a limit in time of a busy host
 $vm/run.sh $cache "$work/first" $vm/runs_guest.sh "${programs[0]}" "${files[@]}" "$work/all" &
 first=$!
 if ((${#programs[@]} > 1)); then
