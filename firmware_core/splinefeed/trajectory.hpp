@@ -56,10 +56,10 @@ public:
     ///                  input comes.
     /// @param work      bound of the work of this call, at least 1, for a main loop that has other work as well. A step
     ///                  is a node that is planned or a cell that is entered; a piece of the curve that is measured is
-    ///                  three, a segment of the curve and a cell that is new to the plan are four. On top comes one
-    ///                  feed segment. docs/reference/budgets.md has the instructions. `busy`: nothing was
-    ///                  lost, call again. What is emitted does not depend on it. A plan that limits the jerk ignores
-    ///                  it.
+    ///                  three; a segment of the curve, and each part of the search for the largest speeds of a new
+    ///                  cell, is four. On top comes one feed segment. docs/reference/budgets.md has the instructions.
+    ///                  `busy`: nothing was lost, call again. What is emitted does not depend on it. A plan that limits
+    ///                  the jerk ignores it.
     [[nodiscard]] Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait,
                             unsigned work = WorkBudget::unlimited) noexcept {
         SPLINEFEED_ASSERT(work > 0);
