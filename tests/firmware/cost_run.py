@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 from board_in_qemu import Board, BoardFailed, built_plugin, plugins_refused
-from firmware_run import waypoints
+from planned import waypoints
 
 # The interrupt is the first one.
 FUNCTIONS = {"tick": "firmware::on_tick()", "next": "Trajectory<.*>::next(", "plan": "firmware::Motion::plan()"}

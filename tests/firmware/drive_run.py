@@ -17,8 +17,7 @@ import time
 
 from board_in_qemu import Board, BoardFailed, plugins_refused
 from faulty_line import FaultyLine
-from firmware_run import (AXES, LINES, MACHINE, STEPS_PER_MM, Plan, check, counts_after, counts_at, of_axis, slowed, steps_of,
-                          waypoints)
+from planned import AXES, LINES, MACHINE, STEPS_PER_MM, Plan, check, counts_after, counts_at, of_axis, slowed, steps_of, waypoints
 
 PROFILE = "hal/profiles/splinefeed-pvt.toml"
 SHARE = 0.03  # of the frames
