@@ -79,7 +79,7 @@ class Kind:
 OUTPUTS = (*STEP, *DIRECTION, ENABLE)
 KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, ("pl061=40025000", "pl061=40024000", "pl061=40007000"), {(2, pin): pin for pin in OUTPUTS},
                              {ESTOP: Contact(0, 1, False), LIMIT: Contact(1, 0, False)}, watchdog=True),
-         "netduinoplus2": Kind(64, "float", 3, ("stm32=40020400", "stm32=40020800"), {(1, pin): pin for pin in OUTPUTS},
+         "netduinoplus2": Kind(64, "float", 4, ("stm32=40020400", "stm32=40020800"), {(1, pin): pin for pin in OUTPUTS},
                                {ESTOP: Contact(0, 0, True), LIMIT: Contact(0, 1, True)}),
          "microbit": Kind(16, "float", 6, ("nrf51=50000000",), {(0, bit): pin for bit, pin in zip((1, 2, 3, 21, 22, 23, 20), OUTPUTS)},
                           {ESTOP: Contact(0, 17, False), LIMIT: Contact(0, 26, False)}, slow=True)}
@@ -180,8 +180,19 @@ class Board:
         return line
 
     def flood(self, lines, obey_xoff):
-        """Sends all lines without waiting for an answer to any."""
+        """Sends all lines without waiting for an answer to any. `obey_xoff`: the board holds its motion, which is resumed when it has asked
+        to pause; until then each part is received before the next one is sent, because a full board would not read the "~"."""
         data = "".join(line + "\n" for line in lines).encode()
+        if obey_xoff:
+            answers, before = [], self.pauses
+            while self.pauses == before:
+                if not data:
+                    raise BoardFailed("the board never asked to pause")
+                self.send(data[:16].decode() + "?")
+                data = data[16:]
+                answers += self.wait_for("<")[1]
+            self.lines = answers + self.lines
+            self.send("~")
         while data:
             writable = select.select([], [self.uart], [], 0.0)[1] and not (obey_xoff and self.paused)
             if writable:
