@@ -79,7 +79,7 @@ class Kind:
 OUTPUTS = (*STEP, *DIRECTION, ENABLE)
 KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, ("pl061=40025000", "pl061=40024000", "pl061=40007000"), {(2, pin): pin for pin in OUTPUTS},
                              {ESTOP: Contact(0, 1, False), LIMIT: Contact(1, 0, False)}, watchdog=True),
-         "netduinoplus2": Kind(64, "float", 4, ("stm32=40020400", "stm32=40020800"), {(1, pin): pin for pin in OUTPUTS},
+         "netduinoplus2": Kind(64, "float", 3, ("stm32=40020400", "stm32=40020800"), {(1, pin): pin for pin in OUTPUTS},
                                {ESTOP: Contact(0, 0, True), LIMIT: Contact(0, 1, True)}),
          "microbit": Kind(16, "float", 6, ("nrf51=50000000",), {(0, bit): pin for bit, pin in zip((1, 2, 3, 21, 22, 23, 20), OUTPUTS)},
                           {ESTOP: Contact(0, 17, False), LIMIT: Contact(0, 26, False)}, slow=True)}
