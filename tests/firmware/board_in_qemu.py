@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""A board of examples/firmware in QEMU: its UART, its buttons, and every level that its pins took."""
+"""A board of examples/firmware in QEMU: its UART, its inputs, and every level that its pins took."""
 import json
+import mmap
 import os
 import re
 import select
 import socket
+import struct
 import subprocess
 import time
+from typing import NamedTuple
 
 XON, XOFF = b"\x11", b"\x13"
 WAIT_S = 60  # for an answer, on a host that is busy
 
 
-STEP, DIRECTION, ENABLE = (0, 1, 2), (4, 5, 6), 7  # pins of the axes; those of all boards
+STEP, DIRECTION, ENABLE, ESTOP, LIMIT = (0, 1, 2), (4, 5, 6), 7, 8, 9  # pins, by the same numbers on all boards
 
 
 class BoardFailed(Exception):
@@ -31,97 +34,56 @@ def connected(path):
     raise BoardFailed("QEMU does not listen")
 
 
-class Pl061Pins:
-    """The pins of a board with PL061 ports: of the port that has switched the drives on."""
-    options = ["-trace", "pl061_set_output"]
-
-    def __init__(self, enable_pin):
-        self.enable_pin = enable_pin
-        self.port = None
-        self.before = []
-
-    def changes(self, lines):
-        """[(pin, level, None)]: QEMU does not say when."""
-        found = (re.match(r"pl061_set_output (\S+) setting output (\d+) to (\d)$", line) for line in lines)
-        changes = [(m[1], int(m[2]), int(m[3])) for m in found if m]
-        if self.port is None:
-            self.before += changes
-            self.port = next((port for port, pin, _ in self.before if pin == self.enable_pin), None)
-            changes = self.before
-        return [(pin, level, None) for port, pin, level in changes if port == self.port]
+def plugins_refused():
+    """Why the tests' plugins cannot be used here, or None: they know one version of QEMU."""
+    version = subprocess.run(["qemu-system-arm", "--version"], check=True, capture_output=True, text=True).stdout
+    return None if "version 7.2" in version else "the plugins are for QEMU 7.2, this is " + version.splitlines()[0]
 
 
-class Stm32Pins:
-    """Those of port C of an STM32F4, which QEMU does not have: it tells of each access to the missing device. The firmware sets all
-    step and direction lines at once, in each tick, so that these accesses count the ticks."""
-    options = ["-d", "unimp"]
-    lines = sum(1 << pin for pin in STEP + DIRECTION)
-
-    def __init__(self, _):
-        self.level = self.ticks = 0
-
-    def changes(self, lines):
-        """[(pin, level, tick)]"""
-        changes = []
-        for line in lines:
-            m = re.match(r"GPIOC: unimplemented device write \(size 4, offset 0x018, value 0x(\w+)\)", line)
-            if m:
-                clear, high = divmod(int(m[1], 16), 0x10000)
-                self.ticks += (clear | high) & self.lines == self.lines
-                level = self.level & ~clear | high
-                changes += [(pin, level >> pin & 1, self.ticks) for pin in range(16) if (level ^ self.level) >> pin & 1]
-                self.level = level
-        return changes
+def built_plugin(name, folder):
+    """tests/firmware/NAME_plugin.c, compiled."""
+    plugin = f"{folder}/{name}.so"
+    subprocess.run(["gcc", "-shared", "-fPIC", "-O2", "-Wall", "-Wextra", "-Werror", "-o", plugin,
+                    f"tests/firmware/{name}_plugin.c"], check=True)
+    return plugin
 
 
-class Nrf51Pins:
-    """Those of an nRF51. The firmware writes all levels in each tick, so that these writes count the ticks."""
-    options = ["-trace", "nrf51_gpio_write"]
-    pin = dict(zip((1, 2, 3, 21, 22, 23, 20), (*STEP, *DIRECTION, ENABLE)))
-
-    def __init__(self, _):
-        self.level = self.ticks = 0
-
-    def changes(self, lines):
-        """[(pin, level, tick)], with the pins' numbers of the other boards"""
-        changes = []
-        for line in lines:
-            m = re.match(r"nrf51_gpio_write offset 0x(504|508|50c) value 0x(\w+)", line)
-            if m:
-                value = int(m[2], 16)
-                level = {"504": value, "508": self.level | value, "50c": self.level & ~value}[m[1]]
-                self.ticks += m[1] == "504"
-                changes += [(number, level >> pin & 1, self.ticks) for pin, number in self.pin.items() if (level ^ self.level) >> pin & 1]
-                self.level = level
-        return changes
+class Change(NamedTuple):
+    """Of the level of a pin: of an output when it changed, of an input when the firmware first read it."""
+    pin: int
+    level: int
+    tick: int  # how many times the firmware had read its inputs
+    ns: int  # the machine's time
 
 
-class NoPins:
-    """Of a board whose pins QEMU does not show, or that this file does not know."""
-    options = []
-
-    def __init__(self, _):
-        pass
-
-    def changes(self, _):
-        return []
+class Contact(NamedTuple):
+    """Of an input to ground."""
+    port: int
+    bit: int
+    opens: bool  # when it is pressed
 
 
 class Kind:
     """A board that QEMU has. `window` and `scalar` are those of its image; `shift`: an instruction takes 2^shift ns; `slow`: its machine
     has segments of 8 ms and ticks of 200 us, as machine.hpp makes it, and a window that is shorter than the tool's shortest: it makes
-    the same steps in the same order, but not at the same time."""
+    the same steps in the same order, but not at the same time. `ports`: what pins_plugin.c puts into it, first the port whose inputs
+    the firmware reads in each tick; `outputs`: {(port, bit): pin}; `contacts`: {pin: Contact}."""
 
-    def __init__(self, window, scalar, shift, pins, *, buttons=False, watchdog=False, slow=False):
-        self.window, self.scalar, self.shift, self.pins, self.slow = window, scalar, shift, pins, slow
+    def __init__(self, window, scalar, shift, ports, outputs, contacts, *, watchdog=False, slow=False):
+        self.window, self.scalar, self.shift, self.watchdog, self.slow = window, scalar, shift, watchdog, slow
         self.tick_ns = 200_000 if slow else 50_000
-        self.buttons, self.watchdog = buttons, watchdog
+        self.ports, self.contacts = ports, contacts
+        self.pins = outputs | {(contact.port, contact.bit): pin for pin, contact in contacts.items()}
 
 
-KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, Pl061Pins, buttons=True, watchdog=True),
-         "netduinoplus2": Kind(64, "float", 3, Stm32Pins),
-         "microbit": Kind(16, "float", 6, Nrf51Pins, slow=True)}
-UNKNOWN = Kind(20, "fixed", 4, NoPins)  # any other: its serial line can be talked to
+OUTPUTS = (*STEP, *DIRECTION, ENABLE)
+KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, ("pl061=40025000", "pl061=40024000", "pl061=40007000"), {(2, pin): pin for pin in OUTPUTS},
+                             {ESTOP: Contact(0, 1, False), LIMIT: Contact(1, 0, False)}, watchdog=True),
+         "netduinoplus2": Kind(64, "float", 3, ("stm32=40020400", "stm32=40020800"), {(1, pin): pin for pin in OUTPUTS},
+                               {ESTOP: Contact(0, 0, True), LIMIT: Contact(0, 1, True)}),
+         "microbit": Kind(16, "float", 6, ("nrf51=50000000",), {(0, bit): pin for bit, pin in zip((1, 2, 3, 21, 22, 23, 20), OUTPUTS)},
+                          {ESTOP: Contact(0, 17, False), LIMIT: Contact(0, 26, False)}, slow=True)}
+UNKNOWN = Kind(20, "fixed", 4, (), {}, {})  # any other: its serial line can be talked to
 
 
 class Board:
@@ -129,20 +91,28 @@ class Board:
     host's time; the board is waited for. `clock`: how its clock goes, if otherwise."""
 
     def __init__(self, image, folder, machine, qemu_options=(), clock=""):
-        trace_path = os.path.join(folder, "pins.txt")
+        self.kind = KINDS.get(machine, UNKNOWN)
+        log_path, contacts_path = os.path.join(folder, "pins.txt"), os.path.join(folder, "contacts")
         serial, monitor = os.path.join(folder, "uart"), os.path.join(folder, "qmp")
-        for path in (trace_path, serial, monitor):
+        for path in (serial, monitor):
             if os.path.exists(path):
                 os.remove(path)
-        self.kind = KINDS.get(machine, UNKNOWN)
-        self.pins = self.kind.pins(ENABLE)
+        with open(log_path, "w", encoding="ascii"):
+            pass  # QEMU listens before the plugin opens it
+        with open(contacts_path, "wb+") as file:
+            file.truncate(16)
+            self.contacts = mmap.mmap(file.fileno(), 16)
+        for pin in self.kind.contacts:
+            self.press(pin, False)
+        pins = []
+        if self.kind.ports:
+            pins = ["-plugin", ",".join([built_plugin("pins", folder), f"log={log_path}", f"contacts={contacts_path}", *self.kind.ports])]
         self.qemu = subprocess.Popen(
             ["qemu-system-arm", "-M", machine, "-display", "none", "-icount", clock or f"shift={self.kind.shift},sleep=off",
              "-chardev", f"socket,id=uart,path={serial},server=on,wait=on", "-serial", "chardev:uart",
-             "-qmp", f"unix:{monitor},server=on,wait=off", "-monitor", "none",
-             *self.kind.pins.options, "-D", trace_path, *qemu_options, "-kernel", image])
+             "-qmp", f"unix:{monitor},server=on,wait=off", "-monitor", "none", *pins, *qemu_options, "-kernel", image])
         self.uart = connected(serial)
-        self.trace, self.trace_rest = open(trace_path, encoding="ascii", errors="replace"), ""
+        self.log, self.log_rest = open(log_path, encoding="ascii"), ""
         self.received = b""
         self.lines = []
         self.paused = False
@@ -154,7 +124,7 @@ class Board:
     def close(self):
         self.qemu.kill()
         self.qemu.wait()
-        self.trace.close()
+        self.log.close()
 
     def ask_monitor(self, command, **arguments):
         self.monitor.write(json.dumps({"execute": command, "arguments": arguments}) + "\n")
@@ -166,10 +136,12 @@ class Board:
             if "error" in answer:
                 raise BoardFailed(f"{command}: {answer['error']['desc']}")
 
-    def key(self, name, down):
-        """A button of the board, which QEMU takes from the keyboard."""
-        self.ask_monitor("input-send-event", events=[
-            {"type": "key", "data": {"down": down, "key": {"type": "qcode", "data": name}}}])
+    def press(self, pin, down):
+        """The contact of an input; what no firmware reads in time is lost."""
+        contact = self.kind.contacts[pin]
+        closed, = struct.unpack_from("=I", self.contacts, 4 * contact.port)
+        bit = 1 << contact.bit
+        struct.pack_into("=I", self.contacts, 4 * contact.port, closed & ~bit if down == contact.opens else closed | bit)
 
     def send(self, text):
         self.uart.sendall(text.encode())
@@ -211,8 +183,19 @@ class Board:
         return line
 
     def flood(self, lines, obey_xoff):
-        """Sends all lines without waiting for an answer to any."""
+        """Sends all lines without waiting for an answer to any. `obey_xoff`: the board holds its motion, which is resumed when it has asked
+        to pause; until then each part is received before the next one is sent, because a full board would not read the "~"."""
         data = "".join(line + "\n" for line in lines).encode()
+        if obey_xoff:
+            answers, before = [], self.pauses
+            while self.pauses == before:
+                if not data:
+                    raise BoardFailed("the board never asked to pause")
+                self.send(data[:16].decode() + "?")
+                data = data[16:]
+                answers += self.wait_for("<")[1]
+            self.lines = answers + self.lines
+            self.send("~")
         while data:
             writable = select.select([], [self.uart], [], 0.0)[1] and not (obey_xoff and self.paused)
             if writable:
@@ -227,7 +210,12 @@ class Board:
         return found[1], tuple(float(v) for v in found[2].split(",")), int(found[5])
 
     def pin_levels(self):
-        """(pin, level, tick or None) of the changes since the last call, in order."""
-        self.trace_rest += self.trace.read()
-        *lines, self.trace_rest = self.trace_rest.split("\n")
-        return self.pins.changes(lines)
+        """The changes since the last call, in order."""
+        self.log_rest += self.log.read()
+        *lines, self.log_rest = self.log_rest.split("\n")
+        changes = []
+        for line in lines:
+            ns, tick, port, bit, level = map(int, line.split(" "))
+            if (port, bit) in self.kind.pins:
+                changes.append(Change(self.kind.pins[port, bit], level, tick, ns))
+        return changes

@@ -6,12 +6,11 @@ import subprocess
 import sys
 import tempfile
 
-from board_in_qemu import Board, BoardFailed
-from firmware_run import release_buttons, waypoints
+from board_in_qemu import Board, BoardFailed, built_plugin, plugins_refused
+from planned import waypoints
 
 # The interrupt is the first one.
 FUNCTIONS = {"tick": "firmware::on_tick()", "next": "Trajectory<.*>::next(", "plan": "firmware::Motion::plan()"}
-PLUGIN = "tests/firmware/cost_plugin.c"
 
 
 def ranges(image):
@@ -40,19 +39,15 @@ def finish(board):
 def main():
     image, machine = sys.argv[1:3]
     rows = waypoints(sys.argv[3] if len(sys.argv) > 3 else "examples/path61.csv")
-    version = subprocess.run(["qemu-system-arm", "--version"], check=True, capture_output=True, text=True).stdout
-    if "version 7.2" not in version:
-        print("SKIPPED: the plugin is for QEMU 7.2, this is " + version.splitlines()[0])
+    if refused := plugins_refused():
+        print(f"SKIPPED: {refused}")
         return 77
     with tempfile.TemporaryDirectory() as folder:
-        plugin, log = f"{folder}/cost.so", f"{folder}/cost.txt"
-        subprocess.run(["gcc", "-shared", "-fPIC", "-O2", "-Wall", "-Wextra", "-Werror", "-o", plugin, PLUGIN], check=True)
-        options = ",".join([plugin, f"log={log}"] + [f"{name}={place}" for name, place in ranges(image).items()])
+        log = f"{folder}/cost.txt"
+        options = ",".join([built_plugin("cost", folder), f"log={log}"] + [f"{name}={place}" for name, place in ranges(image).items()])
         board = Board(image, folder, machine, ["-plugin", options])
         try:
             board.wait_for(r"\[boot ")
-            if board.kind.buttons:
-                release_buttons(board)
             board.command("at " + rows[0])
             board.flood(rows + ["end"], obey_xoff=False)  # the host's pace changes nothing
             finish(board)

@@ -15,10 +15,9 @@ import sys
 import tempfile
 import time
 
-from board_in_qemu import Board, BoardFailed
+from board_in_qemu import Board, BoardFailed, plugins_refused
 from faulty_line import FaultyLine
-from firmware_run import (AXES, ESTOP, LIMIT, LINES, MACHINE, STEPS_PER_MM, Plan, check, counts_after, counts_at, of_axis, slowed,
-                          steps_of, waypoints)
+from planned import AXES, LINES, MACHINE, STEPS_PER_MM, Plan, check, counts_after, counts_at, of_axis, slowed, steps_of, waypoints
 
 PROFILE = "hal/profiles/splinefeed-pvt.toml"
 SHARE = 0.03  # of the frames
@@ -45,15 +44,11 @@ class Drive:
             self.machine = f"{folder}/slow.toml"
             with open(MACHINE, encoding="utf-8") as fast, open(self.machine, "w", encoding="utf-8") as out:
                 out.write(slowed(fast.read()))
-        if self.board.kind.buttons:  # QEMU shows them as pressed until each was released once
-            for key in (LIMIT, ESTOP):
-                self.board.key(key, True)
-                self.board.key(key, False)
 
     def new_steps(self):
         """The steps of the pins since the last call."""
         changes = self.board.pin_levels()
-        steps, self.up = steps_of([(*LINES[pin], level) for pin, level, _ in changes if pin in LINES], self.up)
+        steps, self.up = steps_of([(*LINES[change.pin], change.level) for change in changes if change.pin in LINES], self.up)
         return steps
 
     def run(self, name, rows, share, seed):
@@ -112,6 +107,9 @@ def main():
     parser.add_argument("--faulted", type=int, default=50 if os.environ.get("SPLINEFEED_LONG") == "1" else 3)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
+    if refused := plugins_refused():
+        print(f"SKIPPED: {refused}")
+        return 77
     with tempfile.TemporaryDirectory() as folder:
         drive = Drive(options.tool, options.image, options.machine, folder)
         try:

@@ -52,8 +52,9 @@ stack=$(arm-none-eabi-nm "$image" | awk '/ stack_(top|bottom)$/ { print "0x" $1 
 figure firmware.flash "$(awk -v name="$name.flash" '$1 == name { print $2 }' "$figures")"
 figure ram "data + bss - ($stack)"
 if [[ $4 == not-run ]]; then exit 0; fi
-python3 "tests/firmware/$run.py" "$host/bin/splinefeed" "$image" "$4"
-if [[ $proof == drive ]]; then exit 0; fi
+ran=0
+python3 "tests/firmware/$run.py" "$host/bin/splinefeed" "$image" "$4" || ran=$?
+if [[ $proof == drive || $ran != 0 && $ran != 77 ]]; then exit $ran; fi
 status=0
 output=$(python3 tests/firmware/cost_run.py "$image" "$4") || status=$?
 echo "$output"
@@ -62,3 +63,4 @@ case $status in
     77) printf '%s skipped\n' tick tick.longest late next.longest >>"$figures" ;;
     *) exit 1 ;;
 esac
+exit $ran
