@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "drive_bench.hpp"
+#include "support/rounds.hpp"
 
 #include <random>
 #include <support/catch.hpp>
@@ -293,7 +294,7 @@ TEST_CASE("Drive: a segment that is too fast for the ticks is a fault of its axi
 }
 
 TEST_CASE("Drive: rests on the way, holds and ends at random: the path's end, step by step", "[drive][random]") {
-    for (unsigned seed = 0; seed < 40; ++seed) {
+    for (unsigned seed = 0; seed < static_cast<unsigned>(splinefeed_test::rounds(40)); ++seed) {
         INFO("seed " << seed);
         std::mt19937 random(seed);
         DriveBench bench;
