@@ -12,7 +12,7 @@ import time
 from typing import NamedTuple
 
 XON, XOFF = b"\x11", b"\x13"
-WAIT_S = 60  # for an answer, on a host that is busy
+WAIT_S = 300  # for an answer, on a host that is busy
 
 
 STEP, DIRECTION, ENABLE, ESTOP, LIMIT = (0, 1, 2), (4, 5, 6), 7, 8, 9  # pins, by the same numbers on all boards
@@ -100,8 +100,9 @@ class Board:
         with open(log_path, "w", encoding="ascii"):
             pass  # QEMU listens before the plugin opens it
         with open(contacts_path, "wb+") as file:
-            file.truncate(16)
-            self.contacts = mmap.mmap(file.fileno(), 16)
+            file.truncate(20)
+            self.contacts = mmap.mmap(file.fileno(), 20)
+        self.halts = False
         for pin in self.kind.contacts:
             self.press(pin, False)
         pins = []
@@ -112,7 +113,7 @@ class Board:
              "-chardev", f"socket,id=uart,path={serial},server=on,wait=on", "-serial", "chardev:uart",
              "-qmp", f"unix:{monitor},server=on,wait=off", "-monitor", "none", *pins, *qemu_options, "-kernel", image])
         self.uart = connected(serial)
-        self.log, self.log_rest = open(log_path, encoding="ascii"), ""
+        self.log, self.log_rest, self.log_lines = open(log_path, encoding="ascii"), "", 0
         self.received = b""
         self.lines = []
         self.paused = False
@@ -142,9 +143,28 @@ class Board:
         closed, = struct.unpack_from("=I", self.contacts, 4 * contact.port)
         bit = 1 << contact.bit
         struct.pack_into("=I", self.contacts, 4 * contact.port, closed & ~bit if down == contact.opens else closed | bit)
+        self.go_on()
 
     def send(self, text):
         self.uart.sendall(text.encode())
+        self.go_on()
+
+    def halt_after(self, changes):
+        """The machine halts when its pins have changed so often from now on. What the host does next, it then does at that instant of the
+        machine's time, however busy the host is."""
+        self.go_on()
+        struct.pack_into("=I", self.contacts, 16, self.log_lines + changes)
+        self.halts = True
+
+    def halted(self):
+        return not self.ask_monitor("query-status")["running"]
+
+    def go_on(self):
+        """If it halted or was to halt."""
+        if self.halts:
+            struct.pack_into("=I", self.contacts, 16, 0)
+            self.halts = False
+            self.ask_monitor("cont")
 
     def take(self, seconds):
         """Takes what the board says within that time, at once if something is there."""
@@ -213,6 +233,7 @@ class Board:
         """The changes since the last call, in order."""
         self.log_rest += self.log.read()
         *lines, self.log_rest = self.log_rest.split("\n")
+        self.log_lines += len(lines)
         changes = []
         for line in lines:
             ns, tick, port, bit, level = map(int, line.split(" "))

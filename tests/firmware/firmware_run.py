@@ -158,18 +158,26 @@ def starved(bench):
     return f"under-run: stood at {at}, then all steps"
 
 
-SENT = 40  # waypoints: the curve looks ahead over 16, and the motion must not end before a busy host looks
+SENT = 40  # waypoints
+MOVED = 2000  # steps
 
 
 def under_way(bench, rows):
-    """Begins a slow program, and waits until it moves."""
+    """A slow program, halted when the board has all waypoints that it is to get and has moved. Until then it halts every 1000 changes:
+    the motion must not end before a busy host looks."""
     bench.begin(rows)
-    bench.board.command("feed 40")
-    for row in rows[:SENT]:
-        bench.board.command(row)
-    end = time.monotonic() + WAIT_S
-    while bench.board.status()[0] != "moving" or len(bench.steps_so_far()) < 2000:
-        check(time.monotonic() < end, "it does not move")
+    board = bench.board
+    board.command("feed 40")
+    board.halt_after(1000)
+    board.uart.sendall("".join(row + "\n" for row in rows[:SENT]).encode())
+    answers, end = [], time.monotonic() + WAIT_S
+    while not (len(answers) == SENT and board.halted() and len(bench.steps_so_far()) >= MOVED):
+        check(time.monotonic() < end and set(answers) <= {"ok"}, f"it does not move; the last answers: {answers[-3:]}")
+        if board.halted():
+            bench.levels()
+            board.halt_after(1000)
+        board.take(0.01)
+        answers, board.lines = answers + board.lines, []
 
 
 def switched_off(bench):

@@ -5,12 +5,13 @@
 //   qemu-system-arm -plugin pins.so,log=FILE,contacts=FILE,FAMILY=ADDRESS... -kernel IMAGE
 //
 // FAMILY is stm32, nrf51 or pl061. On each pin is a contact to ground; in `contacts` the test has a number of 32 bits
-// for each port, in the host's order of bytes, in which the bits of closed contacts are set. A pin that is no output is
-// low where its contact is closed or where it has no pull-up; an output is low until the firmware drives it. `log`
-// gets a line "NS TICK PORT PIN LEVEL" for each change: of an output when it changes, of an input when the firmware
-// first reads the new level. NS is the machine's time; TICK says how many times the inputs of the first port were
-// read, which the firmware does once in each tick; PORT counts from 0. Debian's QEMU exports its own functions; what is
-// declared here is in no package.
+// for each of four ports, in the host's order of bytes, in which the bits of closed contacts are set. A fifth number
+// says after how many lines of the log the machine halts, as by QEMU's command `stop`; 0: never. A pin that is no
+// output is low where its contact is closed or where it has no pull-up; an output is low until the firmware drives it.
+// `log` gets a line "NS TICK PORT PIN LEVEL" for each change: of an output when it changes, of an input when the
+// firmware first reads the new level. NS is the machine's time; TICK says how many times the inputs of the first port
+// were read, which the firmware does once in each tick; PORT counts from 0. Debian's QEMU exports its own functions;
+// what is declared here is in no package.
 #include <fcntl.h>
 #include <inttypes.h>
 #include <stdbool.h>
@@ -38,6 +39,7 @@ void memory_region_init_io(void* region, void* owner, const struct region_operat
 void memory_region_add_subregion_overlap(void* space, uint64_t at, void* region, int priority);
 void* get_system_memory(void);
 void* object_resolve_path(const char* path, bool* ambiguous);
+int vm_stop(int state);
 void qemu_register_reset(void (*reset)(void*), void* opaque);
 int64_t qemu_clock_get_ns(int clock);
 void qemu_plugin_register_vcpu_init_cb(uint64_t id, void (*callback)(uint64_t id, unsigned cpu));
@@ -62,13 +64,19 @@ static int count;
 static const volatile uint32_t* contacts;
 static uint64_t ticks;
 static FILE* out;
+static uint32_t lines;
+enum { halt_after = 4, paused = 4 }; // the place in contacts; RUN_STATE_PAUSED
 
 static void tell(const struct port* p, uint32_t changed, uint32_t levels) {
     for (int pin = 0; pin < 32 && changed >> pin != 0; ++pin) {
         if ((changed >> pin & 1) != 0) {
             fprintf(out, "%" PRId64 " %" PRIu64 " %d %d %d\n", qemu_clock_get_ns(1), ticks, (int)(p - ports), pin,
                     (int)(levels >> pin & 1));
+            ++lines;
         }
+    }
+    if (contacts[halt_after] != 0 && lines >= contacts[halt_after]) {
+        vm_stop(paused);
     }
 }
 
@@ -176,7 +184,7 @@ __attribute__((visibility("default"))) int qemu_plugin_install(uint64_t id, cons
             out = fopen(argv[i] + 4, "w");
         } else if (!strncmp(argv[i], "contacts=", 9)) {
             const int file = open(argv[i] + 9, O_RDONLY);
-            contacts = mmap(NULL, sizeof(uint32_t) * 4, PROT_READ, MAP_SHARED, file, 0);
+            contacts = mmap(NULL, sizeof(uint32_t) * (halt_after + 1), PROT_READ, MAP_SHARED, file, 0);
         } else if (count < 4 && sscanf(argv[i], "%7[^=]=%" SCNx64, family, &p->base) == 2) {
             for (size_t k = 0; k < 3; ++k) {
                 p->family = !strcmp(family, families[k].name) ? &families[k] : p->family;
