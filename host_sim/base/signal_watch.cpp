@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/signal_watch.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <pthread.h>
@@ -9,7 +10,8 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr std::array taken_signals{SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
+constexpr std::array end_signals{SIGINT, SIGTERM, SIGHUP};
+constexpr std::array steering_signals{SIGUSR1, SIGUSR2};
 constexpr int wake_up = SIGURG; // ends the thread; its default is to be ignored
 
 bool ignored(int signal) {
@@ -25,11 +27,13 @@ SignalWatch::SignalWatch(std::function<void()> at_once) : at_once_(std::move(at_
     interrupts_.store(0);
     sigemptyset(&taken_);
     sigaddset(&taken_, wake_up);
-    for (const int signal : taken_signals) {
+    const auto take = [this](int signal) {
         if (!ignored(signal)) {
             sigaddset(&taken_, signal);
         }
-    }
+    };
+    std::ranges::for_each(end_signals, take);
+    std::ranges::for_each(steering_signals, take);
     pthread_sigmask(SIG_BLOCK, &taken_, &before_);
     thread_ = std::thread([this] { work(); });
 }
@@ -38,6 +42,11 @@ SignalWatch::~SignalWatch() {
     ends_.store(true);
     pthread_kill(thread_.native_handle(), wake_up);
     thread_.join();
+    for (const int signal : end_signals) {
+        if (sigismember(&taken_, signal) == 1) {
+            sigaddset(&before_, signal);
+        }
+    }
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 

@@ -26,7 +26,8 @@ public:
     explicit SignalWatch(std::function<void()> at_once);
     SignalWatch(const SignalWatch&) = delete;
     SignalWatch& operator=(const SignalWatch&) = delete;
-    /// The signals have their former effect again.
+    /// SIGUSR1 and SIGUSR2 have their former effect again. SIGINT, SIGTERM and SIGHUP stay blocked: the run has said
+    /// how it ended, and a request that comes before the process has exited must not change its exit status.
     ~SignalWatch();
 
     /// From here on somebody checks interrupts(): at_once is no longer called.

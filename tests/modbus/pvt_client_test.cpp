@@ -144,6 +144,22 @@ TEST_CASE("Client: no bit that a frame on TCP changes on its way opens a session
     }
 }
 
+TEST_CASE("Client: a line that spoils every other reading for a while costs no run") {
+    PvtDrive drive(PvtDriveParameters{});
+    int readings = 0;
+    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) {
+        ScriptedPeer::Reply reply = answer_of(drive, request);
+        if (request[7] == 3 && ++readings <= 18) {
+            reply.bytes.back() ^= static_cast<std::uint8_t>(readings % 2);
+        }
+        return reply;
+    });
+    ModbusLink link(peer.address(), {.answer_us = 300'000});
+    PvtClient client(link, 1);
+    CHECK(client.open(1) == DriveProblem::none);
+    CHECK(readings >= 18);
+}
+
 TEST_CASE("Client: registers that are never twice the same, and a configuration that is not kept, are named") {
     PvtDrive drive(PvtDriveParameters{});
     bool changes = false;

@@ -10,6 +10,9 @@ namespace splinefeed::hal::modbus {
 namespace {
 
 constexpr int attempts = 5;
+// Of readings in search for two in a row that are equal. A line that spoils one of seven spoils every other one of six
+// in 1.4 % of all cases, of 21 in one of 10^7.
+constexpr int readings = 21;
 constexpr std::uint64_t patience_us = 1'500'000; // a busy drive or computer may be late many times in a row
 constexpr std::size_t most_registers = pvt::identity_registers;
 
@@ -43,7 +46,7 @@ DriveProblem PvtTables::read(int address, std::span<std::uint16_t> registers, Dr
     SPLINEFEED_ASSERT(registers.size() <= most_registers);
     std::array<std::uint16_t, most_registers> reading{};
     const std::span<std::uint16_t> latest = std::span(reading).first(registers.size());
-    for (int i = 0; i <= attempts; ++i) {
+    for (int i = 0; i < readings; ++i) {
         if (!retry([&] { return link_->read(unit_, address, latest); })) {
             return no_answer(refused);
         }

@@ -17,7 +17,7 @@ public:
 
     /// Reads at most pvt::identity_registers without a checksum of their own.
     /// @param refused  the problem that an exception as the answer means
-    /// @returns none, `refused`, silent, or damaged where no two readings in a row are equal
+    /// @returns none, `refused`, silent, or damaged where no two of 21 readings in a row are equal
     [[nodiscard]] DriveProblem read(int address, std::span<std::uint16_t> registers, DriveProblem refused) noexcept;
     /// Writes, and reads again what was written.
     /// @returns none, refused, silent, damaged, or not_kept where the drive holds something else
