@@ -33,6 +33,15 @@ void check_pair(std::int32_t a, std::int32_t b) {
     }
 }
 
+void check_mean(std::int32_t a, std::int32_t b) {
+    const std::int64_t sum = std::int64_t{a} + b;
+    const std::int64_t twice = 2 * std::int64_t{mean(ShortFixed::from_raw(a), ShortFixed::from_raw(b)).raw()};
+    const bool tie = sum % 2 != 0;
+    if (sum == nearest_word(sum) && (tie ? twice % 4 != 0 || (twice != sum - 1 && twice != sum + 1) : twice != sum)) {
+        FAIL_SAMPLE(a, b);
+    }
+}
+
 void check_long_product(std::int64_t value, std::int32_t word) {
     const Int128 nearest = (static_cast<Int128>(value) * word + (Int128{1} << 29)) >> 30;
     const Int128 quarter = (static_cast<Int128>(value) * word) >> 32;
@@ -63,10 +72,12 @@ std::int32_t random_word(Operands& random) {
 
 } // namespace
 
-TEST_CASE("numbers of one word: sums, products and multiples are exact, nearest or saturated", "[number][short]") {
+TEST_CASE("numbers of one word: sums, products, multiples and means are exact, nearest or saturated",
+          "[number][short]") {
     for (const std::int32_t a : word_edges()) {
         for (const std::int32_t b : word_edges()) {
             check_pair(a, b);
+            check_mean(a, b);
         }
     }
     Operands random;
@@ -74,6 +85,7 @@ TEST_CASE("numbers of one word: sums, products and multiples are exact, nearest 
         const std::int32_t a = random_word(random);
         const std::int32_t b = random_word(random);
         check_pair(a, b);
+        check_mean(a, b);
     }
 }
 

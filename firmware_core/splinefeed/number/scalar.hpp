@@ -123,6 +123,12 @@ template <Numeric N>
     return scale2(x, -1);
 }
 
+/// (a + b) / 2
+template <Floating S>
+[[nodiscard, gnu::always_inline]] constexpr S mean(S a, S b) noexcept {
+    return half(a + b);
+}
+
 /// factor * x.
 template <Floating S>
 [[nodiscard, gnu::always_inline]] constexpr S times(int factor, S x) noexcept {

@@ -197,6 +197,14 @@ private:
                                                                 : detail::word_of(x.raw(), exponent));
 }
 
+/// (a + b) / 2 rounded to nearest, ties to even, where a + b does not overflow. Half of all sums are ties: rounded away
+/// from zero, means of means would be too large by half an ulp on average, and by as much in every cell.
+[[nodiscard, gnu::always_inline]] constexpr ShortFixed mean(ShortFixed a, ShortFixed b) noexcept {
+    const std::int32_t sum = (a + b).raw();
+    const std::int32_t down = sum >> 1;
+    return ShortFixed::from_raw(down + (sum & down & 1));
+}
+
 [[nodiscard, gnu::always_inline]] constexpr ShortFixed absolute(ShortFixed x) noexcept {
     return x.raw() < 0 ? -x : x;
 }

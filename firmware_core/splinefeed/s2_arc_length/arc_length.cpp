@@ -101,7 +101,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
     if (!last && too_long(piece)) {
         return Verdict::coarse;
     }
-    if (!last && m_.length_error > refinement_.metric_error * m_.length + m_.noise) {
+    if (!last && m_.length_error > times(8, refinement_.metric_error * m_.length + m_.noise)) {
         return Verdict::coarse;
     }
     Ratio<S> turn{};
@@ -154,8 +154,8 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     // In units of 2^-12: otherwise Fixed would lose the digits of a small error. Each estimate is 0 somewhere: the two
     // lengths are the same where sigma is a quadratic, and that is so on a straight cubic.
     using R = Ratio<S>;
-    const R estimate = larger(m_.length_error, scale2(m_.slope_error(), -2));
-    const R error = m_.shape_error + m_.by_length(scale2(estimate, 12));
+    const R estimate = larger(m_.length_error, times(2, m_.slope_error()));
+    const R error = m_.shape_error + m_.by_length(scale2(estimate, 9));
     const R ripple = scale2(times(40, scale2(error, -6)), -6);
     for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
         PerDegree<S>& power = out.power[k]; // the differences of the control points, without power[0]

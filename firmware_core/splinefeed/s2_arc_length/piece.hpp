@@ -82,7 +82,7 @@ struct PieceMeasure {
     R slowest{};                             ///< smallest sigma
     R fastest{};                             ///< largest sigma
     R length{};
-    R length_error{}; ///< difference to a rule two orders lower
+    R length_error{}; ///< 8 times the difference to a rule two orders lower
     S length_mm{};
     std::array<R, 6> inverse{}; ///< w = sum inverse[i] x^(i+1), x = fraction of the length
     R shape_error{};            ///< 2^12 times the relative error of the inverse, estimated from the shape of sigma
