@@ -117,9 +117,9 @@ void take_scalar(Job& job, const std::string& scalar) {
 }
 
 void take_window(Job& job, const std::string& text) {
-    const auto cells = read_whole<std::size_t>(text, 16, 1000000);
+    const auto cells = read_whole<std::size_t>(text, 10, 1000000);
     if (!cells) {
-        throw UsageError(fmt::format("--window {}: it must be a whole number from 16 to 1000000", in_quotes(text)));
+        throw UsageError(fmt::format("--window {}: it must be a whole number from 10 to 1000000", in_quotes(text)));
     }
     job.run.motion.window_cells = *cells;
 }

@@ -65,9 +65,8 @@ class Contact(NamedTuple):
 
 class Kind:
     """A board that QEMU has. `window` and `scalar` are those of its image; `shift`: an instruction takes 2^shift ns; `slow`: its machine
-    has segments of 8 ms and ticks of 200 us, as machine.hpp makes it, and a window that is shorter than the tool's shortest: it makes
-    the same steps in the same order, but not at the same time. `ports`: what pins_plugin.c puts into it, first the port whose inputs
-    the firmware reads in each tick; `outputs`: {(port, bit): pin}; `contacts`: {pin: Contact}."""
+    has segments of 8 ms and ticks of 200 us, as machine.hpp makes it. `ports`: what pins_plugin.c puts into it, first the port whose
+    inputs the firmware reads in each tick; `outputs`: {(port, bit): pin}; `contacts`: {pin: Contact}."""
 
     def __init__(self, window, scalar, shift, ports, outputs, contacts, *, watchdog=False, slow=False):
         self.window, self.scalar, self.shift, self.watchdog, self.slow = window, scalar, shift, watchdog, slow
@@ -81,7 +80,7 @@ KINDS = {"lm3s6965evb": Kind(20, "fixed", 4, ("pl061=40025000", "pl061=40024000"
                              {ESTOP: Contact(0, 1, False), LIMIT: Contact(1, 0, False)}, watchdog=True),
          "netduinoplus2": Kind(64, "float", 3, ("stm32=40020400", "stm32=40020800"), {(1, pin): pin for pin in OUTPUTS},
                                {ESTOP: Contact(0, 0, True), LIMIT: Contact(0, 1, True)}),
-         "microbit": Kind(16, "float", 6, ("nrf51=50000000",), {(0, bit): pin for bit, pin in zip((1, 2, 3, 21, 22, 23, 20), OUTPUTS)},
+         "microbit": Kind(10, "float", 6, ("nrf51=50000000",), {(0, bit): pin for bit, pin in zip((1, 2, 3, 21, 22, 23, 20), OUTPUTS)},
                           {ESTOP: Contact(0, 17, False), LIMIT: Contact(0, 26, False)}, slow=True)}
 UNKNOWN = Kind(20, "fixed", 4, (), {}, {})  # any other: its serial line can be talked to
 
