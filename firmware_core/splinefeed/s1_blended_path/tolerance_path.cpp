@@ -54,7 +54,12 @@ bool TolerancePath<S>::pass_on() noexcept {
     case Pull::finished: static_cast<void>(blended_.finish()); return false;
     default: return false;
     }
-    const Status status = blended_.push(move.element, move.index); // it was checked, and a piece of a chain is shorter
+    Status status = blended_.push(move.element, move.index); // it was checked, and a piece of a chain is shorter
+    if (!status.ok() && move.element.shape == MoveShape::arc) {
+        // Its start has moved: what lay before it was too short to be a move. Only an arc of micrometres notices.
+        move.element.shape = MoveShape::line;
+        status = blended_.push(move.element, move.index);
+    }
     SPLINEFEED_ASSERT(status.ok());
     static_cast<void>(status);
     return true;
