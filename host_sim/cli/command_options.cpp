@@ -99,9 +99,9 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
                      "end the run where the probe touches (gpio://); exit status 1 if it never does")
             ->disable_flag_override();
     }
-    app.add_option(
-        "--window", typed.window,
-        "look-ahead of the feed plan in cells, 10 to 1000000 (default 1024); jerk_plan = \"optimal\" uses a quarter");
+    app.add_option("--window", typed.window,
+                   "look-ahead of the feed plan in cells, 10 to 1000000 (default 1024); jerk_plan = \"optimal\" uses a "
+                   "quarter, at least 16");
     app.add_option("--events", job.run.motion.events,
                    "E.csv: what an operator does during the run, rows t,hold|resume|abort or t,override,0 to 2");
     const std::string group = "Outputs (- is standard output)";

@@ -60,8 +60,6 @@ TEMPLATE_TEST_CASE("states near the ends of arcs, helices and Bezier segments", 
                    Fixed) {
     using S = TestType;
     Random random(3);
-    int nearest = 0;
-    int missed = 0;
     for (int round = 0; round < rounds(60); ++round) {
         MoveProgram program;
         program.axes = random.integer(2, 4);
@@ -102,13 +100,9 @@ TEMPLATE_TEST_CASE("states near the ends of arcs, helices and Bezier segments", 
             const Real distance = programmed.distance(place, program.axes);
             const Real found = exact(move.distance_near(true, offset)) / unit;
             CHECK(found >= distance - close);
-            // A segment may turn sharply on the way to the nearest place: then the search ends before it.
-            const bool near = found <= distance * 1.1L + 1e-3L * close;
-            (near ? nearest : missed) += 1;
+            CHECK(found <= distance * 1.1L + 1e-3L * close);
         }
     }
-    CAPTURE(nearest, missed);
-    CHECK(20 * missed < nearest);
 }
 
 TEMPLATE_TEST_CASE("an arc in pieces", "[blended_path]", double, float, Fixed) {
