@@ -6,7 +6,8 @@
 //
 // A straight leg has exactly this T. A leg with bends has at most MotionLimits::smoothing_q8: a longer average mixes a
 // bend with more of the path beside it. Where the steepest bend of the leg allows almost the speed of the fastest cell,
-// there is nothing to mix. The time of such a leg is at most A / J, as on a straight one.
+// there is nothing to mix. The time of such a leg is at most A / J, as on a straight one. That is known with its end,
+// so the choice waits for that until the motion is at the leg.
 //
 // A straight leg that is longer than the known path is taken for as long as that. T is at most a third of the least
 // time of the known cells, so that enough of the path is known.

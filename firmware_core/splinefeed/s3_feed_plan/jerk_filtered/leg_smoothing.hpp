@@ -20,6 +20,8 @@ public:
     /// The longest time that is allowed, in 1/256 of a tick.
     /// @param in_view  whether it is as long as the limits allow, although the leg may go on
     [[nodiscard]] std::uint32_t longest_q8(bool& in_view) const noexcept;
+    /// Whether the end of a leg may lengthen its time: what is known of it has mild bends.
+    [[nodiscard]] bool gains_by_end() const noexcept { return !ends_ && mild(); }
 
 private:
     [[nodiscard]] bool mild() const noexcept;
