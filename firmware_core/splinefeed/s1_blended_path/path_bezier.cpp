@@ -5,6 +5,8 @@ namespace splinefeed {
 
 namespace {
 
+constexpr int starts_log2 = 2;
+constexpr int starts = 1 << starts_log2;
 constexpr int nearings = 3; // Newton's steps towards the nearest place
 
 } // namespace
@@ -107,11 +109,32 @@ void PathBezier<S>::part(S u0, S u1, PerAxis<PerDegree<S>>& out) const noexcept 
 }
 
 template <Scalar S>
+S PathBezier<S>::distance_at(S u, bool at_end, const PerAxis<S>& point) const noexcept {
+    PerAxis<S> apart{};
+    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        PerDegree<S> row = points_[k];
+        const S from = at_end ? row[static_cast<unsigned>(degree_)] : S{};
+        reduce(row, degree_, 0, u);
+        apart[k] = point[k] - (row[0] - from);
+    }
+    return norm(apart.data(), axes_);
+}
+
+template <Scalar S>
 S PathBezier<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexcept {
     const S one = from_integer<S>(1);
     const S half = scale2(one, -1);
-    S u = at_end ? one : S{};
+    S u{};
     S least = largest<S>();
+    for (int i = 0; i <= starts; ++i) { // a step from afar may lead away: begin at the nearest of these
+        const S away = scale2(from_integer<S>(i), -1 - starts_log2);
+        const S at = at_end ? one - away : away;
+        const S distance = distance_at(at, at_end, point);
+        if (distance < least) {
+            least = distance;
+            u = at;
+        }
+    }
     for (int i = 0; i <= nearings; ++i) {
         PerAxis<S> apart{};
         PerAxis<S> first{};

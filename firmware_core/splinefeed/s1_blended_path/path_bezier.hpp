@@ -37,6 +37,8 @@ public:
     [[nodiscard]] S distance_near(bool at_end, const PerAxis<S>& point) const noexcept;
 
 private:
+    [[nodiscard]] S distance_at(S u, bool at_end, const PerAxis<S>& point) const noexcept;
+
     int axes_ = 0;
     int degree_ = 0;
     PerAxis<PerDegree<S>> points_{};

@@ -28,8 +28,8 @@ public:
     /// Of an arc half of its radius, of a Bezier segment half of its length; the length if that is shorter.
     [[nodiscard]] S longest_way() const noexcept { return longest_way_; }
     /// Distance of a point from the move, near its end or, if not `at_end`, near its start. `point` is an offset from
-    /// that end. Not less than the distance; more by the square of the distance over the radius, and by more where a
-    /// Bezier segment turns sharply on the way to the nearest place (a few steps of Newton's rule).
+    /// that end. Not less than the distance; more by the square of the distance over the radius. On a Bezier segment: a
+    /// few steps of Newton's rule from the nearest of five places.
     [[nodiscard]] S distance_near(bool at_end, const PerAxis<S>& point) const noexcept;
 
     /// Number of segments for the part between `trim_start` and `trim_end` of its ends: of an arc, quintics each of

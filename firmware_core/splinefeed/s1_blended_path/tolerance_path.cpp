@@ -3,6 +3,16 @@
 
 namespace splinefeed {
 
+namespace {
+
+// Distances are peaks of parabolas through measured places, which are up to 2.4e-5 lower than the largest distance.
+template <Scalar S>
+constexpr S within(S tolerance_mm) noexcept {
+    return tolerance_mm - scale2(tolerance_mm, -14);
+}
+
+} // namespace
+
 template <Scalar S>
 Status TolerancePath<S>::start(const PerAxis<Position>& position) noexcept {
     const Status status = blended_.start(position);
@@ -27,7 +37,10 @@ Status TolerancePath<S>::push(const PathElement<S>& element) noexcept {
     }
     moves_ = moves_ || length.value() > S{};
     last_ = element.to;
-    chains_.push(element, static_cast<std::uint32_t>(counts_.moves++));
+    PathElement<S> kept = element;
+    kept.tolerance_mm = within(element.tolerance_mm);
+    kept.chain_tolerance_mm = within(element.chain_tolerance_mm);
+    chains_.push(kept, static_cast<std::uint32_t>(counts_.moves++));
     while (pass_on()) {
     }
     return {};
