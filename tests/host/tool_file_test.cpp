@@ -3,9 +3,7 @@
 
 #include "refusal.hpp"
 #include "support/catch.hpp"
-
-#include <filesystem>
-#include <fstream>
+#include "temporary_folder.hpp"
 
 using namespace splinefeed;
 using namespace splinefeed::host;
@@ -16,9 +14,6 @@ namespace {
 class Table {
 public:
     explicit Table(const std::string& text) { std::ofstream(path_) << text; }
-    Table(const Table&) = delete;
-    Table& operator=(const Table&) = delete;
-    ~Table() { std::filesystem::remove(path_); }
 
     [[nodiscard]] ToolRows rows() const { return read_tool_file(path_); }
     /// Without the name of the file.
@@ -27,7 +22,8 @@ public:
     }
 
 private:
-    std::string path_ = (std::filesystem::temp_directory_path() / "splinefeed-tool-file-test.tbl").string();
+    TemporaryFolder folder_;
+    std::string path_ = folder_.file("tool.tbl");
 };
 
 } // namespace
