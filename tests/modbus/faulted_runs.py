@@ -164,7 +164,7 @@ def main():
     parser.add_argument("--long-runs", type=int, default=0, help="so many where SPLINEFEED_LONG is 1")
     parser.add_argument("--jobs", type=int, default=4)
     parser.add_argument("--under", type=shlex.split, default=[], help="a command that runs the tool and the drives")
-    parser.add_argument("--later", type=float, default=0.0, help="s that the tool takes to start, under a command")
+    parser.add_argument("--later", type=float, default=0.0, help="s that the tool takes to start, under a command or sanitizers")
     parser.add_argument("--verbose", action="store_true")
     options = parser.parse_args()
     if options.long_runs > 0 and os.environ.get("SPLINEFEED_LONG") == "1":

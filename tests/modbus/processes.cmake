@@ -42,7 +42,7 @@ process_test(modbus_three_drives_rtu three_drives.py ${path61} --wire rtu --tole
 process_test(modbus_profile_away profile_run.py ${path61} lexium32m --tolerance-mm 12.4 ${slow} ${away})
 process_test(modbus_profile_leadshine_pr profile_run.py ${path61} leadshine-pr --wire rtu --tolerance-mm ${leadshine_mm} ${slow} ${ramp})
 if(SPLINEFEED_FUZZERS) # under sanitizers one of each kind
-    process_test(modbus_faulted_runs faulted_runs.py --runs 8 --long-runs 20)
+    process_test(modbus_faulted_runs faulted_runs.py --runs 8 --long-runs 20 --later 1.5)
     return()
 endif()
 process_test(modbus_three_drives_tcp three_drives.py ${path61} --wire tcp --tolerance-mm 0.0004)

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import threading
 import time
+import tty
 
 STOOD_STILL_S = 0.005  # a wake-up so late makes a line's answers late
 DELAYS = 4  # a message passes so many processes, each of which may be woken late
@@ -38,15 +39,17 @@ class HostStoodStill(str):
 
 
 class HostWatch:
-    """While it is entered: by how much [s] a wake-up each other millisecond came late at most, on any processor. On one that stands still
-    a drive or a cable waits, while a process that may go to another one notices nothing."""
+    """While it is entered: by how much [s] a wake-up each other millisecond came late at most, on any processor, or a byte through a
+    pseudo-terminal. On a processor that stands still a drive or a cable waits, while a process that may go to another one notices
+    nothing. And serial lines are pseudo-terminals here: a thread of the kernel passes their bytes on, which has to wait for its turn, too."""
 
     PERIOD_S = 0.002
 
     def __init__(self):
-        self.late_s = dict.fromkeys(os.sched_getaffinity(0), 0.0)
+        self.late_s = dict.fromkeys([*os.sched_getaffinity(0), "line"], 0.0)
         self.ends = threading.Event()
-        self.threads = [threading.Thread(target=self.watch, args=(cpu,), daemon=True) for cpu in self.late_s]
+        self.threads = [threading.Thread(target=self.watch, args=(cpu,), daemon=True) for cpu in os.sched_getaffinity(0)]
+        self.threads.append(threading.Thread(target=self.watch_line, daemon=True))
 
     @property
     def longest_s(self):
@@ -58,6 +61,18 @@ class HostWatch:
             before = time.monotonic()
             time.sleep(self.PERIOD_S)
             self.late_s[cpu] = max(self.late_s[cpu], time.monotonic() - before - self.PERIOD_S)
+
+    def watch_line(self):
+        ours, theirs = os.openpty()
+        tty.setraw(theirs)
+        while not self.ends.is_set():
+            before = time.monotonic()
+            os.write(ours, b"u")
+            os.read(theirs, 1)
+            self.late_s["line"] = max(self.late_s["line"], time.monotonic() - before)
+            time.sleep(self.PERIOD_S)
+        os.close(ours)
+        os.close(theirs)
 
     def __enter__(self):
         for thread in self.threads:

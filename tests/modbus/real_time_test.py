@@ -3,9 +3,12 @@
 """What a host that stood still excuses, and what it does not."""
 import contextlib
 import io
+import os
+import time
 import unittest
+import unittest.mock
 
-from real_time import ATTEMPTS, Call, HostStoodStill, OffTime, exit_status
+from real_time import ATTEMPTS, Call, HostStoodStill, HostWatch, OffTime, exit_status
 
 
 def call(stood_still_s):
@@ -41,6 +44,13 @@ class Excuses(unittest.TestCase):
         problems = [OffTime("late"), "they end 3 counts from where the plan ends"]
         self.assertEqual(call(1.0).excused(problems), problems)
         self.assertEqual(status(problems)[0], 1)
+
+    def test_a_line_that_is_late_is_seen(self):
+        read = os.read
+        with unittest.mock.patch("real_time.os.read", lambda *of: time.sleep(0.3) or read(*of)), HostWatch() as watch:
+            time.sleep(0.4)
+        self.assertGreaterEqual(watch.late_s["line"], 0.3)
+        self.assertEqual(watch.longest_s, max(watch.late_s.values()))
 
     def test_a_run_without_problems_passes_at_once(self):
         self.assertEqual(status([])[:2], (0, 1))

@@ -58,7 +58,10 @@ std::optional<DriveFailure> PvtSetup::enable(std::uint64_t within_us) {
             PortDrive& drive = drives_[i];
             ready = ready && ready_at_standstill(drive);
             if (now_us_ > until && !ready_at_standstill(drive)) {
-                return DriveFailure{i, drive.refused() ? DriveProblem::refused : DriveProblem::silent};
+                const DriveProblem problem = drive.last_report().problem;
+                return DriveFailure{i, problem != DriveProblem::none ? problem
+                                       : drive.refused()             ? DriveProblem::refused
+                                                                     : DriveProblem::silent};
             }
             drive.clear_sent();
             if (drive.status().state == PvtState::fault) {
