@@ -15,7 +15,7 @@ mkdir -p "$core" "$scratch/build"
 cp tests/install/arduino/{boards,platform}.txt "$board"
 cp tests/install/arduino/{Arduino.h,main.cpp} "$core"
 # The start-up code of the link proof. A sketch has objects that are built before main: the image gets a place for their constructors.
-cp tests/arm/target/{startup,memory,semihosting}.cpp tests/arm/target/*.hpp tests/arm/{platform,write_number}.hpp "$core"
+cp examples/firmware/memory.cpp tests/arm/target/{startup,semihosting}.cpp tests/arm/target/*.hpp tests/arm/{platform,write_number}.hpp "$core"
 sed -e '/^ASSERT/d' \
     -e 's/^ *\.init_array : .*/.init_array : { first_constructor = .; KEEP(*(.init_array .init_array.*)) last_constructor = .; } > ROM/' \
     tests/arm/target/memory_map.ld >"$core/memory_map.ld"
