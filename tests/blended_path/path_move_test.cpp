@@ -60,7 +60,7 @@ TEMPLATE_TEST_CASE("states near the ends of arcs, helices and Bezier segments", 
                    Fixed) {
     using S = TestType;
     Random random(3);
-    for (int round = 0; round < rounds(60); ++round) {
+    for (int round = 0; round < rounds(300, 300); ++round) {
         MoveProgram program;
         program.axes = random.integer(2, 4);
         const Real size = real_decades(random, 0.01, 1000.0);

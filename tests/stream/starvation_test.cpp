@@ -322,3 +322,57 @@ TEST_CASE("a motion of which the input comes in time rests for no end of it that
         }
     }
 }
+
+TEMPLATE_TEST_CASE("a leg that is not planned yet is no end of the motion", "[stream][starvation][jerk]", double,
+                   Fixed) {
+    using S = TestType;
+    for (const std::size_t before : {4U, 9U, 14U}) {
+        MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+        machine.jerk_tier = JerkTier::bounded;
+        machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = 2e5;
+        const auto limits = MotionLimits<S>::make(machine).value();
+        BezierPath path(before, line_shape(2, 3, {0.5, 0.0}));
+        path.insert(path.end(), 90, line_shape(2, 3, {0.0, 0.5}));
+        ListSource<S> list(segments_of<S>(path, {}), 0, 0);
+        GatedSource<S> source(list, path.size());
+        source.release(before + 40);
+        AnyTrajectory<S> any(source, limits, 256);
+        SteeredRun run;
+        FeedSegment segment;
+        Real released = 40.0L;
+        while (any.trajectory().next(segment, UnderrunPolicy::drain) == Pull::item) {
+            run.segments.push_back(segment);
+            const Real at = static_cast<Real>(segment.end[1]) / units_per_mm(machine.axis[1]);
+            while (released < at / 0.5L + 40.0L) {
+                source.release(1);
+                released += 1.0L;
+            }
+        }
+        CAPTURE(before, run.segments.size());
+        REQUIRE(any.trajectory().state() == Pull::finished);
+        require_limits(run, machine);
+        std::size_t rests = 0;
+        for (const FeedSegment& s : run.segments) {
+            rests += s.start != s.end && ends_at_rest(s, 2) ? 1U : 0U;
+        }
+        CHECK(rests == 2); // the corner, and the end
+        const std::size_t at_once = run_steered<S>(path, machine, 256, {}).segments.size();
+        CHECK(run.segments.size() <= at_once + at_once / 50);
+    }
+}
+
+TEMPLATE_TEST_CASE("the time of a leg is chosen when the motion comes to it, whatever was known of it first",
+                   "[stream][starvation][jerk]", double, Fixed) {
+    using S = TestType;
+    for (const std::uint64_t round : {3U, 11U, 19U}) {
+        Random random(seed + round);
+        MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+        machine.jerk_tier = JerkTier::bounded;
+        machine.axis[0].max_jerk_mm_s3 = machine.axis[1].max_jerk_mm_s3 = random.decades(2e4, 1e6);
+        const BezierPath path = random_path(random, 2, 14, random.decades(3.0, 20.0), 0.0, 0.0);
+        const std::size_t parts = run_steered<S>(path, machine, 512, {}).segments.size();
+        const std::size_t whole = run_steered<S>(path, machine, 8192, {}).segments.size();
+        CAPTURE(round, parts, whole);
+        CHECK(parts <= whole + whole / 100);
+    }
+}
