@@ -57,11 +57,11 @@ std::optional<DriveFailure> PvtSetup::enable(std::uint64_t within_us) {
         for (std::size_t i = 0; i < drives_.size(); ++i) {
             PortDrive& drive = drives_[i];
             ready = ready && ready_at_standstill(drive);
+            if (const DriveProblem problem = drive.last_report().problem; problem != DriveProblem::none) {
+                return DriveFailure{i, problem}; // it does not go away
+            }
             if (now_us_ > until && !ready_at_standstill(drive)) {
-                const DriveProblem problem = drive.last_report().problem;
-                return DriveFailure{i, problem != DriveProblem::none ? problem
-                                       : drive.refused()             ? DriveProblem::refused
-                                                                     : DriveProblem::silent};
+                return DriveFailure{i, drive.refused() ? DriveProblem::refused : DriveProblem::silent};
             }
             drive.clear_sent();
             if (drive.status().state == PvtState::fault) {
