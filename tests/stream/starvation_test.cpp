@@ -35,6 +35,22 @@ private:
     std::size_t given_ = 0;
 };
 
+/// Runs to the end. Segments of 0.5 mm are released one by one, `ahead` of them before the axis comes there: each is
+/// the last that is known for a while. So many of them were released before.
+template <Scalar S>
+void run_in_time(AnyTrajectory<S>& any, GatedSource<S>& source, const MachineSettings& machine, unsigned axis,
+                 Real ahead, SteeredRun& run) {
+    FeedSegment segment;
+    Real released = ahead;
+    while (any.trajectory().next(segment, UnderrunPolicy::drain) == Pull::item) {
+        run.segments.push_back(segment);
+        const Real at = static_cast<Real>(segment.end[axis]) / units_per_mm(machine.axis[axis]);
+        for (; released < at / 0.5L + ahead; released += 1.0L) {
+            source.release(1);
+        }
+    }
+}
+
 } // namespace
 
 TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stream][starvation]", double, float,
@@ -296,16 +312,7 @@ TEST_CASE("a motion of which the input comes in time rests for no end of it that
         source.release(24); // twice the way that braking takes
         AnyTrajectory<double> any(source, limits, 256);
         SteeredRun run;
-        FeedSegment segment;
-        Real released = 24.0L;
-        while (any.trajectory().next(segment, UnderrunPolicy::drain) == Pull::item) {
-            run.segments.push_back(segment);
-            const Real at = static_cast<Real>(segment.end[0]) / units_per_mm(machine.axis[0]);
-            while (released < at / 0.5L + 24.0L) { // one by one: each is the last that is known for a while
-                source.release(1);
-                released += 1.0L;
-            }
-        }
+        run_in_time(any, source, machine, 0, 24.0L, run);
         CAPTURE(static_cast<int>(tier), slow, run.segments.size());
         REQUIRE(any.trajectory().state() == Pull::finished);
         require_limits(run, machine);
@@ -338,16 +345,7 @@ TEMPLATE_TEST_CASE("a leg that is not planned yet is no end of the motion", "[st
         source.release(before + 40);
         AnyTrajectory<S> any(source, limits, 256);
         SteeredRun run;
-        FeedSegment segment;
-        Real released = 40.0L;
-        while (any.trajectory().next(segment, UnderrunPolicy::drain) == Pull::item) {
-            run.segments.push_back(segment);
-            const Real at = static_cast<Real>(segment.end[1]) / units_per_mm(machine.axis[1]);
-            while (released < at / 0.5L + 40.0L) {
-                source.release(1);
-                released += 1.0L;
-            }
-        }
+        run_in_time(any, source, machine, 1, 40.0L, run);
         CAPTURE(before, run.segments.size());
         REQUIRE(any.trajectory().state() == Pull::finished);
         require_limits(run, machine);

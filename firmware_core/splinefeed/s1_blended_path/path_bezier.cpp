@@ -5,7 +5,7 @@ namespace splinefeed {
 
 namespace {
 
-constexpr int starts_log2 = 2;
+constexpr int starts_log2 = 2; // four and one more, from the end to the middle
 constexpr int starts = 1 << starts_log2;
 constexpr int nearings = 3; // Newton's steps towards the nearest place
 

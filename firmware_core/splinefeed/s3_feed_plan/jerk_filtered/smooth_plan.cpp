@@ -85,12 +85,12 @@ Pull SmoothPlan<S>::refill(UnderrunPolicy underrun) noexcept {
 
 // The motion brakes, and the input is late. The reason may be the cells at the end that are not prepared, because the
 // average may go beyond them. If that end is taken as a standstill, they are known as well. Where K is at a cap before
-// the end, the motion brakes for that cap, whatever comes behind it; and where the known path ends with a leg, for
-// that.
+// the end, the motion brakes for that cap, whatever comes behind it. Where the prepared cells end with a leg, it brakes
+// for that stop: the next leg is prepared when the motion has come to it.
 template <Scalar S>
 bool SmoothPlan<S>::ends_here() noexcept {
     if (!(profile_segment_.exit_sq < profile_segment_.entry_sq) || window_.prepared() == window_.size() ||
-        (known() > 0 && window_.ends_leg(window_.prepared() - 1))) { // a leg is prepared when it is come to
+        (known() > 0 && window_.ends_leg(window_.prepared() - 1))) {
         return false;
     }
     for (std::size_t i = 1; i < known(); ++i) {

@@ -142,8 +142,8 @@ std::uint32_t SmoothWindow<S>::smoothing_of_leg(std::size_t first, bool& in_view
         }
     }
     const std::uint32_t longest_q8 = leg.longest_q8(in_view);
-    in_view =
-        in_view && (first == front_ || !leg.gains_by_end()); // the end may come into view before the motion is there
+    // The end may come into view before the motion is there.
+    in_view = in_view && (first == front_ || !leg.gains_by_end());
     return longest_q8;
 }
 
