@@ -126,6 +126,31 @@ TEMPLATE_TEST_CASE("the polygon of a cell: its peak, its largest exits and entri
     }
 }
 
+// Where numbers are small, what rounding may change is a part of the limit that would show.
+TEST_CASE("in Fixed no half-plane is broken by rounding, not in its last digit", "[feed_plan]") {
+    Random random(seed + 2);
+    int bounded = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const MotionLimits<Fixed> limits = MotionLimits<Fixed>::make(random_machine(random, 2)).value();
+        Cell<Fixed> cell = random_cell(random, limits);
+        cell.length_mm = from_double<Fixed>(random.decades(1e-6, 1e-5));
+        const AccelerationBound<Fixed> bound(cell, limits);
+        const Fixed cap = from_double<Fixed>(random.decades(1e-3, 1.0));
+        const PeakSpeeds<Fixed> peak = bound.peak(cap);
+        const Fixed entry = peak.entry_sq * from_double<Fixed>(random.between(0.0, 1.0));
+        const Fixed exit = bound.largest_exit(entry, cap);
+        bounded += exit < cap ? 1 : 0;
+        CAPTURE(round, to_double(entry), to_double(exit));
+        for (const HalfPlane& plane : half_planes_of(cell, limits)) {
+            if (plane.exit > 0.0L) {
+                const Real excess = plane.entry * exact(entry) + plane.exit * exact(exit) - plane.limit;
+                REQUIRE(static_cast<double>(excess) <= 0.0);
+            }
+        }
+    }
+    CHECK(bounded > 500);
+}
+
 TEMPLATE_TEST_CASE("the smallest exits of a cell and of parts of it, down to slopes that end before", "[feed_plan]",
                    double, float, Fixed) {
     using S = TestType;

@@ -52,6 +52,15 @@ TEST_CASE("the cap of a cell is the smallest of its limits", "[caps]") {
     CHECK(cap_of(machine, cell_along(0.6, 0.8, 0.5)) == Approx(20.0).epsilon(1e-4)); // sqrt(200 / 0.5)
 }
 
+TEST_CASE("in a turn too sharp for the polynomials of a cell, half of the acceleration is what bends", "[caps]") {
+    MachineSettings machine = two_axes();
+    machine.axis[0].max_braking_mm_s2 = 500.0; // the smaller one, whichever way the axis moves
+    const double sharp_per_mm = 10.0;          // turns by 2 rad in a cell of 0.1 mm
+    CHECK(cap_of(machine, cell_along(0.6, 0.8, sharp_per_mm)) == Approx(std::sqrt(250.0 / sharp_per_mm)).epsilon(1e-4));
+    const double gentle_per_mm = 2.0;
+    CHECK(cap_of(machine, cell_along(0.6, 0.8, gentle_per_mm)) == Approx(100.0).epsilon(1e-4));
+}
+
 TEST_CASE("what is wanted is the programmed feed, with its override, up to the cap", "[caps]") {
     const auto limits = MotionLimits<double>::make(two_axes()).value();
     const SpeedCaps<double> caps(limits);
