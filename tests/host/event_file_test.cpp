@@ -4,7 +4,6 @@
 #include "refusal.hpp"
 #include "support/catch.hpp"
 
-#include <cstdio>
 #include <fstream>
 
 using namespace splinefeed::host;
@@ -43,5 +42,4 @@ TEST_CASE("bad events are told with their line", "[host][events]") {
         CAPTURE(row);
         CHECK(refusal(std::string("1,hold\n") + row + "\n").find(at) == 0);
     }
-    std::remove(file);
 }
