@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -DPROGRAM= -DPREFIX= -DFILE= -P list_tests.cmake: writes one ctest entry per Catch2 test case of PROGRAM into FILE.
+# cmake -DPROGRAM= -DPREFIX= -DCOST= -DFILE= -P list_tests.cmake: writes one ctest entry per Catch2 test case of PROGRAM into FILE.
 # Catch2's own catch_discover_tests loses tests whose names hold brackets or semicolons.
 execute_process(COMMAND ${PROGRAM} --list-test-names-only OUTPUT_VARIABLE names RESULT_VARIABLE status ERROR_QUIET)
 set(counted ON) # Catch2 2 ends with the number of tests as its status: of 8 bits
@@ -34,7 +34,7 @@ foreach(name IN LISTS names)
     endforeach()
     # Where a test cannot run it prints "SKIPPED: reason" and returns (Catch2 3: SKIP("reason")). What failed before is a failure.
     string(APPEND script "add_test([==[${PREFIX}/${name}]==] [==[${PROGRAM}]==] [==[${pattern}]==])\n"
-                         "set_tests_properties([==[${PREFIX}/${name}]==] PROPERTIES TIMEOUT 600 PROCESSORS 2 "
+                         "set_tests_properties([==[${PREFIX}/${name}]==] PROPERTIES TIMEOUT 600 PROCESSORS 2 COST ${COST} "
                          "SKIP_REGULAR_EXPRESSION [==[SKIPPED: .*(All tests passed|test cases: 1 [|] 1 (passed|skipped))]==])\n")
 endforeach()
 set(expected 0)
