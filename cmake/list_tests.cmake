@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -DPROGRAM= -DPREFIX= -DCOST= -DFILE= -P list_tests.cmake: writes one ctest entry per Catch2 test case of PROGRAM into FILE.
+# cmake -DPROGRAM= -DPREFIX= -DFILE= [-DCOST=] -P list_tests.cmake: writes one ctest entry per Catch2 test case of PROGRAM into FILE.
 # Catch2's own catch_discover_tests loses tests whose names hold brackets or semicolons.
 execute_process(COMMAND ${PROGRAM} --list-test-names-only OUTPUT_VARIABLE names RESULT_VARIABLE status ERROR_QUIET)
 set(counted ON) # Catch2 2 ends with the number of tests as its status: of 8 bits
@@ -17,6 +17,9 @@ string(REPLACE "]" "${close}" names "${names}")
 string(REPLACE ";" "${semicolon}" names "${names}")
 string(REPLACE "\n" ";" names "${names}")
 
+if(NOT DEFINED COST) # tests of a larger one begin first
+    set(COST 0)
+endif()
 set(script "")
 set(count 0)
 foreach(name IN LISTS names)
