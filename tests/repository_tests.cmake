@@ -78,7 +78,7 @@ repository_test(hidden_names tools/hidden_names.py)
 repository_test(harness tools/harness.sh ${sanitized}/bin/base_tests)
 
 # Random tests make many more rounds without sanitizers; and each source of a test includes what it uses.
-repository_test(gcc_tests LONG "35 minutes" ALONE tools/gcc_tests.sh)
+repository_test(gcc_tests LONG "25 minutes" ALONE tools/gcc_tests.sh)
 repository_test(install_arduino LONG "a minute" install/arduino.sh)
 repository_test(install_own_firmware LONG "a minute" install/own_firmware.sh)
 foreach(target gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3 aarch64 riscv64 s390x cortex-m0 cortex-m3 cortex-m4f cortex-m7)

@@ -55,7 +55,7 @@ TEST_CASE("the cap of a cell is the smallest of its limits", "[caps]") {
 TEST_CASE("in a turn too sharp for the polynomials of a cell, half of the acceleration is what bends", "[caps]") {
     MachineSettings machine = two_axes();
     machine.axis[0].max_braking_mm_s2 = 500.0; // the smaller one, whichever way the axis moves
-    const double sharp_per_mm = 10.0;          // turns by 2 rad in a cell of 0.1 mm
+    const double sharp_per_mm = 10.0;          // turns by 1 rad in a cell of 0.1 mm
     CHECK(cap_of(machine, cell_along(0.6, 0.8, sharp_per_mm)) == Approx(std::sqrt(250.0 / sharp_per_mm)).epsilon(1e-4));
     const double gentle_per_mm = 2.0;
     CHECK(cap_of(machine, cell_along(0.6, 0.8, gentle_per_mm)) == Approx(100.0).epsilon(1e-4));

@@ -14,7 +14,7 @@ SITE = re.compile(r"(?P<operator>(?<= )(?:<=|>=|==|!=|<|>|\+|-|\*|/)(?= ))"
 LEFT_OUT = re.compile(r"^\s*(//|#|template|using|namespace|case |friend|static_assert|inline constexpr|constexpr|static constexpr)"
                       r"|assert\(|ASSERT\(|operator|requires|__|std::array<|snprintf|\bconst char")
 
-ARGUMENT = re.compile(r"<(?:[^ ]*, )*$|literal<\w+>\(-?$")  # of a template, or of a function that computes while compiling
+ARGUMENT = re.compile(r"<(?:[^ ]*, )*$|literal<[\w<>]+>\([^()]*$")  # of a template, or of a function that computes while compiling
 
 
 class Site:
