@@ -17,24 +17,29 @@ unsigned big_endian(const Bytes& bytes, std::size_t at) {
     return static_cast<unsigned>(bytes[at] << 8U | bytes[at + 1]);
 }
 
-/// What the drive answers to functions 03 and 16 on TCP.
+/// What the drive answers to functions 03, 16 and 23 on TCP.
 ScriptedPeer::Reply answer_of(PvtDrive& drive, const Bytes& request) {
     constexpr std::uint8_t write = 16;
-    if (request[7] == write) {
-        std::vector<std::uint16_t> registers(big_endian(request, 10));
+    constexpr std::uint8_t exchange = 23;
+    const std::uint8_t function = request[7];
+    const auto writes_from = [&](std::size_t at) { // address, count, bytes, values
+        std::vector<std::uint16_t> registers(big_endian(request, at + 2));
         for (std::size_t i = 0; i < registers.size(); ++i) {
-            registers[i] = static_cast<std::uint16_t>(big_endian(request, 13 + 2 * i));
+            registers[i] = static_cast<std::uint16_t>(big_endian(request, at + 5 + 2 * i));
         }
-        const bool taken = drive.write(static_cast<int>(big_endian(request, 8)), registers) == ModbusException::none;
-        return {tcp_reply(request, taken ? Bytes{1, write, request[8], request[9], request[10], request[11]}
-                                         : Bytes{1, 0x90, 3}),
+        return drive.write(static_cast<int>(big_endian(request, at)), registers) == ModbusException::none;
+    };
+    if (function == write) {
+        return {tcp_reply(request, writes_from(8) ? Bytes{1, write, request[8], request[9], request[10], request[11]}
+                                                  : Bytes{1, 0x90, 3}),
                 false};
     }
     std::vector<std::uint16_t> registers(big_endian(request, 10));
-    if (drive.read(static_cast<int>(big_endian(request, 8)), registers) != ModbusException::none) {
-        return {tcp_reply(request, {1, 0x83, 2}), false};
+    if ((function == exchange && !writes_from(12)) ||
+        drive.read(static_cast<int>(big_endian(request, 8)), registers) != ModbusException::none) {
+        return {tcp_reply(request, {1, static_cast<std::uint8_t>(function | 0x80U), 2}), false};
     }
-    Bytes body{1, 3, static_cast<std::uint8_t>(2 * registers.size())};
+    Bytes body{1, function, static_cast<std::uint8_t>(2 * registers.size())};
     for (const std::uint16_t value : registers) {
         body.push_back(static_cast<std::uint8_t>(value >> 8U));
         body.push_back(static_cast<std::uint8_t>(value & 0xFFU));
@@ -184,4 +189,18 @@ TEST_CASE("Client: registers that are never twice the same, and a configuration 
     changes = true;
     CHECK(client.open(1) == DriveProblem::damaged);
     CHECK(client.configure({.watchdog_ms = 1000}) == DriveProblem::damaged);
+}
+
+TEST_CASE("Client: a drive without a session refuses what only asks for its status, for as long as it is asked") {
+    PvtDrive drive(PvtDriveParameters{});
+    ScriptedPeer peer(ScriptedPeer::Wire::tcp, [&](const Bytes& request) { return answer_of(drive, request); });
+    ModbusLink link(peer.address(), {.answer_us = 300'000});
+    PvtClient client(link, 1);
+    REQUIRE(client.open(1) == DriveProblem::none);
+    for (int answers = 0; answers < 30;) { // more refusals than a problem takes
+        answers += client.step() ? 1 : 0;
+        link.clock().sleep_us(1000);
+    }
+    CHECK(client.report().status.refused == PvtRefusal::session);
+    CHECK(client.report().problem == DriveProblem::none);
 }

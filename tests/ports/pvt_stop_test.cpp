@@ -34,6 +34,22 @@ TEST_CASE("PVT port, virtual: a whole motion, every segment once, on the path", 
     INFO(plant.off_path_counts << " counts");
     CHECK(plant.off_path_counts < motion.fastest_counts_s * 0.0004);
     CHECK(plant.off_path_counts > 0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(plant.port->report(i).counts.resent == 0);
+    }
+    plant.port->close();
+}
+
+TEST_CASE("PVT port, virtual: segments that are sent again are counted, of the drive that did not get them",
+          "[ports]") {
+    PvtPlant plant({});
+    prepare(plant);
+    plant.wires[1]->faults.lost_request = 0.2;
+    CHECK(run(plant, motion, {}) == PortPhase::idle);
+    CHECK(plant.port->report(0).counts.resent == 0);
+    CHECK(plant.port->report(1).counts.resent > 0);
+    CHECK(plant.port->report(1).counts.resent <= plant.port->report(1).counts.timeouts);
+    CHECK(plant.executed_once(1) == motion.segments.size());
     plant.port->close();
 }
 

@@ -39,6 +39,17 @@ TEST_CASE("Set-point port, virtual: a whole motion near the path, with every pro
     }
 }
 
+TEST_CASE("Set-point port, virtual: the longest stop has room for four answers that do not come", "[ports]") {
+    const auto longest_us = [](std::uint32_t answer_us) {
+        SetpointPlant plant({});
+        plant.make({.timing = {.answer_us = answer_us}});
+        REQUIRE(plant.port->open() == "");
+        REQUIRE(plant.port->prepare(motion.segments.front()) == "");
+        return plant.port->longest_stop_us();
+    };
+    CHECK(longest_us(900'000) - longest_us(800'000) == 4 * 100'000); // slower than any drive of a profile
+}
+
 TEST_CASE("Set-point port, virtual: a hold at any time is confirmed, and nothing moves behind it", "[ports]") {
     for (const char* const profile : profiles) {
         for (std::uint64_t hold_us = 0; hold_us < 700'000; hold_us += 47'000) {

@@ -15,7 +15,7 @@ struct LinkCounts {
     std::uint64_t stale = 0;   ///< answers to an earlier request
     std::uint64_t misfits = 0; ///< wrong unit or length
     std::uint64_t exceptions = 0;
-    std::uint64_t resent = 0; ///< blocks sent again of which the drive had accepted a part
+    std::uint64_t resent = 0; ///< blocks with segments that were sent before
 
     void count(LinkFault fault) noexcept {
         switch (fault) {
