@@ -197,8 +197,8 @@ TEST_CASE("Client: a drive without a session refuses what only asks for its stat
     ModbusLink link(peer.address(), {.answer_us = 300'000});
     PvtClient client(link, 1);
     REQUIRE(client.open(1) == DriveProblem::none);
-    for (int answers = 0; answers < 30;) { // more refusals than a problem takes
-        answers += client.step() ? 1 : 0;
+    for (int asked = 0; asked < 30;) { // more often than other refusals are taken before they are a problem
+        asked += client.step() ? 1 : 0;
         link.clock().sleep_us(1000);
     }
     CHECK(client.report().status.refused == PvtRefusal::session);

@@ -51,8 +51,8 @@ inline Bytes tcp_reply(const Bytes& request, const Bytes& body) {
     return out;
 }
 
-/// Takes requests in a thread, one after the other (on a serial line of function 03 alone), and sends what the script
-/// makes of each.
+/// Takes requests in a thread, one after the other (on a serial line those of eight bytes alone), and sends what the
+/// script makes of each.
 class ScriptedPeer {
 public:
     /// An empty reply: none. What sleeps in it answers late. `hang_up` closes after what was sent.
