@@ -7,4 +7,4 @@ need g++
 build=build/gcc-tests
 cmake --preset dev -B $build -DCMAKE_CXX_FLAGS_DEBUG=-O2
 cmake --build $build
-SPLINEFEED_LONG=1 ctest --test-dir $build --output-on-failure --parallel "$((2 * $(nproc)))"
+SPLINEFEED_LONG=1 ctest --test-dir $build --timeout 7200 --output-on-failure --parallel "$((2 * $(nproc)))"
