@@ -3,8 +3,8 @@
 """The reference firmware on an emulated board, by its serial line: firmware_run.py TOOL IMAGE BOARD
 
 What its pins did is compared with the edges that the tool writes for the same waypoints and the same machine. Time is the
-emulator's: nothing here depends on how fast the host is. SPLINEFEED_LONG=1 adds a noisy helix of 2000 waypoints and ten runs of
-one program."""
+emulator's: how fast the host is decides only whether the machine waits for a line that comes late. SPLINEFEED_LONG=1 adds a noisy
+helix of 2000 waypoints and ten runs of one program."""
 import functools
 import hashlib
 import operator
