@@ -29,9 +29,23 @@ constexpr std::chrono::milliseconds patience{500}; // for the rest of a frame
     throw UsageError(fmt::format("--listen {}: {}; {}", in_quotes(address.text()), modbus_strerror(errno), remedy));
 }
 
+[[noreturn]] void fail_to_listen(const ListenAddress& address) {
+    fail(address, errno == EADDRNOTAVAIL ? "listen on 127.0.0.1 or on an address that this computer has"
+                  : errno == EACCES ? "ports below 1024 are not open to every user; choose another, 0 for a free one"
+                                    : "another program may listen there; choose another port, 0 for a free one");
+}
+
 } // namespace
 
-DriveLine::DriveLine(const ListenAddress& address) : address_(address), context_(make_modbus_context(address)) {
+DriveLine::DriveLine(const ListenAddress& address)
+    : address_(address), context_(make_modbus_context(address)),
+      reserved_(address.kind == ListenAddress::Kind::tcp ? ReservedPort(address) : ReservedPort()) {
+    if (address_.kind == ListenAddress::Kind::tcp) {
+        if (reserved_.none()) {
+            fail_to_listen(address_);
+        }
+        address_.port = reserved_.port();
+    }
     connect();
 }
 
@@ -56,15 +70,7 @@ void DriveLine::listen() {
     const ModbusContext context = make_modbus_context(address_);
     listener_ = modbus_tcp_listen(context.get(), waiting_connections);
     if (listener_ < 0) {
-        fail(address_, errno == EADDRNOTAVAIL ? "listen on 127.0.0.1 or on an address that this computer has"
-                       : errno == EACCES
-                           ? "ports below 1024 are not open to every user; choose another, 0 for a free one"
-                           : "another program may listen there; choose another port, 0 for a free one");
-    }
-    sockaddr_in bound{};
-    socklen_t size = sizeof(bound);
-    if (getsockname(listener_, reinterpret_cast<sockaddr*>(&bound), &size) == 0) {
-        address_.port = ntohs(bound.sin_port);
+        fail_to_listen(address_);
     }
 }
 

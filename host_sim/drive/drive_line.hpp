@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/drive/drive_exchange.hpp"
+#include "host_sim/drive/reserved_port.hpp"
 
 #include <chrono>
 
@@ -31,7 +32,7 @@ public:
     [[nodiscard]] std::vector<Request> receive();
     /// Does nothing if the channel no longer exists.
     void send(int channel, const std::vector<std::uint8_t>& bytes);
-    /// Closes all connections; until connect() nobody can reach the drive.
+    /// Closes all connections; until connect() nobody can reach the drive. Its port stays reserved.
     void disconnect();
     void connect();
 
@@ -54,7 +55,8 @@ private:
 
     ListenAddress address_;
     ModbusContext context_;
-    int listener_ = -1; // the listening socket (TCP), or the serial line itself
+    ReservedPort reserved_; // TCP
+    int listener_ = -1;     // the listening socket (TCP), or the serial line itself
     int channels_ = 0;
     bool readable_ = false; // of listener_
     std::vector<Connection> connections_;
