@@ -2,13 +2,13 @@
 //
 // The commands that speak to drives, from the command line: link, and run with --target.
 #include "drive/drive_process.hpp"
+#include "host_sim/drive/reserved_port.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
+using splinefeed::host::ListenAddress;
+using splinefeed::host::ReservedPort;
 using splinefeed::test::Call;
 using splinefeed::test::DriveProcess;
 using splinefeed::test::Tool;
@@ -18,31 +18,10 @@ namespace {
 // 2 mm along x: a quarter of a second.
 const std::string line = "x,y,z\n0,0,0\n2,0,0\n";
 
-/// A port on which nobody listens, and nobody else will.
-class DeafPort {
-public:
-    DeafPort() : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_in any{};
-        any.sin_family = AF_INET;
-        any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        socklen_t size = sizeof(any);
-        if (bind(socket_, reinterpret_cast<const sockaddr*>(&any), size) == 0 &&
-            getsockname(socket_, reinterpret_cast<sockaddr*>(&any), &size) == 0) {
-            port_ = ntohs(any.sin_port);
-        }
-    }
-    DeafPort(const DeafPort&) = delete;
-    DeafPort& operator=(const DeafPort&) = delete;
-    ~DeafPort() { close(socket_); }
-    [[nodiscard]] std::string address() const { return "modbus-tcp://127.0.0.1:" + std::to_string(port_); }
-
-private:
-    int socket_;
-    int port_ = 0;
-};
-
-std::string address(const DriveProcess& drive) {
-    return "modbus-tcp://127.0.0.1:" + std::to_string(drive.port());
+/// Of a drive, or of a port on which nobody listens.
+template <class Owner>
+std::string address(const Owner& owner) {
+    return "modbus-tcp://127.0.0.1:" + std::to_string(owner.port());
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -92,10 +71,10 @@ TEST_CASE("link and --target: bad usage is one line, exit status 2") {
 TEST_CASE("link and --target: a drive that cannot be used is one line, exit status 1, and nothing is written") {
     const Tool tool;
     tool.write("line.csv", line);
-    const DeafPort deaf;
+    const ReservedPort deaf(ListenAddress{});
     const std::string run = "run line.csv --trace t.csv --target ";
-    check_refusal(tool("link --target " + deaf.address()), 1, deaf.address() + ": there is no connection");
-    check_refusal(tool(run + deaf.address()), 1, deaf.address() + ": there is no connection");
+    check_refusal(tool("link --target " + address(deaf)), 1, address(deaf) + ": there is no connection");
+    check_refusal(tool(run + address(deaf)), 1, address(deaf) + ": there is no connection");
     check_refusal(tool("link --target modbus-rtu:///dev/no-such-line"), 1, "/dev/no-such-line");
     const DriveProcess two(tool, "--listen tcp://127.0.0.1:0 --axes 2");
     check_refusal(tool(run + address(two)), 1, "it has fewer axes");
