@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "splinefeed/hal/modbus/link/connection_error.hpp"
 #include "splinefeed/hal/modbus/link/modbus_link.hpp"
 
 #include "scripted_peer.hpp"
@@ -186,17 +187,44 @@ TEST_CASE("Link: nobody there, no such device, and nobody asked to connect") {
     REQUIRE(getsockname(bound, reinterpret_cast<sockaddr*>(&any), &size) == 0);
     ModbusLink refused({.port = ntohs(any.sin_port)}, brief); // bound, but nobody listens
     CHECK_FALSE(refused.connect());
-    CHECK(std::string(refused.error()) == "Connection refused");
+    CHECK(refused.error() == "Connection refused; check the port, and whether Modbus TCP is turned on in the drive");
     std::array<std::uint16_t, 1> in{};
     CHECK(refused.read(1, 0, in).fault == LinkFault::disconnected);
     close(bound);
     ModbusLink missing({.wire = Wire::rtu, .host = "/dev/no-such-line"}, brief);
     CHECK_FALSE(missing.connect());
-    CHECK(std::string(missing.error()) == "No such file or directory");
+    CHECK(missing.error().rfind("No such file or directory; is the adapter plugged in? this machine has ", 0) == 0);
     ModbusLink nameless({.host = std::string(70, 'x')}, brief); // longer than any name
     CHECK_FALSE(nameless.connect());
-    CHECK(std::string(nameless.error()) == "there is no host of that name");
+    CHECK(nameless.error() == "no host has the name " + std::string(70, 'x') + "; check it, or write an IPv4 address");
     CHECK(nameless.read(1, 0, in).fault == LinkFault::disconnected);
+}
+
+TEST_CASE("Link: each reason of the system has its own advice") {
+    struct Row {
+        int error;
+        LinkAddress address;
+        const char* sentence;
+    };
+    const LinkAddress serial{.wire = Wire::rtu, .host = "/dev/null"};
+    for (const Row& row : {
+             Row{ETIMEDOUT, {}, "Connection timed out; check address, power and cable"},
+             Row{EHOSTUNREACH, {}, "No route to host; check the address, and this computer's network"},
+             Row{ECONNRESET,
+                 {},
+                 "Connection reset by peer; the drive or another program has taken the connection; has "
+                 "the drive only one?"},
+             Row{EMFILE, {}, "Too many open files; check host, port and cable"},
+             Row{EBUSY, serial, "Device or resource busy; another program uses the device; end it (fuser -v names it)"},
+             Row{ENOTTY, serial,
+                 "Inappropriate ioctl for device; that is no serial device; name one like /dev/ttyUSB0"},
+             Row{EIO, serial, "Input/output error; the adapter was unplugged; plug it in, and begin again"},
+             Row{EACCES, serial,
+                 "Permission denied; only root may; run as root, or give it a group by a udev rule like "
+                 "SUBSYSTEM==\"tty\", GROUP=\"dialout\", MODE=\"0660\""},
+         }) {
+        CHECK(connection_error(row.error, row.address) == row.sentence);
+    }
 }
 
 TEST_CASE("Link: it goes on after a connection that broke") {

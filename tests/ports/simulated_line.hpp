@@ -86,7 +86,7 @@ public:
     bool connect() noexcept override;
     void close() noexcept override { connected_ = false; }
     [[nodiscard]] bool connected() const noexcept override { return connected_; }
-    [[nodiscard]] const char* error() const noexcept override { return "it is unplugged"; }
+    [[nodiscard]] std::string error() const override { return "it is unplugged"; }
     LinkAnswer read(int unit, int address, std::span<std::uint16_t> out) noexcept override;
     LinkAnswer write(int unit, int address, std::span<const std::uint16_t> values) noexcept override;
     LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,

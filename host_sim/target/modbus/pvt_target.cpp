@@ -75,8 +75,10 @@ std::string drive_sentence(const DriveTable& table, const ModbusPort& port, cons
     if (failure.problem == DriveProblem::fault) {
         text += fmt::format(", code {} on its axis {}: {}", report.status.fault, report.status.fault_axis,
                             fault_name(report.status.fault));
+    } else if (failure.problem == DriveProblem::unreachable) {
+        text += ": " + port.connection_error(failure.drive);
     } else if (failure.problem == DriveProblem::silent && report.last_fault != LinkFault::none) {
-        text += fmt::format(" (last: {})", describe(report.last_fault));
+        text += fmt::format(": {}", describe(report.last_fault, port.wiring(failure.drive).link.wire));
     }
     return text;
 }

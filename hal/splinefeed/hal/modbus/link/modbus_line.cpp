@@ -13,12 +13,13 @@ constexpr LinkAnswer no_bits{.fault = LinkFault::exception, .exception = 1};
 
 } // namespace
 
-const char* describe(LinkFault fault) noexcept {
+const char* describe(LinkFault fault, Wire wire) noexcept {
     switch (fault) {
     case LinkFault::none: return "it answers";
     case LinkFault::timeout:
-        return "no answer in time; is it powered, is the unit number right, are baud rate and parity those of the "
-               "drive?";
+        return wire == Wire::tcp ? "no answer in time; check power, cable and unit number"
+                                 : "no answer in time; check power, unit number, baud rate and parity, and whether the "
+                                   "wires A and B are swapped";
     case LinkFault::disconnected: return "the connection is lost; check the cable, and whether the port is open";
     case LinkFault::corrupt: return "an answer with a wrong checksum; look for noise, termination and the baud rate";
     case LinkFault::wrong_unit: return "another unit answered; two drives may have the same number";
@@ -29,9 +30,12 @@ const char* describe(LinkFault fault) noexcept {
     return "";
 }
 
-std::string describe(const LinkAnswer& answer) {
-    return answer.fault == LinkFault::exception ? std::string("exception ") + exception_name(answer.exception)
-                                                : describe(answer.fault);
+std::string describe(const LinkAnswer& answer, const ModbusLine& line) {
+    if (answer.fault == LinkFault::exception) {
+        return std::string("exception ") + exception_name(answer.exception);
+    }
+    return answer.fault == LinkFault::disconnected && !line.connected() ? "there is no connection: " + line.error()
+                                                                        : describe(answer.fault, line.address().wire);
 }
 
 bool LinkAnswer::refused() const noexcept {

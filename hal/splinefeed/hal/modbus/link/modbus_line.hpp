@@ -40,10 +40,8 @@ struct LinkAnswer {
     [[nodiscard]] bool refused() const noexcept;
 };
 
-/// Text for messages: what went wrong and what to check.
-[[nodiscard]] const char* describe(LinkFault fault) noexcept;
-/// The same of an answer, short: "no answer in time ...", "exception busy".
-[[nodiscard]] std::string describe(const LinkAnswer& answer);
+/// Text for messages: what went wrong and what to check. On a line that worked before, the tcp text is right for both.
+[[nodiscard]] const char* describe(LinkFault fault, Wire wire = Wire::tcp) noexcept;
 /// Name of an exception code, for example "illegal address".
 [[nodiscard]] const char* exception_name(std::uint8_t code) noexcept;
 
@@ -60,8 +58,8 @@ public:
     virtual bool connect() noexcept = 0;
     virtual void close() noexcept = 0;
     [[nodiscard]] virtual bool connected() const noexcept = 0;
-    /// Why the last connect() failed.
-    [[nodiscard]] virtual const char* error() const noexcept = 0;
+    /// Why the last connect() failed, or the connection was lost, and what to do.
+    [[nodiscard]] virtual std::string error() const = 0;
 
     /// Functions 03, 16 and 23. After a fault `out` is unchanged, and it is unknown whether the drive executed the
     /// request.
@@ -92,6 +90,9 @@ public:
     /// Clock of the line and of everything on it; outlives the line.
     [[nodiscard]] virtual Clock& clock() const noexcept = 0;
 };
+
+/// What went wrong with a request on a line: "no answer in time ...", "exception busy", "there is no connection: ...".
+[[nodiscard]] std::string describe(const LinkAnswer& answer, const ModbusLine& line);
 
 /// Factory of lines.
 using MakeLine =

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/link/modbus_link.hpp"
 
+#include "splinefeed/hal/modbus/link/connection_error.hpp"
+
 #include <arpa/inet.h>
 #include <array>
 #include <cerrno>
@@ -62,7 +64,6 @@ struct ModbusLink::Context {
     modbus_t* modbus = nullptr;
     std::uint64_t quiet_from_us = 0; // instant of the last byte on the line
     int error = 0;
-    bool no_host = false; // the host name could not be resolved
     bool connected = false;
     int failures = 0;    // in a row
     int timeouts = 0;    // in a row
@@ -83,8 +84,8 @@ ModbusLink::ModbusLink(const LinkAddress& address, const LinkTiming& timing, Clo
     : context_(std::make_unique<Context>(Context{.address = address, .timing = timing, .clock = &clock})) {
     constexpr int data_bits = 8;
     const std::string host = address.wire == Wire::tcp ? resolved(address.host) : address.host;
-    context_->no_host = host.empty();
-    if (context_->no_host) {
+    if (host.empty()) {
+        context_->error = no_such_host;
         return;
     }
     context_->modbus = address.wire == Wire::tcp
@@ -114,8 +115,8 @@ bool ModbusLink::connected() const noexcept {
     return context_->connected;
 }
 
-const char* ModbusLink::error() const noexcept {
-    return context_->no_host ? "there is no host of that name" : modbus_strerror(context_->error);
+std::string ModbusLink::error() const {
+    return connection_error(context_->error, context_->address);
 }
 
 std::uint64_t ModbusLink::next_us() const noexcept {

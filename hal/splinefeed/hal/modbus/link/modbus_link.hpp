@@ -19,7 +19,7 @@ public:
     bool connect() noexcept override;
     void close() noexcept override;
     [[nodiscard]] bool connected() const noexcept override;
-    [[nodiscard]] const char* error() const noexcept override;
+    [[nodiscard]] std::string error() const override;
 
     LinkAnswer read(int unit, int address, std::span<std::uint16_t> out) noexcept override;
     LinkAnswer write(int unit, int address, std::span<const std::uint16_t> values) noexcept override;

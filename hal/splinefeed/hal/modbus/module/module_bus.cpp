@@ -74,7 +74,7 @@ std::string ModuleBus::try_out(const ModuleBit& bit, const Exchange& exchange) {
     for (int i = 0; i <= settings_.retries && !answer.ok() && !answer.refused(); ++i) {
         answer = exchange();
     }
-    return answer.ok() ? std::string() : bit.name + ": " + describe(answer);
+    return answer.ok() ? std::string() : bit.name + ": " + describe(answer, *line_);
 }
 
 std::string ModuleBus::open() {
@@ -168,9 +168,9 @@ bool ModuleBus::took(const ModuleBit& bit, const LinkAnswer& answer) {
         module.answered_us = now_us;
     }
     if (answer.refused()) {
-        fail(bit.name + ": " + describe(answer));
+        fail(bit.name + ": " + describe(answer, *line_));
     } else if (!answer.ok() && now_us > module.answered_us + us_per_ms * settings_.lost_ms) {
-        fail(bit.name + ": its module does not answer (" + describe(answer) + ")");
+        fail(bit.name + ": its module does not answer (" + describe(answer, *line_) + ")");
     }
     return answer.ok();
 }

@@ -26,8 +26,8 @@ DriveProblem identity_problem(const PvtIdentity& identity, int least_axes) noexc
 const char* describe(DriveProblem problem) noexcept {
     switch (problem) {
     case DriveProblem::none: return "nothing is wrong";
-    case DriveProblem::unreachable: return "there is no connection; check host or device, port and cable";
-    case DriveProblem::silent: return "it does not answer; check power, unit number, baud rate and parity";
+    case DriveProblem::unreachable: return "there is no connection";
+    case DriveProblem::silent: return "it does not answer";
     case DriveProblem::damaged:
         return "it answers, but the checksum of its status is always wrong, or its registers change from one reading "
                "to the next; check the cable, and the drive's own checksum (docs/reference/pvt_map.md)";

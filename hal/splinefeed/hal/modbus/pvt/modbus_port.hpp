@@ -66,6 +66,10 @@ public:
     [[nodiscard]] const std::optional<DriveFailure>& failure() const noexcept { return failure_; }
     [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
     [[nodiscard]] const DriveWiring& wiring(std::size_t drive) const noexcept { return drives_[drive].wiring(); }
+    /// Why there is no connection to a drive (DriveProblem::unreachable), and what to do.
+    [[nodiscard]] std::string connection_error(std::size_t drive) const {
+        return drives_[drive].client().link().error();
+    }
     [[nodiscard]] DriveReport report(std::size_t drive) const noexcept { return drives_[drive].client().report(); }
     /// Largest uncertainty of a drive's clock at any start: the drive may be ahead or behind by this. [us]
     [[nodiscard]] double clock_uncertainty_us(std::size_t drive) const noexcept {

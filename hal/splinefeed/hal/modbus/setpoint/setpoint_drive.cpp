@@ -22,11 +22,7 @@ std::string SetpointDrive::trouble(const char* what) const {
     if (!trouble_elsewhere_.empty()) {
         return trouble_elsewhere_;
     }
-    std::string text = std::string(what) + ": " + describe(answer_.fault);
-    if (answer_.fault == LinkFault::exception) {
-        text += std::string(" with exception ") + exception_name(answer_.exception);
-    }
-    return text;
+    return std::string(what) + ": " + describe(answer_, *link_);
 }
 
 bool SetpointDrive::record(const LinkAnswer& answer) noexcept {
@@ -131,7 +127,7 @@ std::string SetpointDrive::check_identity() {
 
 std::string SetpointDrive::open() {
     if (!link_->connected() && !link_->connect()) {
-        return std::string("there is no connection (") + link_->error() + "); check address, port and cable";
+        return "there is no connection: " + link_->error();
     }
     if (profile_->link.reads_zero_until_written) {
         SetpointFrames neutral(*profile_); // all fields at their defaults: nothing starts

@@ -18,7 +18,7 @@ std::string SetpointStandby::poll_others(const SetpointDrive& but) {
             return "it was disabled while another drive was prepared";
         }
         if (drive.link().clock().now_us() > drive.answered_us() + away_us_) {
-            return std::string("it does not answer any more: ") + describe(drive.last_answer().fault);
+            return "it does not answer any more: " + describe(drive.last_answer(), drive.link());
         }
     }
     return {};

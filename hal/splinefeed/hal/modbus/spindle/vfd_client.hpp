@@ -40,6 +40,8 @@ public:
     /// Speed that the register can hold, next to this one. [Hz]
     [[nodiscard]] double nearest_hz(double hz) const;
     [[nodiscard]] const DriveProfile& profile() const noexcept { return wiring_.profile; }
+    /// Text for messages: what went wrong with an exchange.
+    [[nodiscard]] std::string describe(const LinkAnswer& answer) const { return modbus::describe(answer, *line_); }
 
 private:
     [[nodiscard]] bool connected();

@@ -52,7 +52,7 @@ std::string VfdSpindle::open() {
     }
     if (!answer.ok()) {
         return answer.refused() ? std::string("it refuses a stop or a reading: ") + exception_name(answer.exception)
-                                : describe(answer);
+                                : client_.describe(answer);
     }
     if (reading.fault) {
         return "it is in fault, code " + std::to_string(reading.fault_code) + ": reset it";
@@ -155,7 +155,7 @@ bool VfdSpindle::took(const LinkAnswer& answer, const char* what) {
         answered_us_ = now_us;
         fail(std::string("the VFD refuses ") + what + ": " + exception_name(answer.exception));
     } else if (now_us > answered_us_ + us_per_ms * settings_.lost_ms && (was_on() && !stands())) {
-        fail(std::string("the VFD does not answer (") + describe(answer) + ")");
+        fail(std::string("the VFD does not answer (") + client_.describe(answer) + ")");
     }
     return false;
 }
