@@ -43,7 +43,13 @@ struct MachineDescription {
     StepSettings step{};          ///< of the step and direction lines of all axes
     PerAxis<StepMotors> motors{}; ///< their directions already include `invert`
     PerAxis<bool> inverted{};     ///< the drive counts down where the axis goes up
+    /// How far apart the positions may lie that a shaft at standstill reports [mm]; nothing: the larger of 0.01 mm and
+    /// 2 counts.
+    PerAxis<std::optional<double>> standstill_window_mm{};
     PerAxis<std::string> drive{}; ///< address of the axis's drive, for --target modbus; empty: none
 };
+
+/// The window of standstill of an axis, at least 1 count: a position on the edge of two is reported as either. [counts]
+[[nodiscard]] double standstill_window_counts(const MachineDescription& machine, unsigned axis) noexcept;
 
 } // namespace splinefeed::host

@@ -27,6 +27,7 @@ constexpr NumberRange acceleration_range{0.1, 1e6, "mm/s^2"};
 constexpr NumberRange zone_range{0.001, 1e6, "mm"};
 constexpr NumberRange steps_range{0.001, 1e6, "counts per mm"};
 constexpr NumberRange jerk_range{1.0, 1e9, "mm/s^3"};
+constexpr NumberRange standstill_range{1e-4, 10.0, "mm"};
 
 /// Reads one file.
 class MachineReader {
@@ -224,7 +225,8 @@ private:
         check_.require_known(table,
                              {"name", "kind", "travel_mm", "travel_end_zone_mm", "travel_end_velocity_mm_s",
                               "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2", "max_jerk_mm_s3",
-                              "steps_per_mm", "invert", "motors", "invert_step", "invert_direction", "drive"},
+                              "steps_per_mm", "invert", "motors", "invert_step", "invert_direction", "drive",
+                              "standstill_window_mm"},
                              "[[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
@@ -255,6 +257,9 @@ private:
         }
         if (const toml::node* steps = table.get("steps_per_mm")) { // without: a count is 1 um, as AxisSettings has it
             axis.steps_per_mm = number(*steps, "steps_per_mm", steps_range);
+        }
+        if (const toml::node* window = table.get("standstill_window_mm")) {
+            machine.standstill_window_mm[k] = number(*window, "standstill_window_mm", standstill_range);
         }
         if (const toml::node* node = table.get("travel_mm")) {
             machine.travel[k] = travel(*node, axis.steps_per_mm);
@@ -334,6 +339,14 @@ private:
 };
 
 } // namespace
+
+double standstill_window_counts(const MachineDescription& machine, unsigned axis) noexcept {
+    constexpr double default_mm = 0.01;
+    constexpr double default_counts = 2.0;
+    const double steps_per_mm = machine.settings.axis[axis].steps_per_mm;
+    const std::optional<double>& window_mm = machine.standstill_window_mm[axis];
+    return window_mm ? std::fmax(*window_mm * steps_per_mm, 1.0) : std::fmax(default_mm * steps_per_mm, default_counts);
+}
 
 MachineDescription parse_machine(std::string_view text, const std::string& file) {
     require_plain_toml(text, file);

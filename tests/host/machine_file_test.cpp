@@ -71,6 +71,14 @@ TEST_CASE("A machine file is read") {
           "m.toml:3: drives_at_end must be a text in quotes");
     CHECK(refusal(with("[path]", "drives_at_end = 'stay'\n[path]")) ==
           "m.toml:3: drives_at_end is 'stay'; it must be 'on' or 'off'");
+    CHECK(standstill_window_counts(machine, 0) == 3.2); // 0.01 mm of 320 counts
+    CHECK(standstill_window_counts(machine, 1) == 2.0); // and of 12.5
+    const auto window = [](const char* mm) {
+        return standstill_window_counts(
+            parse_machine(with("= 12.5", std::string("= 12.5\nstandstill_window_mm = ") + mm), "m.toml"), 1);
+    };
+    CHECK(window("0.8") == 10.0);
+    CHECK(window("0.001") == 1.0); // reports are whole counts
     CHECK_FALSE(machine.settings.axis[1].rotary);
     CHECK(parse_machine(with("'a'\n", "'a'\nkind = 'rotary'\n"), "m.toml").settings.axis[1].rotary);
     CHECK_FALSE(parse_machine(with("'a'\n", "'a'\nkind = 'linear'\n"), "m.toml").settings.axis[1].rotary);
@@ -199,6 +207,7 @@ TEST_CASE("Every malformed machine file is refused in one line that names the pl
         {with("max_velocity_mm_s = 50\n", ""), "m.toml:14: ", "axis a has no max_velocity_mm_s"},
         {with("max_velocity_mm_s = 50", "max_velocity = 50"), "m.toml:16: ", "unknown key"},
         {with("steps_per_mm = 12.5", "steps_per_mm = 12.5\nmax_jerk_mm_s3 = 0.5"), "m.toml:19: ", "max_jerk_mm_s3"},
+        {with("= 12.5", "= 12.5\nstandstill_window_mm = 0"), "m.toml:19: ", "between 0.0001 and 10 mm"},
         {with("'a'\n", "'a'\nkind = 'round'\n"), "m.toml:16: ", "kind is 'round'; it must be 'linear' or 'rotary'"},
         {with("'a'\n", "'a'\nkind = true\n"), "m.toml:16: ", "text"},
         {with("310.5]\n", "310.5]\ntravel_end_zone_mm = 5\n"), "m.toml:10: ", "travel_end_velocity_mm_s, or neither"},
