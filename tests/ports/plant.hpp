@@ -73,9 +73,11 @@ public:
         for (std::size_t k = 0; k < here.size(); ++k) {
             least = std::min(least, here[k] / way_share[k]);
             most = std::max(most, here[k] / way_share[k]);
-            if (positions.size() == here.size() && std::fabs(here[k] - positions[k]) > still_counts) {
+            const double step = positions.size() == here.size() ? std::fabs(here[k] - positions[k]) : 0.0;
+            if (step > still_counts) {
                 moved_us[k] = now_us;
             }
+            most_step_counts = std::max(most_step_counts, step / std::fabs(way_share[k]));
         }
         off_path_counts = std::max(off_path_counts, most - least);
         now_off_counts = most - least;
@@ -91,7 +93,8 @@ public:
     std::vector<std::uint64_t> moved_us; ///< when an axis was seen moving last
     double off_path_counts = 0.0;        ///< the most so far, by the first axis
     double now_off_counts = 0.0;
-    double lowest_counts = 0.0; ///< that any axis has been at so far, by the first axis
+    double most_step_counts = 0.0; ///< that an axis moved from one look to the next, by the first axis
+    double lowest_counts = 0.0;    ///< that any axis has been at so far, by the first axis
     double highest_counts = 0.0;
 
 private:

@@ -20,6 +20,9 @@ DriveProblem identity_problem(const PvtIdentity& identity, int least_axes) noexc
     if (identity.axes < least_axes) {
         return DriveProblem::axes;
     }
+    if (identity.ring < pvt::shortest_ring) {
+        return DriveProblem::ring;
+    }
     return identity.ticks_per_s != pvt::ticks_per_s ? DriveProblem::ticks : DriveProblem::none;
 }
 
@@ -48,6 +51,10 @@ const char* describe(DriveProblem problem) noexcept {
     case DriveProblem::refused: return "it refuses commands or segments repeatedly";
     case DriveProblem::out_of_step:
         return "it reports segments that were never sent; another master may be on the line";
+    case DriveProblem::ring:
+        return "its ring holds fewer than the 16 segments that the map requires; enlarge it in the drive's settings";
+    case DriveProblem::overrun:
+        return "splinefeed had more segments for it than there was room for, and stopped; please report this defect";
     case DriveProblem::range:
         return "the program exceeds the range of its map: 2^31 counts of position, 2^23 counts a segment; lower "
                "steps_per_mm, and the drive's counts with it";

@@ -23,6 +23,8 @@ enum class DriveProblem : std::uint8_t {
     refused,       ///< it refuses a command, or refuses segments repeatedly
     out_of_step,   ///< it reports segments that were never sent
     not_homed,     ///< its homing was not completed
+    ring,          ///< its ring is shorter than the map requires
+    overrun,       ///< it would have got a segment for which there was no room; nothing of it was sent
     range,         ///< a position, velocity or duration does not fit the map; nothing of it was sent
 };
 

@@ -87,6 +87,7 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
     for (const PortDrive& drive : drives_) {
         ring_us = std::min(ring_us, drive.client().report().identity.ring * times_.segment_us);
     }
+    ring_us = std::min(ring_us, PvtClient::queue_capacity * times_.segment_us);
     buffer_segments_ = static_cast<std::uint32_t>(ring_us / times_.segment_us);
     const double reserve_ms = std::max(1.0, std::min<double>(settings_.stop_reserve_ms, ring_us / 4000.0));
     const auto stop_reserve_ms = static_cast<std::uint16_t>(reserve_ms);
@@ -144,7 +145,7 @@ int ModbusPort::do_room() const noexcept {
     std::size_t room = PvtClient::queue_capacity;
     for (const PortDrive& drive : drives_) {
         const std::size_t held = PvtClient::queue_capacity - drive.client().room();
-        room = std::min(room, held < buffer_segments_ ? buffer_segments_ - held : 0);
+        room = std::min({room, drive.client().room(), held < buffer_segments_ ? buffer_segments_ - held : 0});
     }
     return phase_ == ModbusPhase::fault || phase_ == ModbusPhase::halted ? 0 : static_cast<int>(room);
 }
@@ -154,17 +155,15 @@ bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
         return false;
     }
     for (std::size_t i = 0; i < drives_.size(); ++i) {
-        if (!drives_[i].carries(segment)) { // no drive gets it
-            fail(i, DriveProblem::range);
+        const bool carried = drives_[i].carries(segment);
+        if (!carried || drives_[i].client().room() == 0) { // no drive gets it
+            fail(i, carried ? DriveProblem::overrun : DriveProblem::range);
             return false;
         }
     }
     const std::span<const std::int64_t> velocities(segment.end_velocity.data(), static_cast<std::size_t>(axes_));
     const bool rests = std::all_of(velocities.begin(), velocities.end(), [](std::int64_t v) { return v == 0; });
-    for (PortDrive& drive : drives_) {
-        drive.push(segment, rests);
-    }
-    return true;
+    return std::all_of(drives_.begin(), drives_.end(), [&](PortDrive& drive) { return drive.push(segment, rests); });
 }
 
 void ModbusPort::update_drives() noexcept {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/pvt/port_drive.hpp"
 
-#include "splinefeed/base/assertion.hpp"
-
 #include <algorithm>
 
 namespace splinefeed::hal::modbus {
@@ -38,16 +36,17 @@ bool PortDrive::carries(const FeedSegment& segment) const noexcept {
     return to_pvt(segment, wiring_.axes, ignored);
 }
 
-void PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
-    [[maybe_unused]] const bool carried = to_pvt(segment, wiring_.axes, last_);
-    SPLINEFEED_ASSERT(carried);
+bool PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
+    if (!to_pvt(segment, wiring_.axes, last_)) {
+        return false;
+    }
     if (trim_.anchored()) {
         const double gain = gain_us(trim_.next_end_us(segment.duration_ticks)) - gained_us_;
         last_.duration_ticks =
             std::clamp(trim_.trimmed(segment.duration_ticks, gain), pvt::shortest_ticks, pvt::longest_ticks);
     }
     last_.rest = rests;
-    client_->push(last_);
+    return client_->push(last_);
 }
 
 // After n executed segments the drive is within the next one, no further than its end. Answers come at different points

@@ -131,10 +131,14 @@ std::size_t PvtClient::room() const noexcept {
     return queue_capacity - (tail_.load(std::memory_order_relaxed) - head_.load(std::memory_order_acquire));
 }
 
-void PvtClient::push(const PvtSegment& segment) noexcept {
+bool PvtClient::push(const PvtSegment& segment) noexcept {
+    if (room() == 0) {
+        return false; // the place still has a segment that the drive may not have
+    }
     const std::uint32_t tail = tail_.load(std::memory_order_relaxed);
     queue_[tail % queue_capacity] = segment;
     tail_.store(tail + 1, std::memory_order_release);
+    return true;
 }
 
 void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSegment& preset) noexcept {
@@ -315,9 +319,13 @@ void PvtClient::resolve_command(const PvtStatus& status, const PvtBlock& block) 
     }
     if (status.refused == PvtRefusal::none) {
         if (status.last_command == counter_) {
+            const bool begins = pending_.command == PvtCommand::begin;
+            if (begins && (status.next != pending_.argument || status.executed != pending_.argument)) {
+                report_.problem = DriveProblem::out_of_step;
+            }
             const bool loses_ring =
                 pending_.command == PvtCommand::quick_stop || pending_.command == PvtCommand::disable;
-            began_ = (began_ || pending_.command == PvtCommand::begin) && !loses_ring;
+            began_ = (began_ || begins) && !loses_ring;
             clear_command();
         }
     } else if (status.refused != PvtRefusal::checksum && status.refused != PvtRefusal::no_room &&

@@ -22,7 +22,7 @@ struct PvtSettings {
 /// For two threads: the port's (push, command, report) and the bus's (step). Allocates in its constructor only.
 class PvtClient {
 public:
-    static constexpr std::size_t queue_capacity = 2048;
+    static constexpr std::size_t queue_capacity = 4096; ///< 0.4 s of the shortest segments
 
     /// @param link  must outlive the client; shared with the other drives of the bus
     /// @param both_in_one  use function 23, and 16 with 03 if the drive refuses it; false: use 16 with 03
@@ -40,8 +40,8 @@ public:
     // For the port's thread.
     /// Number of segments that push() accepts now. Executed segments make room.
     [[nodiscard]] std::size_t room() const noexcept;
-    /// @pre room() > 0
-    void push(const PvtSegment& segment) noexcept;
+    /// Returns false, and takes nothing, if there is no room.
+    [[nodiscard]] bool push(const PvtSegment& segment) noexcept;
     [[nodiscard]] std::uint32_t pushed() const noexcept { return tail_.load(std::memory_order_relaxed); }
     /// A pushed segment. @pre it is the last executed one or a later one
     [[nodiscard]] const PvtSegment& segment(std::uint32_t sequence) const noexcept {

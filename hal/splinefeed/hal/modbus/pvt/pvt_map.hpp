@@ -27,6 +27,7 @@ inline constexpr std::size_t identity_registers = 11;
 inline constexpr std::size_t configuration_registers = 4;
 inline constexpr std::size_t block_head_registers = 11;
 inline constexpr std::size_t most_block_registers = 121; ///< limit of function 23
+inline constexpr std::uint16_t shortest_ring = 16;       // segments
 inline constexpr std::uint32_t shortest_ticks = 800;
 inline constexpr std::uint32_t longest_ticks = 80'000'000;
 inline constexpr std::uint32_t ticks_per_s = 8'000'000;

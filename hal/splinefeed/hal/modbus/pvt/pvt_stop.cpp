@@ -34,8 +34,10 @@ PvtStop::Hold PvtStop::hold_by(const DriveReport& answer, const PortTimes& times
     }
     bool full_rate = static_cast<double>(status.next - status.executed) * times.segment_us >=
                      times.reserve_us + static_cast<double>(hold_at_us_) - static_cast<double>(answer.status_us);
-    for (std::uint32_t i = status.executed; i != status.next && !full_rate; ++i) {
-        full_rate = client_->segment(i).rest;
+    // A drive that is out of step may report any numbers.
+    const std::uint32_t queued = std::min<std::uint32_t>(status.next - status.executed, PvtClient::queue_capacity);
+    for (std::uint32_t i = 0; i < queued && !full_rate; ++i) {
+        full_rate = client_->segment(status.executed + i).rest;
     }
     return full_rate && answer.status_us <= hold_at_us_ ? Hold::in_time : Hold::apart;
 }
