@@ -8,6 +8,7 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/config/decimal_number.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -83,7 +84,12 @@ public:
         static_cast<void>(whole("version", state_version, state_version));
         const nlohmann::json& position = list(json_, "position_mm", axes_);
         for (std::size_t k = 0; k < axes_; ++k) {
-            out.position_mm[k] = value(position[k], "position_mm");
+            if (!position[k].is_null()) {
+                out.position_mm[k] = value(position[k], "position_mm");
+            } else if (out.unknown_why.empty()) {
+                const nlohmann::json& why = member(json_, "position_unknown");
+                out.unknown_why = why.is_string() ? why.get<std::string>() : std::string();
+            }
         }
         const nlohmann::json& systems = list(json_, "work_systems", work_systems);
         for (std::size_t i = 0; i < systems.size(); ++i) {
@@ -145,7 +151,11 @@ void write_state_file(const std::string& path, const std::vector<std::string>& a
     json["axes"] = axes;
     json["position_mm"] = Json::array();
     for (std::size_t k = 0; k < axes.size(); ++k) {
-        json["position_mm"].push_back(state.position_mm[k]);
+        const std::optional<double>& mm = state.position_mm[k];
+        json["position_mm"].push_back(mm ? Json(*mm) : Json(nullptr));
+    }
+    if (std::find(json["position_mm"].begin(), json["position_mm"].end(), nullptr) != json["position_mm"].end()) {
+        json["position_unknown"] = state.unknown_why;
     }
     json["work_systems"] = Json::array();
     for (const WorkSystem& system : state.offsets.systems) {

@@ -13,7 +13,9 @@ namespace splinefeed::host {
 
 struct MachineState {
     WorkOffsets offsets{};
-    PerAxis<double> position_mm{}; ///< in machine coordinates
+    /// In machine coordinates. Nothing: where this axis stands is not known.
+    PerAxis<std::optional<double>> position_mm{};
+    std::string unknown_why{}; ///< why a place is not known; empty: all are
 
     friend bool operator==(const MachineState&, const MachineState&) = default;
 };

@@ -5,6 +5,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/output/place_text.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -66,7 +67,7 @@ void Motion<S>::keep_state() {
         kept_.offsets = *steps_.offsets();
     }
     if (segments_ > 0) {
-        kept_.position_mm = machine_.position_mm();
+        std::ranges::copy(machine_.position_mm(), kept_.position_mm.begin());
     }
     write_state_file(state_, input_->axes(), kept_);
 }
@@ -78,7 +79,10 @@ void Motion<S>::keep_places() {
         return;
     }
     for (const RunTarget::AxisPlace& at : target_->places()) {
-        kept_.position_mm[at.axis] = at.mm;
+        kept_.position_mm[at.axis] = at.known();
+        if (!at.known()) {
+            kept_.unknown_why = "the last run ended before its place was known";
+        }
     }
     write_state_file(state_, input_->axes(), kept_);
 }

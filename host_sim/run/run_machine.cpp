@@ -44,27 +44,47 @@ RunMachine::RunMachine(const std::string& file, const InputFormat& format)
     }
 }
 
+void RunMachine::require_places(const MachineState& state, const std::string& file) const {
+    std::vector<std::string> unknown;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        if (!state.position_mm[k]) {
+            unknown.push_back(axes[k]);
+        }
+    }
+    if (!unknown.empty()) {
+        throw InputError(
+            file, 0,
+            fmt::format("where {} {} is not known: {}; let the machine find its references with --home, or "
+                        "say with --position where it stands",
+                        fmt::join(unknown, ", "), unknown.size() == 1 ? "stands" : "stand", state.unknown_why));
+    }
+}
+
 MachineState RunMachine::state(const std::string& state, const std::string& position, bool homed) const {
-    MachineState out = (state.empty() ? std::nullopt : read_state_file(state, axes)).value_or(MachineState{});
-    if (homed) {
-        out.position_mm = {};
+    const std::optional<MachineState> kept = state.empty() ? std::nullopt : read_state_file(state, axes);
+    MachineState out = kept.value_or(MachineState{});
+    if (homed || !kept || !position.empty()) {
+        out.position_mm.fill(0.0);
+        out.unknown_why.clear();
     }
     if (position.empty()) {
+        require_places(out, state);
         return out;
     }
     std::string_view rest = position;
     for (std::size_t k = 0; k < axes.size(); ++k) {
         const std::size_t comma = rest.find(',');
         const bool last = k + 1 == axes.size();
-        if (read_number(rest.substr(0, comma), out.position_mm[k]) != NumberText::number ||
-            (comma == std::string_view::npos) != last) {
+        double mm = 0.0;
+        if (read_number(rest.substr(0, comma), mm) != NumberText::number || (comma == std::string_view::npos) != last) {
             throw UsageError(fmt::format("--position {}: it must be a number for each axis, {}", in_quotes(position),
                                          fmt::join(axes, ",")));
         }
-        if (!position_representable(out.position_mm[k])) {
+        if (!position_representable(mm)) {
             throw UsageError(fmt::format("--position {}: {} is out of range; a position must lie within +-1048576 mm",
                                          in_quotes(position), axes[k]));
         }
+        out.position_mm[k] = mm;
         rest.remove_prefix(last ? rest.size() : comma + 1);
     }
     return out;

@@ -18,7 +18,8 @@ struct RunMachine {
     /// @param file  empty: the default machine
     RunMachine(const std::string& file, const InputFormat& format);
 
-    /// Where the machine stands, and its offsets. Throws InputError and UsageError.
+    /// Where the machine stands, and its offsets. Throws UsageError, and InputError where a state says that the place
+    /// of an axis is not known and nothing else says it.
     /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says
     /// @param homed  it finds its references first: then it stands at 0, whatever the state says
     [[nodiscard]] MachineState state(const std::string& state, const std::string& position, bool homed = false) const;
@@ -28,6 +29,9 @@ struct RunMachine {
     std::uint32_t rotary_axes = 0; ///< bit k: axis k is rotary
     std::vector<std::string> axes;
     PathTolerances tolerances;
+
+private:
+    void require_places(const MachineState& state, const std::string& file) const;
 };
 
 } // namespace splinefeed::host

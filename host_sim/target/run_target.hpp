@@ -8,6 +8,7 @@
 #include "splinefeed/hal/motion_port.hpp"
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -74,13 +75,20 @@ public:
     /// Called before the process ends without destructors: leaves drives and lines in their final state.
     virtual void release() noexcept = 0;
 
-    /// Where an axis of the machine stands, as its drive reports it or, if it does not answer, last did.
+    /// Where an axis of the machine stands, in machine coordinates.
     struct AxisPlace {
         unsigned axis = 0;
-        double mm = 0.0;
+        /// As its drive reports it or, if it does not answer, last did. Nothing: it is not known, since the axis has
+        /// moved without a reference, or lost it. [mm]
+        std::optional<double> mm;
+        /// false: the drive does not answer or may still move, so that the axis may be elsewhere by now.
         bool online = true;
+
+        /// The place where the axis is known to stand now; nothing: there is none.
+        [[nodiscard]] std::optional<double> known() const noexcept { return online ? mm : std::nullopt; }
     };
-    /// Empty: nothing has moved.
+    /// Of every axis that the target moves. Empty: no axis has moved, nor been told to, since the target was made; what
+    /// was known of its place before is still true.
     [[nodiscard]] virtual std::vector<AxisPlace> places() const { return {}; }
     /// "; the machine stands at x=1.0000 y=2.0000 mm": the same as a text.
     [[nodiscard]] virtual std::string where() const = 0;

@@ -29,6 +29,10 @@ MachineState random_state(std::mt19937_64& random) {
         state.offsets.g28[k] = {any(random)};
         state.offsets.g30[k] = {any(random)};
         state.position_mm[k] = static_cast<double>(any(random)) * 1e-9 / 3.0;
+        if (random() % 4 == 0) {
+            state.position_mm[k].reset();
+            state.unknown_why = "a reason";
+        }
     }
     state.offsets.systems[8].rotation_deg = {any(random) % 360'000'000'000};
     state.offsets.active = static_cast<int>(random() % work_systems);

@@ -62,6 +62,7 @@ TEST_CASE("a run ends on the line that the machine has come to, however far the 
         REQUIRE(supervision.places().size() == 1);
         CHECK(supervision.places()[0].axis == 1);
         CHECK(supervision.places()[0].mm == 2.5);
+        CHECK_FALSE(supervision.places()[0].known().has_value()); // it does not answer
     }
     SECTION("before the first segment was executed") {
         request(1);

@@ -66,6 +66,27 @@ TEST_CASE("A wrong state, position or program leaves the state as it is") {
           std::string::npos);
 }
 
+TEST_CASE("A place that the state does not know is asked for, and not taken for a number") {
+    const Tool tool;
+    tool.write("a.ngc", "G0 X10\nM2\n");
+    REQUIRE(tool("run a.ngc --state s.json --quiet").status == 0);
+    json state = json::parse(tool.read("s.json"));
+    state["position_mm"] = {10.0, nullptr, nullptr};
+    state["position_unknown"] = "the last run did not end";
+    tool.write("s.json", state.dump());
+    for (const char* const command : {"run", "plan", "check"}) {
+        const Call call = tool(std::string(command) + " a.ngc --state s.json");
+        CHECK(call.status == 2);
+        CHECK(call.error == "s.json: where y, z stand is not known: the last run did not end; let the machine find its "
+                            "references with --home, or say with --position where it stands\n");
+    }
+    CHECK(json::parse(tool.read("s.json")) == state);
+    REQUIRE(tool("run a.ngc --state s.json --position 1,2,3 --quiet").status == 0);
+    state = json::parse(tool.read("s.json"));
+    CHECK(state["position_mm"] == json({10.0, 2.0, 3.0}));
+    CHECK_FALSE(state.contains("position_unknown"));
+}
+
 TEST_CASE("A machine that homes first stands at 0, or where --position says, and no longer where the state has it") {
     const Tool tool;
     tool.write("m.toml", "[path]\nmax_feed_mm_s = 20\n[[axis]]\nname = \"x\"\nmax_velocity_mm_s = 100\n"

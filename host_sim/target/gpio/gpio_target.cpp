@@ -301,7 +301,8 @@ std::string GpioTarget::fault() const {
 std::vector<RunTarget::AxisPlace> GpioTarget::places() const {
     std::vector<AxisPlace> out;
     for (int k = 0; began_ && k < machine_->settings.axes; ++k) {
-        out.push_back({static_cast<unsigned>(k), mover_.position(k)});
+        out.push_back(
+            {static_cast<unsigned>(k), port_.position_known() ? std::optional(mover_.position(k)) : std::nullopt});
     }
     return out;
 }
@@ -316,8 +317,8 @@ std::string GpioTarget::where() const {
                           "stands is not known (find the references again); the last steps were those to"
                         : "; drives are off, and where the machine stands is not known (find the "
                           "references again); the last steps were those to");
-    for (const AxisPlace& at : places()) {
-        place.add(machine_->axis_name[at.axis], at.mm);
+    for (int k = 0; k < machine_->settings.axes; ++k) {
+        place.add(machine_->axis_name[static_cast<unsigned>(k)], mover_.position(k));
     }
     return place.text();
 }

@@ -5,6 +5,7 @@
 
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/drive_table.hpp"
+#include "host_sim/output/place_text.hpp"
 #include "host_sim/target/run_target.hpp"
 #include "host_sim/target/stop_sentence.hpp"
 
@@ -20,7 +21,7 @@ protected:
     /// @param wiring_of  converts the drives of a table to the form of the port
     template <class WiringOf>
     ModbusTarget(DriveTable table, const MachineDescription& machine, bool home, WiringOf wiring_of)
-        : machine_(&machine), table_(std::move(table)),
+        : machine_(&machine), table_(std::move(table)), home_(home),
           port_(wiring_of(table_, machine), {.home = home, .interrupted = &SignalWatch::interrupted}) {}
 
     [[nodiscard]] std::vector<StoppedDrive> stopped() const {
@@ -31,11 +32,37 @@ protected:
         return drives;
     }
 
+    /// As prepare().
+    [[nodiscard]] virtual std::string prepare_port(const FeedSegment& first) = 0;
+    /// Of an axis that stands at this position in the machine's own direction, once it has its reference.
+    [[nodiscard]] AxisPlace place(unsigned axis, double counts, bool online) const {
+        const double mm = counts / machine_->settings.axis[axis].steps_per_mm;
+        return {axis, referenced_ ? std::optional(mm) : std::nullopt, online};
+    }
+    [[nodiscard]] bool may_have_moved() const noexcept { return may_have_moved_; }
+
     const MachineDescription* machine_;
     DriveTable table_;
+    bool home_;
     Port port_;
 
 private:
+    // Without homing nothing moves before the port is ready.
+    [[nodiscard]] std::string prepare(const FeedSegment& first) final {
+        may_have_moved_ = home_;
+        std::string what = prepare_port(first);
+        referenced_ = what.empty();
+        may_have_moved_ = may_have_moved_ || referenced_;
+        return what;
+    }
+    [[nodiscard]] std::string where() const final {
+        const std::vector<AxisPlace> all = places();
+        PlaceText text;
+        for (const AxisPlace& at : all) {
+            text.add(machine_->axis_name[at.axis], at.mm, at.online);
+        }
+        return all.empty() ? "; nothing was moved" : text.text();
+    }
     [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
     void complete() override { port_.complete(); }
     void quick_stop() override { port_.quick_stop(); }
@@ -48,6 +75,9 @@ private:
         return not_switched_off(stopped());
     }
     void release() noexcept override { port_.close(); }
+
+    bool may_have_moved_ = false;
+    bool referenced_ = false; // positions of the drives are those of the machine
 };
 
 } // namespace splinefeed::host

@@ -2,7 +2,6 @@
 #include "host_sim/target/modbus/pvt_target.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/output/place_text.hpp"
 
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
@@ -89,7 +88,7 @@ std::string PvtTarget::fault() const {
 
 std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
     std::vector<AxisPlace> out;
-    for (std::size_t i = 0; i < port_.drives(); ++i) {
+    for (std::size_t i = 0; may_have_moved() && i < port_.drives(); ++i) {
         const DriveReport report = port_.report(i);
         const DriveWiring& wiring = port_.wiring(i);
         for (std::size_t k = 0; k < wiring.axes.size(); ++k) {
@@ -98,22 +97,14 @@ std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
                 const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
                 // One that is away went on to where all were to stop.
                 const bool online = hal::system_clock().now_us() - report.answered_us < stale_us;
-                out.push_back({axis, counts / machine_->settings.axis[axis].steps_per_mm, online});
+                out.push_back(place(axis, counts, online));
             }
         }
     }
     return out;
 }
 
-std::string PvtTarget::where() const {
-    PlaceText place;
-    for (const AxisPlace& at : places()) {
-        place.add(machine_->axis_name[at.axis], at.mm, at.online);
-    }
-    return place.text();
-}
-
-std::string PvtTarget::prepare(const FeedSegment& first) {
+std::string PvtTarget::prepare_port(const FeedSegment& first) {
     const auto failure = port_.prepare(first);
     return failure ? drive_sentence(table_, port_, *failure) : std::string();
 }

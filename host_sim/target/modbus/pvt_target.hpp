@@ -32,11 +32,10 @@ public:
         check_pvt_range(machine, segment_us);
     }
     [[nodiscard]] std::vector<AxisPlace> places() const override;
-    [[nodiscard]] std::string where() const override;
     void describe(Summary& summary) const override;
 
 private:
-    [[nodiscard]] std::string prepare(const FeedSegment& first) override;
+    [[nodiscard]] std::string prepare_port(const FeedSegment& first) override;
     [[nodiscard]] std::string fault() const override;
 
     double least_segment_us_ = 0.0;

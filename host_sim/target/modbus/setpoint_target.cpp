@@ -2,7 +2,6 @@
 #include "host_sim/target/modbus/setpoint_target.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/output/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -160,22 +159,14 @@ std::string SetpointTarget::fault() const {
 
 std::vector<RunTarget::AxisPlace> SetpointTarget::places() const {
     std::vector<AxisPlace> out;
-    for (std::size_t i = 0; i < table_.drives.size(); ++i) {
+    for (std::size_t i = 0; may_have_moved() && i < table_.drives.size(); ++i) {
         const auto axis = static_cast<unsigned>(axis_of(i));
-        out.push_back({axis, port_.position_counts(i) / machine_->settings.axis[axis].steps_per_mm, port_.online(i)});
+        out.push_back(place(axis, port_.position_counts(i), port_.online(i)));
     }
     return out;
 }
 
-std::string SetpointTarget::where() const {
-    PlaceText place;
-    for (const AxisPlace& at : places()) {
-        place.add(machine_->axis_name[at.axis], at.mm, at.online);
-    }
-    return place.text();
-}
-
-std::string SetpointTarget::prepare(const FeedSegment& first) {
+std::string SetpointTarget::prepare_port(const FeedSegment& first) {
     const std::string what = port_.prepare(first);
     return what.empty() ? what : sentence(what);
 }

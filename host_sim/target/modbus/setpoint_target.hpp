@@ -37,11 +37,10 @@ public:
     }
     [[nodiscard]] std::string note() const override;
     [[nodiscard]] std::vector<AxisPlace> places() const override;
-    [[nodiscard]] std::string where() const override;
     void describe(Summary& summary) const override;
 
 private:
-    [[nodiscard]] std::string prepare(const FeedSegment& first) override;
+    [[nodiscard]] std::string prepare_port(const FeedSegment& first) override;
     [[nodiscard]] std::string fault() const override;
 
     [[nodiscard]] std::string sentence(const std::string& trouble) const;
