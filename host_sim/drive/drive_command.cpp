@@ -7,6 +7,7 @@
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/config/shipped_profiles.hpp"
 #include "host_sim/drive/drive_server.hpp"
+#include "host_sim/drive/faulty_drive.hpp"
 #include "host_sim/drive/profile_drive.hpp"
 #include "host_sim/drive/pvt_drive.hpp"
 #include "host_sim/drive/vfd_drive.hpp"
@@ -176,7 +177,8 @@ VfdDriveParameters vfd_parameters(const DriveArguments& arguments, const std::st
 std::unique_ptr<DriveModel> make_drive_model(const DriveArguments& arguments, const hal::modbus::DriveProfile& profile,
                                              std::size_t axes, SegmentRecord* segments) {
     if (profile.stream == hal::modbus::StreamWay::speed) {
-        return std::make_unique<VfdDrive>(profile, vfd_parameters(arguments, profile.name));
+        return std::make_unique<FaultyDrive>(
+            std::make_unique<VfdDrive>(profile, vfd_parameters(arguments, profile.name)), profile);
     }
     if (arguments.ramp) {
         throw UsageError(fmt::format("--ramp is for spindles, not for the profile {}; leave it out", profile.name));
@@ -184,7 +186,7 @@ std::unique_ptr<DriveModel> make_drive_model(const DriveArguments& arguments, co
     if (profile.stream == hal::modbus::StreamWay::pvt) {
         return make_pvt_drive(arguments, axes, segments);
     }
-    return make_drive(profile, profile_parameters(arguments, profile.name));
+    return std::make_unique<FaultyDrive>(make_drive(profile, profile_parameters(arguments, profile.name)), profile);
 }
 
 void check_records(const DriveArguments& arguments) {
@@ -209,12 +211,12 @@ void check_records(const DriveArguments& arguments) {
 } // namespace
 
 void add_drive_options(CLI::App& app, DriveArguments& arguments) {
-    const auto option = [&app](const char* name, std::optional<std::string>& value, const char* text) {
+    const auto option = [&app](const char* name, std::optional<std::string>& value, const std::string& text) {
         return app.add_option(name, value, text);
     };
     app.add_option(
         "--listen", arguments.listen,
-        "tcp://127.0.0.1:1502 (default), port 0: a free one; or rtu:///dev/pts/3?baud=115200&parity=E&unit=1, "
+        "tcp://127.0.0.1:1502 (default; ?unit=1), port 0: a free one; or rtu:///dev/pts/3?baud=115200&parity=E&unit=1, "
         "with &pace=off faster than a line of that rate");
     app.add_option("--profile", arguments.profile,
                    "the drive that it plays: a name or FILE.toml (default splinefeed-pvt)");
@@ -225,8 +227,8 @@ void add_drive_options(CLI::App& app, DriveArguments& arguments) {
     option("--ring", arguments.ring, "segments that it holds, 16 to 65535 (default 512)");
     option("--ramp", arguments.ramp, "of a spindle (profiles vfd-...), up and down [Hz/s] (default 200)");
     option("--faults", arguments.faults,
-           "drop=P, corrupt=P, exception=P, duplicate=P, stale=P (probabilities per exchange), delay=MS:P, "
-           "disconnect@S:MS, freeze@S:MS, power-cycle@S, swap-words@S, clock-skew=PPM, seed=N; several with commas");
+           list_drive_faults() +
+               "; P: probability per exchange, MS: for so long, S: when, N: a number; several with commas");
     app.add_flag("--allow-remote", arguments.allow_remote, "listen to other computers, too")->disable_flag_override();
     const std::string shafts = "Shafts (one value, or one for each axis)";
     option("--max-velocity", arguments.max_velocity, "[counts/s]; beyond is a fault (default: none)")->group(shafts);

@@ -185,7 +185,15 @@ void DriveLine::receive_from(Connection& connection, std::vector<Request>& reque
         return;
     }
     request.bytes.resize(static_cast<std::size_t>(size));
-    requests.push_back(std::move(request));
+    if (is_ours(request.bytes[mbap_head])) {
+        requests.push_back(std::move(request));
+    }
+}
+
+// On a serial line libmodbus looks at that itself.
+bool DriveLine::is_ours(int unit) const noexcept {
+    constexpr int any = 0; // "the device at the address", as MODBUS_TCP_SLAVE
+    return unit == address_.unit || unit == MODBUS_TCP_SLAVE || unit == any;
 }
 
 void DriveLine::receive_serial(std::vector<Request>& requests) {
@@ -213,6 +221,15 @@ void DriveLine::send(int channel, const std::vector<std::uint8_t>& bytes) {
     } else {
         // Who does not read loses replies, and does not stop the drive.
         static_cast<void>(::send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
+    }
+}
+
+void DriveLine::send_all(const std::vector<std::uint8_t>& bytes) {
+    if (address_.kind == ListenAddress::Kind::rtu) {
+        send(0, bytes);
+    }
+    for (const Connection& connection : connections_) {
+        send(connection.channel, bytes);
     }
 }
 

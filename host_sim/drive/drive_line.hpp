@@ -32,6 +32,8 @@ public:
     [[nodiscard]] std::vector<Request> receive();
     /// Does nothing if the channel no longer exists.
     void send(int channel, const std::vector<std::uint8_t>& bytes);
+    /// To everybody who is connected.
+    void send_all(const std::vector<std::uint8_t>& bytes);
     /// Closes all connections; until connect() nobody can reach the drive. Its port stays reserved.
     void disconnect();
     void connect();
@@ -50,6 +52,7 @@ private:
     void accept_connections();
     [[nodiscard]] static Frame peek(const Connection& connection);
     void receive_from(Connection& connection, std::vector<Request>& requests);
+    [[nodiscard]] bool is_ours(int unit) const noexcept;
     void receive_serial(std::vector<Request>& requests);
     void close_connections();
 

@@ -2,7 +2,8 @@
 // DriveModel: a simulated drive with registers and time, but without a line: its answers, and the motion of its shafts.
 #pragma once
 
-#include <cstdint>
+#include "host_sim/drive/model_faults.hpp"
+
 #include <span>
 
 namespace splinefeed::host {
@@ -38,6 +39,10 @@ public:
     virtual void power_cycle() = 0;
     /// A fault: the word order of numbers of several registers is reversed from now on. A second call restores it.
     virtual void swap_words() {}
+    /// What it says and does wrong from now on.
+    virtual void set_faults(const ModelFaults& /*faults*/) {}
+    /// Another master tells it to stop and, where it has sessions, begins one of its own.
+    virtual void second_master() {}
 
     [[nodiscard]] virtual int axes() const = 0;
     /// Position of the shaft. [counts]

@@ -15,6 +15,8 @@ constexpr std::size_t kept_replies = 8;
 constexpr std::size_t block_bytes = 22;      // of an exchange block of splinefeed-pvt: a write that long has a checksum
 constexpr double quiet_characters = 3.5;     // at the end of a frame
 constexpr microseconds quiet_at_least{1750}; // above 19200 baud
+constexpr std::size_t flood_bytes = 4096;    // at once, where there is no pace
+constexpr microseconds flood_every{200};
 
 microseconds from_ms(double ms) {
     return microseconds(std::llround(ms * 1000.0));
@@ -30,9 +32,13 @@ double DriveServer::start_s() const noexcept {
     return std::chrono::duration<double>(start_.time_since_epoch()).count();
 }
 
+double DriveServer::passed_s(Clock::time_point time) const {
+    return std::chrono::duration<double>(time - start_).count();
+}
+
 std::uint64_t DriveServer::model_us(Clock::time_point time) const {
-    const double passed = std::chrono::duration<double, std::micro>(time - start_).count();
-    return static_cast<std::uint64_t>(std::max(passed * (1.0 + faults_.clock_skew_ppm * 1e-6), 0.0));
+    constexpr double us_per_s = 1e6;
+    return static_cast<std::uint64_t>(std::max(us_per_s * passed_s(time) * (1.0 + faults_.clock_skew_ppm * 1e-6), 0.0));
 }
 
 void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* record) {
@@ -51,6 +57,7 @@ void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* recor
         }
         if (!thaws_) {
             deliver(Clock::now());
+            flood(Clock::now());
         }
     }
     // The record ends behind everything that was told.
@@ -61,6 +68,9 @@ void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* recor
 microseconds DriveServer::until_next(Clock::time_point now) const {
     constexpr microseconds row{1000};
     microseconds wait = row - microseconds(model_us(now) % 1000);
+    if (faults_.lasts(DriveFaults::EventKind::flood, passed_s(now))) {
+        wait = std::min(wait, flood_every);
+    }
     for (const Due& due : due_) {
         wait = std::min(wait, duration_cast<microseconds>(due.time - now));
     }
@@ -68,6 +78,11 @@ microseconds DriveServer::until_next(Clock::time_point now) const {
 }
 
 void DriveServer::fire_events(Clock::time_point now) {
+    if (const ModelFaults faults = faults_.of_model(passed_s(now)); faults != model_faults_) {
+        model_->advance(model_us(now));
+        model_->set_faults(faults);
+        model_faults_ = faults;
+    }
     if (connects_ && *connects_ <= now) {
         connects_.reset();
         line_.connect();
@@ -84,9 +99,9 @@ void DriveServer::fire_events(Clock::time_point now) {
         case DriveFaults::EventKind::disconnect:
             line_.disconnect();
             due_.clear();
-            connects_ = now + from_ms(event.duration_ms);
+            connects_ = now + from_ms(event.amount);
             break;
-        case DriveFaults::EventKind::freeze: thaws_ = now + from_ms(event.duration_ms); break;
+        case DriveFaults::EventKind::freeze: thaws_ = now + from_ms(event.amount); break;
         case DriveFaults::EventKind::power_cycle:
             model_->advance(model_us(now));
             model_->power_cycle();
@@ -97,6 +112,16 @@ void DriveServer::fire_events(Clock::time_point now) {
             }
             break;
         case DriveFaults::EventKind::swap_words: model_->swap_words(); break;
+        case DriveFaults::EventKind::second_master:
+            model_->advance(model_us(now));
+            model_->second_master();
+            break;
+        case DriveFaults::EventKind::flood:
+        case DriveFaults::EventKind::refuse_stop:
+        case DriveFaults::EventKind::stuck_state:
+        case DriveFaults::EventKind::stuck_place:
+        case DriveFaults::EventKind::no_room:
+        case DriveFaults::EventKind::told_state: break; // they last
         }
     }
 }
@@ -133,8 +158,12 @@ void DriveServer::accept(DriveLine::Request request, Clock::time_point now) {
 }
 
 void DriveServer::serve(int channel, Bytes request, Clock::time_point now) {
+    if (now < hears_) {
+        return;
+    }
     const ExchangeFaults faults = dice_.next();
-    if (faults.drop_request) {
+    hears_ = now + from_ms(faults.mute_ms);
+    if (faults.drop_request || now < hears_) {
         return;
     }
     const bool damages_request = faults.corrupt && (faults.bits & 1U) != 0 && !faults.exception;
@@ -156,11 +185,36 @@ void DriveServer::serve(int channel, Bytes request, Clock::time_point now) {
         const std::size_t bit = (faults.bits >> 1U) % (8 * reply.size());
         reply[bit / 8] = static_cast<std::uint8_t>(reply[bit / 8] ^ 1U << bit % 8);
     }
-    const Clock::time_point due = now + from_ms(faults.delay_ms) + line_time(reply.size());
-    send(channel, reply, due);
-    if (faults.repeat_reply) {
-        send(channel, std::move(reply), due + line_time(intact.size()));
+    if (faults.short_reply) {
+        reply.resize(1 + (faults.bits >> 1U) % (reply.size() - 1));
     }
+    Clock::time_point due = now + from_ms(faults.delay_ms);
+    const auto put_before = [&](Bytes frame) {
+        due += line_time(frame.size());
+        send(channel, std::move(frame), due, 0.0);
+    };
+    if (faults.echo) {
+        put_before(request);
+    }
+    if (faults.foreign) {
+        put_before(foreign_frame(request));
+    }
+    due += line_time(reply.size());
+    send(channel, reply, due, faults.drip_ms);
+    if (faults.repeat_reply) {
+        send(channel, std::move(reply), due + line_time(intact.size()), faults.drip_ms);
+    }
+}
+
+// On a serial line another drive's answer to another master; on TCP our answer to an earlier request.
+DriveServer::Bytes DriveServer::foreign_frame(const Bytes& request) {
+    if (line_.address().kind == ListenAddress::Kind::tcp) {
+        return sent_.front();
+    }
+    constexpr std::uint8_t most_unit = 247;
+    Bytes theirs = request;
+    theirs.front() = static_cast<std::uint8_t>(theirs.front() % most_unit + 1);
+    return exchange_.refuse(theirs, ModbusException::busy);
 }
 
 DriveServer::Bytes DriveServer::reply_to(const Bytes& request, const ExchangeFaults& faults) {
@@ -206,8 +260,29 @@ bool DriveServer::replace_by_stale(Bytes& reply) const {
     return true;
 }
 
-void DriveServer::send(int channel, Bytes reply, Clock::time_point due) {
-    due_.push_back({due, false, channel, std::move(reply)});
+void DriveServer::send(int channel, Bytes reply, Clock::time_point due, double drip_ms) {
+    if (drip_ms == 0.0) {
+        due_.push_back({due, false, channel, std::move(reply)});
+        return;
+    }
+    for (std::size_t i = 0; i < reply.size(); ++i) {
+        due_.push_back({due + from_ms(static_cast<double>(i) * drip_ms), false, channel, {reply[i]}});
+    }
+}
+
+// Bytes without an end to everybody, as fast as the line takes them.
+void DriveServer::flood(Clock::time_point now) {
+    const Clock::time_point since = std::max(flooded_, now - microseconds(1000));
+    flooded_ = now;
+    if (!faults_.lasts(DriveFaults::EventKind::flood, passed_s(now))) {
+        return;
+    }
+    const double character_us = static_cast<double>(line_time(1000).count()) / 1000.0;
+    const std::size_t count =
+        character_us == 0.0
+            ? flood_bytes
+            : static_cast<std::size_t>(std::chrono::duration<double, std::micro>(now - since).count() / character_us);
+    line_.send_all(Bytes(count, 0x55));
 }
 
 void DriveServer::deliver(Clock::time_point now) {

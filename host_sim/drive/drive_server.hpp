@@ -44,7 +44,10 @@ private:
     [[nodiscard]] Bytes reply_to(const Bytes& request, const ExchangeFaults& faults);
     [[nodiscard]] bool damage_block(Bytes& request, std::uint64_t bits) const;
     [[nodiscard]] bool replace_by_stale(Bytes& reply) const;
-    void send(int channel, Bytes reply, Clock::time_point due);
+    void send(int channel, Bytes reply, Clock::time_point due, double drip_ms);
+    [[nodiscard]] Bytes foreign_frame(const Bytes& request);
+    void flood(Clock::time_point now);
+    [[nodiscard]] double passed_s(Clock::time_point time) const;
     void deliver(Clock::time_point now);
     [[nodiscard]] std::chrono::microseconds until_next(Clock::time_point now) const;
 
@@ -57,6 +60,9 @@ private:
     Clock::time_point line_free_; // time at which the serial line is free
     std::optional<Clock::time_point> connects_;
     std::optional<Clock::time_point> thaws_;
+    Clock::time_point hears_; // again
+    Clock::time_point flooded_;
+    ModelFaults model_faults_;
     std::size_t event_ = 0;
     std::uint64_t recorded_ms_ = 0; // rows written so far
     std::vector<Due> due_;

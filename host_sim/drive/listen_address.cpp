@@ -57,8 +57,9 @@ void take_key(std::string_view text, std::string_view key, std::string_view valu
     }
 }
 
-ListenAddress parse_tcp(std::string_view text, std::string_view rest, bool allow_remote) {
+ListenAddress parse_tcp(std::string_view text, const AddressText& parts, bool allow_remote) {
     ListenAddress out;
+    const std::string_view rest = parts.place;
     const std::size_t colon = rest.rfind(':');
     if (colon == std::string_view::npos) {
         refuse(text, "a port must follow the host, like tcp://127.0.0.1:1502; 0 is a free one");
@@ -73,6 +74,12 @@ ListenAddress parse_tcp(std::string_view text, std::string_view rest, bool allow
     if (ntohl(address.s_addr) >> 24U != loopback && !allow_remote) {
         refuse(text,
                "others than this computer could move the drive there; listen on 127.0.0.1, or add --allow-remote");
+    }
+    for (const AddressText::Setting& setting : parts.settings) {
+        if (setting.key != "unit") {
+            refuse(text, fmt::format("there is no setting {} on tcp; unit alone", in_quotes(setting.key)));
+        }
+        take_key(text, setting.key, setting.value, out);
     }
     return out;
 }
@@ -98,7 +105,7 @@ ListenAddress parse_rtu(std::string_view text, const AddressText& parts) {
 ListenAddress parse_listen_address(std::string_view text, bool allow_remote) {
     const AddressText parts = split_address(text);
     if (parts.scheme == "tcp") {
-        return parse_tcp(text, parts.rest, allow_remote);
+        return parse_tcp(text, parts, allow_remote);
     }
     if (parts.scheme == "rtu") {
         return parse_rtu(text, parts);
@@ -108,7 +115,7 @@ ListenAddress parse_listen_address(std::string_view text, bool allow_remote) {
 
 std::string ListenAddress::text() const {
     if (kind == Kind::tcp) {
-        return fmt::format("tcp://{}:{}", host, port);
+        return fmt::format("tcp://{}:{}{}", host, port, unit == 1 ? "" : fmt::format("?unit={}", unit));
     }
     const std::string stop = stop_bits != 0 ? fmt::format("&stop={}", stop_bits) : "";
     return fmt::format("rtu://{}?baud={}&parity={}{}&unit={}{}", device, baud, parity, stop, unit,

@@ -17,7 +17,7 @@ struct ListenAddress {
     int baud = 115200;
     char parity = 'E';
     int stop_bits = 0; ///< 1, 2, or 0: as the standard says: 2 without parity, otherwise 1
-    int unit = 1;      ///< of a serial line; over TCP a drive answers to every unit
+    int unit = 1;      ///< over TCP it answers to 0 and 255, too: the device at the address
     bool pace = true;  ///< of a serial line: replies take the time that they would take at that rate
 
     /// The address as text, with the default values written out, except stop bits and pace.
@@ -27,8 +27,8 @@ struct ListenAddress {
     [[nodiscard]] double character_us() const noexcept;
 };
 
-/// Reads tcp://HOST:PORT or rtu:///dev/ttyUSB0?baud=115200&parity=N&unit=1. Addresses outside this computer are only
-/// accepted with allow_remote. Throws UsageError.
+/// Reads tcp://HOST:PORT?unit=1 or rtu:///dev/ttyUSB0?baud=115200&parity=N&unit=1. Addresses outside this computer are
+/// only accepted with allow_remote. Throws UsageError.
 [[nodiscard]] ListenAddress parse_listen_address(std::string_view text, bool allow_remote);
 
 } // namespace splinefeed::host

@@ -120,6 +120,33 @@ PvtStatus PvtDrive::status() const {
     return status;
 }
 
+PvtStatus PvtDrive::told_status() {
+    PvtStatus told = status();
+    if (faults_.stuck_place) {
+        told.executed = stuck_.executed;
+        told.position = stuck_.position;
+    }
+    told.state = faults_.state         ? static_cast<hal::modbus::PvtState>(*faults_.state)
+                 : faults_.stuck_state ? stuck_.state
+                                       : told.state;
+    told.free = faults_.no_room ? std::uint16_t{0} : told.free;
+    for (std::int32_t& position : told.position) {
+        position += noise_.next(faults_.dither_counts);
+    }
+    return told;
+}
+
+void PvtDrive::set_faults(const ModelFaults& faults) {
+    stuck_ = told_status();
+    faults_ = faults;
+}
+
+void PvtDrive::second_master() {
+    constexpr std::uint16_t its_session = 0xFFFF;
+    static_cast<void>(machine_.execute(PvtCommand::quick_stop, 0));
+    static_cast<void>(machine_.begin(its_session, 0)); // taken only where nothing moves
+}
+
 ModbusException PvtDrive::read(int address, std::span<std::uint16_t> out) {
     std::array<std::uint16_t, pvt::status_registers(max_axes)> table{};
     std::size_t at = 0;
@@ -139,7 +166,7 @@ ModbusException PvtDrive::read(int address, std::span<std::uint16_t> out) {
         }
         at = static_cast<std::size_t>(address - pvt::configuration_address);
     } else if (inside(pvt::status_address, status_size, address, out.size())) {
-        hal::modbus::encode(status(), axes(), table);
+        hal::modbus::encode(told_status(), axes(), table);
         if (swapped_) {
             swap_status(std::span(table).first(status_size));
         }
@@ -227,6 +254,10 @@ PvtRefusal PvtDrive::take(const PvtBlock& block, std::span<const PvtSegment> seg
 }
 
 PvtRefusal PvtDrive::command(const PvtBlock& block, std::span<const PvtSegment> segments) {
+    const bool stops = block.command == PvtCommand::hold || block.command == PvtCommand::quick_stop;
+    if (stops && faults_.refuses_stops) {
+        return PvtRefusal::state;
+    }
     switch (block.command) {
     case PvtCommand::begin: return machine_.begin(block.session, block.argument);
     case PvtCommand::preset_position: return machine_.preset_position(segments);

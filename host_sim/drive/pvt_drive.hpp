@@ -23,12 +23,16 @@ public:
     [[nodiscard]] ModbusException write(int address, std::span<const std::uint16_t> values) override;
     void power_cycle() override;
     void swap_words() override { swapped_ = !swapped_; }
+    void set_faults(const ModelFaults& faults) override;
+    void second_master() override;
 
     [[nodiscard]] int axes() const override { return machine_.axes(); }
     [[nodiscard]] double position_counts(int axis) const override { return machine_.shaft(axis).position_counts(); }
 
     [[nodiscard]] PvtMachine& machine() noexcept { return machine_; }
     [[nodiscard]] hal::modbus::PvtStatus status() const;
+    /// What it says of itself: with its faults.
+    [[nodiscard]] hal::modbus::PvtStatus told_status();
 
 private:
     [[nodiscard]] hal::modbus::PvtIdentity identity() const;
@@ -47,6 +51,9 @@ private:
     std::uint16_t refusals_ = 0;
     hal::modbus::PvtRefusal refused_ = hal::modbus::PvtRefusal::none;
     bool swapped_ = false; // a fault: the least significant word comes first
+    ModelFaults faults_;
+    hal::modbus::PvtStatus stuck_; // what it told when the faults began
+    CountNoise noise_;
 };
 
 } // namespace splinefeed::host

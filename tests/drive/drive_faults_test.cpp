@@ -33,7 +33,8 @@ std::string refused_address(const std::string& text, bool remote = false) {
 TEST_CASE("drive faults: the whole list", "[drive][faults]") {
     const DriveFaults faults = parse_drive_faults(
         "drop=0.01,corrupt=0.02,exception=0.03,duplicate=0.04,stale=0.05,delay=20:0.5,delay=300:0.01,freeze@3:40,"
-        "disconnect@1.5:200,power-cycle@9,swap-words@2,disconnect@7:1,clock-skew=-35.5,seed=18446744073709551615");
+        "disconnect@1.5:200,power-cycle@9,swap-words@2,disconnect@7:1,clock-skew=-35.5,seed=18446744073709551615,"
+        "short=0.06,foreign=0.07,echo=0.08,late=250:0.5,drip=9:0.1,mute=150:0.2,mute-at=3:150,dither=4");
     CHECK(faults.drop == 0.01);
     CHECK(faults.corrupt == 0.02);
     CHECK(faults.exception == 0.03);
@@ -44,15 +45,62 @@ TEST_CASE("drive faults: the whole list", "[drive][faults]") {
     CHECK(faults.delays[1].probability == 0.01);
     REQUIRE(faults.events.size() == 5);
     CHECK(faults.events[0].kind == DriveFaults::EventKind::disconnect);
-    CHECK(faults.events[0].duration_ms == 200.0);
+    CHECK(faults.events[0].amount == 200.0);
     CHECK(faults.events[1].kind == DriveFaults::EventKind::swap_words);
     CHECK(faults.events[2].kind == DriveFaults::EventKind::freeze);
     CHECK(faults.events[4].time_s == 9.0);
+    CHECK(faults.short_reply == 0.06);
+    CHECK(faults.foreign == 0.07);
+    CHECK(faults.echo == 0.08);
+    CHECK(faults.late.at(0).duration_ms == 250.0);
+    CHECK(faults.drips.at(0).probability == 0.1);
+    CHECK(faults.mutes.at(0).duration_ms == 150.0);
+    CHECK(faults.silences.at(0).request == 3.0);
+    CHECK(faults.silences.at(0).duration_ms == 150.0);
+    CHECK(faults.of_model(0.0) == ModelFaults{.dither_counts = 4});
     CHECK(faults.clock_skew_ppm == -35.5);
     CHECK(faults.seed == 18446744073709551615U);
     CHECK(faults.random());
     CHECK_FALSE(parse_drive_faults("").random());
     CHECK_FALSE(parse_drive_faults("freeze@1:2").random());
+}
+
+TEST_CASE("drive faults: what lasts, lasts from its instant on for its time", "[drive][faults]") {
+    const DriveFaults faults = parse_drive_faults("refuse-stop@1:500,stuck-state@2:10,stuck-place@2:20,no-room@3:1,"
+                                                  "state@4:99,state@5:6,flood@6:100");
+    CHECK(faults.of_model(0.999) == ModelFaults{});
+    CHECK(faults.of_model(1.0) == ModelFaults{.refuses_stops = true});
+    CHECK(faults.of_model(1.5) == ModelFaults{});
+    CHECK(faults.of_model(2.005) == ModelFaults{.stuck_state = true, .stuck_place = true});
+    CHECK(faults.of_model(2.015) == ModelFaults{.stuck_place = true});
+    CHECK(faults.of_model(3.0) == ModelFaults{.no_room = true});
+    CHECK(faults.of_model(4.5) == ModelFaults{.state = 99});
+    CHECK(faults.of_model(100.0) == ModelFaults{.state = 6}); // until the end
+    CHECK(faults.lasts(DriveFaults::EventKind::flood, 6.05));
+    CHECK_FALSE(faults.lasts(DriveFaults::EventKind::flood, 6.1));
+}
+
+TEST_CASE("drive faults: each is in the list, and an item that is written like it is taken", "[drive][faults]") {
+    std::string list = list_drive_faults();
+    CHECK(std::count(list.begin(), list.end(), ',') == 26);
+    const std::pair<const char*, const char*> numbers[] = {
+        {"MS", "10"}, {"PPM", "5"}, {"P", "0.5"}, {"S", "2"}, {"N", "3"}};
+    for (std::size_t at = 0; at < list.size();) {
+        const std::size_t end = std::min(list.find(", ", at), list.size());
+        std::string item = list.substr(at, end - at);
+        const std::size_t sign = item.find_first_of("=@");
+        REQUIRE(sign != std::string::npos);
+        for (const auto& [letters, number] : numbers) {
+            const std::size_t found = item.find(letters, sign);
+            if (found != std::string::npos) {
+                item.replace(found, std::string(letters).size(), number);
+            }
+        }
+        CAPTURE(item);
+        CHECK(refusal(item).empty());
+        CHECK_FALSE(refusal(item + "x").empty());
+        at = end + 2;
+    }
 }
 
 TEST_CASE("drive faults: what is wrong is told, and what would be right", "[drive][faults]") {
@@ -62,9 +110,26 @@ TEST_CASE("drive faults: what is wrong is told, and what would be right", "[driv
     CHECK(refusal("freeze@1").find("it takes two numbers") != std::string::npos);
     CHECK(refusal("power-cycle@1:5").find("it takes one number") != std::string::npos);
     CHECK(refusal("drop=1.5").find("'1.5' does not lie between 0 and 1") != std::string::npos);
-    for (const char* text :
-         {"drop=", "drop=x", "drop=-0.1", "drop=nan", "delay=5", "delay=5:2", "delay=-1:0.5", "seed=-1", "seed=1.5",
-          "power-cycle@-1", "drop=0.1,", ",", "drop=0.1,,drop=0.2", "=1", "@", "drop@1"}) {
+    for (const char* text : {"drop=",
+                             "drop=x",
+                             "drop=-0.1",
+                             "drop=nan",
+                             "delay=5",
+                             "delay=5:2",
+                             "delay=-1:0.5",
+                             "seed=-1",
+                             "seed=1.5",
+                             "power-cycle@-1",
+                             "mute-at=0:5",
+                             "mute-at=1.5:5",
+                             "state@1:70000",
+                             "dither=0.5",
+                             "drop=0.1,",
+                             ",",
+                             "drop=0.1,,drop=0.2",
+                             "=1",
+                             "@",
+                             "drop@1"}) {
         CAPTURE(text);
         CHECK_FALSE(refusal(text).empty());
     }
@@ -112,6 +177,8 @@ TEST_CASE("listen address: TCP and serial lines, and only this computer", "[driv
     const ListenAddress line = parse_listen_address("rtu:///dev/pts/3?baud=19200&parity=N&unit=17&pace=off", false);
     CHECK(line.device == "/dev/pts/3");
     CHECK(line.text() == "rtu:///dev/pts/3?baud=19200&parity=N&unit=17&pace=off");
+    CHECK(parse_listen_address("tcp://127.0.0.1:1502?unit=7", false).text() == "tcp://127.0.0.1:1502?unit=7");
+    CHECK(refused_address("tcp://127.0.0.1:1?baud=9600").find("unit alone") != std::string::npos);
     CHECK(line.character_us() == Approx(11e6 / 19200)); // two stop bits without parity
     CHECK(parse_listen_address("rtu:///dev/x?stop=1&parity=N", false).character_us() == Approx(10e6 / 115200));
     CHECK(refused_address("tcp://192.168.0.7:502").find("--allow-remote") != std::string::npos);
