@@ -67,10 +67,46 @@ bool SimulatedLine::unplugged() const noexcept {
     return any_has(wire_.unplugged, clock_.now_us());
 }
 
+bool SimulatedLine::is_silent() {
+    const std::uint64_t now_us = clock_.now_us();
+    ++wire_.requests;
+    for (const auto& [number, duration_us] : wire_.silences) {
+        wire_.silent = number == wire_.requests ? Span{now_us, now_us + duration_us} : wire_.silent;
+    }
+    return wire_.silent.has(now_us);
+}
+
+SimulatedLine::OnWay* SimulatedLine::first_before(std::uint64_t instant_us) {
+    const auto first = std::min_element(on_way_.begin(), on_way_.end(),
+                                        [](const OnWay& a, const OnWay& b) { return a.at_us < b.at_us; });
+    return first != on_way_.end() && first->at_us < instant_us ? &*first : nullptr;
+}
+
+// The first answer that comes belongs to an earlier request; ours comes behind it.
+splinefeed::hal::modbus::LinkAnswer SimulatedLine::take_other(LinkAnswer answer, const OnWay& mine,
+                                                              std::span<std::uint16_t> out) {
+    OnWay* const first = first_before(UINT64_MAX);
+    const OnWay other = std::move(*first);
+    on_way_.erase(on_way_.begin() + (first - on_way_.data()));
+    on_way_.push_back(mine);
+    if (other.unit != mine.unit) {
+        return fail(answer, LinkFault::wrong_unit, other.at_us);
+    }
+    if (other.reading != mine.reading || other.registers.size() != out.size()) {
+        return fail(answer, LinkFault::wrong_length, other.at_us);
+    }
+    clock_.sleep_until_us(other.at_us);
+    std::ranges::copy(other.registers, out.begin());
+    answer.answered_us = answer.replied_us = quiet_from_us_ = clock_.now_us();
+    answer.arrived_us = answer.sent_us;
+    return answer;
+}
+
 bool SimulatedLine::connect() noexcept {
     clock_.sleep_us(wire_.latency_us);
     connected_ = !unplugged();
     dirty_ = behind_ = false;
+    on_way_.clear();
     quiet_from_us_ = clock_.now_us();
     return connected_;
 }
@@ -101,9 +137,21 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
         answer.fault = LinkFault::disconnected;
         return answer;
     }
-    clock_.sleep_until_us(next_us());
+    const bool serial = address_.wire == Wire::rtu;
+    const bool reading = written.empty();
+    clock_.sleep_until_us(std::max(next_us(), serial && reading ? open_reads_.until_us(unit) : 0));
+    if (dirty_) {
+        std::erase_if(on_way_, [&](const OnWay& other) { return other.at_us <= clock_.now_us(); });
+    }
     dirty_ = behind_ = false;
     answer.sent_us = clock_.now_us();
+    const auto miss = [&](LinkFault fault, std::uint64_t at_us) {
+        const LinkAnswer missed = fail(answer, fault, at_us);
+        if (serial && reading) {
+            open_reads_.missed(unit, clock_.now_us());
+        }
+        return missed;
+    };
     if (unplugged()) {
         return fail(answer, LinkFault::disconnected, answer.sent_us + wire_.latency_us);
     }
@@ -111,14 +159,16 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
     const std::uint64_t deadline_us =
         answer.sent_us + timing_.answer_us + frame_us(address_, bytes.request + bytes.reply);
     const std::uint64_t latency_us = wire_.latency_us + wire_.random() % (wire_.latency_us + 1);
-    const bool serial = address_.wire == Wire::rtu;
+    if (any_has(wire_.flooded, answer.sent_us)) {
+        return fail(answer, serial ? LinkFault::corrupt : LinkFault::disconnected, deadline_us);
+    }
     const bool damages_request = happens(wire_.faults.corrupt) && !out.empty();
     clock_.sleep_until_us(answer.sent_us + frame_us(address_, bytes.request) + latency_us / 2);
     const std::uint64_t now_us = clock_.now_us();
     const auto found = wire_.stations.find(unit);
-    if (found == wire_.stations.end() || found->second->is_mute(now_us) || unplugged() ||
+    if (is_silent() || found == wire_.stations.end() || found->second->is_mute(now_us) || unplugged() ||
         happens(wire_.faults.lost_request) || (serial && damages_request && wire_.random() % 2 == 0)) {
-        return fail(answer, LinkFault::timeout, deadline_us);
+        return miss(LinkFault::timeout, deadline_us);
     }
     if (!serial && damages_request && written.size() >= block_registers) {
         written[wire_.random() % written.size()] ^= static_cast<std::uint16_t>(1U << wire_.random() % 16);
@@ -129,7 +179,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
     if (const std::uint64_t thaws_us = station.thaws_us(now_us); thaws_us != 0) {
         station.postpone(thaws_us,
                          [&station, does, read]() mutable { static_cast<void>(does(station.model(), read)); });
-        return fail(answer, LinkFault::timeout, deadline_us);
+        return miss(LinkFault::timeout, deadline_us);
     }
     station.advance(now_us);
     const bool busy = happens(wire_.faults.exception);
@@ -139,8 +189,29 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
     }
     const std::uint64_t late_us = happens(wire_.faults.late) ? wire_.random() % wire_.faults.late_us : 0;
     const std::uint64_t answers_us = now_us + latency_us / 2 + frame_us(address_, bytes.reply) + late_us;
-    if (answers_us > deadline_us || happens(wire_.faults.lost_answer)) {
+    if (happens(wire_.faults.lost_answer) || happens(wire_.faults.broken)) {
+        return miss(LinkFault::timeout, deadline_us);
+    }
+    const OnWay mine{answers_us, unit, reading, read};
+    if (serial && exception == ModbusException::none) {
+        if (first_before(std::min(answers_us, deadline_us)) != nullptr) {
+            LinkAnswer other = take_other(answer, mine, out);
+            if (!other.ok() && reading) {
+                open_reads_.missed(unit, clock_.now_us());
+            }
+            return other;
+        }
+        if (answers_us > deadline_us || happens(wire_.faults.foreign)) {
+            on_way_.push_back(mine);
+            return answers_us > deadline_us ? miss(LinkFault::timeout, deadline_us)
+                                            : miss(LinkFault::wrong_unit, answers_us);
+        }
+    }
+    if (answers_us > deadline_us) {
         return fail(answer, LinkFault::timeout, deadline_us);
+    }
+    if (!serial && happens(wire_.faults.foreign)) {
+        return fail(answer, LinkFault::wrong_length, answers_us);
     }
     if (exception != ModbusException::none) {
         answer.exception = static_cast<std::uint8_t>(exception);
@@ -150,6 +221,9 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
         return fail(answer, LinkFault::corrupt, answers_us);
     }
     clock_.sleep_until_us(answers_us);
+    if (!reading) {
+        open_reads_.answered(unit);
+    }
     answer.answered_us = quiet_from_us_ = clock_.now_us();
     answer.arrived_us = answer.sent_us + frame_us(address_, bytes.request);
     answer.replied_us = answer.answered_us - frame_us(address_, bytes.reply);

@@ -5,6 +5,7 @@
 
 #include "host_sim/drive/drive_model.hpp"
 #include "splinefeed/hal/modbus/link/modbus_line.hpp"
+#include "splinefeed/hal/modbus/link/open_reads.hpp"
 
 #include <deque>
 #include <map>
@@ -31,6 +32,8 @@ struct LineFaults {
     double stale = 0.0;     ///< an earlier answer comes instead
     double late = 0.0;      ///< the answer is late, by up to late_us
     std::uint64_t late_us = 100'000;
+    double broken = 0.0;  ///< the answer breaks off, or its bytes come so slowly that it is not whole in time
+    double foreign = 0.0; ///< a frame of another exchange comes before the answer
 };
 
 /// A drive on a line: its own clock, and when it does not answer.
@@ -66,8 +69,13 @@ struct SimulatedWire {
     std::map<int, Station*> stations; ///< by unit
     LineFaults faults;
     splinefeed::host::ModbusException exception = splinefeed::host::ModbusException::busy;
-    Span faults_at{0, UINT64_MAX};  ///< when they may happen
-    std::vector<Span> unplugged;    ///< nobody is connected
+    Span faults_at{0, UINT64_MAX}; ///< when they may happen
+    std::vector<Span> unplugged;   ///< nobody is connected
+    std::vector<Span> flooded;     ///< bytes come without an end
+    /// From the request of that number on, counted from 1, none is heard for so long: {number, us}
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> silences;
+    std::uint64_t requests = 0;
+    Span silent{0, 0};              ///< at present
     std::uint64_t latency_us = 200; ///< there and back, beyond the line's rate; up to twice that
     std::uint64_t hiccups = 0;      ///< faults that happened
     std::mt19937_64 random{1};
@@ -93,6 +101,7 @@ public:
                         std::span<std::uint16_t> out) noexcept override;
     void resynchronise() noexcept override { behind_ = address_.wire == splinefeed::hal::modbus::Wire::rtu; }
     [[nodiscard]] std::uint64_t next_us() const noexcept override;
+    [[nodiscard]] std::uint64_t read_from_us(int unit) const noexcept override { return open_reads_.until_us(unit); }
     [[nodiscard]] const LinkAddress& address() const noexcept override { return address_; }
     [[nodiscard]] splinefeed::hal::Clock& clock() const noexcept override { return clock_; }
 
@@ -105,6 +114,16 @@ private:
                         const std::function<Effect(Registers)>& effect);
     [[nodiscard]] bool happens(double probability);
     [[nodiscard]] bool unplugged() const noexcept;
+    [[nodiscard]] bool is_silent();
+    /// An answer on its way to us: to a request that was given up.
+    struct OnWay {
+        std::uint64_t at_us = 0;
+        int unit = 0;
+        bool reading = false;
+        Registers registers;
+    };
+    [[nodiscard]] OnWay* first_before(std::uint64_t instant_us);
+    LinkAnswer take_other(LinkAnswer answer, const OnWay& mine, std::span<std::uint16_t> out);
     LinkAnswer fail(LinkAnswer answer, splinefeed::hal::modbus::LinkFault fault, std::uint64_t at_us) noexcept;
 
     SimulatedWire& wire_;
@@ -116,6 +135,8 @@ private:
     bool dirty_ = false;
     bool behind_ = false;
     std::map<std::pair<int, std::size_t>, Registers> earlier_; // answers, by unit and size
+    std::vector<OnWay> on_way_;                                // on a serial line
+    splinefeed::hal::modbus::OpenReads open_reads_;
 };
 
 } // namespace splinefeed_test

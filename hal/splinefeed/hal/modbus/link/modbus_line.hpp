@@ -86,6 +86,10 @@ public:
     /// When a request made now would be sent, after the required silence. [us]
     [[nodiscard]] virtual std::uint64_t next_us() const noexcept = 0;
 
+    /// A reading of that unit before this instant waits until then: an answer to an earlier one may still come, and a
+    /// serial frame does not show to which reading it belongs. Who has others to speak to asks later. [us]
+    [[nodiscard]] virtual std::uint64_t read_from_us(int /*unit*/) const noexcept { return 0; }
+
     [[nodiscard]] virtual const LinkAddress& address() const noexcept = 0;
     /// Clock of the line and of everything on it; outlives the line.
     [[nodiscard]] virtual Clock& clock() const noexcept = 0;

@@ -169,7 +169,8 @@ void SetpointBus::read_statuses() noexcept {
     const std::size_t next = next_read_++ % drives_.size();
     for (std::size_t i = 0; i < drives_.size() && link_->connected(); ++i) {
         Slot& slot = drives_[i];
-        if (i == next || slot.stop_request.load(std::memory_order_relaxed) != StopRequest::none) {
+        const bool asked = i == next || slot.stop_request.load(std::memory_order_relaxed) != StopRequest::none;
+        if (asked && link_->clock().now_us() >= link_->read_from_us(slot.drive.unit())) {
             static_cast<void>(slot.drive.read_next());
         }
         publish_report(slot);
