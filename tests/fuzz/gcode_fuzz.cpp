@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <vector>
 
 using namespace splinefeed;
 
@@ -58,6 +59,16 @@ public:
     std::abort();
 }
 
+// Of a message or of M117, and a part of its own line: all of it is read.
+void check_text(const ProgramEvent& event, const std::string& line) {
+    const std::string text(event.text.of(line));
+    const bool has_text = event.kind == EventKind::message || event.kind == EventKind::print ||
+                          event.kind == EventKind::debug || (event.kind == EventKind::printer && event.number == 117);
+    if (text.size() != event.text.size || (!has_text && !text.empty()) || line.find(text) == std::string::npos) {
+        fail("a text that is not the event's", line);
+    }
+}
+
 template <Scalar S>
 void run(std::string_view text, const ProgramSettings& settings, bool evaluates) {
     constexpr int most_items = 400'000; // of pecks and repeats; more would only take time
@@ -75,7 +86,9 @@ void run(std::string_view text, const ProgramSettings& settings, bool evaluates)
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
         const WorkOffsets offsets = interpreter.offsets();
         const ModalState modal = interpreter.modal();
-        const BlockStatus status = interpreter.push(line, ++number);
+        std::vector<char> given(line.begin(), line.end()); // freed behind the call: nothing may refer to it then
+        const BlockStatus status = interpreter.push({given.data(), given.size()}, ++number);
+        given = {};
         if (!status.ok()) {
             if (status.column > line.size() + 1 || describe(status.error) == std::string("unknown error")) {
                 fail("a place or an error that is none", line);
@@ -88,6 +101,9 @@ void run(std::string_view text, const ProgramSettings& settings, bool evaluates)
         }
         Pull pull = Pull::item;
         while ((pull = interpreter.next(item)) == Pull::item && ++items < most_items) {
+            if (item.kind == ItemKind::event) {
+                check_text(item.event, line);
+            }
             if (item.kind != ItemKind::move) {
                 continue;
             }

@@ -219,6 +219,11 @@ TEST_CASE("Marlin's words", "[program][interpreter]") {
           "home 0 0 0 0\n" + event(EventKind::offsets_changed) +
               "\nfeed 1 0 0 2\nfeed 1 0 0 1\nfeed 2 0 0 1.5\nfeed 2 0 0 2");
     CHECK(run.text("M117 Layer 3; x") == event(EventKind::printer, " 117 0 Layer 3"));
+    // The text of a line is that line's only, and a comment's is its own event's.
+    CHECK(run.text("M117 Layer 3\nM106 S1\n(MSG,hot)\nM104 S20\n(MSG,cold) M107") ==
+          event(EventKind::printer, " 117 0 Layer 3") + "\n" + event(EventKind::printer, " 106 1") + "\n" +
+              event(EventKind::message, " 0 0 hot") + "\n" + event(EventKind::printer, " 104 20") + "\n" +
+              event(EventKind::message, " 0 0 cold") + "\n" + event(EventKind::printer, " 107 0"));
     run.run("M3 S1000");
     CHECK(run.text("G4 S2\nG4 P500\nM0 S5") == "dwell 2\ndwell 0.5\n" + event(EventKind::pause, " stop 0 0"));
     CHECK(run.interpreter().modal().speed == Decimal::from_integer(1000)); // those are seconds

@@ -84,7 +84,7 @@ TEST_CASE("A M2 is A and then M2", "[program][end][random]") {
         REQUIRE(apart.push(end).ok());
         REQUIRE(together.items().size() == apart.items().size());
         for (std::size_t i = 0; i < together.items().size(); ++i) {
-            REQUIRE(text_of(together.items()[i], 6) == text_of(apart.items()[i], 6));
+            REQUIRE(together.item_text(i, 6) == apart.item_text(i, 6));
             REQUIRE(together.items()[i].stops_before == apart.items()[i].stops_before);
             if (together.items()[i].kind == ItemKind::move) {
                 REQUIRE(together.items()[i].element.feed_mm_s == apart.items()[i].element.feed_mm_s);

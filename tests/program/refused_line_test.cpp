@@ -59,7 +59,7 @@ TEST_CASE("a refused line leaves everything as it was", "[program][refusals][ran
             REQUIRE(without.push(line).ok());
             REQUIRE(with.items().size() == without.items().size());
             for (std::size_t i = 0; i < with.items().size(); ++i) {
-                REQUIRE(text_of(with.items()[i], 6) == text_of(without.items()[i], 6));
+                REQUIRE(with.item_text(i, 6) == without.item_text(i, 6));
                 REQUIRE(with.items()[i].stops_before == without.items()[i].stops_before);
             }
             const bool contact = random.integer(0, 1) == 1;

@@ -8,7 +8,6 @@
 #include "support/catch.hpp"
 
 #include <cstdio>
-#include <deque>
 #include <map>
 #include <string>
 #include <vector>
@@ -87,8 +86,9 @@ inline double number(Decimal value) {
 }
 
 /// An item as text: "G1 1.5 0 0 F100", "rapid ...", "arc ... c ... s ...", "dwell 0.5", "event 3 1".
+/// @param line  that it came from
 template <Scalar S>
-std::string text_of(const ProgramItem<S>& item, int axes = 3) {
+std::string text_of(const ProgramItem<S>& item, int axes = 3, std::string_view line = {}) {
     const auto put = [](std::string& out, double value) {
         char text[40];
         std::snprintf(text, sizeof text, " %.7g", value == 0.0 ? 0.0 : value);
@@ -104,7 +104,7 @@ std::string text_of(const ProgramItem<S>& item, int axes = 3) {
         out = "event " + std::to_string(static_cast<int>(item.event.kind)) + (item.stops_before ? " stop" : "");
         put(out, item.event.number);
         put(out, number(item.event.value));
-        return out.append(item.event.text.empty() ? "" : " ").append(item.event.text);
+        return out.append(item.event.text.empty() ? "" : " ").append(item.event.text.of(line));
     }
     const char* const moves[] = {"feed", "rapid", "probe", "home"};
     const char* const shapes[] = {"", " arc", " bezier"};
@@ -138,7 +138,10 @@ public:
 
     BlockStatus push(const std::string& line) {
         lines_.push_back(line);
-        const BlockStatus status = interpreter_.push(lines_.back(), static_cast<std::uint32_t>(lines_.size()));
+        std::vector<char> text(line.begin(), line.end()); // freed behind the call: nothing may refer to it then
+        const BlockStatus status =
+            interpreter_.push({text.data(), text.size()}, static_cast<std::uint32_t>(lines_.size()));
+        text = {};
         ProgramItem<S> item;
         while (status.ok() && interpreter_.next(item) == Pull::item) {
             items_.push_back(item);
@@ -165,15 +168,19 @@ public:
     /// The moves, dwells and events, one a line.
     std::string text(const std::string& program, int axes = 3) {
         std::string out;
-        for (const ProgramItem<S>& item : run(program)) {
-            out += (out.empty() ? "" : "\n") + text_of(item, axes);
+        run(program);
+        for (std::size_t i = 0; i < items_.size(); ++i) {
+            out += (out.empty() ? "" : "\n") + item_text(i, axes);
         }
         return out;
     }
+    [[nodiscard]] std::string item_text(std::size_t i, int axes = 3) const {
+        return text_of(items_[i], axes, lines_[items_[i].line - 1]);
+    }
     /// The last item of a program.
     std::string last(const std::string& program, int axes = 3) {
-        const auto items = run(program);
-        return items.empty() ? "" : text_of(items.back(), axes);
+        const std::size_t count = run(program).size();
+        return count == 0 ? "" : item_text(count - 1, axes);
     }
 
     Interpreter<S>& interpreter() { return interpreter_; }
@@ -185,7 +192,7 @@ private:
     TenTools tools_;
     Expression expression_;
     Interpreter<S> interpreter_;
-    std::deque<std::string> lines_; // texts that events refer to stay where they are
+    std::vector<std::string> lines_;
     std::vector<ProgramItem<S>> items_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "splinefeed/s0_program/block_status.hpp"
 #include "splinefeed/s0_program/code_table.hpp"
+#include "splinefeed/s0_program/text_part.hpp"
 
 #include <array>
 #include <string_view>
@@ -22,6 +23,7 @@ public:
         present_ = 0;
         codes_.fill(no_code);
         comment_ = CommentKind::none;
+        text_ = {};
     }
 
     void set(char letter, Decimal value, std::size_t column) noexcept {
@@ -44,13 +46,13 @@ public:
     [[nodiscard]] std::int16_t code(CodeGroup group) const noexcept { return codes_[static_cast<unsigned>(group)]; }
     [[nodiscard]] bool has(CodeGroup group) const noexcept { return code(group) != no_code; }
 
-    void set_comment(CommentKind kind, std::string_view text) noexcept {
+    void set_comment(CommentKind kind, TextPart text) noexcept {
         comment_ = kind;
         text_ = text;
     }
     [[nodiscard]] CommentKind comment() const noexcept { return comment_; }
     /// Of the comment, or of M117.
-    [[nodiscard]] std::string_view text() const noexcept { return text_; }
+    [[nodiscard]] TextPart text() const noexcept { return text_; }
 
     /// An error at a word of the block.
     [[nodiscard]] BlockStatus at(Error error, char letter) const noexcept {
@@ -81,7 +83,7 @@ private:
     std::array<std::uint8_t, 26> columns_{}; // from 0
     std::array<std::int16_t, code_groups> codes_{};
     std::array<std::uint8_t, code_groups> code_columns_{};
-    std::string_view text_{};
+    TextPart text_{};
 };
 
 } // namespace splinefeed

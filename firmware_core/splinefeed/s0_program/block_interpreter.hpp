@@ -35,8 +35,9 @@ public:
     [[nodiscard]] const WorkOffsets& offsets() const noexcept { return frame_.offsets(); }
     [[nodiscard]] const ModalState& modal() const noexcept { return modal_; }
 
-    /// Executes a line. After an error nothing of the line has happened, and the next line may follow. The text must
-    /// live until the next push(): messages refer to it. @pre next() has returned starved, else: block_pending
+    /// Executes a line. After an error nothing of the line has happened, and the next line may follow. Nothing
+    /// refers to the text after the call; an event says which part of it is its own. @pre next() has returned starved,
+    /// else: block_pending
     /// @param line_number  of the source, for the items
     /// Cost, with the items: about 0.25 us on x86-64 for a line, 0.5 us for an arc (bench/gcode_bench); on a Cortex-M4F
     /// 5,000 to 6,000 instructions for a line, 14,000 for an arc (tests/arm/gcode_proof.sh).

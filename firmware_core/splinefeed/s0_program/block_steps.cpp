@@ -71,7 +71,7 @@ void fill_printer(const Block& block, ProgramEvent& event) noexcept {
     event.stops = event.number == 109 || event.number == 190 || event.number == 191 || event.number == 400 ||
                   event.number == 84 || event.number == 18;
     event.value = block.value(block.has('s') ? 's' : 'r');
-    event.text = block.text();
+    event.text = event.number == 117 ? block.text() : TextPart{}; // beside the others a comment is its own event
 }
 
 } // namespace

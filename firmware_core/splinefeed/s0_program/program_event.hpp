@@ -3,8 +3,7 @@
 #pragma once
 
 #include "splinefeed/s0_program/decimal.hpp"
-
-#include <string_view>
+#include "splinefeed/s0_program/text_part.hpp"
 
 namespace splinefeed {
 
@@ -51,8 +50,8 @@ struct ProgramEvent {
     bool analog = false; ///< input_wait: E instead of P
     InputWait wait = InputWait::now;
     std::int32_t number = 0;
-    Decimal value{};         ///< input_wait: the time-out [s]
-    std::string_view text{}; ///< part of the line that was pushed: it is gone with that line
+    Decimal value{}; ///< input_wait: the time-out [s]
+    TextPart text{}; ///< of messages and of M117: `text.of(line)`, with the line that was pushed
 };
 
 } // namespace splinefeed

@@ -2,6 +2,8 @@
 // TextCursor: a place in a line of a program.
 #pragma once
 
+#include "splinefeed/s0_program/text_part.hpp"
+
 #include <cstdint>
 #include <string_view>
 
@@ -59,6 +61,10 @@ public:
     /// A part of the line, without the checks of std::string_view::substr, which throws. @pre begin <= end <= its size
     [[nodiscard]] constexpr std::string_view part(std::size_t begin, std::size_t end) const noexcept {
         return {text_.data() + begin, end - begin};
+    }
+    /// The same part by its place. @pre the line has at most 65535 characters
+    [[nodiscard]] static constexpr TextPart place(std::size_t begin, std::size_t end) noexcept {
+        return {static_cast<std::uint16_t>(begin), static_cast<std::uint16_t>(end - begin)};
     }
     /// Where the character is next, from `from` on; the end of the line if nowhere.
     [[nodiscard]] constexpr std::size_t find(char c, std::size_t from) const noexcept {

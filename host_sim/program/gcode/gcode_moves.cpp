@@ -242,7 +242,7 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
     out.action.kind = event.kind;
     out.action.number = event.number;
     out.action.value = number_of(event.value);
-    out.action.text.assign(event.text);
+    out.action.text.assign(event.text.of(line_.text));
     out.action.spindle.reset();
     if (ProgramSpindle::is_of(event.kind)) {
         take_spindle(out, event.kind);
