@@ -64,3 +64,20 @@ TEMPLATE_TEST_CASE("a parabola of v^2 takes the integral of ds / v, to each of i
         }
     }
 }
+
+TEMPLATE_TEST_CASE("a length of 0 takes no time, and neither does one without digits for its speeds",
+                   "[stream][motion]", double, float, Fixed) {
+    using S = TestType;
+    const S one = from_integer<S>(1);
+    const auto duration = [&](S from, S entry_sq, S exit_sq) {
+        const ProfileSegment<S> segment{{from, one}, entry_sq, exit_sq};
+        return ProfileMotion<S>(segment, one, from_integer<S>(1000)).duration();
+    };
+    for (const S entry_sq : {S{}, one}) {
+        for (const S exit_sq : {S{}, one}) {
+            REQUIRE(duration(one, entry_sq, exit_sq) == S{});
+        }
+    }
+    REQUIRE(duration(S{}, S{}, S{}) == S{});
+    REQUIRE(duration(S{}, one, one) == from_integer<S>(1000));
+}

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Line: with constant acceleration the mean speed is (v0 + v1) / 2, so T = 2 L / (v0 + v1) (ds / v is not integrated).
-// After the time y T the distance is L y (l + (1 - l) y), l = 2 v0 / (v0 + v1).
+// After the time y T the distance is L y (l + (1 - l) y), l = 2 v0 / (v0 + v1). A length of 0 takes no time, whatever
+// the speeds; neither does one that is so short that both speeds have no digits (FeedPlan::forward_step).
 //
 // Parabola: lengths are in units of the profile segment's length L, speeds in units of V, times in units of L / V. With
 // v^2 = e^2 + 2 p s + c s^2 the motion satisfies s'' = p + c s, s(0) = 0, s'(0) = e. The solution is
@@ -78,9 +79,13 @@ ProfileMotion<S>::ProfileMotion(const ProfileSegment<S>& profile_segment, S cell
     const S v0 = square_root(profile_segment.entry_sq);
     const S v1 = square_root(profile_segment.exit_sq);
     if (shape_ == SpeedShape::line) {
-        duration_ = quotient_or_max((length + length) * per_s, v0 + v1);
+        const S sum = v0 + v1;
+        if (!(length > S{}) || !(sum > S{})) {
+            return;
+        }
+        duration_ = quotient_or_max((length + length) * per_s, sum);
         by_duration_ = DivisionBy<S>(duration_);
-        linear_ = quotient_or_max(v0 + v0, v0 + v1);
+        linear_ = quotient_or_max(v0 + v0, sum);
         quadratic_ = one - linear_;
         return;
     }

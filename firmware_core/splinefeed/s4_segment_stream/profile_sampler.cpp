@@ -181,19 +181,19 @@ bool ProfileSampler<S>::arrive() noexcept {
     if (elapsed_ + early < motion_.duration()) {
         return false;
     }
-    if (!bound_to_place && elapsed_ < motion_.duration()) {
-        const S x = fraction_at(elapsed_);
-        cell.position_at(x, position_);
+    const S end = profile_segment.stretch.to;
+    const S x = !bound_to_place && elapsed_ < motion_.duration() ? smaller(fraction_at(elapsed_), end) : end;
+    PerAxis<Position> stop = cell.end;
+    if (!cell.stop_at_end || !(x == from_integer<S>(1))) {
+        cell.position_at(x, stop);
+    }
+    if (bound_to_place && elapsed_ + literal<S>(arrival) < motion_.duration() && !may_arrive_at(stop)) {
+        return false;
+    }
+    position_ = stop;
+    if (x < end) {
         plan_->rest_at(x);
-    } else {
-        PerAxis<Position> stop = cell.end;
-        if (!cell.stop_at_end || !(profile_segment.stretch.to == from_integer<S>(1))) {
-            cell.position_at(profile_segment.stretch.to, stop);
-        }
-        if (elapsed_ + literal<S>(arrival) < motion_.duration() && !may_arrive_at(stop)) {
-            return false;
-        }
-        position_ = stop;
+    } else { // also where a place before it is rounded to it: behind the end there is nothing to continue on
         plan_->advance();
     }
     rest();

@@ -279,6 +279,9 @@ bool FeedPlan<S>::replan(WorkBudget& work) noexcept {
 
 template <Scalar S>
 bool FeedPlan<S>::steer(const Place<S>& place) noexcept {
+    if (!(place.fraction < profile_segment_.stretch.to)) {
+        return false; // nothing of it is left to be travelled in another way
+    }
     const bool whole_path = profile_segment_.stretch.to == from_integer<S>(1);
     const S known = whole_path ? profile_segment_.exit_sq : from_integer<S>(-1);
     at_ = place.fraction;
@@ -292,17 +295,19 @@ bool FeedPlan<S>::steer(const Place<S>& place) noexcept {
 
 template <Scalar S>
 void FeedPlan<S>::advance() noexcept {
+    const S exit_sq = profile_segment_.exit_sq; // a pass for the steering may have given the cell another one
     if (profile_segment_.stretch.to == from_integer<S>(1)) {
         pop();
-        return;
+    } else {
+        at_ = profile_segment_.stretch.to;
+        chosen_ = false;
     }
-    at_ = profile_segment_.stretch.to;
-    speed_sq_ = profile_segment_.exit_sq;
-    chosen_ = false;
+    speed_sq_ = profile_segment_.stops ? S{} : exit_sq;
 }
 
 template <Scalar S>
 void FeedPlan<S>::rest_at(S fraction) noexcept {
+    SPLINEFEED_ASSERT(fraction < profile_segment_.stretch.to);
     at_ = fraction;
     speed_sq_ = S{};
     chosen_ = false;

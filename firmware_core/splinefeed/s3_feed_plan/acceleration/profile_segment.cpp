@@ -23,8 +23,9 @@ constexpr double step = 0.25;
 // 2^-28 of the longest cell is 6e-8 mm.
 constexpr int most_halvings = 28;
 
-// If the rest of a cell is shorter than this fraction, the profile segment before it includes it: its length would have
-// few digits.
+// If the rest of a cell is shorter than this fraction of it, the profile segment before it includes it: its length
+// would have few digits. A stop counts from where the machine is: else one that begins in that rest would coast to the
+// end.
 constexpr double negligible_part = 1.0 / 1024.0;
 
 template <Scalar S>
@@ -76,7 +77,8 @@ ProfileSegment<S> steered_segment(const Cell<S>& cell, const MotionLimits<S>& li
     const S last = one - literal<S>(negligible_part);
     if (aim.rest || aim.entry_sq > aim.max_steady_sq) {
         Change<S> change = hardest_change(cell, limits, aim, aim.rest ? S{} : aim.max_steady_sq);
-        if (change.reached && change.profile_segment.stretch.to < last) {
+        const S last_stop = aim.rest ? one - (one - aim.from) * literal<S>(negligible_part) : last;
+        if (change.reached && change.profile_segment.stretch.to < last_stop) {
             change.profile_segment.stops = aim.rest;
             return change.profile_segment;
         }

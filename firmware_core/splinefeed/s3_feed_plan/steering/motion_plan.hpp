@@ -66,7 +66,8 @@ public:
     [[nodiscard]] const ProfileSegment<S>& profile_segment() const noexcept { return profile_segment_; }
     /// The profile segment is done; go on to the next one.
     virtual void advance() noexcept = 0;
-    /// The machine stopped at this fraction of the cell, on its last profile segment.
+    /// The machine stopped at this fraction of the cell, on its last profile segment. @pre before the segment's end: at
+    /// the end it is advance()
     virtual void rest_at(S fraction) noexcept = 0;
 
     [[nodiscard]] Steering<S>& steering() noexcept { return steering_; }
@@ -75,7 +76,8 @@ public:
     /// that cannot be computed in parts has nothing to do here.
     virtual bool replan(WorkBudget& /*work*/) noexcept { return true; }
     /// Applies a change of the steering at once, from where the machine is on its profile segment. Without this call
-    /// the change applies from the next profile segment on. false: the profile segment stays as it is.
+    /// the change applies from the next profile segment on. false: the profile segment stays as it is, for instance
+    /// where the place is its end, to rounding.
     /// @pre the last replan() answered true
     virtual bool steer(const Place<S>& place) noexcept = 0;
     /// Whether the machine stands where its last profile segment ended.
