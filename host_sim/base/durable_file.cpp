@@ -4,13 +4,16 @@
 #include "host_sim/base/output_file.hpp"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -46,6 +49,32 @@ std::string file_of(const std::string& name) {
     fail(name, ELOOP);
 }
 
+/// A new file beside the path. A name that cannot be known before, and O_EXCL: nobody can have put a link or a file of
+/// theirs there.
+struct AsideFile {
+    std::string name;
+    int descriptor;
+};
+
+AsideFile make_aside(const std::string& path) {
+    constexpr int most_tries = 100;
+    for (int i = 0; i < most_tries; ++i) {
+        std::uint64_t number = 0;
+        if (::getrandom(&number, sizeof number, 0) != sizeof number) {
+            fail(path, errno);
+        }
+        std::string name = fmt::format("{}.{:016x}.tmp", path, number);
+        const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (descriptor >= 0) {
+            return {std::move(name), descriptor};
+        }
+        if (errno != EEXIST) {
+            break;
+        }
+    }
+    fail(path, errno);
+}
+
 } // namespace
 
 // A symbolic link stays one, and the file keeps its permissions.
@@ -53,11 +82,7 @@ void replace_durably(const std::string& name, std::string_view text) {
     const std::string path = file_of(name);
     struct stat old {};
     const bool exists = ::stat(path.c_str(), &old) == 0;
-    const std::string aside = path + ".new";
-    const int file = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0) {
-        fail(path, errno);
-    }
+    const auto [aside, file] = make_aside(path);
     if (exists) {
         static_cast<void>(::fchmod(file, old.st_mode & 07777)); // best effort
     }
@@ -69,7 +94,9 @@ void replace_durably(const std::string& name, std::string_view text) {
         fail(path, error);
     }
     if (std::rename(aside.c_str(), path.c_str()) != 0) {
-        fail(path, errno);
+        const int why = errno;
+        ::unlink(aside.c_str());
+        fail(path, why);
     }
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const int folder = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -7,8 +7,8 @@
 
 namespace splinefeed::host {
 
-/// Writes a file beside it (of a symbolic link: beside what it names), forces it to the disk, and renames it. Throws
-/// OutputError; the old file is then unchanged. Cost: two waits for the disk.
+/// Writes a new file beside it (of a symbolic link: beside what it names), forces it to the disk, and renames it. No
+/// other file is touched. Throws OutputError; the old file is then unchanged. Cost: two waits for the disk.
 void replace_durably(const std::string& name, std::string_view text);
 
 } // namespace splinefeed::host

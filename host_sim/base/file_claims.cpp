@@ -32,8 +32,9 @@ struct Identity {
 
 struct Claim {
     Identity identity;
-    std::string name; ///< as it was given
-    int kept = -1;    ///< an input's descriptor; of an output there is none
+    std::string name;   ///< as it was given
+    int kept = -1;      ///< an input's descriptor; of an output there is none
+    bool state = false; ///< an output that is read before
 };
 
 struct Claims {
@@ -106,7 +107,7 @@ void FileClaims::reads(int descriptor, const std::string& name) {
         if (!(claim.identity == *identity)) {
             continue;
         }
-        if (claim.kept >= 0) {
+        if (claim.kept >= 0 || (claim.state && claim.name == name)) {
             return; // read once more
         }
         throw InputError(name, 0,
@@ -118,6 +119,14 @@ void FileClaims::reads(int descriptor, const std::string& name) {
 }
 
 void FileClaims::writes(const std::string& path) {
+    claim_output(path, false);
+}
+
+void FileClaims::keeps(const std::string& path) {
+    claim_output(path, true);
+}
+
+void FileClaims::claim_output(const std::string& path, bool state) {
     Claims& known = claims();
     const std::lock_guard lock(known.mutex);
     const std::optional<Identity> identity = known.active ? identity_at(path) : std::nullopt;
@@ -140,7 +149,7 @@ void FileClaims::writes(const std::string& path) {
         throw OutputError(fmt::format("{}: it is the same file as the output {}; give each its own", output,
                                       shown(claim.name, "on standard output")));
     }
-    known.all.push_back({*identity, path, -1});
+    known.all.push_back({*identity, path, -1, state});
 }
 
 bool FileClaims::is_input(const std::string& path) noexcept {

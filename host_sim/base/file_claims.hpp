@@ -24,8 +24,13 @@ public:
     /// Records the path of an output, which need not exist yet; "-" is standard output. Throws OutputError if it is an
     /// input or another output.
     static void writes(const std::string& path);
+    /// As writes(), for a file that is read before it is replaced, by the same name.
+    static void keeps(const std::string& path);
     /// Whether an input has appeared at this path since. Call it before the output replaces the file.
     [[nodiscard]] static bool is_input(const std::string& path) noexcept;
+
+private:
+    static void claim_output(const std::string& path, bool state);
 };
 
 } // namespace splinefeed::host

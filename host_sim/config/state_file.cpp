@@ -134,9 +134,10 @@ bool is_there(const std::string& path) {
 
 std::optional<MachineState> read_state_file(const std::string& path, const std::vector<std::string>& axes) {
     if (!is_there(path)) {
-        FileClaims::writes(path); // no other output may be the state that comes to be
+        FileClaims::keeps(path); // no other output may be the state that comes to be
         return std::nullopt;
     }
+    FileClaims::keeps(path);
     const nlohmann::json json = parse_json(read_text_file(path, largest_file), path);
     const StateReader reader(json, path, axes.size());
     if (reader.member(json, "axes") != nlohmann::json(axes)) {

@@ -19,7 +19,6 @@ const char* fault_name(FaultKind kind) noexcept {
     case FaultKind::travel_end: return "travel end";
     case FaultKind::travel: return "travel";
     case FaultKind::underrun: return "underrun";
-    case FaultKind::trace: return "trace";
     }
     return "unknown";
 }
@@ -55,7 +54,6 @@ std::string describe(const Fault& fault, const std::string& place) {
     case FaultKind::underrun:
         what = fmt::format("the segments ran out while the machine moved at {:.6g} mm/s", fault.value);
         break;
-    case FaultKind::trace: what = "the trace could not be written"; break;
     }
     return fmt::format("{}, at t = {:.6f} s near {}", what, fault.time_s,
                        place.empty() ? fmt::format("waypoint {}", fault.waypoint) : place);

@@ -18,7 +18,6 @@ enum class FaultKind : std::uint8_t {
     travel,
     travel_end, ///< too fast near an end of the travel
     underrun,   ///< the queue ran empty in motion
-    trace,      ///< the trace could not be written; finish() throws the reason
 };
 
 /// The name of the kind: "chain", "velocity", ...

@@ -75,13 +75,7 @@ bool SimulatedMachine::do_submit(const FeedSegment& segment) noexcept {
 hal::PortState SimulatedMachine::do_poll() noexcept {
     if (!fault_ && !halted_) {
         if (queued_ > 0) {
-            const FeedSegment& segment = queue_[head_];
-            try {
-                execute(segment);
-            } catch (...) {
-                trace_failure_ = std::current_exception();
-                fail(FaultKind::trace, no_axis, cycle_time_s(), 0.0, 0.0, "", segment.waypoint);
-            }
+            execute(queue_[head_]);
             head_ = ring_index(head_ + 1, queue_.size());
             --queued_;
         } else if (moving()) {
@@ -101,11 +95,11 @@ void SimulatedMachine::do_halt() noexcept {
 }
 
 void SimulatedMachine::finish() {
-    if (trace_failure_) {
-        std::rethrow_exception(trace_failure_);
-    }
     if (!fault_ && untraced_ > 0) {
         trace_row();
+    }
+    if (trace_failure_) {
+        std::rethrow_exception(trace_failure_);
     }
 }
 
@@ -133,10 +127,16 @@ PerAxis<double> SimulatedMachine::position_mm() const noexcept {
     return position;
 }
 
-void SimulatedMachine::trace_row() {
+void SimulatedMachine::trace_row() noexcept {
     untraced_ = 0;
-    if (options_.trace != nullptr) {
+    if (options_.trace == nullptr) {
+        return;
+    }
+    try {
         options_.trace->row(elapsed_ticks_, position_mm(), path_speed());
+    } catch (...) {
+        trace_failure_ = std::current_exception();
+        options_.trace = nullptr;
     }
 }
 

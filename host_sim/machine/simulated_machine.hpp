@@ -65,6 +65,8 @@ public:
     /// after a fault), and throws what the trace sink threw.
     void finish();
 
+    /// What the trace sink threw; null: nothing. The machine goes on without it.
+    [[nodiscard]] const std::exception_ptr& trace_failure() const noexcept { return trace_failure_; }
     [[nodiscard]] const std::optional<Fault>& fault() const noexcept { return fault_; }
     [[nodiscard]] const LimitUse& use(int axis) const noexcept { return use_[static_cast<unsigned>(axis)]; }
     [[nodiscard]] double max_path_speed_mm_s() const noexcept { return max_path_speed_; }
@@ -102,7 +104,7 @@ private:
     bool check_travel(const Motion& motion, unsigned k, std::int64_t position, double u);
     bool fail(FaultKind kind, unsigned axis, double time_s, double value, double limit, const char* unit,
               std::uint32_t waypoint);
-    void trace_row();
+    void trace_row() noexcept;
 
     MachineDescription description_;
     PerAxis<AxisAllowance> axis_{};

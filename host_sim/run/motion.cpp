@@ -25,18 +25,17 @@ Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& de
                   const MotionLimits<S>& limits, PathInput& input, const PathLimits& path_limits, Outputs& outputs,
                   Supervision* target)
     : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), limits_(&limits),
-      input_(&input), outputs_(&outputs), state_(arguments.state), kept_(arguments.begins), report_(arguments.report),
-      target_(target), deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>),
-      exact_stop_(description.settings), optimum_(description.settings, to_double(limits.refinement.direction_jump)),
-      share_(description.settings), steps_(limits, !arguments.quiet, target, arguments.terminal),
-      program_(outputs.elements(), arguments.report), feeder_(input),
-      tee_(feeder_, input.name(),
-           {.limits = &path_limits,
-            .writer = outputs.curve(),
-            .error = &error_,
-            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
-            .optimum = &optimum_,
-            .share = &share_}),
+      input_(&input), outputs_(&outputs), state_(arguments.state), report_(arguments.report), target_(target),
+      deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>), exact_stop_(description.settings),
+      optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
+      steps_(limits, !arguments.quiet, target, arguments.terminal), program_(outputs.elements(), arguments.report),
+      feeder_(input), tee_(feeder_, input.name(),
+                           {.limits = &path_limits,
+                            .writer = outputs.curve(),
+                            .error = &error_,
+                            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
+                            .optimum = &optimum_,
+                            .share = &share_}),
       planner_(tee_, limits, arguments.window_cells), trajectory_(planner_.trajectory()),
       machine_(description, limits.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
       events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {}
@@ -246,8 +245,12 @@ void Motion<S>::read() {
 
 template <Scalar S>
 bool Motion<S>::execute(FeedSegment& segment) {
-    segment.index = segments_++; // standstill before the first move is none of the trajectory's
-    outputs_->segment(segment);
+    segment.index = segments_; // standstill before the first move is none of the trajectory's
+    try {
+        outputs_->segment(segment);
+    } catch (const OutputError&) {
+        failure_ = std::current_exception(); // the drives need it all the same
+    }
     bool rest = trajectory_.activity() == Activity::running;
     bool moves = false;
     bool ends_in_motion = false;
@@ -268,8 +271,10 @@ bool Motion<S>::execute(FeedSegment& segment) {
         stopped_ = target_->ending();
         return false;
     }
+    ++segments_;
     moves_ = ends_in_motion;
-    return true;
+    failure_ = failure_ ? failure_ : machine_.trace_failure();
+    return !failure_;
 }
 
 // Moves of a program that the path follows within a tolerance.

@@ -29,9 +29,9 @@ struct MotionArguments {
     std::string events;              ///< file of an operator's actions; empty: none
     bool enforce = true;             ///< the simulated machine stops if a limit is broken
     bool quiet = false;              ///< writes nothing on standard error
-    std::string state;               ///< file that keeps offsets and position; empty: none
     int terminal = -1;               ///< of a user who is asked to go on; -1: none
     MachineState begins;             ///< as the run begins
+    StateKeeper* state = nullptr;    ///< of offsets and position; null: nothing keeps them
     ProgramReport* report = nullptr; ///< gets the moves of a program and their times; null: nobody does
 };
 
@@ -77,12 +77,14 @@ private:
     bool stand();
     [[nodiscard]] bool dwell(FeedSegment& segment);
     bool execute(FeedSegment& segment);
+    [[nodiscard]] bool come_to_rest(const std::string& broken);
+    void require_end();
+    [[noreturn]] void fail() const;
     void keep_failure(const std::exception_ptr& failure);
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
     void pass(std::uint32_t row);
     void come_to(std::uint64_t line);
     void keep_state();
-    void keep_places();
     void require_tolerance();
     [[nodiscard]] std::string excess() const;
     [[nodiscard]] ToleranceSummary tolerance_summary() const;
@@ -94,8 +96,7 @@ private:
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
-    std::string state_; // file; empty: none
-    MachineState kept_; // what it has
+    StateKeeper* state_; // null: nothing is kept
     ProgramReport* report_;
     Supervision* target_; // null: only the simulated machine
     WaypointError error_;
@@ -114,6 +115,7 @@ private:
     std::size_t operated_ = 0; // events that have acted so far
     Clock::duration planning_{};
     std::string stopped_;              // why the run stopped before its end
+    std::exception_ptr failure_;       // of an output or of the program itself; it ends the run
     std::optional<std::uint32_t> row_; // of the last segment
     std::uint64_t passed_ = 0;         // moves up to it, of a program
     std::uint64_t line_ = 0;           // of that row or of the dwell behind it, of a program; 0: unknown

@@ -14,13 +14,62 @@ template <Scalar S>
 std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     try {
         execute_all(waypoints);
-    } catch (const OutputError& error) {
-        if (target_ == nullptr || segments_ == 0) {
-            throw;
+    } catch (...) {
+        failure_ = std::current_exception();
+    }
+    std::string broken;
+    if (const auto& fault = machine_.fault()) {
+        Fault whole = *fault;
+        whole.waypoint = feeder_.whole_row(static_cast<std::uint32_t>(fault->waypoint));
+        const auto row = static_cast<std::uint32_t>(whole.waypoint);
+        broken =
+            describe(whole, input_->within_tolerance() && !input_->lines_within_tolerance() ? feeder_.name_of_row(row)
+                                                                                            : std::string());
+    }
+    const bool executed = target_ == nullptr || come_to_rest(broken);
+    require_end();
+    stopped_ = broken.empty() ? stopped_ : broken;
+    if (executed) {
+        keep_state();
+        return stopped_.empty() ? stopped_ : stopped_ + (target_ != nullptr ? target_->where() : where());
+    }
+    return target_->ending();
+}
+
+// The drives come to rest on the path, whatever ended the run: by the plan where it is sound, without outputs and
+// without a look at the input; else by themselves. Whether all that was planned is executed.
+// @param broken  what the simulated machine says is wrong with the plan
+template <Scalar S>
+bool Motion<S>::come_to_rest(const std::string& broken) {
+    const bool held = failure_ != nullptr && broken.empty() && moves_;
+    if (held) {
+        trajectory_.hold();
+    }
+    FeedSegment segment;
+    while (held && moves_ && trajectory_.next(segment, UnderrunPolicy::drain) == Pull::item &&
+           machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault &&
+           target_->submit(segment, line_)) {
+        ++segments_;
+        moves_ = std::ranges::any_of(segment.end_velocity, [](std::int64_t v) { return v != 0; });
+    }
+    if (!broken.empty()) {
+        target_->stop(broken);
+    }
+    return target_->finish();
+}
+
+// What went wrong beside the motion. Before the first move it is thrown; after it, it is why the machine stopped.
+template <Scalar S>
+void Motion<S>::require_end() {
+    if (failure_ == nullptr) {
+        try {
+            machine_.finish(); // the last row of the trace
+        } catch (const OutputError&) {
+            failure_ = std::current_exception();
         }
-        // Nobody would know where the drives are: they come to rest at the end of what they have.
-        static_cast<void>(target_->finish());
-        throw OutputError(error.what() + target_->where());
+    }
+    if (failure_) {
+        fail();
     }
     if (tee_.failure()) {
         keep_failure(tee_.failure());
@@ -32,59 +81,40 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
     } else if (trajectory_.activity() == Activity::held && trajectory_.state() == Pull::held && !held_by_target_) {
         stopped_ = "held, and no event resumes it";
     }
-    machine_.finish();
     optimum_.finish();
     require_tolerance();
-    if (const auto& fault = machine_.fault()) {
-        Fault whole = *fault;
-        whole.waypoint = feeder_.whole_row(static_cast<std::uint32_t>(fault->waypoint));
-        const auto row = static_cast<std::uint32_t>(whole.waypoint);
-        stopped_ =
-            describe(whole, input_->within_tolerance() && !input_->lines_within_tolerance() ? feeder_.name_of_row(row)
-                                                                                            : std::string());
-    }
-    if (target_ == nullptr) {
-        keep_state();
-        return stopped_.empty() ? stopped_ : stopped_ + where();
-    }
-    // Whatever ended the run: the drives come to rest at the end of what they have.
-    if (!target_->finish()) {
-        keep_places();
-        stopped_ = target_->ending();
-        return stopped_;
-    }
-    keep_state();
-    return stopped_.empty() ? stopped_ : stopped_ + target_->where();
 }
 
-// Offsets as the motion has come to them, and where the machine stands.
+// Nobody would know where the drives are, did the message not say it.
+template <Scalar S>
+void Motion<S>::fail() const {
+    if (target_ == nullptr || segments_ == 0) {
+        std::rethrow_exception(failure_);
+    }
+    const std::string& ending = target_->ending();
+    const std::string rest = ending.empty() ? target_->where() : "; " + ending;
+    try {
+        std::rethrow_exception(failure_);
+    } catch (const OutputError& error) {
+        throw OutputError(error.what() + rest);
+    } catch (const std::exception& error) {
+        throw std::runtime_error(error.what() + rest);
+    }
+}
+
+// Offsets as the motion has come to them, and where the machine stands. Drives are behind the plan as long as they
+// move.
 template <Scalar S>
 void Motion<S>::keep_state() {
-    if (state_.empty()) {
+    if (state_ == nullptr) {
         return;
     }
     if (steps_.offsets() != nullptr) {
-        kept_.offsets = *steps_.offsets();
+        state_->offsets(*steps_.offsets());
     }
-    if (segments_ > 0) {
-        std::ranges::copy(machine_.position_mm(), kept_.position_mm.begin());
+    if (segments_ > 0 && (target_ == nullptr || target_->over())) {
+        state_->stands(machine_.position_mm());
     }
-    write_state_file(state_, input_->axes(), kept_);
-}
-
-// The drives did not come to the end of the plan.
-template <Scalar S>
-void Motion<S>::keep_places() {
-    if (state_.empty()) {
-        return;
-    }
-    for (const RunTarget::AxisPlace& at : target_->places()) {
-        kept_.position_mm[at.axis] = at.known();
-        if (!at.known()) {
-            kept_.unknown_why = "the last run ended before its place was known";
-        }
-    }
-    write_state_file(state_, input_->axes(), kept_);
 }
 
 // A path that is too far from its moves is a fault, whatever else happened.
@@ -111,6 +141,9 @@ void Motion<S>::keep_failure(const std::exception_ptr& failure) {
             throw;
         }
         stopped_ = error.what();
+    } catch (...) {
+        failure_ = failure;
+        fail();
     }
 }
 

@@ -2,6 +2,7 @@
 #include "host_sim/run/runner.hpp"
 
 #include "host_sim/base/abandon.hpp"
+#include "host_sim/base/deadline.hpp"
 #include "host_sim/base/file_claims.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_output.hpp"
@@ -155,11 +156,7 @@ int move_machine(const RunArguments& arguments) {
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
     input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
     input.use_outputs(machine.spindle, machine.lines);
-    if (input.gcode() == nullptr && !(arguments.state.empty() && arguments.position.empty())) {
-        throw UsageError("--state and --position are for programs in G-code; other inputs begin at their first point");
-    }
     MotionArguments motion_arguments = arguments.motion;
-    motion_arguments.state = arguments.motion.enforce ? arguments.state : std::string(); // plan changes nothing
     motion_arguments.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
     motion_arguments.begins = of.state(arguments.state, arguments.position, arguments.options.home);
     input.begin_at(motion_arguments.begins);
@@ -169,15 +166,21 @@ int move_machine(const RunArguments& arguments) {
     if (input.repeatable()) {
         waypoints = pass<S>(input, {.limits = &path_limits});
     }
-    std::unique_ptr<RunTarget> target;
-    std::unique_ptr<ProgramOutputs> program_outputs;
+    std::unique_ptr<RunTarget, DeleteInTime> target;
+    std::unique_ptr<ProgramOutputs, DeleteInTime> program_outputs;
+    std::optional<StateKeeper> state;
     std::optional<Supervision> supervision;
     if (signals) {
-        target = target_kind(arguments.target).make(arguments.target, machine, arguments.options);
+        target.reset(target_kind(arguments.target).make(arguments.target, machine, arguments.options).release());
         limits = fitted<S>(machine, *target, arguments.motion.quiet);
         target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
-        program_outputs = input.gcode() != nullptr ? make_outputs(machine, arguments.target) : nullptr;
-        supervision.emplace(*target, *signals, program_outputs.get());
+        program_outputs.reset(input.gcode() != nullptr ? make_outputs(machine, arguments.target).release() : nullptr);
+    }
+    if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing
+        motion_arguments.state = &state.emplace(arguments.state, of.axes, motion_arguments.begins);
+    }
+    if (target != nullptr) {
+        supervision.emplace(*target, *signals, program_outputs.get(), motion_arguments.state);
     }
     Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
     Motion<S> motion(motion_arguments, machine, *limits, input, path_limits, outputs,

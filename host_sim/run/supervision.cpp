@@ -26,9 +26,12 @@ constexpr int not_finished = 1;
 } // namespace
 
 Supervision::~Supervision() {
+    if (thread_.joinable()) {
+        stop();
+    }
     leaves_.store(true);
     if (thread_.joinable()) {
-        thread_.join();
+        thread_.join(); // its run has one end, and each step of it is bounded
     }
     signals_->at_once({});
 }
@@ -45,9 +48,13 @@ bool Supervision::submit(const FeedSegment& segment, std::uint64_t line) {
     if (over()) {
         return false;
     }
+    if (!thread_.joinable() && state_ != nullptr) {
+        state_->moves();
+    }
     begin_line(line);
     pushed_ticks_ += segment.duration_ticks;
     ++pushed_;
+    at_rest_ = std::ranges::all_of(segment.end_velocity, [](std::int64_t v) { return v == 0; });
     ring_.push(segment);
     if (!thread_.joinable()) {
         thread_ = std::thread([this] { work(); });
@@ -55,29 +62,53 @@ bool Supervision::submit(const FeedSegment& segment, std::uint64_t line) {
     return true;
 }
 
+void Supervision::complete() {
+    if (stop_.load()) {
+        return;
+    }
+    if (at_rest_) {
+        complete_.store(true);
+    } else {
+        stop("the plan ended while the axes moved");
+    }
+}
+
+void Supervision::stop(const std::string& why) {
+    if (!stop_.load() && !complete_.load()) {
+        stop_why_ = why;
+        stop_.store(true);
+    }
+}
+
 bool Supervision::finish() {
-    complete_.store(true);
+    complete();
     while (thread_.joinable() && !over()) {
         system_clock().sleep_us(poll_every_us);
     }
     return ending_.empty();
 }
 
-// Twice before one look counts twice.
-void Supervision::obey() {
-    const bool given_up = leaves_.load() && !complete_.load(); // the planner failed: as if the user asked once
-    const int asked = std::min(std::max(SignalWatch::interrupts(), given_up ? 1 : 0), 2);
-    if (asked <= obeyed_) {
+// Requests to end, by now: the first one holds all axes on the path, the second one stops them at once.
+void Supervision::ask_target(int requests) {
+    if (requests <= obeyed_) {
         return;
     }
     obeyed_us_ = system_clock().now_us();
-    obeyed_ = asked;
-    if (asked > 1) {
+    obeyed_ = requests;
+    if (requests > 1) {
         end_outputs();
         target_->quick_stop();
     } else {
         target_->hold();
     }
+}
+
+// Twice before one look counts twice.
+void Supervision::obey() {
+    if (stop_.load() && trouble_.empty()) {
+        trouble_ = stop_why_;
+    }
+    ask_target(std::min(std::max(SignalWatch::interrupts(), stop_.load() ? 1 : 0), 2));
 }
 
 void Supervision::order(const ProgramAction& action, bool standing) {
@@ -115,9 +146,7 @@ void Supervision::tend_outputs(std::uint64_t executed) {
     }
     trouble_ = outputs_->trouble();
     if (!trouble_.empty()) {
-        obeyed_ = 1;
-        obeyed_us_ = system_clock().now_us();
-        target_->hold();
+        ask_target(1);
     }
 }
 
@@ -182,28 +211,38 @@ void Supervision::hand_over() {
     }
 }
 
-// Returns why the run ended; empty: all was executed.
-std::string Supervision::supervise() {
-    const FeedSegment first = ring_.front();
+// Returns why the run ends before its first motion; empty: it begins.
+std::string Supervision::begin() {
     signals_->supervise();
     if (SignalWatch::interrupted()) {
         return "interrupted before anything was moved; the drives were not enabled";
     }
+    const FeedSegment first = ring_.front();
     began_ = true;
     if (std::string what = target_->prepare(first); !what.empty()) {
         return what;
     }
-    const std::uint64_t before = target_->port().poll().executed; // of moves to the references
+    before_ = target_->port().poll().executed;
+    return {};
+}
+
+// Returns why the run ended; empty: all was executed.
+std::string Supervision::supervise() {
     for (std::uint64_t next_us = system_clock().now_us();;
          next_us = std::max(next_us + poll_every_us, system_clock().now_us())) {
         system_clock().sleep_until_us(next_us);
-        obey();
-        target_->update();
-        hold_asked_.store(!target_->holds().empty());
-        hand_over();
+        try {
+            obey();
+            target_->update();
+            hold_asked_.store(!target_->holds().empty());
+            hand_over();
+        } catch (const std::exception& error) {
+            trouble_ = trouble_.empty() ? error.what() : trouble_;
+            ask_target(1);
+        }
         const hal::PortState state = target_->port().poll();
         const hal::PortPhase phase = state.phase;
-        come_to(state.executed - before);
+        come_to(state.executed - before_);
         const std::uint64_t now_us = system_clock().now_us();
         if (phase == hal::PortPhase::fault) {
             end_outputs();
@@ -222,7 +261,7 @@ std::string Supervision::supervise() {
         } else if (obeyed_ == 2 && now_us > obeyed_us_ + give_up_us) {
             return "interrupted, but not every drive has confirmed that it stands";
         }
-        tend_outputs(state.executed - before);
+        tend_outputs(state.executed - before_);
     }
 }
 
@@ -243,25 +282,47 @@ void Supervision::await_planner() noexcept {
 }
 
 void Supervision::work() noexcept {
+    std::string reason;
+    try {
+        reason = begin();
+        if (reason.empty()) {
+            reason = supervise();
+        }
+    } catch (const std::exception& error) { // while it was prepared or stopped
+        reason = error.what();
+        target_->quick_stop();
+    }
+    end(reason);
+}
+
+// The one end of a run. The axes stand, or are known not to have confirmed it.
+void Supervision::end(const std::string& reason) noexcept {
     const auto add = [this](const std::string& what) {
         ending_ += what.empty() || ending_.empty() ? what : "; " + what;
     };
-    try {
-        ending_ = supervise();
-        end_outputs();
-        if (outputs_ != nullptr && trouble_.empty()) {
-            trouble_ = outputs_->trouble();
+    const auto step = [&](const auto& what) {
+        try {
+            what();
+        } catch (const std::exception& error) {
+            add(error.what());
         }
-        ending_ = with_trouble(ending_);
-        places_ = began_ ? target_->places() : std::vector<RunTarget::AxisPlace>{};
-        where_ = began_ ? target_->where() + on_line(line()) : std::string();
-        add(began_ ? target_->finish() : std::string());
-    } catch (const std::exception& error) {
-        end_outputs();
-        target_->quick_stop();
-        add(error.what());
+    };
+    end_outputs();
+    if (outputs_ != nullptr && trouble_.empty()) {
+        trouble_ = outputs_->trouble();
     }
-    add(outputs_end());
+    ending_ = with_trouble(reason);
+    if (began_) {
+        step([&] {
+            places_ = target_->places();
+            where_ = target_->where() + on_line(line());
+        });
+        step([&] { add(target_->finish()); });
+    }
+    step([&] { add(outputs_end()); });
+    if (state_ != nullptr) {
+        step([&] { state_->ends(places_); });
+    }
     const std::string sentence =
         (ending_.empty() ? std::string("interrupted while outputs were written; the motion was complete") : ending_) +
         where_;

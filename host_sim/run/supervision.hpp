@@ -4,6 +4,7 @@
 
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/run/program_orders.hpp"
+#include "host_sim/run/state_keeper.hpp"
 #include "host_sim/target/program_outputs.hpp"
 #include "host_sim/target/run_target.hpp"
 
@@ -22,33 +23,43 @@ namespace splinefeed::host {
 /// signals: the first request to end the run stops all axes on the path, the second one is a quick stop. If the target
 /// needs the plan to be held, the planner learns it from hold_asked().
 ///
+/// A run has one end, whatever its reason: everything was executed, a signal, the target, the outputs' own trouble, a
+/// plan that was given up with stop(), an exception of the target. In this order all axes are held and stand, the
+/// outputs of the program - spindle, coolant, digital outputs - have ended, the drives are left as the machine file
+/// says, the state file has their places, and ending() says what is true. Each step is bounded. Outputs end earlier,
+/// before the axes stand, when a drive is in fault and at the second request.
+///
 /// If the run ends early and the planner does not return within stall_s because an output is blocked, the thread ends
 /// the process with the run's message and exit status 1. After the end of a run a signal does this at once.
-///
-/// The outputs of the program - spindle, coolant, digital outputs - end before anything else when a drive is in fault
-/// and at the second request, and whenever the motion has ended. Their own trouble stops all axes on the path, as the
-/// first request does, and the run ends.
 class Supervision final : public ProgramOrders {
 public:
     /// How far the planner may be ahead of the port. [us] More would only delay a hold.
     static constexpr std::uint64_t hand_over_us = 10'000;
     static constexpr int stall_s = 2;
 
-    /// No thread runs before the first segment. All arguments must outlive it. @param outputs  null: there are none
-    Supervision(RunTarget& target, SignalWatch& signals, ProgramOutputs* outputs = nullptr)
-        : target_(&target), signals_(&signals), outputs_(outputs) {}
+    /// No thread runs before the first segment. All arguments must outlive it.
+    /// @param outputs, state  null: there are none
+    Supervision(RunTarget& target, SignalWatch& signals, ProgramOutputs* outputs = nullptr,
+                StateKeeper* state = nullptr)
+        : target_(&target), signals_(&signals), outputs_(outputs), state_(state) {}
     Supervision(const Supervision&) = delete;
     Supervision& operator=(const Supervision&) = delete;
-    /// If the run is not over: stops the axes as after the first signal, and waits for the end.
+    /// If the run is not over: stop(), and waits for the end.
     ~Supervision();
 
     // For the planner's thread:
 
     /// Passes a segment on, as soon as there is room for it. The first one defines where the axes stand. false: the run
-    /// is over.
+    /// is over. Throws OutputError if the state file cannot be written; nothing has moved then.
     /// @param line  of the program, that the segment comes from; 0: unknown
     [[nodiscard]] bool submit(const FeedSegment& segment, std::uint64_t line = 0);
-    /// No more segments come: waits until everything is executed. false: the run ended before; ending() says why.
+    /// No more segments come. If the last one ends at rest, the run ends when everything is executed; otherwise nobody
+    /// can say how the motion goes on, and this is a stop().
+    void complete();
+    /// The plan is given up: all axes stop as after the first signal, and the run ends.
+    /// @param why  for the message
+    void stop(const std::string& why = {});
+    /// complete(), and waits until the run is over. false: it ended before everything was executed; ending() says why.
     [[nodiscard]] bool finish();
     /// Whether submit() would return without waiting.
     [[nodiscard]] bool room() const noexcept;
@@ -74,7 +85,10 @@ private:
     static constexpr std::size_t capacity = 512; // hand_over_us of the shortest segments
 
     void work() noexcept;
+    void end(const std::string& reason) noexcept;
+    [[nodiscard]] std::string begin();
     [[nodiscard]] std::string supervise();
+    void ask_target(int requests);
     void obey();
     void hand_over();
     void tend_outputs(std::uint64_t executed);
@@ -88,10 +102,12 @@ private:
     RunTarget* target_;
     SignalWatch* signals_;
     ProgramOutputs* outputs_;
+    StateKeeper* state_;
     std::array<FeedSegment, capacity + 1> segments_{}; // storage of the ring
     SegmentRing ring_{segments_};
     std::uint64_t pushed_ticks_ = 0; // used by the planner only
     std::uint64_t pushed_ = 0;       // segments; likewise
+    bool at_rest_ = true;            // at the end of the last one; likewise
     struct DueOrder {
         ProgramAction action;
         std::uint64_t after = 0; // so many segments
@@ -106,13 +122,16 @@ private:
     std::deque<LineBegin> lines_; // protected by it; from the line where the machine is
     std::atomic<std::uint64_t> taken_ticks_{0};
     std::atomic<bool> hold_asked_{false};
-    std::atomic<bool> complete_{false}; // no more segments come
+    std::atomic<bool> complete_{false}; // no more segments come, and the last one ends at rest
+    std::atomic<bool> stop_{false};     // the plan is given up
+    std::string stop_why_;              // written before stop_
     std::atomic<bool> leaves_{false};   // the planner's thread needs no other thread any more
     std::atomic<bool> over_{false};
     // Used by the thread, and after over_ by any thread:
     int obeyed_ = 0; // number of requests to end that were obeyed
     std::uint64_t obeyed_us_ = 0;
-    std::string trouble_; // of the outputs
+    std::string trouble_;      // why the axes are stopped, where no signal asked for it
+    std::uint64_t before_ = 0; // segments of moves to the references
     bool completed_ = false;
     bool began_ = false;
     std::string ending_; // empty: everything was executed

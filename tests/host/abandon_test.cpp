@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/abandon.hpp"
+#include "host_sim/base/deadline.hpp"
 
 #include "host_sim/base/output_file.hpp"
 #include "support/catch.hpp"
@@ -78,4 +79,21 @@ TEST_CASE("a process ends though nobody reads its last sentence") {
     REQUIRE(WIFEXITED(ended.status));
     CHECK(WEXITSTATUS(ended.status) == 1);
     CHECK(folder.entries().empty());
+}
+
+TEST_CASE("what does not end in time ends with the process, what does leaves it alone") {
+    { const Deadline in_time(std::chrono::seconds(20), "never told"); }
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        alarm(20);
+        const Deadline deadline(std::chrono::milliseconds(10), "a thread does not end");
+        for (;;) {
+            pause();
+        }
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 1);
 }

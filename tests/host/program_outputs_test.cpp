@@ -221,7 +221,8 @@ TEST_CASE("a spindle that may still turn is told whatever ended the run", "[supe
     target.breaks = true;
     REQUIRE(comes([&] { return supervision.over(); }));
     CHECK_FALSE(supervision.finish());
-    CHECK(supervision.ending() == "it broke; the spindle did not confirm that it stands and may still turn");
+    CHECK(supervision.ending() ==
+          "it broke; held; the spindle did not confirm that it stands and may still turn; there");
     const Told told = target.told();
     CHECK(std::find(told.begin(), told.end(), "spindle ends") < std::find(told.begin(), told.end(), "quick stop"));
 }

@@ -7,6 +7,8 @@
 #include "temporary_folder.hpp"
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
 
 using namespace splinefeed;
@@ -103,6 +105,27 @@ TEST_CASE("A state that may be there and cannot be read is an error, and no stat
     CHECK(refusal(long_name).rfind(long_name + ": cannot be read: ", 0) == 0);
     CHECK(refusal(folder.file("")).find(": cannot be read") != std::string::npos);
     CHECK(refusal("state_of_nobody.json") == "accepted");
+}
+
+TEST_CASE("A state is written beside nothing that is there, whoever put it there") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("s.json");
+    const auto content = [&](const char* name) {
+        std::ifstream in(folder.file(name));
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    write_state_file(file, xyz, {});
+    std::ofstream(folder.file("victim")) << "kept";
+    std::ofstream(folder.file("s.json.tmp")) << "kept, too";
+    std::filesystem::create_symlink("victim", folder.file("s.json.new"));
+    for (int i = 0; i < 3; ++i) {
+        write_state_file(file, xyz, {});
+    }
+    CHECK(content("victim") == "kept");
+    CHECK(content("s.json.tmp") == "kept, too");
+    CHECK(std::filesystem::is_symlink(folder.file("s.json.new")));
+    const std::filesystem::directory_iterator all(folder.file(""));
+    CHECK(std::distance(begin(all), end(all)) == 4); // and nothing is left
 }
 
 TEST_CASE("A file that cannot be replaced stays as it is") {

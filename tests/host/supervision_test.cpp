@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "talking_target.hpp"
+#include "temporary_folder.hpp"
 
 #include <algorithm>
 
@@ -200,6 +201,103 @@ TEST_CASE("the planner learns that its plan is to be held, and the run ends wher
     REQUIRE(supervision.submit(segment(1)));
     CHECK_FALSE(supervision.finish());
     CHECK(supervision.ending() == "a limit acts; there");
+}
+
+TEST_CASE("a plan that ends while the axes move is never declared complete: they are held", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    Supervision supervision(target, signals);
+    FeedSegment moving = segment(0);
+    moving.end_velocity[1] = 1;
+    REQUIRE(supervision.submit(moving));
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    CHECK_FALSE(supervision.finish());
+    CHECK(target.told() == Told{"prepare", "segment 0", "hold", "finish"});
+    CHECK(supervision.ending() == "the plan ended while the axes moved; held; there");
+}
+
+TEST_CASE("whatever a target throws, its axes are held and its run has the one end", "[supervision]") {
+    SignalWatch signals({});
+    TalkingTarget target;
+    Supervision supervision(target, signals);
+    REQUIRE(supervision.submit(segment(0)));
+    REQUIRE(comes([&] { return target.told().size() == 2; }));
+    SECTION("once it moves") {
+        target.breaks = true;
+        CHECK_FALSE(supervision.finish());
+        CHECK(target.told() == Told{"prepare", "segment 0", "hold", "finish"});
+        CHECK(supervision.ending() == "it broke; held; there");
+    }
+    SECTION("and does not stop") {
+        target.halts = false;
+        target.breaks = true;
+        REQUIRE(comes([&] { return target.told().size() == 3; }));
+        request(1);
+        request(2);
+        CHECK_FALSE(supervision.finish());
+        CHECK(target.told() == Told{"prepare", "segment 0", "hold", "quick stop", "finish"});
+        CHECK(supervision.ending() == "it broke; stopped; there");
+    }
+}
+
+TEST_CASE("the state says that no place is known before anything moves, and at the end what is known",
+          "[supervision]") {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("s.json");
+    const std::vector<std::string> axes{"x", "y"};
+    MachineState begins;
+    begins.position_mm = {1.0, 2.0};
+    write_state_file(file, axes, begins);
+    const auto kept = [&] {
+        return read_state_file(file, axes).value();
+    };
+    StateKeeper state(file, axes, begins);
+    SignalWatch signals({});
+    TalkingTarget target;
+    const auto run = [&] {
+        Supervision supervision(target, signals, nullptr, &state);
+        REQUIRE(supervision.submit(segment(0)));
+        static_cast<void>(supervision.finish());
+    };
+    SECTION("while it runs") {
+        Supervision supervision(target, signals, nullptr, &state);
+        REQUIRE(supervision.submit(segment(0)));
+        CHECK(kept().position_mm[0] == std::nullopt); // at once: a kill may come
+        CHECK(kept().unknown_why.rfind("a run has not ended", 0) == 0);
+    }
+    SECTION("it stands") {
+        target.stands = {{0, 5.0}, {1, 2.5, false}};
+        run();
+        CHECK(kept().position_mm[0] == 5.0);
+        CHECK(kept().position_mm[1] == std::nullopt); // it does not answer
+        CHECK(kept().unknown_why.rfind("when the last run ended", 0) == 0);
+    }
+    SECTION("nothing has moved") {
+        target.refusal = "no";
+        target.stands = {};
+        run();
+        CHECK(kept() == begins);
+    }
+    SECTION("homing was interrupted") {
+        target.refusal = "no";
+        target.stands = {{0, std::nullopt}, {1, std::nullopt}};
+        run();
+        CHECK(kept().position_mm[0] == std::nullopt);
+    }
+    SECTION("the target breaks") {
+        target.stands = {{0, 5.0}, {1, 6.0}};
+        target.breaks = true;
+        run();
+        CHECK(kept().position_mm[1] == 6.0);
+    }
+    SECTION("it cannot be written") {
+        StateKeeper nowhere("/no/such/folder/s.json", axes, begins);
+        Supervision supervision(target, signals, nullptr, &nowhere);
+        CHECK_THROWS_WITH(supervision.submit(segment(0)),
+                          Catch::Contains("/no/such/folder/s.json: cannot be written: "));
+        static_cast<void>(supervision.finish());
+        CHECK(target.told().empty());
+    }
 }
 
 TEST_CASE("a planner that leaves before the end has the axes held", "[supervision]") {

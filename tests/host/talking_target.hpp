@@ -68,7 +68,7 @@ public:
         return unfinished;
     }
     void release() noexcept override { said("release"); }
-    [[nodiscard]] std::vector<AxisPlace> places() const override { return {{1, 2.5, false}}; }
+    [[nodiscard]] std::vector<AxisPlace> places() const override { return stands; }
     [[nodiscard]] std::string where() const override { return "; there"; }
     void describe(Summary& /*summary*/) const override {}
     void update() override {
@@ -90,6 +90,7 @@ public:
     std::string refusal;
     std::string reason;
     std::string unfinished;
+    std::vector<AxisPlace> stands{{1, 2.5, false}};
     std::atomic<bool> takes{true};
     std::atomic<bool> halts{true};
     std::atomic<bool> stops{true};

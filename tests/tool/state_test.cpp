@@ -31,6 +31,22 @@ TEST_CASE("A run begins where the one before ended, with its offsets") {
     CHECK(json::parse(tool.read("e.json"))["elements"][0]["from"] == json({1.0, 2.0, 3.0}));
 }
 
+TEST_CASE("Every input moves the machine, so the state has where it ends; offsets are of programs and stay") {
+    const Tool tool;
+    tool.write("a.ngc", "G10 L2 P2 X100 Y5\nG0 X10 Y20\nM2\n");
+    tool.write("b.csv", "10,20\n40,30\n");
+    REQUIRE(tool("run a.ngc --state s.json --quiet").status == 0);
+    json state = json::parse(tool.read("s.json"));
+    REQUIRE(tool("run b.csv --state s.json --quiet").status == 0);
+    state["position_mm"] = {40.0, 30.0, 0.0};
+    CHECK(json::parse(tool.read("s.json")) == state);
+    state["position_mm"] = {nullptr, 30.0, 0.0};
+    state["position_unknown"] = "the last run did not end";
+    tool.write("s.json", state.dump());
+    CHECK(tool("run b.csv --state s.json").status == 2);
+    CHECK(tool("run b.csv --state s.json --position 10,20,0 --quiet").status == 0);
+}
+
 TEST_CASE("A run ends with G54 in effect, a run without M2 as it is") {
     const Tool tool;
     tool.write("a.ngc", "G10 L2 P2 X100\nG55 G0 X10 M30\n");
@@ -62,8 +78,8 @@ TEST_CASE("A wrong state, position or program leaves the state as it is") {
     CHECK(tool("run a.ngc --state s.json/s.json").error ==
           "s.json/s.json: there is no such folder; name a file in a folder that exists\n");
     tool.write("p.csv", "0,0\n1,1\n");
-    CHECK(tool("run p.csv --state s.json").error.find("--state and --position are for programs in G-code") !=
-          std::string::npos);
+    CHECK(tool("run p.csv --state s.json").status == 2);
+    CHECK(tool.read("s.json") == "broken");
 }
 
 TEST_CASE("A place that the state does not know is asked for, and not taken for a number") {
@@ -137,7 +153,13 @@ TEST_CASE("A state that is a symbolic link stays one, keeps its permissions, and
     tool.write("a.ngc", "G0 X10\nM2\n");
     REQUIRE(tool("run a.ngc --state s.json --trace s.json --quiet").status == 2);
     REQUIRE(tool.holds_only("a.ngc"));
+    CHECK(tool("run a.ngc --state a.ngc").error.find("a.ngc: it is the input a.ngc as well, which would be lost") !=
+          std::string::npos);
     REQUIRE(tool("run a.ngc --state s.json --quiet").status == 0);
+    REQUIRE(tool("run a.ngc --state s.json --trace s.json --quiet").status == 2);
+    tool.write("s.json.new", "G0 X10\nM2\n");
+    REQUIRE(tool("run s.json.new --format gcode --state s.json --quiet").status == 0);
+    CHECK(tool.read("s.json.new") == "G0 X10\nM2\n");
     REQUIRE(tool.shell("chmod 600 s.json && mkdir d && ln -s ../s.json d/link.json").status == 0);
     tool.write("b.ngc", "G0 X20\nM2\n");
     REQUIRE(tool("run b.ngc --state d/link.json --quiet").status == 0);
