@@ -55,19 +55,20 @@ ModbusException FaultyDrive::read(int address, std::span<std::uint16_t> out) {
     return ModbusException::none;
 }
 
-// A frame that has all bits of the first step of a stop.
+// A frame that has all bits of the first step of a stop, and is no step of `disable`: 0 in a control word is both.
 bool FaultyDrive::stops(int address, std::span<const std::uint16_t> values) const {
-    return std::any_of(stop_commands.begin(), stop_commands.end(), [&](DriveCommand command) {
-        const std::vector<CommandStep>& steps = profile_.steps_of(command);
-        if (steps.empty()) {
-            return false;
-        }
-        const CommandStep& step = steps.front();
+    const auto has = [&](const CommandStep& step) {
         const RegisterField& field = profile_.fields[step.field];
         return lies_in(field, address, values.size()) &&
                holds({step.field, step.mask, step.value},
                      take_raw(field, values.subspan(static_cast<std::size_t>(field.address - address))));
-    });
+    };
+    const std::vector<CommandStep>& off = profile_.steps_of(DriveCommand::disable);
+    return std::none_of(off.begin(), off.end(), has) &&
+           std::any_of(stop_commands.begin(), stop_commands.end(), [&](DriveCommand command) {
+               const std::vector<CommandStep>& steps = profile_.steps_of(command);
+               return !steps.empty() && has(steps.front());
+           });
 }
 
 ModbusException FaultyDrive::write(int address, std::span<const std::uint16_t> values) {
