@@ -113,7 +113,7 @@ TEST_CASE("Segment track: positions and velocities between and beyond its segmen
     const Circle circle(wholes);
     TrajectoryBuffer track = circle.track();
     CHECK(track.room() == 0);
-    CHECK(track.ends_at_rest(2));
+    CHECK(track.ends_at_rest());
     for (std::uint64_t time_us = 0; time_us < track.end_us(); time_us += 377) {
         const double time_s = static_cast<double>(time_us) / 1e6;
         for (const int k : {0, 1}) {
@@ -138,7 +138,7 @@ TEST_CASE("Segment track: positions and velocities between and beyond its segmen
     segment.end[0] = 4 * units_per_count; // 4 counts in a millisecond, from rest to rest: 6 D / T^2
     CHECK(track.push(segment));
     CHECK(line_deviation_counts(segment, 0, 500) == Approx(24.0 * 0.25 / 8.0));
-    track.clear();
+    track.reset(4);
     CHECK(track.empty());
 }
 

@@ -19,6 +19,7 @@ public:
     std::vector<std::unique_ptr<Station>> stations;
     /// What else happens at an instant. [us]
     std::vector<std::pair<std::uint64_t, std::function<void()>>> events;
+    std::function<void()> each_ms; ///< called whenever the shafts are looked at
 
     Plant() = default;
     Plant(const Plant&) = delete;
@@ -60,6 +61,9 @@ public:
                 what();
                 what = nullptr;
             }
+        }
+        if (each_ms) {
+            each_ms();
         }
         std::vector<double> here;
         for (std::size_t i = 0; i < stations.size(); ++i) {

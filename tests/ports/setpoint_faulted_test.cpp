@@ -26,9 +26,12 @@ struct Scenario {
     std::mt19937_64 random;
     SetpointPlantParameters parameters;
     Asked asked;
-    std::string text;    ///< what goes wrong
-    bool fatal = false;  ///< it ends in fault, unless it ends before
-    bool outage = false; ///< a drive does not answer for a while
+    std::string text;       ///< what goes wrong
+    bool fatal = false;     ///< it ends in fault, unless it ends before
+    bool dishonest = false; ///< a drive does not tell the truth
+    bool setup_spoilt = false;
+    std::size_t cut = 0; ///< so many segments come, the last one in motion; 0: all
+    bool outage = false; ///< a drive does not answer for a while, or not the truth
 
     explicit Scenario(std::uint64_t seed) : random(seed) {
         parameters.profile = profiles[dice(profiles.size())];
@@ -39,6 +42,16 @@ struct Scenario {
     /// 0 to n - 1
     std::uint64_t dice(std::uint64_t n) { return random() % n; }
 
+    /// Before the drives are made ready.
+    void spoil_setup(SetpointPlant& plant) {
+        if (dice(15) == 0) {
+            setup_spoilt = true;
+            const std::uint64_t silent_us = dice(2) == 0 ? 150'000 : 4'000'000;
+            SimulatedWire& wire = *plant.wires[dice(plant.wires.size())];
+            wire.silences.emplace_back(wire.requests + 1 + dice(25), silent_us);
+            text += " silent while it is made ready";
+        }
+    }
     /// Times are those of the run.
     void spoil(SetpointPlant& plant, std::uint64_t length_us) {
         if (dice(3) != 0) {
@@ -46,11 +59,17 @@ struct Scenario {
         }
         if (dice(2) == 0) {
             spoil_drive(plant, length_us);
+        } else if (dice(3) == 0) {
+            spoil_model(plant, length_us);
         }
         if (dice(4) == 0) {
             asked.starved_from_us = dice(length_us);
             asked.starved_to_us = asked.starved_from_us + 20'000 + dice(800'000);
             text += " starved " + std::to_string(asked.starved_from_us) + " to " + std::to_string(asked.starved_to_us);
+        }
+        if (dice(10) == 0) {
+            cut = 1 + dice(length_us / 4000);
+            text += " cut behind " + std::to_string(cut);
         }
         const std::uint64_t stops = dice(6);
         if (stops >= 3) {
@@ -76,6 +95,21 @@ struct Scenario {
                        .late_us = 1 + dice(30'000)};
         text += " bad line";
     }
+    /// What a drive says or refuses from some time on.
+    void spoil_model(SetpointPlant& plant, std::uint64_t length_us) {
+        const std::size_t i = dice(plant.drives.size());
+        const std::uint64_t from_us = plant.began_us + dice(length_us);
+        constexpr std::array names{"dithers", "refuses stops", "stuck state", "stuck place"};
+        const auto kind = dice(names.size());
+        splinefeed::host::ModelFaults faults;
+        faults.dither_counts = kind == 0 ? 1 + static_cast<int>(dice(15)) : 0;
+        faults.refuses_stops = kind == 1;
+        faults.stuck_state = kind == 2;
+        faults.stuck_place = kind == 3;
+        text += " drive " + std::to_string(i) + " " + names[kind] + " from " + std::to_string(from_us - plant.began_us);
+        dishonest = outage = fatal = true;
+        plant.events.emplace_back(from_us, [&plant, i, faults] { plant.models[i]->set_faults(faults); });
+    }
     void spoil_drive(SetpointPlant& plant, std::uint64_t length_us) {
         const std::size_t i = dice(plant.drives.size());
         const std::uint64_t from_us = plant.began_us + dice(length_us);
@@ -98,27 +132,44 @@ struct Scenario {
     }
 };
 
+using Visits = std::array<std::array<std::uint64_t, SetpointPhases::events>, SetpointPhases::phases>;
+
 struct Tally {
     std::map<std::string, int> endings;
+    Visits visits{};              ///< of the cells of the port's table
     double most_off_counts = 0.0; ///< off the path where it was held
 };
 
-void judge(SetpointPlant& plant, const Scenario& scenario, const SmoothMotion& motion, PortPhase phase, Tally& tally) {
+/// Some are switched off at the end. Then what the port has been through is counted.
+void finish(SetpointPort& port, Scenario& scenario, Tally& tally) {
+    if (scenario.dice(3) == 0) {
+        port.power_off();
+        CHECK(port.poll().phase != PortPhase::running);
+    }
+    for (std::size_t i = 0; i < SetpointPhases::phases; ++i) {
+        for (std::size_t j = 0; j < SetpointPhases::events; ++j) {
+            tally.visits[i][j] += port.phases().visits(static_cast<SetpointPhase>(i), static_cast<SetpointEvent>(j));
+        }
+    }
+}
+
+void judge(SetpointPlant& plant, Scenario& scenario, const SmoothMotion& motion, PortPhase phase, Tally& tally) {
     SetpointPort& port = *plant.port;
     INFO("trouble: " << port.trouble() << ", " << port.poll().executed << " segments executed, " << port.resumes()
                      << " resumes");
     CHECK(phase != PortPhase::running);
     // A drive that is not told what comes next goes on for a period, and brakes; who catches up goes no further.
     const double beyond_counts = 1.2 * motion.fastest_counts_s * 1e-6 * port.period_us() + 0.05 * way_counts;
-    CHECK(plant.lowest_counts > -beyond_counts);
-    CHECK(plant.highest_counts < way_counts + beyond_counts);
-    CHECK((phase != PortPhase::halted || scenario.asked.hold_us != UINT64_MAX));
+    CHECK((scenario.dishonest || plant.lowest_counts > -beyond_counts));
+    CHECK((scenario.dishonest || plant.highest_counts < way_counts + beyond_counts));
+    CHECK((phase != PortPhase::halted || scenario.asked.hold_us != UINT64_MAX || scenario.cut > 0));
     CHECK((phase != PortPhase::fault || scenario.fatal));
     if (phase == PortPhase::idle) {
         ++tally.endings["done"];
         for (const double position : plant.positions) {
-            CHECK(std::fabs(position) < 1.5); // back where it began
+            CHECK((scenario.dishonest || scenario.cut > 0 || std::fabs(position) < 1.5)); // back where it began
         }
+        finish(port, scenario, tally);
         return;
     }
     bool all_held = true;
@@ -135,15 +186,16 @@ void judge(SetpointPlant& plant, const Scenario& scenario, const SmoothMotion& m
         confirmed.push_back(sure);
     }
     ++tally.endings[all_held ? "held" : all_confirmed ? "stopped" : "unconfirmed"];
-    if (all_held) {
+    if (all_held && !scenario.dishonest) {
         CHECK(plant.now_off_counts < most_held_counts);
         tally.most_off_counts = std::max(tally.most_off_counts, plant.now_off_counts);
     }
+    finish(port, scenario, tally);
     plant.port.reset();
     plant.events.clear();
     plant.clock.sleep_us(800'000);
     for (std::size_t k = 0; k < confirmed.size(); ++k) {
-        CHECK((!confirmed[k] || plant.moved_us[k] <= ended_us));
+        CHECK((!confirmed[k] || plant.moved_us[k] <= ended_us || scenario.dishonest));
     }
 }
 
@@ -153,10 +205,20 @@ void run_seed(std::uint64_t seed, Tally& tally) {
     plant.make({.away_us = away_us});
     plant.sample_positions();
     REQUIRE(plant.port->open() == "");
-    const SmoothMotion motion = smooth_motion(way_counts, 2, 60 + static_cast<int>(scenario.dice(80)), 4000);
-    REQUIRE(plant.port->prepare(motion.segments.front()) == "");
+    SmoothMotion motion = smooth_motion(way_counts, 2, 60 + static_cast<int>(scenario.dice(80)), 4000);
+    scenario.spoil_setup(plant);
+    const std::string what = plant.port->prepare(motion.segments.front());
+    if (!what.empty()) {
+        INFO("seed " << seed << ": " << scenario.text << ": " << what);
+        CHECK(scenario.setup_spoilt);
+        CHECK(plant.port->poll().phase == PortPhase::fault);
+        ++tally.endings["not ready"];
+        finish(*plant.port, scenario, tally);
+        return;
+    }
     plant.began_us = plant.clock.now_us();
     scenario.spoil(plant, 4000 * motion.segments.size());
+    motion.segments.resize(scenario.cut > 0 ? std::min(scenario.cut, motion.segments.size()) : motion.segments.size());
     INFO("seed " << seed << ": " << scenario.parameters.profile << "," << scenario.text << "; " << plant.drives.size()
                  << " drives, one wire " << scenario.parameters.one_wire);
     const PortPhase phase = run(plant, motion, scenario.asked);
@@ -178,7 +240,15 @@ TEST_CASE("Set-point port, virtual: random faulted runs end at the end or stop, 
     for (const auto& [ending, count] : tally.endings) {
         text += ending + " " + std::to_string(count) + ", ";
     }
+    for (std::size_t i = 0; i < SetpointPhases::phases; ++i) {
+        for (std::size_t j = 0; j < SetpointPhases::events; ++j) {
+            if (tally.visits[i][j] == 0) {
+                text += std::string("\n  never ") + name(static_cast<SetpointPhase>(i)) + " " +
+                        name(static_cast<SetpointEvent>(j));
+            }
+        }
+    }
     WARN(runs << " runs from seed " << first << ": " << text << "off the path when held " << tally.most_off_counts
               << " counts");
-    CHECK((only != nullptr || tally.endings.size() == 4));
+    CHECK((only != nullptr || tally.endings.size() >= 4));
 }

@@ -4,6 +4,9 @@
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
+
+namespace host = splinefeed::host;
 using namespace splinefeed::hal;
 using namespace splinefeed::hal::modbus;
 using namespace splinefeed_test;
@@ -51,10 +54,168 @@ TEST_CASE("Set-point port, virtual: drives that were homed are in the mode again
     plant.sample_positions();
     REQUIRE(plant.port->open() == "");
     REQUIRE(plant.port->prepare(motion.segments.front()) == "");
-    for (splinefeed::host::ProfileDrive* const drive : plant.drives) {
+    for (host::ProfileDrive* const drive : plant.drives) {
         std::array<std::uint16_t, 4> registers{};
         const std::span<std::uint16_t> words = std::span(registers).first(mode->registers());
-        REQUIRE(drive->read(mode->address, words) == splinefeed::host::ModbusException::none);
+        REQUIRE(drive->read(mode->address, words) == host::ModbusException::none);
         CHECK(take_raw(*mode, words) == *plant.profile.stream_mode);
+    }
+}
+
+namespace {
+
+bool asked_to_stop = false;
+
+struct HomingFault {
+    const char* name;
+    std::function<void(SetpointPlant&)> spoil; ///< drive 1 is on its way to its reference
+    std::string trouble;                       ///< how it begins; empty: the set-up succeeds
+    std::size_t with = 1;
+    StopRequest request = StopRequest::quick_stop; ///< that drive 1 gets in the end
+    bool confirmed = true;
+    SetpointPlantParameters parameters{};
+};
+
+void mute(SetpointPlant& plant, std::size_t drive, std::uint64_t duration_us) {
+    plant.stations[drive]->mute.push_back({plant.clock.now_us(), plant.clock.now_us() + duration_us});
+}
+
+void ask(SetpointPlant& /*plant*/) {
+    asked_to_stop = true;
+}
+
+/// The drive does not know this command: it answers, and goes on.
+void deafen(DriveProfile& profile, DriveCommand command) {
+    profile.commands[static_cast<std::size_t>(command)].clear();
+}
+
+std::vector<HomingFault> homing_faults() {
+    constexpr std::uint64_t for_ever_us = 1'000'000'000;
+    const auto unknown_commands = [](std::initializer_list<DriveCommand> commands) {
+        SetpointPlantParameters parameters{.profile = "leadshine-pr"};
+        parameters.change_drives = [commands = std::vector(commands)](DriveProfile& profile) {
+            std::for_each(commands.begin(), commands.end(), [&](DriveCommand command) { deafen(profile, command); });
+        };
+        return parameters;
+    };
+    return {
+        {"silent for 0.15 s", [](auto& plant) { mute(plant, 1, 150'000); }, ""},
+        {"Ctrl-C", ask, "interrupted during homing"},
+        {"Ctrl-C while it is silent", [](auto& plant) { mute(plant, 1, 150'000), ask(plant); }, "interrupted"},
+        {"silent for 0.7 s, Ctrl-C", [](auto& plant) { mute(plant, 1, 700'000), ask(plant); }, "interrupted"},
+        {"silent for ever",
+         [](auto& plant) { mute(plant, 1, for_ever_us); },
+         "it does not answer",
+         1,
+         StopRequest::disable,
+         false,
+         {.start_counts = 300'000.0}},
+        {"another drive fails", [](auto& plant) { plant.drives[2]->axis().trip(host::AxisFault::following_error); },
+         "it is in fault", 2},
+        {"another drive is silent",
+         [](auto& plant) { mute(plant, 0, for_ever_us); },
+         "it does not answer",
+         0,
+         StopRequest::quick_stop,
+         true,
+         {.start_counts = 300'000.0}},
+        {"a slow quick stop", ask, "interrupted", 1, StopRequest::quick_stop, true, {.quick_stop_counts_s2 = 60'000.0}},
+        {"a quick stop that takes too long",
+         ask,
+         "interrupted",
+         1,
+         StopRequest::disable,
+         true,
+         {.quick_stop_counts_s2 = 1'000.0}},
+        {"a quick stop that is not known", ask, "interrupted", 1, StopRequest::disable, true,
+         unknown_commands({DriveCommand::quick_stop, DriveCommand::halt})},
+        {"no stop is known", ask, "interrupted", 1, StopRequest::disable, false,
+         unknown_commands({DriveCommand::quick_stop, DriveCommand::halt, DriveCommand::disable})},
+    };
+}
+
+} // namespace
+
+TEST_CASE("Set-point port, virtual: whatever ends homing stops all drives, or says which did not confirm it",
+          "[ports]") {
+    for (const HomingFault& fault : homing_faults()) {
+        INFO(fault.name);
+        asked_to_stop = false;
+        bool spoilt = false;
+        SetpointPlantParameters parameters = fault.parameters;
+        parameters.start_counts = parameters.start_counts == 0.0 ? 60'000.0 : parameters.start_counts; // 3 s
+        SetpointPlant plant(parameters);
+        plant.make({.home = true, .interrupted = [] {
+                        return asked_to_stop;
+                    }});
+        plant.sample_positions();
+        REQUIRE(plant.port->open() == "");
+        plant.each_ms = [&] {
+            if (!spoilt && plant.drives[1]->axis().homing()) {
+                spoilt = std::fabs(plant.drives[1]->axis().reference().velocity_counts_s()) > 15'000.0;
+                spoilt ? fault.spoil(plant) : void();
+            }
+        };
+        const std::string trouble = plant.port->prepare(motion.segments.front());
+        const std::uint64_t ended_us = plant.clock.now_us();
+        REQUIRE(spoilt);
+        CHECK(trouble.substr(0, fault.trouble.size()) == fault.trouble);
+        if (fault.trouble.empty()) {
+            CHECK(trouble.empty());
+            continue;
+        }
+        CHECK(plant.port->trouble_with() == fault.with);
+        CHECK(plant.port->poll().phase == PortPhase::fault);
+        const StopReport stopped = plant.port->stop_report(1);
+        CHECK(stopped.request == fault.request);
+        CHECK((stopped.state == StopState::confirmed) == fault.confirmed);
+        CHECK_FALSE(plant.port->position_counts(1).has_value()); // its reference is not known
+        plant.port.reset();
+        plant.clock.sleep_us(500'000);
+        CHECK((plant.moved_us[1] <= ended_us) == fault.confirmed);
+        CHECK(plant.moved_us[2] <= ended_us);
+    }
+}
+
+TEST_CASE("Set-point port, virtual: drives are switched off where a set-up fails, too", "[ports]") {
+    SetpointPlant plant({});
+    plant.make();
+    plant.sample_positions();
+    REQUIRE(plant.port->open() == "");
+    plant.drives[2]->axis().trip(host::AxisFault::following_error);
+    CHECK(plant.port->prepare(motion.segments.front()).find("it is in fault, code 34321;") == 0);
+    CHECK(plant.drives[0]->axis().power() == host::AxisPower::on);
+    plant.port->power_off();
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(plant.port->stop_report(i).state == StopState::confirmed);
+        CHECK(plant.drives[i]->axis().power() != host::AxisPower::on);
+    }
+}
+
+TEST_CASE("Set-point port, virtual: silent for 0.15 s from any request of the set-up on, it is made ready or all stand",
+          "[ports]") {
+    for (const char* const profile : {"cia402-index", "leadshine-pr"}) {
+        std::uint64_t requests = 1;
+        for (std::uint64_t at = 1; at <= requests; at += 1 + requests / 40) {
+            INFO(profile << ", silent from request " << at << " of " << requests);
+            SetpointPlant plant({.profile = profile, .one_wire = true, .start_counts = 8'000.0});
+            plant.make({.home = true});
+            plant.sample_positions();
+            plant.wires[0]->silences.emplace_back(at, 150'000);
+            if (plant.port->open() != "") {
+                continue; // nothing was begun
+            }
+            const bool ready = plant.port->prepare(motion.segments.front()).empty();
+            const std::uint64_t ended_us = plant.clock.now_us();
+            requests = std::max(requests, plant.wires[0]->requests);
+            for (std::size_t i = 0; i < 3; ++i) {
+                CHECK((ready || plant.port->stop_report(i).state == StopState::confirmed));
+            }
+            plant.port.reset();
+            plant.clock.sleep_us(300'000);
+            for (const std::uint64_t moved_us : plant.moved_us) {
+                CHECK(moved_us <= ended_us);
+            }
+        }
     }
 }

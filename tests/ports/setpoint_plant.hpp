@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host_sim/config/shipped_profiles.hpp"
+#include "host_sim/drive/faulty_drive.hpp"
 #include "host_sim/drive/profile_drive.hpp"
 #include "ports/plant.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
@@ -18,6 +19,12 @@ struct SetpointPlantParameters {
     double acceleration_counts_s2 = 2e6; ///< of the first axis, as planned
     double fastest_counts_s = 60'000.0;  ///< of the first axis
     std::uint64_t seed = 1;
+    double start_counts = 0.0;
+    splinefeed::host::ModelFaults faults{}; ///< of each drive
+    double standstill_counts = 2.0;         ///< of the first axis
+    double quick_stop_counts_s2 = 16e6;     ///< of the first axis
+    std::function<void(splinefeed::hal::modbus::DriveProfile&)>
+        change_drives{};                                                  ///< of the profile that the drives have
     std::function<void(splinefeed::hal::modbus::DriveProfile&)> change{}; ///< of the profile, before drives are made
 };
 
@@ -36,9 +43,16 @@ public:
             splinefeed::host::ProfileDriveParameters parameters_of_drive;
             parameters_of_drive.period_us = profile.period_us;
             parameters_of_drive.acceleration_counts_s2 = 4.0 * share * parameters.acceleration_counts_s2;
-            parameters_of_drive.axis.stop_counts_s2 = 8.0 * share * parameters.acceleration_counts_s2;
-            auto model = std::make_unique<splinefeed::host::ProfileDrive>(profile, parameters_of_drive);
-            drives.push_back(model.get());
+            parameters_of_drive.axis.stop_counts_s2 = share * parameters.quick_stop_counts_s2;
+            parameters_of_drive.axis.start_counts = parameters.start_counts;
+            splinefeed::hal::modbus::DriveProfile theirs = profile;
+            if (parameters.change_drives) {
+                parameters.change_drives(theirs);
+            }
+            auto drive = std::make_unique<splinefeed::host::ProfileDrive>(theirs, parameters_of_drive);
+            drives.push_back(drive.get());
+            auto model = std::make_unique<splinefeed::host::FaultyDrive>(std::move(drive), theirs);
+            model->set_faults(parameters.faults);
             const int unit = parameters.one_wire ? i + 1 : 1;
             add(std::move(model), unit, 0.0, *wires.back());
             wirings.push_back({.link = {.wire = profile.link.rtu ? Wire::rtu : Wire::tcp,
@@ -49,7 +63,8 @@ public:
                                .axis = i,
                                .acceleration_counts_s2 = share * parameters.acceleration_counts_s2,
                                .ramp_counts_s2 = 4.0 * share * parameters.acceleration_counts_s2,
-                               .fastest_counts_s = share * parameters.fastest_counts_s});
+                               .fastest_counts_s = share * parameters.fastest_counts_s,
+                               .standstill_counts = parameters.standstill_counts});
         }
     }
 

@@ -26,12 +26,18 @@ std::uint64_t StopSequence::bound_us(StopRequest request) const noexcept {
                                                 : times_.disable_us;
 }
 
+void StopSequence::request(std::size_t axis, StopRequest request, std::uint64_t now_us) noexcept {
+    strongest_ = std::max(strongest_, request);
+    Axis& stopped = axes_[axis];
+    if (request > stopped.report.request) {
+        stopped = {.report = {.request = request, .status_us = stopped.report.status_us}, .since_us = now_us};
+    }
+}
+
 void StopSequence::request(StopRequest request, std::uint64_t now_us) noexcept {
     strongest_ = std::max(strongest_, request);
-    for (Axis& axis : axes_) {
-        if (request > axis.report.request) {
-            axis = {.report = {.request = request, .status_us = axis.report.status_us}, .since_us = now_us};
-        }
+    for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
+        this->request(axis, request, now_us);
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // StopSequence: the state machine by which all targets stop their axes, and by which they report the result.
 //
-//                 request(), the same for all axes; it only becomes stronger:  hold < quick_stop < disable
+//                 request(), of all axes or one; it only becomes stronger:  hold < quick_stop < disable
 //
 //     moving --executed by the axis--> stopping --it reports standstill, for the settling time,--> confirmed
 //       |                                  |       and no start is pending                              |
@@ -86,6 +86,8 @@ public:
     void set_times(const StopTimes& times) noexcept { times_ = times; }
     /// Requests a stop of all axes. Has no effect on an axis with an equal or stronger request.
     void request(StopRequest request, std::uint64_t now_us) noexcept;
+    /// The same of one axis: for one that moves by itself (homing) a hold is not enough.
+    void request(std::size_t axis, StopRequest request, std::uint64_t now_us) noexcept;
     /// Cost: linear in the axes. @pre facts.size() is the number of axes
     void update(std::uint64_t now_us, std::span<const StopFacts> facts) noexcept;
 

@@ -45,7 +45,8 @@ std::vector<SetpointWiring> target_wiring(const DriveTable& table, const Machine
                           .acceleration_counts_s2 = planned * settings.steps_per_mm,
                           .ramp_counts_s2 = ramp_mm_s2(drive, settings) * settings.steps_per_mm,
                           .fastest_counts_s = settings.max_velocity_mm_s * settings.steps_per_mm,
-                          .inverted = machine.inverted[static_cast<unsigned>(axis)]});
+                          .inverted = machine.inverted[static_cast<unsigned>(axis)],
+                          .standstill_counts = standstill_window_counts(machine, static_cast<unsigned>(axis))});
     }
     return wiring;
 }
@@ -161,14 +162,20 @@ std::vector<RunTarget::AxisPlace> SetpointTarget::places() const {
     std::vector<AxisPlace> out;
     for (std::size_t i = 0; may_have_moved() && i < table_.drives.size(); ++i) {
         const auto axis = static_cast<unsigned>(axis_of(i));
-        out.push_back(place(axis, port_.position_counts(i), port_.online(i)));
+        const std::optional<double> counts = port_.position_counts(i);
+        const bool online = port_.online(i);
+        out.push_back(counts ? place(axis, *counts, online) : AxisPlace{axis, std::nullopt, online});
     }
     return out;
 }
 
 std::string SetpointTarget::prepare_port(const FeedSegment& first) {
     const std::string what = port_.prepare(first);
-    return what.empty() ? what : sentence(what);
+    if (what.empty() || port_.stop_report(0).request == hal::StopRequest::none) {
+        return what.empty() ? what : sentence(what);
+    }
+    const std::string moving = unconfirmed_drives(stopped());
+    return sentence(what) + (moving.empty() ? "; all drives stand" : moving);
 }
 
 void SetpointTarget::describe(Summary& summary) const {

@@ -36,6 +36,7 @@ bool AxisFrame::align(std::int64_t stands_q16, std::int64_t start) noexcept {
         offset_ = before;
         return false;
     }
+    aligned_ = true;
     return true;
 }
 

@@ -26,6 +26,8 @@ public:
     /// Defines that the drive's position `stands_q16` [1/65536 count] is `start` of the axis. Returns false, without a
     /// change, if out of range.
     [[nodiscard]] bool align(std::int64_t stands_q16, std::int64_t start) noexcept;
+    /// Whether align() has succeeded: positions mean something.
+    [[nodiscard]] bool aligned() const noexcept { return aligned_; }
     /// Converts a position of the axis to the drive's; empty: out of range.
     [[nodiscard]] std::optional<std::int64_t> position(std::int64_t of_axis) const noexcept;
     [[nodiscard]] std::int64_t velocity(std::int64_t of_axis) const noexcept { return inverted_ ? -of_axis : of_axis; }
@@ -37,6 +39,7 @@ public:
 private:
     bool inverted_;
     const RegisterField* target_;
+    bool aligned_ = false;
     std::int64_t offset_ = 0; // drive's position minus the axis's, in the drive's direction
 };
 

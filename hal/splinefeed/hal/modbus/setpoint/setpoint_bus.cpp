@@ -24,8 +24,8 @@ std::uint64_t SetpointMotion::time_us(std::uint64_t now_us) noexcept {
     return time;
 }
 
-SetpointDrive& SetpointBus::add(const DriveProfile& profile, int unit) {
-    drives_.emplace_back(profile, *link_, unit);
+SetpointDrive& SetpointBus::add(const DriveProfile& profile, int unit, double standstill_counts) {
+    drives_.emplace_back(profile, *link_, unit, standstill_counts);
     return drives_.back().drive;
 }
 
@@ -76,11 +76,15 @@ void SetpointBus::publish_report(Slot& slot) noexcept {
     if (const std::uint64_t status_us = slot.drive.status_us(); status_us > slot.report.status_us) {
         slot.report.status_us = status_us;
         slot.standstill.update(status_us, slot.drive.reading().position_q16);
-        slot.report.still_us = slot.standstill.still_us();
+        slot.word_since_us = !slot.drive.says_it_stands() ? 0
+                             : slot.word_since_us == 0    ? status_us
+                                                          : slot.word_since_us;
+        const std::uint64_t by_word_us = slot.word_since_us != 0 ? status_us - slot.word_since_us : 0;
+        slot.report.still_us = std::max(slot.standstill.still_us(), by_word_us);
     }
     slot.report.reading = slot.drive.reading();
     slot.report.answered_us = slot.drive.answered_us();
-    slot.report.fault = slot.drive.last_answer().fault;
+    slot.report.last = slot.drive.last_answer();
     slot.report.clamped = slot.drive.clamped();
     slot.report.at_target = slot.drive.at_target();
     slot.report.counts = slot.drive.counts();

@@ -8,6 +8,7 @@
 #include "splinefeed/hal/standstill.hpp"
 
 #include <atomic>
+#include <cmath>
 #include <deque>
 #include <mutex>
 
@@ -28,7 +29,7 @@ struct SetpointMotion {
     std::uint64_t reserve;              ///< motion time of the clock's slow-down [us]
     std::uint64_t ahead_us = 0;         ///< how far targets are ahead of motion time [us]
     std::uint64_t last_setpoint_us = 0; ///< arrival of the last target at any drive [us]
-    bool complete = false;              ///< the trajectory contains the end of the motion
+    bool complete = false;              ///< the trajectory contains the end of the motion, at rest
     bool stop_requested = false;        ///< a stop was requested: drives that stand must not move any more
 };
 
@@ -37,19 +38,19 @@ struct SetpointReport {
     DriveReading reading;
     std::uint64_t answered_us = 0;
     std::uint64_t status_us = 0;              ///< earliest instant of `reading`; 0: none since start()
-    std::uint64_t still_us = 0;               ///< for how long the position had not changed by then
+    std::uint64_t still_us = 0;               ///< for how long it had stood by then, by its word or its positions
     std::uint64_t setpoint_us = 0;            ///< arrival of the last target; 0: none
     StopRequest executed = StopRequest::none; ///< strongest executed request of stop_drive()
     std::uint64_t executed_us = 0;
     LinkCounts counts;
-    std::uint64_t late_us = 0;         ///< largest lateness of a target, beyond a period after the previous one
-    LinkFault fault = LinkFault::none; ///< of the last exchange
+    std::uint64_t late_us = 0; ///< largest lateness of a target, beyond a period after the previous one
+    LinkAnswer last;           ///< of the last exchange
     bool clamped = false;
     bool end_sent = false;
     bool at_target = true; ///< it stands at its target; always true for cyclic drives
 };
 
-/// A drive stands when its position has not changed for this long. [us]
+/// A drive stands when its position has stayed within its window, or it has said so, for this long. [us]
 inline constexpr std::uint64_t standstill_us = 40'000;
 
 class SetpointBus {
@@ -63,7 +64,7 @@ public:
     ~SetpointBus() { stop(); }
 
     /// Adds a drive. References stay valid. @pre not started
-    SetpointDrive& add(const DriveProfile& profile, int unit);
+    SetpointDrive& add(const DriveProfile& profile, int unit, double standstill_counts);
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
     [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
     [[nodiscard]] SetpointDrive& drive(std::size_t i) noexcept { return drives_[i].drive; }
@@ -86,11 +87,13 @@ public:
 
 private:
     struct Slot {
-        Slot(const DriveProfile& profile, ModbusLine& link, int unit) : drive(profile, link, unit) {}
+        Slot(const DriveProfile& profile, ModbusLine& link, int unit, double standstill_counts)
+            : drive(profile, link, unit), standstill(std::llround(standstill_counts * (1 << physical_bits))) {}
 
         SetpointDrive drive;
         SetpointReport report;
-        Standstill standstill{2 << physical_bits};
+        Standstill standstill;
+        std::uint64_t word_since_us = 0; // it says that it stands since then; 0: it does not
         std::atomic<StopRequest> stop_request{StopRequest::none};
         std::uint64_t setpoint_us = 0;  // arrival of the last target; 0: none
         std::uint64_t end_sent_us = 0;  // when the end was sent; 0: not yet

@@ -6,22 +6,10 @@
 
 namespace splinefeed::hal::modbus {
 
-namespace {
-
-constexpr int enable_polls = 5; // polls until a drive reports that it is enabled
-constexpr std::uint64_t settle_us = 20'000;
-constexpr std::uint64_t homing_begins_us = 200'000;
-constexpr std::uint64_t homing_us = 300'000'000;
-
-} // namespace
-
 SetpointDrive::SetpointDrive(const DriveProfile& profile, ModbusLine& link, int unit)
     : profile_(&profile), link_(&link), unit_(unit), status_(profile) {}
 
 std::string SetpointDrive::trouble(const char* what) const {
-    if (!trouble_elsewhere_.empty()) {
-        return trouble_elsewhere_;
-    }
     return std::string(what) + ": " + describe(answer_, *link_);
 }
 
@@ -43,33 +31,17 @@ bool SetpointDrive::read(std::uint16_t address, std::span<std::uint16_t> out) no
     return record(link_->read(unit_, address, out));
 }
 
-// Repeats a failed exchange; connects again after the connection was lost.
-template <class Try>
-bool SetpointDrive::retry(const Try& attempt) {
-    for (int i = 0; i <= profile_->link.retries; ++i) {
-        if (attempt()) {
-            return true;
-        }
-        if (!link_->connected()) {
-            static_cast<void>(link_->connect());
-        }
-    }
-    return false;
-}
-
-bool SetpointDrive::set_field(FieldIndex field, std::int64_t raw) {
+bool SetpointDrive::write_field(FieldIndex field, std::int64_t raw) {
     return retry([&] { return write(frames().single(field, raw)); });
 }
 
-// Returns true also if the drive has no such register.
-bool SetpointDrive::set_role(FieldRole role, std::int64_t physical_q16) {
+bool SetpointDrive::write_role(FieldRole role, std::int64_t physical_q16) {
     const RegisterField* const field = profile_->field_of(role);
     return field == nullptr || !field->writable() ||
-           set_field(static_cast<FieldIndex>(field - profile_->fields.data()), raw_of(*field, physical_q16).raw);
+           write_field(static_cast<FieldIndex>(field - profile_->fields.data()), raw_of(*field, physical_q16).raw);
 }
 
-// Writes the init list; a flash register only if its value differs.
-bool SetpointDrive::initialise() {
+bool SetpointDrive::write_initial() {
     return std::all_of(profile_->init.begin(), profile_->init.end(), [&](const DriveProfile::InitialValue& value) {
         const RegisterField& field = profile_->fields[value.field];
         std::array<std::uint16_t, 4> registers{};
@@ -82,7 +54,7 @@ bool SetpointDrive::initialise() {
                 return true;
             }
         }
-        return set_field(value.field, value.value);
+        return write_field(value.field, value.value);
     });
 }
 
@@ -157,31 +129,17 @@ bool SetpointDrive::stop(StopRequest request) noexcept {
     return false;
 }
 
-// Returns false if another drive has failed.
-bool SetpointDrive::wait_until(std::uint64_t instant_us) noexcept {
-    Clock& clock = link_->clock();
-    while (meanwhile_ && trouble_elsewhere_.empty() && clock.now_us() < instant_us) {
-        clock.sleep_until_us(std::min(instant_us, clock.now_us() + settle_us));
-        trouble_elsewhere_ = meanwhile_();
-    }
-    clock.sleep_until_us(instant_us);
-    return !meanwhile_ || trouble_elsewhere_.empty();
-}
-
-bool SetpointDrive::command(DriveCommand command) noexcept {
-    return this->command(command, profile_->link.retries);
-}
-
-bool SetpointDrive::command(DriveCommand command, int failures) noexcept {
+bool SetpointDrive::command(DriveCommand command, int failures, const CommandPause& pause) noexcept {
     CommandSequence sequence(*profile_, frames());
     if (!sequence.begin(command)) {
         return false;
     }
     int failed = 0;
     while (!sequence.finished()) {
-        if (!wait_until(sequence.due_us())) {
+        if (pause && !pause(sequence.due_us())) {
             return false;
         }
+        link_->clock().sleep_until_us(sequence.due_us());
         if (write(sequence.next())) {
             sequence.on_sent(link_->clock().now_us());
         } else if (++failed > failures) {
@@ -191,20 +149,8 @@ bool SetpointDrive::command(DriveCommand command, int failures) noexcept {
     return true;
 }
 
-template <class Work>
-std::string SetpointDrive::run_with_meanwhile(const SetpointSettings& settings, const Work& work) {
-    meanwhile_ = settings.meanwhile;
-    trouble_elsewhere_.clear();
-    std::string what = work();
-    meanwhile_ = nullptr;
-    return what;
-}
-
-std::string SetpointDrive::enable(const SetpointSettings& settings) {
-    return run_with_meanwhile(settings, [&] { return switch_on(settings); });
-}
-
-std::string SetpointDrive::switch_on(const SetpointSettings& settings) {
+void SetpointDrive::configure(const SetpointSettings& settings) {
+    standstill_counts_ = settings.standstill_counts;
     if (profile_->stream == StreamWay::blocks) {
         block_.emplace(*profile_, BlockSettings{.axis = settings.axis,
                                                 .period_us = settings.period_us,
@@ -214,101 +160,15 @@ std::string SetpointDrive::switch_on(const SetpointSettings& settings) {
         cyclic_.emplace(*profile_, CyclicSettings{settings.axis, profile_->period_us, settings.period_us,
                                                   settings.acceleration_counts_s2});
     }
-    if (!initialise()) {
-        return trouble("its settings cannot be written");
-    }
-    const std::int64_t one = std::int64_t{1} << physical_bits;
-    if (profile_->stream_mode && !set_role(FieldRole::mode, *profile_->stream_mode * one)) {
-        return trouble("its mode cannot be set");
-    }
-    if (profile_->watchdog_timeout_ms > 0 && !set_role(FieldRole::watchdog, profile_->watchdog_timeout_ms * one)) {
-        return trouble("its watchdog cannot be set");
-    }
-    if (profile_->following_error_window_counts &&
-        !set_role(FieldRole::following_error_window, *profile_->following_error_window_counts * one)) {
-        return trouble("its following-error window cannot be set");
-    }
-    if (reading_.state == DriveState::fault && !command(DriveCommand::fault_reset)) {
-        return trouble("its fault cannot be reset");
-    }
-    if (!command(DriveCommand::enable)) {
-        return trouble("it cannot be enabled");
-    }
-    for (int i = 0; i < enable_polls; ++i) {
-        if (!wait_until(link_->clock().now_us() + settle_us)) {
-            return trouble("");
-        }
-        if (read_status() && reading_.state == DriveState::enabled) {
-            return {};
-        }
-    }
-    return not_enabled();
 }
 
-std::string SetpointDrive::begin(const SetpointSettings& settings) {
-    return run_with_meanwhile(settings, [&] {
-        std::string what = settings.home ? home(settings) : std::string();
-        if (!what.empty()) {
-            return what;
-        }
-        return retry([&] { return read_status(); }) ? prime_blocks() : trouble("its status cannot be read");
-    });
-}
-
-std::string SetpointDrive::not_enabled() const {
-    return reading_.state == DriveState::fault ? "it is in fault, code " + std::to_string(reading_.fault_code)
-                                               : "it does not report that it is enabled";
-}
-
-// Sends the present position as the first target.
-std::string SetpointDrive::prime_blocks() {
+bool SetpointDrive::prime() {
     if (!block_) {
-        return {};
+        return true;
     }
     block_->begin(static_cast<double>(reading_.position_q16) / (1 << physical_bits));
     prepared_ = block_->prime();
-    return retry([&] { return send(); }) ? std::string() : trouble("its setpoint cannot be written");
-}
-
-std::string SetpointDrive::home(const SetpointSettings& settings) {
-    const std::int64_t one = std::int64_t{1} << physical_bits;
-    if (profile_->steps_of(DriveCommand::home).empty()) {
-        return "its profile has no home command; omit --home, or home it by its own means";
-    }
-    if ((profile_->homing_mode && !set_role(FieldRole::mode, *profile_->homing_mode * one)) ||
-        !command(DriveCommand::home)) {
-        return trouble("it cannot be homed");
-    }
-    const std::uint64_t begun = link_->clock().now_us();
-    for (;;) {
-        if (!wait_until(link_->clock().now_us() + settle_us)) {
-            meanwhile_ = nullptr; // the other drive's failure is known
-            static_cast<void>(command(DriveCommand::quick_stop));
-            return trouble("");
-        }
-        if (settings.interrupted != nullptr && settings.interrupted()) {
-            static_cast<void>(command(DriveCommand::quick_stop));
-            return "interrupted during homing; it was stopped";
-        }
-        if (!retry([&] { return read_status(); })) {
-            return trouble("it does not answer during homing");
-        }
-        const bool stands = reading_.state == DriveState::enabled && (profile_->homed ? reading_.homed : reading_.done);
-        const std::uint64_t now = link_->clock().now_us();
-        if (stands && now > begun + homing_begins_us) { // an earlier status may be from before the start of homing
-            break;
-        }
-        if (reading_.state == DriveState::fault || reading_.state == DriveState::disabled) {
-            return not_enabled();
-        }
-        if (now > begun + homing_us) {
-            static_cast<void>(command(DriveCommand::quick_stop));
-            return "its homing was not completed; check its switches and its settings";
-        }
-    }
-    return profile_->stream_mode && !set_role(FieldRole::mode, *profile_->stream_mode * one)
-               ? trouble("its mode cannot be set")
-               : std::string();
+    return retry([&] { return send(); });
 }
 
 void SetpointDrive::prepare_frames(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
@@ -348,9 +208,10 @@ void SetpointDrive::on_setpoint_timeout(const TrajectoryBuffer& track, const Mot
 }
 
 void SetpointDrive::resync_position() noexcept {
-    constexpr double rounding_counts = 1.5; // rounding of the report and of the model
+    constexpr double rounding_counts = 1.5; // of the report and of the model
     const double reported_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
-    if (block_ && std::fabs(reported_counts - block_->position_counts()) > rounding_counts) {
+    if (block_ &&
+        std::fabs(reported_counts - block_->position_counts()) > std::max(rounding_counts, standstill_counts_)) {
         block_->begin(reported_counts);
     }
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SetpointDrive: one drive of one axis that gets cyclic targets or blocks by its profile: enabling, targets, status,
-// stops.
+// SetpointDrive: one drive of one axis that gets cyclic targets or blocks by its profile: targets, status, commands.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_counts.hpp"
@@ -16,21 +15,20 @@
 
 namespace splinefeed::hal::modbus {
 
-/// Settings of a drive for a run.
+/// Settings of a drive for a motion.
 struct SetpointSettings {
     int axis = 0;                        ///< index in the feed segments
     std::uint32_t period_us = 10'000;    ///< between two targets
     double acceleration_counts_s2 = 1e6; ///< planned acceleration of the axis
-    bool home = false;                   ///< home the drive first
-    bool (*interrupted)() = nullptr;     ///< polled during homing; true: quick stop
     double ramp_counts_s2 = 4e6;         ///< BlockSettings::acceleration
     double fastest_counts_s = 0.0;       ///< BlockSettings::fastest
-    /// Called repeatedly while waiting for this drive, to poll other drives and feed their watchdogs. A result that is
-    /// not empty is a failure and ends the wait.
-    std::function<std::string()> meanwhile{};
+    double standstill_counts = 2.0;      ///< SetpointWiring
 };
 
-/// For one thread at a time. Constructor, open(), enable() and begin() allocate; the other functions do not.
+/// Waits until an instant, between two frames of a command. [us] false: the command is given up.
+using CommandPause = std::function<bool(std::uint64_t until_us)>;
+
+/// For one thread at a time. Constructor, open() and configure() allocate; the other functions do not.
 class SetpointDrive {
 public:
     /// Profile and link must outlive the drive.
@@ -38,12 +36,27 @@ public:
 
     /// Connects, checks the identity and reads the status. Returns what is wrong; empty: nothing.
     [[nodiscard]] std::string open();
-    /// Writes the init list, mode, watchdog and window, resets a fault and enables the drive. Blocks for some seconds.
-    /// Returns what is wrong; empty: nothing.
-    [[nodiscard]] std::string enable(const SetpointSettings& settings);
-    /// After enable(): homes the drive, if set, and sends its present position as the first target. Blocks until done.
-    /// Returns what is wrong; empty: nothing.
-    [[nodiscard]] std::string begin(const SetpointSettings& settings);
+    /// Makes the stream. @pre called before everything below; open
+    void configure(const SetpointSettings& settings);
+    /// Writes the init list; a flash register only if its value differs. Returns false on failure.
+    [[nodiscard]] bool write_initial();
+    /// Writes a value; true also if the drive has no such register. Returns false on failure.
+    [[nodiscard]] bool write_role(FieldRole role, std::int64_t physical_q16);
+    /// Sends a drive with blocks its present position as the first target. Returns false on failure.
+    [[nodiscard]] bool prime();
+    /// Repeats a failed exchange as often as the profile says; connects again after the connection was lost.
+    template <class Try>
+    [[nodiscard]] bool retry(const Try& attempt) {
+        for (int i = 0; i <= profile_->link.retries; ++i) {
+            if (attempt()) {
+                return true;
+            }
+            if (!link_->connected()) {
+                static_cast<void>(link_->connect());
+            }
+        }
+        return false;
+    }
 
     /// Computes the frames of the target for that instant.
     void prepare_frames(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
@@ -62,8 +75,9 @@ public:
     /// Reads the status for reading(): all its frames, or the next one in turn. Return false on failure.
     bool read_status() noexcept;
     bool read_next() noexcept;
-    /// Sends all frames of a command. Blocks. Returns false on failure, or if the profile has no such command.
-    bool command(DriveCommand command) noexcept;
+    /// Sends all frames of a command. Blocks. Returns false after that many failures and one more, or if the profile
+    /// has no such command.
+    bool command(DriveCommand command, int failures, const CommandPause& pause = {}) noexcept;
     /// Stops the drive by the first command that its profile has: for a quick stop quick_stop, halt or disable; to
     /// switch it off disable. Does not retry, so that other drives on the wire need not wait. Returns false if there
     /// was no answer or the profile has no such command.
@@ -74,6 +88,11 @@ public:
     /// Whether the reported position is at the target of the last block, within the tolerance of a position loop; true
     /// for cyclic drives.
     [[nodiscard]] bool at_target() const noexcept;
+    /// Whether the drive reports that it stands at its target, after its last block: false for cyclic drives, which
+    /// have no word for it.
+    [[nodiscard]] bool says_it_stands() const noexcept {
+        return block_ && reading_.done && reading_.state == DriveState::enabled && at_target();
+    }
     /// Whether a value exceeded the range of its register.
     [[nodiscard]] bool clamped() const noexcept;
     /// `segments` counts the targets.
@@ -85,27 +104,16 @@ public:
     [[nodiscard]] const DriveProfile& profile() const noexcept { return *profile_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }
+    /// "what: why the last exchange failed"
+    [[nodiscard]] std::string trouble(const char* what) const;
 
 private:
     [[nodiscard]] SetpointFrames& frames() noexcept { return block_ ? block_->frames() : cyclic_->frames(); }
-    bool command(DriveCommand command, int failures) noexcept;
-    template <class Work>
-    [[nodiscard]] std::string run_with_meanwhile(const SetpointSettings& settings, const Work& work);
-    [[nodiscard]] std::string switch_on(const SetpointSettings& settings);
-    [[nodiscard]] bool wait_until(std::uint64_t instant_us) noexcept;
     bool write(const RegisterWrite& write) noexcept;
     bool read(std::uint16_t address, std::span<std::uint16_t> out) noexcept;
     bool record(const LinkAnswer& answer) noexcept;
-    template <class Try>
-    [[nodiscard]] bool retry(const Try& attempt);
-    [[nodiscard]] bool set_field(FieldIndex field, std::int64_t raw);
-    [[nodiscard]] bool set_role(FieldRole role, std::int64_t physical_q16);
-    [[nodiscard]] bool initialise();
-    [[nodiscard]] std::string home(const SetpointSettings& settings);
-    [[nodiscard]] std::string prime_blocks();
-    [[nodiscard]] std::string not_enabled() const;
+    [[nodiscard]] bool write_field(FieldIndex field, std::int64_t raw);
     [[nodiscard]] std::string check_identity();
-    [[nodiscard]] std::string trouble(const char* what) const;
 
     const DriveProfile* profile_;
     ModbusLine* link_;
@@ -118,8 +126,7 @@ private:
     DriveReading reading_;
     LinkAnswer answer_;
     LinkCounts counts_;
-    std::function<std::string()> meanwhile_; // SetpointSettings
-    std::string trouble_elsewhere_;          // result of meanwhile_
+    double standstill_counts_ = 0.0; // SetpointSettings
     std::uint64_t answered_us_ = 0;
     std::size_t next_read_ = 0;                                       // counter of status frames
     std::array<std::uint64_t, StatusFrames::most_reads> status_us_{}; // of each status frame

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/setpoint/setpoint_standby.hpp"
 
+#include "splinefeed/hal/modbus/setpoint/setpoint_watch.hpp"
+
 namespace splinefeed::hal::modbus {
 
 std::string SetpointStandby::poll_others(const SetpointDrive& but) {
@@ -12,13 +14,13 @@ std::string SetpointStandby::poll_others(const SetpointDrive& but) {
         static_cast<void>(drive.read_next());
         const DriveReading& reading = drive.reading();
         if (reading.state == DriveState::fault) {
-            return "it is in fault, code " + std::to_string(reading.fault_code) + "; see its manual";
+            return fault_sentence(reading);
         }
         if (reading.state == DriveState::disabled) {
             return "it was disabled while another drive was prepared";
         }
         if (drive.link().clock().now_us() > drive.answered_us() + away_us_) {
-            return "it does not answer any more: " + describe(drive.last_answer(), drive.link());
+            return silence(drive.last_answer(), &drive.link());
         }
     }
     return {};

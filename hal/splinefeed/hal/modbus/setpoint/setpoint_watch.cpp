@@ -12,20 +12,31 @@ constexpr std::uint64_t unknown_us =
 
 } // namespace
 
+std::string silence(const LinkAnswer& last, const ModbusLine* line) {
+    return last.fault == LinkFault::exception
+               ? std::string("it answers every request with the exception \"") + exception_name(last.exception) +
+                     "\"; check its profile against its manual"
+               : "it does not answer any more: " +
+                     (line != nullptr ? describe(last, *line) : std::string(describe(last.fault)));
+}
+
+std::string fault_sentence(const DriveReading& reading) {
+    return "it is in fault, code " + std::to_string(reading.fault_code) + "; see its manual";
+}
+
 // A drive that has stopped by itself or lost its power does not follow.
 std::string SetpointWatch::trouble(const SetpointReport& report, std::uint64_t now_us, std::uint64_t away_us,
                                    std::uint64_t began_us) {
     const bool unknown = report.status_us != 0 && report.reading.state == DriveState::unknown;
     unknown_since_us_ = !unknown ? 0 : unknown_since_us_ == 0 ? now_us : unknown_since_us_;
     if (now_us > std::max(report.answered_us, began_us) + away_us) {
-        return std::string("it does not answer any more: ") + describe(report.fault);
+        return silence(report.last);
     }
     if (report.clamped) {
         return "a position or speed exceeds the range of its register; check scale and clamp in its profile";
     }
     switch (report.reading.state) {
-    case DriveState::fault:
-        return "it is in fault, code " + std::to_string(report.reading.fault_code) + "; see its manual";
+    case DriveState::fault: return fault_sentence(report.reading);
     case DriveState::disabled:
     case DriveState::not_ready: return "it was disabled while it moved";
     case DriveState::quick_stop: return "it made a quick stop by itself; check its inputs and its watchdog";

@@ -34,7 +34,8 @@ struct Cubic {
 
 } // namespace
 
-void TrajectoryBuffer::clear() noexcept {
+void TrajectoryBuffer::reset(std::size_t capacity) {
+    ring_.resize(capacity);
     first_ = 0;
     count_ = 0;
     end_ticks_ = 0;
@@ -62,13 +63,18 @@ std::uint64_t TrajectoryBuffer::end_us() const noexcept {
     return (end_ticks_ + ticks_per_us - 1) / ticks_per_us;
 }
 
-bool TrajectoryBuffer::ends_at_rest(int axes) const noexcept {
-    if (count_ == 0) {
-        return true;
+bool TrajectoryBuffer::ends_at_rest() const noexcept {
+    return count_ == 0 || placed(count_ - 1).segment.end_velocity == PerAxis<std::int64_t>{};
+}
+
+// The last segment that begins at that time or before. @pre the first one does
+const TrajectoryBuffer::Placed& TrajectoryBuffer::at_ticks(std::uint64_t ticks) const noexcept {
+    std::size_t low = 0;
+    for (std::size_t beyond = count_; beyond - low > 1;) {
+        const std::size_t middle = low + (beyond - low) / 2;
+        (placed(middle).begin_ticks <= ticks ? low : beyond) = middle;
     }
-    const FeedSegment& last = placed(count_ - 1).segment;
-    return std::all_of(last.end_velocity.begin(), last.end_velocity.begin() + axes,
-                       [](std::int64_t velocity) { return velocity == 0; });
+    return placed(low);
 }
 
 TrajectoryPoint TrajectoryBuffer::at(int axis, std::uint64_t time_us) const noexcept {
@@ -81,11 +87,7 @@ TrajectoryPoint TrajectoryBuffer::at(int axis, std::uint64_t time_us) const noex
     if (ticks >= end_ticks_) {
         return {q16_of(placed(count_ - 1).segment.end[k]), 0.0};
     }
-    std::size_t i = 0;
-    while (i + 1 < count_ && placed(i + 1).begin_ticks <= ticks) {
-        ++i;
-    }
-    const Placed& here = placed(i);
+    const Placed& here = at_ticks(ticks);
     const auto duration = static_cast<double>(here.segment.duration_ticks);
     const double u = static_cast<double>(ticks - here.begin_ticks) / duration;
     const Cubic cubic(here.segment, k);

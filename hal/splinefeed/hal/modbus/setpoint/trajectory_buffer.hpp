@@ -24,11 +24,11 @@ struct MotionInstant {
 /// Times are microseconds since the start of the motion. Not thread-safe.
 class TrajectoryBuffer {
 public:
-    /// Allocates room for `capacity` segments; never allocates again.
+    /// Allocates room for `capacity` segments; never allocates again, but in reset().
     explicit TrajectoryBuffer(std::size_t capacity) : ring_(capacity) {}
 
-    /// Removes all segments; the next motion starts at time 0.
-    void clear() noexcept;
+    /// Removes all segments, and makes room for `capacity` of them; the next motion starts at time 0. Allocates.
+    void reset(std::size_t capacity);
     /// Appends a segment. Returns false if the buffer is full. @pre the segment starts at the end of the previous one
     bool push(const FeedSegment& segment) noexcept;
     /// Removes segments that end before this time, but never the last one.
@@ -37,11 +37,11 @@ public:
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
     /// End of the last segment, rounded up. [us]
     [[nodiscard]] std::uint64_t end_us() const noexcept;
-    /// Whether the last segment ends with velocity 0 in every axis.
-    [[nodiscard]] bool ends_at_rest(int axes) const noexcept;
+    /// Whether the last segment ends with velocity 0 in every axis; true without segments.
+    [[nodiscard]] bool ends_at_rest() const noexcept;
 
     /// State of an axis at a time. Before the first segment: its start, at rest; after the last one: its end, at rest.
-    /// Cost: linear in the segments before that time. @pre not empty
+    /// Cost: logarithmic in the segments. @pre not empty
     [[nodiscard]] TrajectoryPoint at(int axis, std::uint64_t time_us) const noexcept;
 
 private:
@@ -49,6 +49,7 @@ private:
         std::uint64_t begin_ticks = 0;
         FeedSegment segment;
     };
+    [[nodiscard]] const Placed& at_ticks(std::uint64_t ticks) const noexcept;
     [[nodiscard]] const Placed& placed(std::size_t i) const noexcept { return ring_[(first_ + i) % ring_.size()]; }
 
     std::vector<Placed> ring_;

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// Drives that follow target positions: every state that a run leaves has a way out, shafts dither, segments are short.
+#include "ports/run_plant.hpp"
+#include "ports/setpoint_plant.hpp"
+#include "support/catch.hpp"
+
+using namespace splinefeed::hal;
+using namespace splinefeed::hal::modbus;
+using namespace splinefeed_test;
+
+namespace {
+
+const SmoothMotion motion = smooth_motion(8000.0, 2, 100, 4000);
+constexpr std::array profiles{"cia402-index", "lexium32m", "leadshine-pr", "oriental-az", "cia402-kinco"};
+
+std::string prepare(SetpointPlant& plant, const SetpointPortSettings& settings = {},
+                    const SmoothMotion& first = motion) {
+    plant.make(settings);
+    REQUIRE(plant.port->open() == "");
+    std::string what = plant.port->prepare(first.segments.front());
+    plant.began_us = plant.clock.now_us();
+    plant.next = 0;
+    return what;
+}
+
+/// What an earlier run leaves a drive in.
+struct Left {
+    const char* name;
+    std::function<void(SetpointPlant&)> leave;
+    bool needs_reset = false;
+};
+
+const std::array<Left, 6> earlier_runs{{
+    {"a hold",
+     [](auto& plant) {
+         run(plant, motion, {.hold_us = 200'000});
+     }},
+    {"a quick stop",
+     [](auto& plant) {
+         run(plant, motion, {.hold_us = 200'000, .quick_us = 220'000});
+     }},
+    {"power off",
+     [](auto& plant) {
+         run(plant, motion, {.hold_us = 200'000});
+         plant.port->power_off();
+     }},
+    {"a quick stop and power off",
+     [](auto& plant) {
+         run(plant, motion, {.quick_us = 220'000});
+         plant.port->power_off();
+     }},
+    {"a fault of a drive",
+     [](auto& plant) {
+         plant.events.emplace_back(plant.began_us + 200'000, [&plant] {
+             plant.drives[1]->axis().trip(splinefeed::host::AxisFault::following_error);
+         });
+         run(plant, motion, {});
+     },
+     true},
+    {"a power cycle of a drive",
+     [](auto& plant) {
+         plant.events.emplace_back(plant.began_us + 200'000, [&plant] { plant.drives[1]->power_cycle(); });
+         run(plant, motion, {});
+     }},
+}};
+
+} // namespace
+
+TEST_CASE("Set-point port, virtual: a later run works whatever an earlier one has left, or says what to do",
+          "[ports]") {
+    for (const char* const profile : profiles) {
+        for (const Left& left : earlier_runs) {
+            INFO(profile << ", after " << left.name);
+            SetpointPlant plant({.profile = profile});
+            plant.sample_positions();
+            REQUIRE(prepare(plant) == "");
+            left.leave(plant);
+            plant.port.reset();
+            plant.clock.sleep_us(300'000);
+            std::string what = prepare(plant);
+            CHECK((what.find("run again with --reset") != std::string::npos) == left.needs_reset);
+            if (left.needs_reset) {
+                CHECK(what.find("it is in fault, code ") == 0);
+                CHECK(plant.port->trouble_with() == 1);
+                plant.port.reset();
+                what = prepare(plant, {.reset = true});
+            }
+            REQUIRE(what == "");
+            CHECK(run(plant, motion, {}) == PortPhase::idle);
+        }
+    }
+}
+
+TEST_CASE("Set-point port, virtual: a shaft that dithers holds, goes on after a common stop, and arrives", "[ports]") {
+    struct Dither {
+        int counts;
+        double window_counts;
+        bool held; ///< its positions say that it is on the path
+    };
+    for (const char* const profile : profiles) {
+        const bool blocks = splinefeed::host::find_profile(profile).stream == StreamWay::blocks;
+        for (const Dither& dither : {Dither{3, 7.0, true}, Dither{12, 25.0, true}, Dither{12, 2.0, false}}) {
+            if (!blocks && !dither.held) {
+                continue; // a cyclic drive has no word of its own for it
+            }
+            INFO(profile << ", +-" << dither.counts << " counts in a window of " << dither.window_counts);
+            SetpointPlantParameters parameters{.profile = profile, .standstill_counts = dither.window_counts};
+            parameters.faults.dither_counts = dither.counts;
+            SetpointPlant plant(parameters);
+            REQUIRE(prepare(plant) == "");
+            CHECK(run(plant, motion, {.starved_from_us = 100'000, .starved_to_us = 900'000}) == PortPhase::idle);
+            CHECK(plant.port->resumes() == 1);
+            plant.port.reset();
+            REQUIRE(prepare(plant) == "");
+            CHECK(run(plant, motion, {.hold_us = 250'000}) == PortPhase::halted);
+            for (std::size_t i = 0; i < 3; ++i) {
+                CHECK(plant.port->stop_report(i).request == StopRequest::hold);
+                CHECK(plant.port->stop_report(i).state == StopState::confirmed);
+                CHECK((plant.port->stop_report(i).held() || !dither.held));
+                CHECK(plant.drives[i]->axis().power() == splinefeed::host::AxisPower::on);
+            }
+        }
+    }
+}
+
+TEST_CASE("Set-point port, virtual: segments of any duration fit the buffer", "[ports]") {
+    struct Short {
+        std::uint32_t segment_us;
+        std::uint32_t period_us; ///< of the drive's profile; 0: as it is
+    };
+    for (const char* const profile : {"cia402-index", "lexium32m"}) {
+        for (const Short& segments : {Short{50, 0}, Short{70, 0}, Short{7, 0}, Short{100, 400'000}}) {
+            INFO(profile << ", segments of " << segments.segment_us << " us, period_ms " << segments.period_us / 1000);
+            SetpointPlant plant({.profile = profile, .drives = 1, .change = [&](DriveProfile& changed) {
+                                     changed.period_us =
+                                         segments.period_us != 0 ? segments.period_us : changed.period_us;
+                                 }});
+            const auto a_leg = static_cast<int>(300'000 / segments.segment_us);
+            const SmoothMotion brief = smooth_motion(800.0, 2, a_leg, segments.segment_us);
+            REQUIRE(prepare(plant, {}, brief) == "");
+            CHECK(run(plant, brief, {}) == PortPhase::idle);
+            CHECK(plant.port->poll().executed == brief.segments.size());
+        }
+    }
+}
+
+TEST_CASE("Set-point port, virtual: a motion that ends while it moves is slowed down on its path", "[ports]") {
+    for (const char* const profile : profiles) {
+        INFO(profile);
+        std::vector<double> places; // every 20 ms
+        SetpointPlant plant({.profile = profile});
+        plant.sample_positions();
+        SmoothMotion cut = smooth_motion(8000.0, 1, 250, 4000);
+        REQUIRE(prepare(plant, {}, cut) == "");
+        plant.each_ms = [&, next_us = plant.began_us]() mutable {
+            if (plant.clock.now_us() >= next_us) {
+                next_us += 20'000;
+                places.push_back(plant.drives[0]->position_counts(0));
+            }
+        };
+        cut.segments.resize(150); // of a leg of 250
+        CHECK(run(plant, cut, {}) == PortPhase::halted);
+        for (std::size_t i = 0; i < 3; ++i) {
+            CHECK(plant.port->stop_report(i).held());
+        }
+        CHECK(plant.now_off_counts < 12.0);
+        REQUIRE(places.size() > 10);
+        double hardest = 0.0; // change of speed within 20 ms
+        for (std::size_t i = 2; i < places.size(); ++i) {
+            hardest = std::max(hardest, std::fabs(places[i] - 2.0 * places[i - 1] + places[i - 2]) / 0.02);
+        }
+        CHECK(hardest < 0.5 * cut.fastest_counts_s); // from full speed to standstill it would be all of it
+        check_stands_since(plant, plant.clock.now_us());
+    }
+}
