@@ -1,22 +1,37 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/signal_watch.hpp"
 
+#include "host_sim/base/standard_streams.hpp"
+
 #include <algorithm>
 #include <array>
 
+#include <cerrno>
+#include <ctime>
 #include <pthread.h>
+#include <unistd.h>
 
 namespace splinefeed::host {
 
 namespace {
 
-constexpr std::array end_signals{SIGINT, SIGTERM, SIGHUP};
-constexpr std::array steering_signals{SIGUSR1, SIGUSR2};
+constexpr std::array end_signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
+constexpr std::array steering_signals{SIGUSR1, SIGUSR2, SIGTSTP, SIGCONT, SIGTTIN, SIGTTOU};
 constexpr int wake_up = SIGURG; // ends the thread; its default is to be ignored
 
 bool ignored(int signal) {
     struct sigaction action {};
     return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+UserSteering steering_of(int signal) {
+    switch (signal) {
+    case SIGUSR1: return UserSteering::hold;
+    case SIGUSR2: return UserSteering::resume;
+    case SIGTSTP: return UserSteering::suspend;
+    case SIGCONT: return UserSteering::held;
+    default: return UserSteering::none;
+    }
 }
 
 } // namespace
@@ -55,14 +70,36 @@ void SignalWatch::at_once(std::function<void()> action) {
     at_once_ = std::move(action);
 }
 
+void SignalWatch::suspend_now() noexcept {
+    static_cast<void>(kill(getpid(), SIGSTOP));
+}
+
+void SignalWatch::steer(int signal) noexcept {
+    const UserSteering steering = steering_of(signal);
+    const std::lock_guard lock(mutex_);
+    if (steering == UserSteering::suspend && at_once_) {
+        suspend_now();
+    } else if (steering != UserSteering::none && !(steering == UserSteering::held && at_once_)) {
+        asked_to_suspend_ = steering == UserSteering::suspend;
+        steering_.store(steering);
+    }
+}
+
 void SignalWatch::work() noexcept {
     while (!ends_.load()) {
-        int signal = 0;
-        if (sigwait(&taken_, &signal) != 0 || signal == wake_up) {
+        constexpr timespec soon{.tv_sec = 1, .tv_nsec = 0};
+        const bool asks = asked_to_suspend_ && steering_.load() == UserSteering::suspend;
+        const int signal = asks ? sigtimedwait(&taken_, nullptr, &soon) : sigwaitinfo(&taken_, nullptr);
+        if (signal < 0 && errno == EAGAIN && steering_.load() == UserSteering::suspend) {
+            asked_to_suspend_ = false; // told once
+            tell("splinefeed: the machine is not held yet, since it is made ready or looks for its references; the "
+                 "process stops as soon as it is held; Ctrl-C ends the run\n");
+        }
+        if (signal < 0 || signal == wake_up) {
             continue;
         }
-        if (signal == SIGUSR1 || signal == SIGUSR2) {
-            steering_.store(signal == SIGUSR1 ? UserSteering::hold : UserSteering::resume);
+        if (std::ranges::find(end_signals, signal) == end_signals.end()) {
+            steer(signal);
             continue;
         }
         // Under the lock: whoever takes the request over sees the count, or at_once was called.

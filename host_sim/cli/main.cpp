@@ -18,7 +18,9 @@ int main(int argc, char** argv) {
     constexpr int bad_input = 2;
     keep_standard_streams();
     std::ios::sync_with_stdio(false);                 // a pipe is read in blocks of what has arrived
-    static_cast<void>(std::signal(SIGPIPE, SIG_IGN)); // an output whose reader has gone is an error like any other
+    for (const int of_outputs : {SIGPIPE, SIGXFSZ}) { // a reader that has gone, or a limit, is an error like any other
+        static_cast<void>(std::signal(of_outputs, SIG_IGN));
+    }
     try {
         const auto parsed = parse_command_line(argc, argv);
         if (const Answer* const answer = std::get_if<Answer>(&parsed)) {

@@ -151,20 +151,30 @@ void Motion<S>::obey_target() {
         held_by_target_ = true;
         trajectory_.hold();
     }
-    switch (target_->take_steering()) {
+    const UserSteering steering = target_->take_steering();
+    switch (steering) {
     case UserSteering::none: break;
     case UserSteering::hold:
+    case UserSteering::suspend:
+    case UserSteering::held:
         held_by_user_ = true;
         trajectory_.hold();
+        if (steering == UserSteering::suspend) {
+            suspend_.ask();
+        } else if (steering == UserSteering::held) {
+            UserSuspend::tell_held();
+        }
         break;
     case UserSteering::resume:
         steps_.go_on();
+        suspend_.forget();
         held_by_user_ = false;
         if (!held_by_target_) {
             trajectory_.resume();
         }
         break;
     }
+    suspend_.follow(moves_, target_->submitted(), target_->executed(), target_->spindle_stands());
 }
 
 // Time passes while the machine is held; false where nothing will ever move it.

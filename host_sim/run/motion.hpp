@@ -12,6 +12,7 @@
 #include "host_sim/run/program_observer.hpp"
 #include "host_sim/run/program_steps.hpp"
 #include "host_sim/run/supervision.hpp"
+#include "host_sim/run/user_suspend.hpp"
 
 #include <chrono>
 #include <span>
@@ -126,6 +127,7 @@ private:
     bool late_ = false;                       // the last pull could not wait for input
     std::optional<Clock::time_point> paused_; // since this time there was no input
     bool held_by_user_ = false;
+    UserSuspend suspend_;
     bool held_by_target_ = false; // held by the target; the run ends there
 };
 

@@ -242,6 +242,7 @@ std::string Supervision::supervise() {
         }
         const hal::PortState state = target_->port().poll();
         const hal::PortPhase phase = state.phase;
+        executed_.store(state.executed - before_);
         come_to(state.executed - before_);
         const std::uint64_t now_us = system_clock().now_us();
         if (phase == hal::PortPhase::fault) {

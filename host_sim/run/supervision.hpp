@@ -71,6 +71,9 @@ public:
     /// Whether the plan has to be held, and ends there.
     [[nodiscard]] bool hold_asked() const noexcept { return hold_asked_.load(); }
     [[nodiscard]] UserSteering take_steering() noexcept { return signals_->take_steering(); }
+    /// Segments that were submitted, for the thread that submits, and those that were executed.
+    [[nodiscard]] std::uint64_t submitted() const noexcept { return pushed_; }
+    [[nodiscard]] std::uint64_t executed() const noexcept { return executed_.load(); }
     /// Why the run ended early, and where the machine stands. @pre finish() returned
     [[nodiscard]] const std::string& ending() const noexcept { return ending_; }
     /// "; the machine stands at ..." @pre as above
@@ -126,6 +129,7 @@ private:
     std::atomic<bool> stop_{false};     // the plan is given up
     std::string stop_why_;              // written before stop_
     std::atomic<bool> leaves_{false};   // the planner's thread needs no other thread any more
+    std::atomic<std::uint64_t> executed_{0};
     std::atomic<bool> over_{false};
     // Used by the thread, and after over_ by any thread:
     int obeyed_ = 0; // number of requests to end that were obeyed

@@ -5,7 +5,9 @@
 
 #include <chrono>
 #include <pthread.h>
+#include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 using namespace splinefeed::host;
 
@@ -32,13 +34,13 @@ TEST_CASE("every request of an end counts, whichever signal it is") {
     SignalWatch watch([&] { ++at_once; });
     CHECK_FALSE(SignalWatch::interrupted());
     int count = 0;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGINT}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGINT}) {
         request(signal, ++count);
     }
     watch.supervise();
-    CHECK(at_once == 4);
-    request(SIGINT, 5);
-    CHECK(at_once == 4);
+    CHECK(at_once == 6);
+    request(SIGINT, 7);
+    CHECK(at_once == 6);
 }
 
 TEST_CASE("a watch counts from its beginning") {
@@ -64,7 +66,7 @@ TEST_CASE("a request that comes behind the end of a watch does not end the proce
 }
 
 TEST_CASE("the last of hold and resume is what is taken, once") {
-    SignalWatch watch({});
+    SignalWatch watch({}); // nothing is called at once: it supervises
     CHECK(watch.take_steering() == UserSteering::none);
     const auto taken = [&] {
         UserSteering asked = UserSteering::none;
@@ -74,12 +76,39 @@ TEST_CASE("the last of hold and resume is what is taken, once") {
         }
         return asked;
     };
-    REQUIRE(kill(getpid(), SIGUSR1) == 0);
-    CHECK(taken() == UserSteering::hold);
-    REQUIRE(kill(getpid(), SIGUSR2) == 0);
-    CHECK(taken() == UserSteering::resume);
+    // A process that moves a machine is not stopped by any of them.
+    for (const int stop : {SIGTTIN, SIGTTOU}) {
+        REQUIRE(kill(getpid(), stop) == 0);
+    }
+    const std::pair<int, UserSteering> all[] = {{SIGUSR1, UserSteering::hold},
+                                                {SIGUSR2, UserSteering::resume},
+                                                {SIGTSTP, UserSteering::suspend},
+                                                {SIGCONT, UserSteering::held}};
+    for (const auto& [signal, asked] : all) {
+        REQUIRE(kill(getpid(), signal) == 0);
+        CHECK(taken() == asked);
+    }
     CHECK(watch.take_steering() == UserSteering::none);
     CHECK(SignalWatch::interrupts() == 0);
+}
+
+TEST_CASE("as long as nothing moves, Ctrl-Z stops the process at once") {
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        alarm(20);
+        SignalWatch watch([] {});
+        static_cast<void>(kill(getpid(), SIGTSTP));
+        for (int i = 0; i < 5000 && watch.take_steering() == UserSteering::none; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        _exit(1);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, WUNTRACED) == child);
+    CHECK(WIFSTOPPED(status));
+    static_cast<void>(kill(child, SIGKILL));
+    REQUIRE(waitpid(child, &status, 0) == child);
 }
 
 TEST_CASE("a signal that was ignored before stays ignored") {

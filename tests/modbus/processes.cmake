@@ -54,6 +54,7 @@ process_test(modbus_profile_cia402_kinco profile_run.py ${path61} cia402-kinco -
 process_test(modbus_home home_run.py)
 process_test(modbus_state state_run.py)
 process_test(modbus_run_ends run_ends.py)
+process_test(modbus_suspended_run suspended_run.py)
 if(python)
     add_test(NAME modbus_real_time_judge COMMAND ${python} -B ${PROJECT_SOURCE_DIR}/tests/modbus/real_time_test.py)
 endif()
