@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/output_file.hpp"
+#include "host_sim/base/standard_streams.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -25,6 +26,7 @@ void say(std::string_view sentence) {
     std::string line = "splinefeed: " + printable(sentence);
     line.resize(std::min<std::size_t>(line.size(), PIPE_BUF - 1));
     line += '\n';
+    erase_drawn_line();
     pollfd errors{STDERR_FILENO, POLLOUT, 0};
     if (poll(&errors, 1, taken_within_ms) == 1 && (errors.revents & POLLOUT) != 0) {
         [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());

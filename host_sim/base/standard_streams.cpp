@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/standard_streams.hpp"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 
 #include <fcntl.h>
 #include <unistd.h>
 
 namespace splinefeed::host {
+
+namespace {
+
+constexpr int nothing = -1;
+std::atomic<int> drawn{nothing}; // where there is a drawn line
+
+} // namespace
 
 // In the order of their numbers, so that each gets its own. Input that can only be written and output that can only be
 // read are errors when they are used.
@@ -19,7 +29,21 @@ void keep_standard_streams() noexcept {
     }
 }
 
+void draw_line(int descriptor, std::string_view text) noexcept {
+    drawn.store(text.empty() ? nothing : descriptor);
+    std::array<char, 256> line{};
+    const auto end = fmt::format_to_n(line.data(), line.size(), "\r{}\x1b[K", text);
+    [[maybe_unused]] const ssize_t written = write(descriptor, line.data(), std::min(end.size, line.size()));
+}
+
+void erase_drawn_line() noexcept {
+    if (const int descriptor = drawn.load(); descriptor != nothing) {
+        draw_line(descriptor, {});
+    }
+}
+
 void tell(std::string_view text) noexcept {
+    erase_drawn_line();
     while (!text.empty()) {
         const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
         if (written > 0) {

@@ -14,7 +14,13 @@ namespace splinefeed::host {
 /// written to standard error is dropped.
 void keep_standard_streams() noexcept;
 
-/// Writes to standard error. What cannot be written is dropped: a full disk must not end a run that moves a machine.
+/// Draws over the line of a terminal where its cursor is; empty: erases it. What the terminal does not take is dropped.
+void draw_line(int descriptor, std::string_view text) noexcept;
+/// Erases the line that was drawn, so that a message does not stand behind it.
+void erase_drawn_line() noexcept;
+
+/// Writes to standard error, behind a drawn line. What cannot be written is dropped: a full disk must not end a run
+/// that moves a machine.
 void tell(std::string_view text) noexcept;
 
 /// As tell(fmt::format(...)).

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/output/progress.hpp"
 
+#include "host_sim/base/standard_streams.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include <unistd.h>
 
@@ -15,11 +16,6 @@ namespace {
 constexpr std::chrono::milliseconds redraw_period{100};
 constexpr std::size_t bar_width = 12;
 constexpr std::size_t line_width = 79;
-
-// Progress is a courtesy: what a terminal does not take is dropped.
-void show(int descriptor, std::string_view text) noexcept {
-    [[maybe_unused]] const ssize_t written = write(descriptor, text.data(), text.size());
-}
 
 std::string bar(double fraction) {
     const auto full = static_cast<std::size_t>(fraction * static_cast<double>(bar_width));
@@ -33,39 +29,41 @@ Progress::Progress(const Options& options)
     : all_(options.all), descriptor_(options.descriptor), shown_(!options.quiet && isatty(options.descriptor) == 1),
       start_(Clock::now()), next_(start_ + redraw_period) {}
 
-std::string Progress::text(std::uint64_t done, std::optional<std::uint64_t> all, std::uint64_t line, double motion_s,
-                           double wall_s) {
+std::string Progress::text(const ProgressNow& now, std::optional<std::uint64_t> all, double wall_s) {
     const bool known = all && *all > 0;
     std::string text;
     if (known) {
-        text = bar(std::min(static_cast<double>(done) / static_cast<double>(*all), 1.0));
+        text = bar(std::min(static_cast<double>(now.done) / static_cast<double>(*all), 1.0));
     }
-    const std::string count = known ? fmt::format("{} of {}", done, *all) : fmt::format("{}", done);
-    text += line > 0 ? fmt::format("line {}, move {}", line, count) : fmt::format("{} waypoints", count);
-    if (wall_s > 0.0) {
-        text += fmt::format(" ({:.0f}/s)", static_cast<double>(done) / wall_s);
+    const std::string count = known ? fmt::format("{} of {}", now.done, *all) : fmt::format("{}", now.done);
+    text += now.line > 0 ? fmt::format("line {}, move {}", now.line, count) : fmt::format("{} waypoints", count);
+    if (!now.executed) {
+        text += wall_s > 0.0 ? fmt::format(" ({:.0f}/s)", static_cast<double>(now.done) / wall_s) : "";
+        text += fmt::format(", {:.1f} s planned", now.motion_s);
+    } else {
+        text += fmt::format(", {:.1f} s", now.motion_s);
+        if (known && now.done > 0) { // as if all took the same time
+            const auto done = static_cast<double>(std::min(now.done, *all));
+            text += fmt::format(", {:.0f} s left", now.motion_s * (static_cast<double>(*all) - done) / done);
+        }
+        text += now.place;
     }
-    text += fmt::format(", {:.1f} s planned", motion_s);
     if (text.size() > line_width) {
         text.resize(line_width);
     }
     return text;
 }
 
-void Progress::redraw(std::uint64_t done, std::uint64_t line, double motion_s) {
-    const Clock::time_point now = Clock::now();
-    if (now < next_) {
-        return;
-    }
-    next_ = now + redraw_period;
-    const double wall_s = std::chrono::duration<double>(now - start_).count();
-    show(descriptor_, fmt::format("\r{}\x1b[K", text(done, all_, line, motion_s, wall_s)));
+void Progress::show(const ProgressNow& now) {
+    const Clock::time_point time = Clock::now();
+    next_ = time + redraw_period;
+    draw_line(descriptor_, text(now, all_, std::chrono::duration<double>(time - start_).count()));
     drawn_ = true;
 }
 
 void Progress::finish() noexcept {
     if (drawn_) {
-        show(descriptor_, "\r\x1b[K");
+        draw_line(descriptor_, {});
     }
     drawn_ = shown_ = false;
 }

@@ -15,9 +15,19 @@ struct ProgressOptions {
     int descriptor = 2;                              ///< standard error
 };
 
-/// Shows the waypoints read - of a program its line and its moves -, their rate and the seconds of motion planned, at
-/// most ten times a second, and erases the line at the end. Writes nothing if the descriptor is not a terminal. Cost of
-/// update(): a look at the clock at every 64th call, nothing else between redraws.
+/// How far a run is.
+struct ProgressNow {
+    std::uint64_t done = 0; ///< waypoints or, of a program, moves
+    std::uint64_t line = 0; ///< of a program; 0: there are only waypoints
+    double motion_s = 0.0;
+    bool executed = false;  ///< by a real machine, in real time; false: planned
+    std::string place = {}; ///< of a real machine: " x=1.000 y=2.000"
+};
+
+/// Shows the waypoints - of a program its line and its moves -, at most ten times a second, and erases the line at the
+/// end: what is planned with its rate, or what a machine has executed with the time that is left and its place. Writes
+/// nothing if the descriptor is not a terminal. Cost of due(): a look at the clock at every 64th call, nothing else
+/// between redraws.
 class Progress {
 public:
     using Options = ProgressOptions;
@@ -27,23 +37,17 @@ public:
     Progress& operator=(const Progress&) = delete;
     ~Progress() { finish(); }
 
-    /// @param line  of a program, where the motion is, and `done` are the moves up to there; 0: `done` are waypoints
-    void update(std::uint64_t done, std::uint64_t line, double motion_s) {
-        if (shown_ && (calls_++ & 63U) == 0U) {
-            redraw(done, line, motion_s);
-        }
-    }
+    /// Whether the line is to be drawn: show().
+    [[nodiscard]] bool due() noexcept { return shown_ && (calls_++ & 63U) == 0U && Clock::now() >= next_; }
+    void show(const ProgressNow& now);
     /// Erases the line; nothing is drawn afterwards.
     void finish() noexcept;
 
     /// The text of the line, at most 79 characters.
-    [[nodiscard]] static std::string text(std::uint64_t done, std::optional<std::uint64_t> all, std::uint64_t line,
-                                          double motion_s, double wall_s);
+    [[nodiscard]] static std::string text(const ProgressNow& now, std::optional<std::uint64_t> all, double wall_s);
 
 private:
     using Clock = std::chrono::steady_clock;
-
-    void redraw(std::uint64_t done, std::uint64_t line, double motion_s);
 
     std::optional<std::uint64_t> all_;
     int descriptor_;

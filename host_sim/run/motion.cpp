@@ -2,7 +2,6 @@
 #include "host_sim/run/motion.hpp"
 
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/output/progress.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -41,8 +40,7 @@ Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& de
       events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {}
 
 template <Scalar S>
-void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
-    Progress progress({.quiet = quiet_, .all = waypoints});
+void Motion<S>::execute_all() {
     FeedSegment segment;
     for (;;) {
         operate();
@@ -75,7 +73,7 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
             if (report_ != nullptr) {
                 report_->moved(segment.waypoint, segment.duration_ticks / (ticks_per_us * 1e6), share_.bound());
             }
-            progress.update(line_ > 0 ? passed_ : feeder_.rows(), line_, machine_.cycle_time_s());
+            show_progress();
         } else if (trajectory_.state() == Pull::held) {
             if (!stand()) {
                 break;
@@ -87,6 +85,25 @@ void Motion<S>::execute_all(std::optional<std::uint64_t> waypoints) {
             break;
         }
     }
+}
+
+// Of a real machine what it has done, not what is planned.
+template <Scalar S>
+void Motion<S>::show_progress() {
+    if (!progress_ || !progress_->due()) {
+        return;
+    }
+    if (target_ == nullptr) {
+        progress_->show({line_ > 0 ? passed_ : feeder_.rows(), line_, machine_.cycle_time_s()});
+        return;
+    }
+    const Supervision::Reached reached = target_->reached();
+    std::string place;
+    for (const RunTarget::AxisPlace& at : reached.places) {
+        place += at.known() ? fmt::format(" {}={:.3f}", description_->axis_name[at.axis], *at.known()) : std::string();
+    }
+    const double segment_s = limits_->segment_ticks / (ticks_per_us * 1e6);
+    progress_->show({reached.moves, reached.line, static_cast<double>(target_->executed()) * segment_s, true, place});
 }
 
 // The input pauses: a machine that moves cannot wait, one that stands does for a while.
@@ -277,7 +294,7 @@ bool Motion<S>::execute(FeedSegment& segment) {
         return false;
     }
     share_.segment(segment);
-    if (target_ != nullptr && !target_->submit(segment, line_)) {
+    if (target_ != nullptr && !target_->submit(segment, line_, passed_)) {
         stopped_ = target_->ending();
         return false;
     }

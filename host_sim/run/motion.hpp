@@ -5,6 +5,7 @@
 #include "host_sim/analysis/exact_stop_time.hpp"
 #include "host_sim/analysis/program_report.hpp"
 #include "host_sim/output/outputs.hpp"
+#include "host_sim/output/progress.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/planning/planned_trajectory.hpp"
 #include "host_sim/program/event_file.hpp"
@@ -68,7 +69,8 @@ private:
 
     using Clock = std::chrono::steady_clock;
 
-    void execute_all(std::optional<std::uint64_t> waypoints);
+    void execute_all();
+    void show_progress();
     bool pull(FeedSegment& segment);
     void read();
     [[nodiscard]] bool late() const;
@@ -128,6 +130,7 @@ private:
     std::optional<Clock::time_point> paused_; // since this time there was no input
     bool held_by_user_ = false;
     UserSuspend suspend_;
+    std::optional<Progress> progress_;
     bool held_by_target_ = false; // held by the target; the run ends there
 };
 

@@ -6,14 +6,23 @@
 #include "host_sim/output/place_text.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
+#include <thread>
 
 namespace splinefeed::host {
 
+namespace {
+
+constexpr std::chrono::milliseconds look_slice{1};
+
+} // namespace
+
 template <Scalar S>
 std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
+    progress_.emplace(ProgressOptions{.quiet = quiet_, .all = waypoints});
     try {
-        execute_all(waypoints);
+        execute_all();
     } catch (...) {
         failure_ = std::current_exception();
     }
@@ -27,6 +36,7 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
                                                                                             : std::string());
     }
     const bool executed = target_ == nullptr || come_to_rest(broken);
+    progress_.reset();
     require_end();
     stopped_ = broken.empty() ? stopped_ : broken;
     if (executed) {
@@ -48,12 +58,16 @@ bool Motion<S>::come_to_rest(const std::string& broken) {
     FeedSegment segment;
     while (held && moves_ && trajectory_.next(segment, UnderrunPolicy::drain) == Pull::item &&
            machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault &&
-           target_->submit(segment, line_)) {
+           target_->submit(segment, line_, passed_)) {
         ++segments_;
         moves_ = std::ranges::any_of(segment.end_velocity, [](std::int64_t v) { return v != 0; });
     }
     if (!broken.empty()) {
         target_->stop(broken);
+    }
+    for (target_->complete(); target_->runs();) {
+        show_progress();
+        std::this_thread::sleep_for(look_slice);
     }
     return target_->finish();
 }

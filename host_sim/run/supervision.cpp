@@ -41,7 +41,7 @@ bool Supervision::room() const noexcept {
     return ring_.empty() || (ring_.room() > 0 && ahead < hand_over_us * static_cast<std::uint64_t>(ticks_per_us));
 }
 
-bool Supervision::submit(const FeedSegment& segment, std::uint64_t line) {
+bool Supervision::submit(const FeedSegment& segment, std::uint64_t line, std::uint64_t moves) {
     while (!over() && !room()) {
         system_clock().sleep_us(poll_every_us);
     }
@@ -51,7 +51,7 @@ bool Supervision::submit(const FeedSegment& segment, std::uint64_t line) {
     if (!thread_.joinable() && state_ != nullptr) {
         state_->moves();
     }
-    begin_line(line);
+    begin_line(line, moves);
     pushed_ticks_ += segment.duration_ticks;
     ++pushed_;
     at_rest_ = std::ranges::all_of(segment.end_velocity, [](std::int64_t v) { return v == 0; });
@@ -150,21 +150,30 @@ void Supervision::tend_outputs(std::uint64_t executed) {
     }
 }
 
-void Supervision::begin_line(std::uint64_t line) {
+void Supervision::begin_line(std::uint64_t line, std::uint64_t moves) {
     const std::lock_guard lock(lines_mutex_);
-    if (lines_.empty() || lines_.back().line != line) {
-        lines_.push_back({line, pushed_});
+    if (lines_.empty() || lines_.back().line != line || lines_.back().moves != moves) {
+        lines_.push_back({line, moves, pushed_});
     }
 }
 
-std::uint64_t Supervision::line() const {
+Supervision::Reached Supervision::reached() const {
     const std::lock_guard lock(lines_mutex_);
-    return lines_.empty() ? 0 : lines_.front().line;
+    return lines_.empty() ? Reached{} : Reached{lines_.front().line, lines_.front().moves, passed_};
 }
 
 // The machine is in the segment behind those that were executed.
 void Supervision::come_to(std::uint64_t executed) {
+    constexpr unsigned looks_a_place = 100;
+    std::vector<RunTarget::AxisPlace> places;
+    const bool looks = looks_++ % looks_a_place == 0;
+    if (looks) {
+        places = target_->places();
+    }
     const std::lock_guard lock(lines_mutex_);
+    if (looks) {
+        passed_ = std::move(places);
+    }
     while (lines_.size() > 1 && lines_[1].segment <= executed) {
         lines_.pop_front();
     }

@@ -52,7 +52,8 @@ public:
     /// Passes a segment on, as soon as there is room for it. The first one defines where the axes stand. false: the run
     /// is over. Throws OutputError if the state file cannot be written; nothing has moved then.
     /// @param line  of the program, that the segment comes from; 0: unknown
-    [[nodiscard]] bool submit(const FeedSegment& segment, std::uint64_t line = 0);
+    /// @param moves  of the program up to this one, or waypoints; for Reached
+    [[nodiscard]] bool submit(const FeedSegment& segment, std::uint64_t line = 0, std::uint64_t moves = 0);
     /// No more segments come. If the last one ends at rest, the run ends when everything is executed; otherwise nobody
     /// can say how the motion goes on, and this is a stop().
     void complete();
@@ -64,6 +65,8 @@ public:
     /// Whether submit() would return without waiting.
     [[nodiscard]] bool room() const noexcept;
     [[nodiscard]] bool over() const noexcept { return over_.load(); }
+    /// Whether it has begun and is not over.
+    [[nodiscard]] bool runs() const noexcept { return thread_.joinable() && !over(); }
     void order(const ProgramAction& action, bool standing) override;
     [[nodiscard]] bool carried_out() const override;
     [[nodiscard]] int input() const override { return outputs_ != nullptr ? outputs_->answer() : 0; }
@@ -79,7 +82,14 @@ public:
     /// "; the machine stands at ..." @pre as above
     [[nodiscard]] const std::string& where() const noexcept { return where_; }
     /// The line of the program on which the machine stands; 0: unknown. @pre as above
-    [[nodiscard]] std::uint64_t line() const;
+    [[nodiscard]] std::uint64_t line() const { return reached().line; }
+    /// What the machine has come to, while it moves.
+    struct Reached {
+        std::uint64_t line = 0;
+        std::uint64_t moves = 0;
+        std::vector<RunTarget::AxisPlace> places{}; // of the last tenth of a second
+    };
+    [[nodiscard]] Reached reached() const;
     /// Where the axes stand; empty: nothing has moved. @pre as above
     [[nodiscard]] const std::vector<RunTarget::AxisPlace>& places() const noexcept { return places_; }
     void describe(Summary& summary) const { target_->describe(summary); }
@@ -95,7 +105,7 @@ private:
     void obey();
     void hand_over();
     void tend_outputs(std::uint64_t executed);
-    void begin_line(std::uint64_t line);
+    void begin_line(std::uint64_t line, std::uint64_t moves);
     void come_to(std::uint64_t executed);
     void end_outputs();
     [[nodiscard]] std::string outputs_end() const;
@@ -119,10 +129,13 @@ private:
     std::deque<DueOrder> orders_; // protected by it
     struct LineBegin {
         std::uint64_t line = 0;
+        std::uint64_t moves = 0;
         std::uint64_t segment = 0; // its first one
     };
     mutable std::mutex lines_mutex_;
-    std::deque<LineBegin> lines_; // protected by it; from the line where the machine is
+    std::deque<LineBegin> lines_;              // protected by it; from the line where the machine is
+    std::vector<RunTarget::AxisPlace> passed_; // protected by it
+    unsigned looks_ = 0;
     std::atomic<std::uint64_t> taken_ticks_{0};
     std::atomic<bool> hold_asked_{false};
     std::atomic<bool> complete_{false}; // no more segments come, and the last one ends at rest
