@@ -90,6 +90,22 @@ TEST_CASE("Clock estimate: an answer that came quicker than the line is not to t
     CHECK(estimate.drive_us(host_us + 2ULL * step_us) == 1000 + 2LL * step_us);
 }
 
+TEST_CASE("Clock estimate: a line that is quicker than its rate has the times of sending and answering as its bounds") {
+    constexpr std::uint64_t host_us = 5'000'000'000;
+    ClockEstimate estimate;
+    estimate.sample({host_us, host_us + 100, host_us + 900, host_us + 1000}, 500);
+    CHECK(estimate.uncertainty_us() == 401.0);
+    CHECK(estimate.earliest_us({host_us, host_us + 100, 0, 0}) == host_us + 100);
+    for (std::uint32_t i = 1; i < 20; ++i) { // frames of 3 ms each way in 1 ms
+        const std::uint64_t at_us = host_us + i * 5000;
+        estimate.sample({at_us, at_us + 3000, at_us - 2000, at_us + 1000}, 500 + 5000 * i);
+        REQUIRE(estimate.known());
+        CHECK(std::llabs(estimate.drive_us(at_us + 500) - (500 + std::int64_t{5000} * i)) <= 1);
+        CHECK(estimate.uncertainty_us() == 501.0);
+        CHECK(estimate.earliest_us({at_us, at_us + 3000, 0, 0}) == at_us);
+    }
+}
+
 TEST_CASE("Clock estimate: what both of two exchanges allow is known better than from either") {
     ClockEstimate estimate;
     const std::uint64_t now = Drive::origin_us;

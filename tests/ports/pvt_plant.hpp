@@ -2,7 +2,7 @@
 // PvtPlant: a ModbusPort with drives of the map splinefeed-pvt, all simulated.
 #pragma once
 
-#include "host_sim/drive/pvt_drive.hpp"
+#include "ports/lying_drive.hpp"
 #include "ports/plant.hpp"
 #include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 
@@ -30,11 +30,12 @@ public:
             splinefeed::host::PvtDriveParameters drive = parameters.drive;
             drive.axes.resize(static_cast<std::size_t>(parameters.axes[i]), drive.axes.front());
             drive.clock_start_us = parameters.seed * 0x9E3779B97F4A7C15U; // its clock may wrap at any time
-            auto model = std::make_unique<splinefeed::host::PvtDrive>(drive);
-            model->machine().observe([this, i](const splinefeed::host::ExecutedSegment& segment) {
+            auto model = std::make_unique<LyingDrive>(drive);
+            model->drive.machine().observe([this, i](const splinefeed::host::ExecutedSegment& segment) {
                 executed[i].push_back(segment.sequence);
             });
-            drives.push_back(model.get());
+            drives.push_back(&model->drive);
+            liars.push_back(model.get());
             executed.emplace_back();
             const int unit = parameters.one_wire ? static_cast<int>(i) + 1 : 1;
             const double ppm = i < parameters.clock_ppm.size() ? parameters.clock_ppm[i] : 0.0;
@@ -65,6 +66,7 @@ public:
     }
 
     std::vector<splinefeed::host::PvtDrive*> drives;
+    std::vector<LyingDrive*> liars;                   ///< the same drives
     std::vector<std::vector<std::uint32_t>> executed; ///< of each drive
     std::vector<splinefeed::hal::modbus::DriveWiring> wirings;
     std::uint64_t began_us = 0;                              ///< the run, behind prepare()

@@ -156,6 +156,9 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
         return fail(answer, LinkFault::disconnected, answer.sent_us + wire_.latency_us);
     }
     const ExchangeBytes bytes = exchange_bytes(address_, written.size(), out.size());
+    const auto takes_us = [this](std::size_t frame) {
+        return static_cast<std::uint64_t>(wire_.pace * static_cast<double>(frame_us(address_, frame)));
+    };
     const std::uint64_t deadline_us =
         answer.sent_us + timing_.answer_us + frame_us(address_, bytes.request + bytes.reply);
     const std::uint64_t latency_us = wire_.latency_us + wire_.random() % (wire_.latency_us + 1);
@@ -163,7 +166,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
         return fail(answer, serial ? LinkFault::corrupt : LinkFault::disconnected, deadline_us);
     }
     const bool damages_request = happens(wire_.faults.corrupt) && !out.empty();
-    clock_.sleep_until_us(answer.sent_us + frame_us(address_, bytes.request) + latency_us / 2);
+    clock_.sleep_until_us(answer.sent_us + takes_us(bytes.request) + latency_us / 2);
     const std::uint64_t now_us = clock_.now_us();
     const auto found = wire_.stations.find(unit);
     if (is_silent() || found == wire_.stations.end() || found->second->is_mute(now_us) || unplugged() ||
@@ -188,7 +191,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
         exception = does(station.model(), read);
     }
     const std::uint64_t late_us = happens(wire_.faults.late) ? wire_.random() % wire_.faults.late_us : 0;
-    const std::uint64_t answers_us = now_us + latency_us / 2 + frame_us(address_, bytes.reply) + late_us;
+    const std::uint64_t answers_us = now_us + latency_us / 2 + takes_us(bytes.reply) + late_us;
     if (happens(wire_.faults.lost_answer) || happens(wire_.faults.broken)) {
         return miss(LinkFault::timeout, deadline_us);
     }

@@ -77,6 +77,7 @@ struct SimulatedWire {
     std::uint64_t requests = 0;
     Span silent{0, 0};              ///< at present
     std::uint64_t latency_us = 200; ///< there and back, beyond the line's rate; up to twice that
+    double pace = 1.0;              ///< how long frames take, by the rate of the line
     std::uint64_t hiccups = 0;      ///< faults that happened
     std::mt19937_64 random{1};
 };

@@ -58,8 +58,10 @@ void StopSequence::assess(Axis& axis, const StopFacts& facts) const noexcept {
 }
 
 // An axis that was confirmed and moves again has used up its time: it escalates at once.
-void StopSequence::escalate(Axis& axis, std::uint64_t now_us) const noexcept {
-    if (now_us <= axis.since_us + bound_us(axis.report.request)) {
+void StopSequence::escalate(Axis& axis, const StopFacts& facts, std::uint64_t now_us) const noexcept {
+    const std::uint64_t most_us = bound_us(axis.report.request);
+    const bool brakes = axis.executed && facts.braking;
+    if (now_us <= axis.since_us + (brakes ? std::max(most_us, times_.braking_us) : most_us)) {
         return;
     }
     if (axis.report.request >= times_.last) {
@@ -78,7 +80,7 @@ void StopSequence::update(std::uint64_t now_us, std::span<const StopFacts> facts
     for (std::size_t i = 0; i < axes_.size() && requested(); ++i) {
         assess(axes_[i], facts[i]);
         if (axes_[i].report.state != StopState::confirmed) {
-            escalate(axes_[i], now_us);
+            escalate(axes_[i], facts[i], now_us);
         }
     }
 }

@@ -6,6 +6,7 @@
 //     moving --executed by the axis--> stopping --it reports standstill, for the settling time,--> confirmed
 //       |                                  |       and no start is pending                              |
 //       |  not confirmed within the bound of its request                        it reports motion         |
+//       |  (the longer one, while it brakes)                                                              |
 //       +---------------+------------------+ <-----------------------------------------------------------+
 //                       v
 //          the next request, for this axis alone; behind the last one: unconfirmed
@@ -40,6 +41,7 @@ enum class StopState : std::uint8_t {
 struct StopFacts {
     std::uint64_t status_us = 0; ///< earliest instant at which the reported state was true; 0: no report yet
     bool standstill = false;     ///< it reports standstill
+    bool braking = false;        ///< it reports that it brakes, and its speed falls: it needs its own time
     /// A start command is on its way or waits for its instant: the axis may begin to move without another command.
     bool start_pending = false;
     StopRequest executed = StopRequest::none; ///< strongest request that it is known to have executed
@@ -53,6 +55,8 @@ struct StopTimes {
     std::uint64_t hold_us = 1'000'000;
     std::uint64_t quick_stop_us = 1'000'000;
     std::uint64_t disable_us = 500'000;
+    /// Longest time for an axis that has executed its request and brakes. With a slow ramp the next request is no help.
+    std::uint64_t braking_us = 0;
     /// An axis must report standstill for this long, in at least StopSequence::least_statuses statuses.
     std::uint64_t settle_us = 20'000;
     StopRequest last = StopRequest::disable; ///< strongest request that escalation may reach
@@ -113,7 +117,7 @@ private:
 
     [[nodiscard]] std::uint64_t bound_us(StopRequest request) const noexcept;
     void assess(Axis& axis, const StopFacts& facts) const noexcept;
-    void escalate(Axis& axis, std::uint64_t now_us) const noexcept;
+    void escalate(Axis& axis, const StopFacts& facts, std::uint64_t now_us) const noexcept;
 
     StopTimes times_;
     std::vector<Axis> axes_;

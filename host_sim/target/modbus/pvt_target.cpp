@@ -7,6 +7,7 @@
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -25,7 +26,11 @@ std::vector<DriveWiring> pvt_wiring(const DriveTable& table, const MachineDescri
         DriveWiring& out = wiring.emplace_back();
         out.link = drive.address.link;
         for (const int axis : drive.machine_axis) {
-            out.axes.emplace_back(axis, axis >= 0 && machine.inverted[static_cast<unsigned>(axis)]);
+            const auto k = static_cast<unsigned>(axis);
+            out.axes.emplace_back(axis, axis >= 0 && machine.inverted[k]);
+            if (axis >= 0) {
+                out.axes.back().window_counts = std::llround(standstill_window_counts(machine, k));
+            }
         }
         out.timing = timing_of(drive.profile.link);
         out.both_in_one = drive.profile.link.function_exchange;
@@ -74,6 +79,8 @@ std::string drive_sentence(const DriveTable& table, const ModbusPort& port, cons
     if (failure.problem == DriveProblem::fault) {
         text += fmt::format(", code {} on its axis {}: {}", report.status.fault, report.status.fault_axis,
                             fault_name(report.status.fault));
+    } else if (failure.problem == DriveProblem::unknown_state || failure.problem == DriveProblem::not_standing) {
+        text += fmt::format("; its state is {}", static_cast<unsigned>(report.status.state));
     } else if (failure.problem == DriveProblem::unreachable) {
         text += ": " + port.connection_error(failure.drive);
     } else if (failure.problem == DriveProblem::silent && report.last_fault != LinkFault::none) {
@@ -97,7 +104,8 @@ std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
                 const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
                 // One that is away went on to where all were to stop.
                 const bool online = hal::system_clock().now_us() - report.answered_us < stale_us;
-                out.push_back(place(axis, counts, online));
+                AxisPlace& at = out.emplace_back(place(axis, counts, online));
+                at.mm = port_.known_position(i, k) ? at.mm : std::nullopt;
             }
         }
     }
@@ -106,7 +114,7 @@ std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
 
 std::string PvtTarget::prepare_port(const FeedSegment& first) {
     const auto failure = port_.prepare(first);
-    return failure ? drive_sentence(table_, port_, *failure) : std::string();
+    return failure ? drive_sentence(table_, port_, *failure) + unconfirmed_drives(stopped()) : std::string();
 }
 
 void PvtTarget::describe(Summary& summary) const {

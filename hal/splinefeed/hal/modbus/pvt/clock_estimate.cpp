@@ -28,14 +28,23 @@ ClockEstimate::Sample ClockEstimate::common(const Sample& a, const Sample& b) no
     return {tighter.host_us, low + (high - low) / 2, static_cast<std::uint64_t>(high - low)};
 }
 
+void ClockEstimate::sample(const ExchangeInstants& exchange, std::uint32_t clock_us) noexcept {
+    if (exchange.replied_us < exchange.arrived_us && !has_no_rate_) {
+        has_no_rate_ = true;
+        count_ = 0; // those bounds were too tight, too
+    }
+    sample(earliest_us(exchange), has_no_rate_ ? exchange.answered_us : exchange.replied_us, clock_us);
+}
+
 void ClockEstimate::sample(std::uint64_t earliest_us, std::uint64_t latest_us, std::uint32_t clock_us) noexcept {
     // The drive's clock wraps every 71 minutes; the host clock gives the number of wraps since the last sample.
-    const std::int64_t expected_us = count_ == 0 ? 0 : clock_us_ + static_cast<std::int64_t>(earliest_us - sampled_us_);
+    const std::int64_t expected_us =
+        sampled_us_ == 0 ? 0 : clock_us_ + static_cast<std::int64_t>(earliest_us - sampled_us_);
     clock_us_ = expected_us + static_cast<std::int32_t>(
                                   clock_us - static_cast<std::uint32_t>(static_cast<std::uint64_t>(expected_us)));
     sampled_us_ = earliest_us;
     if (latest_us < earliest_us) {
-        return; // faster than the line allows: not an answer to this request
+        return; // not an answer to this request
     }
     const std::uint64_t width = latest_us - earliest_us;
     const std::uint64_t middle = earliest_us + width / 2;

@@ -8,11 +8,26 @@
 
 namespace splinefeed::hal::modbus {
 
+/// Instants of an exchange, host clock. [us]
+struct ExchangeInstants {
+    std::uint64_t sent_us = 0;     ///< before the request was sent
+    std::uint64_t arrived_us = 0;  ///< earliest instant at which the drive had the whole request, by the line's rate
+    std::uint64_t replied_us = 0;  ///< latest instant at which it began to answer, by the line's rate
+    std::uint64_t answered_us = 0; ///< when the answer was complete
+};
+
 /// Each exchange bounds the instant at which the drive read its clock: after the request was received and before the
 /// answer began. The estimate keeps the tightest bounds of every half second and fits a line through the last sixteen.
 /// Does not allocate. A sample takes constant time, a conversion about thirty multiplications.
 class ClockEstimate {
 public:
+    /// A line that was quicker than its rate once (a USB adapter, a pseudo-terminal) has no rate: from then on only the
+    /// times of sending and answering are bounds. @pre the answer is to this request
+    void sample(const ExchangeInstants& exchange, std::uint32_t clock_us) noexcept;
+    /// The earliest instant at which the drive had the request. [us]
+    [[nodiscard]] std::uint64_t earliest_us(const ExchangeInstants& exchange) const noexcept {
+        return has_no_rate_ ? exchange.sent_us : exchange.arrived_us;
+    }
     /// @param earliest_us, latest_us  host clock: bounds of the instant at which the drive's clock was clock_us
     void sample(std::uint64_t earliest_us, std::uint64_t latest_us, std::uint32_t clock_us) noexcept;
     /// Discards all samples, for example after a power cycle of the drive.
@@ -54,6 +69,7 @@ private:
     std::uint64_t slot_ = 0;
     std::int64_t clock_us_ = 0;    // of the last sample, without the modulo
     std::uint64_t sampled_us_ = 0; // its earliest instant
+    bool has_no_rate_ = false;
 };
 
 } // namespace splinefeed::hal::modbus

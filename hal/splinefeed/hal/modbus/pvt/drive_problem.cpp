@@ -51,6 +51,20 @@ const char* describe(DriveProblem problem) noexcept {
     case DriveProblem::refused: return "it refuses commands or segments repeatedly";
     case DriveProblem::out_of_step:
         return "it reports segments that were never sent; another master may be on the line";
+    case DriveProblem::ignores: return "it answers, but neither executes nor refuses a command; check its firmware";
+    case DriveProblem::unknown_state:
+        return "it reports a state that the map does not have (docs/reference/pvt_map.md: 0 to 6)";
+    case DriveProblem::switched_off:
+        return "its power is off, and splinefeed did not switch it off; look for who did: a panel, an input, a program";
+    case DriveProblem::busy:
+        return "another program moves it or exchanges data with it; wait until that one has ended, or end it";
+    case DriveProblem::taken:
+        return "somebody else ended the session of this run: another program, a panel; let only one use the drive";
+    case DriveProblem::takes_nothing:
+        return "it stands ready, but accepts no more segments; check its register free and its ring";
+    case DriveProblem::frozen: return "it is to run, but executes no segments; check its enable input and its clock";
+    case DriveProblem::unfinished: return "it has executed all segments, but does not report that it stands";
+    case DriveProblem::not_standing: return "it does not report that it stands";
     case DriveProblem::ring:
         return "its ring holds fewer than the 16 segments that the map requires; enlarge it in the drive's settings";
     case DriveProblem::overrun:
@@ -58,7 +72,9 @@ const char* describe(DriveProblem problem) noexcept {
     case DriveProblem::range:
         return "the program exceeds the range of its map: 2^31 counts of position, 2^23 counts a segment; lower "
                "steps_per_mm, and the drive's counts with it";
-    case DriveProblem::not_homed: return "its homing was not completed; check its switches and its settings";
+    case DriveProblem::not_homed:
+        return "its homing was not completed within five minutes; check its switches and its settings";
+    case DriveProblem::interrupted: return "its homing was interrupted, so its position is not known";
     }
     return "";
 }

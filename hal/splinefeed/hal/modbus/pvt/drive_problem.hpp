@@ -21,8 +21,18 @@ enum class DriveProblem : std::uint8_t {
     power_cycled,  ///< the drive restarted: its segments are lost
     fault,         ///< a fault of the drive: PvtStatus::fault
     refused,       ///< it refuses a command, or refuses segments repeatedly
+    ignores,       ///< it answers, but neither executes nor refuses a command
     out_of_step,   ///< it reports segments that were never sent
-    not_homed,     ///< its homing was not completed
+    unknown_state, ///< it reports a state that the map does not have
+    switched_off,  ///< it is disabled, and the port did not ask for that
+    busy,          ///< another program exchanges data with it: nothing was sent
+    taken,         ///< another program ended this program's session
+    takes_nothing, ///< it stands ready, but accepts no more segments
+    frozen,        ///< it is to run, but executes no segments
+    unfinished,    ///< it executed all segments, but does not report that it stands
+    not_standing,  ///< it does not come to a standstill
+    not_homed,     ///< its homing was not completed within its time
+    interrupted,   ///< its homing was interrupted by the user
     ring,          ///< its ring is shorter than the map requires
     overrun,       ///< it would have got a segment for which there was no room; nothing of it was sent
     range,         ///< a position, velocity or duration does not fit the map; nothing of it was sent

@@ -11,17 +11,19 @@
 #include "splinefeed/hal/modbus/pvt/pvt_setup.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t lead_us = 60'000;   // from sending a command to the instant that it names
 constexpr std::uint64_t settle_us = 40'000; // from a start until the drive's state reflects it
-constexpr double guard_us = 60'000.0;       // to send the last segment when one drive runs dry
 constexpr std::uint64_t poll_interval_us = 1000;
 constexpr double ticks_per_us = 8.0;
-constexpr std::uint64_t stop_exchanges = 8; // lost in a row before a hold becomes a quick stop
+constexpr std::uint64_t stop_exchanges = 8;      // lost in a row before a hold becomes a quick stop
+constexpr std::uint64_t braking_us = 60'000'000; // of the slowest ramp that a quick stop is waited for
+// For so long a drive is looked at before it gets anything: another host exchanges data with it every 20 ms at least.
+constexpr std::uint64_t watch_us = 150'000;
 
 } // namespace
 
@@ -43,7 +45,7 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
         }
         ModbusBus& bus = *buses_[groups.of_drive[drives_.size()]];
         drives_.emplace_back(drive, bus.add(drive.link.unit, drive.both_in_one));
-        stop_.add(drives_.back().client());
+        stop_.add(drives_.back().client(), drive.axes);
     }
 }
 
@@ -52,8 +54,8 @@ ModbusPort::~ModbusPort() {
 }
 
 void ModbusPort::close() noexcept {
-    const bool ended = phase_ == ModbusPhase::halted || phase_ == ModbusPhase::done || phase_ == ModbusPhase::fault;
-    if (prepared_ && !ended) {
+    const bool ended = phase() == ModbusPhase::halted || phase() == ModbusPhase::done || phase() == ModbusPhase::fault;
+    if (prepared_ && moves_ && !ended) {
         begin_stop(StopRequest::hold);
         await_stop();
     }
@@ -70,6 +72,21 @@ std::optional<DriveFailure> ModbusPort::open() {
             return DriveFailure{i, problem};
         }
     }
+    return find_other_master();
+}
+
+// The nonce of a drive changes with every block that it gets, and this port has sent none.
+std::optional<DriveFailure> ModbusPort::find_other_master() {
+    settings_.clock->sleep_us(watch_us);
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        const std::uint16_t nonce = drives_[i].client().report().status.nonce;
+        if (const DriveProblem problem = drives_[i].client().read_status(); problem != DriveProblem::none) {
+            return DriveFailure{i, problem};
+        }
+        if (drives_[i].client().report().status.nonce != nonce) {
+            return DriveFailure{i, DriveProblem::busy};
+        }
+    }
     return std::nullopt;
 }
 
@@ -81,48 +98,76 @@ double ModbusPort::least_segment_us() {
     return least;
 }
 
-std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
+void ModbusPort::set_times(const FeedSegment& first) noexcept {
     times_.segment_us = first.duration_ticks / ticks_per_us;
-    double ring_us = settings_.buffer_us;
+    double ring_us = std::min<double>(settings_.buffer_us, PvtClient::queue_capacity * times_.segment_us);
     for (const PortDrive& drive : drives_) {
-        ring_us = std::min(ring_us, drive.client().report().identity.ring * times_.segment_us);
+        const double holds_us = drive.client().report().identity.ring * times_.segment_us;
+        ring_us = std::min(ring_us, holds_us);
+        phase_times_.ring_us = std::max(phase_times_.ring_us, static_cast<std::uint64_t>(holds_us));
     }
-    ring_us = std::min(ring_us, PvtClient::queue_capacity * times_.segment_us);
     buffer_segments_ = static_cast<std::uint32_t>(ring_us / times_.segment_us);
-    const double reserve_ms = std::max(1.0, std::min<double>(settings_.stop_reserve_ms, ring_us / 4000.0));
-    const auto stop_reserve_ms = static_cast<std::uint16_t>(reserve_ms);
-    times_.reserve_us = 1000.0 * stop_reserve_ms;
+    times_.reserve_us =
+        1000.0 * std::floor(std::max(1.0, std::min<double>(settings_.stop_reserve_ms, ring_us / 4000.0)));
     times_.silent_us = settings_.silent_us;
+    times_.away_us = settings_.away_us;
     times_.settling_us = settle_us;
+    phase_times_.port = times_;
+    phase_times_.command_us = PortTimes::lead_us + stop_exchanges * settings_.timing.answer_us;
+    stop_times_.hold_us = phase_times_.command_us + static_cast<std::uint64_t>(2.0 * times_.reserve_us) +
+                          stop_times_.settle_us + PvtStop::own_word_us;
+    stop_times_.braking_us = braking_us;
+    stop_.set_times(stop_times_, times_);
+    phase_times_.stop_us = longest_stop_us() + braking_us;
+    phases_.set_bounds(modbus_phase_bounds(phase_times_));
+}
+
+std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
+    set_times(first);
     for (std::size_t i = 0; i < drives_.size(); ++i) {
-        if (const DriveProblem problem = drives_[i].prepare(first, stop_reserve_ms); problem != DriveProblem::none) {
+        const auto reserve_ms = static_cast<std::uint16_t>(times_.reserve_us / 1000.0);
+        if (const DriveProblem problem = drives_[i].prepare(first, reserve_ms); problem != DriveProblem::none) {
             return DriveFailure{i, problem};
         }
     }
-    stop_times_.hold_us = lead_us + static_cast<std::uint64_t>(2.0 * times_.reserve_us) +
-                          stop_exchanges * settings_.timing.answer_us + stop_times_.settle_us;
-    stop_.set_times(stop_times_, times_);
     for (const auto& bus : buses_) {
         bus->start();
     }
     prepared_ = true;
-    PvtSetup setup(drives_, times_, *settings_.clock);
-    auto failure = setup.enable(settings_.away_us);
-    failure = failure ? failure : setup.command(PvtCommand::begin, settings_.first_sequence);
-    if (!failure && settings_.home) {
-        failure = setup.home(settings_.interrupted);
-        if (failure) { // drives that are still homing move
-            quick_stop();
-            await_stop();
-        }
+    const auto failure = make_ready();
+    if (failure && moves_) { // what was homing still moves
+        fail(failure->drive, failure->problem);
+        await_stop();
     }
-    failure = failure ? failure : setup.command(PvtCommand::preset_position);
     if (!failure) {
         update_drives();
         executed_to_ = settings_.first_sequence;
-        enter(ModbusPhase::filling);
+        phases_.progress(now_us_);
     }
     return failure;
+}
+
+std::optional<DriveFailure> ModbusPort::make_ready() {
+    PvtSetup setup(drives_, times_, *settings_.clock);
+    auto failure = setup.enable(settings_.reset);
+    failure = failure ? failure : setup.command(PvtCommand::begin, settings_.first_sequence);
+    if (!failure && settings_.home) {
+        moves_ = true;
+        failure = setup.home(settings_.interrupted);
+    }
+    failure = failure ? failure : setup.command(PvtCommand::preset_position);
+    referenced_ = !failure;
+    return failure;
+}
+
+std::optional<std::int32_t> ModbusPort::known_position(std::size_t drive, std::size_t axis) const noexcept {
+    const DriveReport report = drives_[drive].client().report();
+    switch (report.problem) {
+    case DriveProblem::power_cycled: // it counts from anywhere
+    case DriveProblem::out_of_step:  // and who ended the session may have preset it
+    case DriveProblem::taken: return std::nullopt;
+    default: return referenced_ ? std::optional(report.status.position[axis]) : std::nullopt;
+    }
 }
 
 std::uint64_t ModbusPort::busy_us() const noexcept {
@@ -147,11 +192,11 @@ int ModbusPort::do_room() const noexcept {
         const std::size_t held = PvtClient::queue_capacity - drive.client().room();
         room = std::min({room, drive.client().room(), held < buffer_segments_ ? buffer_segments_ - held : 0});
     }
-    return phase_ == ModbusPhase::fault || phase_ == ModbusPhase::halted ? 0 : static_cast<int>(room);
+    return phase() == ModbusPhase::fault || phase() == ModbusPhase::halted ? 0 : static_cast<int>(room);
 }
 
 bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
-    if (phase_ == ModbusPhase::fault || phase_ == ModbusPhase::halting || phase_ == ModbusPhase::halted) {
+    if (phase() == ModbusPhase::fault || phase() == ModbusPhase::halting || phase() == ModbusPhase::halted) {
         return false;
     }
     for (std::size_t i = 0; i < drives_.size(); ++i) {
@@ -173,142 +218,38 @@ void ModbusPort::update_drives() noexcept {
     }
 }
 
-void ModbusPort::enter(ModbusPhase phase) noexcept {
-    phase_ = phase;
-    entered_us_ = now_us_;
-    for (PortDrive& drive : drives_) {
-        drive.clear_sent();
-        drive.client().hold_back(phase == ModbusPhase::stopping || phase == ModbusPhase::halting ||
-                                 phase == ModbusPhase::halted || phase == ModbusPhase::fault);
-    }
-}
-
-// Stops the other drives on the path; the port is in fault when they stand.
-void ModbusPort::fail(std::size_t drive, DriveProblem problem) noexcept {
-    failure_ = DriveFailure{drive, problem};
-    begin_stop(StopRequest::hold);
-}
-
-// Whether every drive has enough segments to start, counted from the drive that is furthest behind, which determines
-// the room. A drive ahead of it starts later and gets its segments meanwhile, or is at the end.
-bool ModbusPort::filled() const noexcept {
-    const std::uint32_t first = executed();
-    return std::all_of(drives_.begin(), drives_.end(), [&](const PortDrive& drive) {
-        const std::uint32_t has = drive.status().next - first;
-        const bool all = complete_ && drive.has_all();
-        return has > 0 && (all || 8 * has >= 7 * buffer_segments_) && drive.last_report().clock.known();
-    });
-}
-
-// Includes time to repeat a lost start command.
-std::uint64_t ModbusPort::start_lead_us() const noexcept {
-    constexpr std::uint64_t lost = 2;
-    return lead_us + lost * settings_.timing.answer_us;
-}
-
-// Starts all drives at one instant; a drive that stands ahead of the others starts later by that much.
-void ModbusPort::start() noexcept {
-    const std::uint32_t first = executed();
-    for (PortDrive& drive : drives_) {
-        const double ahead_us = (drive.status().executed - first) * times_.segment_us;
-        const std::uint64_t at_us = now_us_ + start_lead_us() + static_cast<std::uint64_t>(ahead_us);
-        started_us_ = std::max(started_us_, at_us + settle_us);
-        drive.start(at_us, times_);
-    }
-    enter(ModbusPhase::starting);
-}
-
-// Checks whether all drives run and have segments for long enough to stop the others in time. If not, stops all.
-void ModbusPort::check_drives() noexcept {
-    if (now_us_ < started_us_) {
+void ModbusPort::take(ModbusEvent event) noexcept {
+    if (!phases_.take(event, now_us_)) {
         return;
     }
-    bool all_done = complete_;
-    bool must_stop = false;
-    for (const PortDrive& drive : drives_) {
-        const bool has_all = complete_ && drive.has_all();
-        const bool done = has_all && drive.executed_all();
-        all_done = all_done && done && drive.at_standstill();
-        must_stop = must_stop || drive.last_report().problem != DriveProblem::none ||
-                    drive.status().state == PvtState::stopping || (!done && drive.lag_us() > PortDrive::lag_limit_us) ||
-                    (!has_all && drive.left_us(times_) < times_.reserve_us + guard_us) ||
-                    (has_all && drive.age_us() > settings_.away_us) || (drive.at_standstill() && !done);
-    }
-    if (all_done) {
-        enter(ModbusPhase::done);
-    } else if (must_stop) {
-        std::optional<std::uint32_t> first;
-        for (const PortDrive& drive : drives_) {
-            if (drive.last_report().problem == DriveProblem::none) {
-                first = pvt::earlier(first.value_or(drive.status().next), drive.status().next);
-            }
-        }
-        stop_at_ = first.value_or(executed());
-        enter(ModbusPhase::stopping);
-    }
-}
-
-void ModbusPort::stop_together() noexcept {
+    const ModbusPhase entered = phase();
+    const bool holds_back = entered == ModbusPhase::stopping || entered == ModbusPhase::halting ||
+                            entered == ModbusPhase::halted || entered == ModbusPhase::fault;
     for (PortDrive& drive : drives_) {
-        if (drive.online(times_) && !drive.at_standstill() && drive.status().next != stop_at_) {
-            drive.end_at(stop_at_, now_us_, times_);
-        }
+        drive.clear_sent();
+        drive.client().hold_back(holds_back);
     }
-    if (all_at_standstill()) {
-        enter(ModbusPhase::waiting);
-    }
+    stop_at_ = entered == ModbusPhase::stopping ? common_end() : stop_at_;
 }
 
-bool ModbusPort::all_at_standstill() const noexcept {
-    return std::all_of(drives_.begin(), drives_.end(),
-                       [&](const PortDrive& drive) { return drive.presumed_at_standstill(times_); });
-}
-
-// Waits until every drive is online and ready, then starts or resumes all together.
-void ModbusPort::await_all() noexcept {
-    bool ready = true;
-    bool done = complete_;
-    for (std::size_t i = 0; i < drives_.size(); ++i) {
-        const PortDrive& drive = drives_[i];
-        const DriveProblem problem = drive.last_report().problem != DriveProblem::none ? drive.last_report().problem
-                                     : drive.age_us() > settings_.away_us              ? DriveProblem::silent
-                                     : drive.status().state == PvtState::disabled      ? DriveProblem::refused
-                                                                                       : DriveProblem::none;
-        if (problem != DriveProblem::none) {
-            fail(i, problem);
-            return;
-        }
-        ready = ready && drive.online(times_) && drive.at_standstill() && !drive.pending();
-        done = done && drive.executed_all();
-    }
-    if (ready && done) {
-        enter(ModbusPhase::done);
-    } else if (ready && filled()) {
-        resumes_ += phase_ == ModbusPhase::waiting ? 1U : 0U;
-        start();
-    }
+// All drives are held on the path; the port is in fault when they stand.
+void ModbusPort::fail(std::size_t drive, DriveProblem problem, ModbusEvent event) noexcept {
+    failure_ = DriveFailure{drive, problem};
+    update_drives();
+    stop_.request(StopRequest::hold, now_us_, now_us_ + PortTimes::lead_us, drives_);
+    take(event);
 }
 
 void ModbusPort::begin_stop(StopRequest request) noexcept {
     update_drives();
-    stop_.request(request, now_us_, now_us_ + lead_us, drives_);
-    if (phase_ != ModbusPhase::halting) {
-        enter(ModbusPhase::halting);
-    }
-}
-
-void ModbusPort::follow_stop() noexcept {
-    stop_.update(now_us_, drives_);
-    if (phase_ == ModbusPhase::halting && stop_.sequence().settled()) {
-        enter(failure_ ? ModbusPhase::fault : ModbusPhase::halted);
-    }
+    stop_.request(request, now_us_, now_us_ + PortTimes::lead_us, drives_);
+    take(ModbusEvent::stop);
 }
 
 void ModbusPort::await_stop() noexcept {
-    while (phase_ == ModbusPhase::halting) {
+    while (phase() == ModbusPhase::halting) {
         settings_.clock->sleep_us(poll_interval_us);
-        update_drives();
-        follow_stop();
+        do_poll();
     }
 }
 
@@ -318,30 +259,26 @@ std::uint64_t ModbusPort::longest_stop_us() const noexcept {
 
 PortState ModbusPort::do_poll() noexcept {
     update_drives();
-    switch (phase_) {
-    case ModbusPhase::filling:
-    case ModbusPhase::waiting: await_all(); break;
-    case ModbusPhase::starting:
-        if (PvtSetup::carried_out(drives_)) {
-            enter(ModbusPhase::running);
-        } else if (now_us_ > entered_us_ + PvtSetup::command_us) {
-            enter(ModbusPhase::stopping);
+    if (const auto event = look()) {
+        take(*event);
+    } else if (phases_.overdue(now_us_) != nullptr) {
+        if (phase() == ModbusPhase::starting || phase() == ModbusPhase::halting) {
+            take(ModbusEvent::overdue);
+        } else {
+            const DriveFailure late = culprit();
+            fail(late.drive, late.problem, ModbusEvent::overdue);
         }
-        break;
-    case ModbusPhase::running: check_drives(); break;
-    case ModbusPhase::stopping: stop_together(); break;
-    case ModbusPhase::halting:
-    case ModbusPhase::halted:
-    case ModbusPhase::fault: follow_stop(); break;
-    case ModbusPhase::done: break;
     }
-    const PortPhase phase = phase_ == ModbusPhase::fault    ? PortPhase::fault
-                            : phase_ == ModbusPhase::done   ? PortPhase::idle
-                            : phase_ == ModbusPhase::halted ? PortPhase::halted
-                                                            : PortPhase::running;
     const std::uint32_t now = executed();
+    if (now != executed_to_ && phase() == ModbusPhase::running) {
+        phases_.progress(now_us_);
+    }
     executed_ += now - executed_to_; // sequence numbers wrap
     executed_to_ = now;
+    const PortPhase phase = this->phase() == ModbusPhase::fault    ? PortPhase::fault
+                            : this->phase() == ModbusPhase::done   ? PortPhase::idle
+                            : this->phase() == ModbusPhase::halted ? PortPhase::halted
+                                                                   : PortPhase::running;
     return {phase, executed_};
 }
 
@@ -355,7 +292,7 @@ void ModbusPort::power_off() noexcept {
 }
 
 void ModbusPort::do_halt() noexcept {
-    if (phase_ != ModbusPhase::fault && phase_ != ModbusPhase::done) {
+    if (phase() != ModbusPhase::fault && phase() != ModbusPhase::done) {
         begin_stop(StopRequest::hold);
     }
 }

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // ModbusPort: motion port for Modbus drives that buffer and interpolate segments (map splinefeed-pvt), on one bus or
 // several. It starts, synchronises and stops the drives together.
-//
-//     filling -> starting -> running ----------------------------> idle (all executed, at rest)
-//                   ^           | a drive is about to run dry
-//                   |           v
-//                waiting <- stopping: every drive to the end of the same segment
 #pragma once
 
 #include "splinefeed/hal/modbus/pvt/modbus_bus.hpp"
+#include "splinefeed/hal/modbus/pvt/modbus_phases.hpp"
 #include "splinefeed/hal/modbus/pvt/pvt_group_stop.hpp"
 #include "splinefeed/hal/motion_port.hpp"
 
@@ -21,6 +17,7 @@ struct ModbusPortSettings {
     std::uint32_t stop_reserve_ms = 100; ///< PvtConfiguration; the same for all drives of a run
     std::uint32_t silent_us = 100'000;   ///< a drive without an answer for this long is offline: the others stop
     std::uint32_t away_us = 5'000'000;   ///< offline for this long: the port goes to fault
+    bool reset = false;                  ///< prepare() resets the faults of drives
     bool home = false;                   ///< prepare() homes the drives first
     bool (*interrupted)() = nullptr;     ///< polled during homing; true: quick stop
     LinkTiming timing{};
@@ -28,9 +25,6 @@ struct ModbusPortSettings {
     MakeLine make_line = make_link;
     Clock* clock = &system_clock(); ///< must outlive the port
 };
-
-/// State of the port.
-enum class ModbusPhase : std::uint8_t { filling, starting, running, stopping, waiting, halting, halted, done, fault };
 
 class ModbusPort final : public MotionPort {
 public:
@@ -40,7 +34,8 @@ public:
     ModbusPort& operator=(const ModbusPort&) = delete;
     ~ModbusPort();
 
-    /// Connects to all drives and checks their identity. Nothing moves. Returns the first failure.
+    /// Connects to all drives, checks their identity and that no other program uses them. Only reads. Returns the first
+    /// failure.
     [[nodiscard]] std::optional<DriveFailure> open();
     /// Shortest segment duration that every bus can carry, measured now. [us] Call between open() and prepare().
     [[nodiscard]] double least_segment_us();
@@ -56,12 +51,16 @@ public:
     void power_off() noexcept;
     /// State of a drive's stop after halt(), quick_stop() or a fault of the port. No stop requested: StopRequest::none.
     [[nodiscard]] StopReport stop_report(std::size_t drive) const noexcept { return stop_.sequence().report(drive); }
-    /// Longest duration of a stop, whether the drives answer or not. [us] After prepare().
+    /// Longest duration of a stop, whether the drives answer or not; a drive that brakes needs longer. [us] After
+    /// prepare().
     [[nodiscard]] std::uint64_t longest_stop_us() const noexcept;
     /// Declares that no more segments will come.
     void complete() noexcept { complete_ = true; }
 
-    [[nodiscard]] ModbusPhase phase() const noexcept { return phase_; }
+    [[nodiscard]] ModbusPhase phase() const noexcept { return phases_.phase(); }
+    [[nodiscard]] const ModbusPhases& phases() const noexcept { return phases_; }
+    /// Position of a drive's axis [counts]; nothing: its reference was not set in this session, or was lost since.
+    [[nodiscard]] std::optional<std::int32_t> known_position(std::size_t drive, std::size_t axis) const noexcept;
     /// Cause of the fault, or of a rejected segment.
     [[nodiscard]] const std::optional<DriveFailure>& failure() const noexcept { return failure_; }
     [[nodiscard]] std::size_t drives() const noexcept { return drives_.size(); }
@@ -89,19 +88,28 @@ private:
     void do_halt() noexcept override;
 
     void update_drives() noexcept;
-    void enter(ModbusPhase phase) noexcept;
-    void fail(std::size_t drive, DriveProblem problem) noexcept;
+    [[nodiscard]] std::optional<DriveFailure> find_other_master();
+    void set_times(const FeedSegment& first) noexcept;
+    [[nodiscard]] std::optional<DriveFailure> make_ready();
+    void take(ModbusEvent event) noexcept;
+    void fail(std::size_t drive, DriveProblem problem, ModbusEvent event = ModbusEvent::broken) noexcept;
+    [[nodiscard]] DriveProblem delay_by(const PortDrive& drive) const noexcept;
+    [[nodiscard]] DriveFailure culprit() const noexcept;
+    [[nodiscard]] std::optional<ModbusEvent> look() noexcept;
+    [[nodiscard]] std::optional<ModbusEvent> look_at_standstill() noexcept;
+    [[nodiscard]] std::optional<ModbusEvent> look_at_motion() noexcept;
+    [[nodiscard]] bool starts_in_vain() noexcept;
+    [[nodiscard]] std::size_t latest() const noexcept;
     [[nodiscard]] bool filled() const noexcept;
     void start() noexcept;
     [[nodiscard]] std::uint64_t start_lead_us() const noexcept;
-    void check_drives() noexcept;
+    [[nodiscard]] std::uint32_t common_end() const noexcept;
     void stop_together() noexcept;
     [[nodiscard]] bool all_at_standstill() const noexcept;
-    void await_all() noexcept;
     void begin_stop(StopRequest request) noexcept;
-    void follow_stop() noexcept;
     void await_stop() noexcept;
     [[nodiscard]] std::uint32_t executed() const noexcept;
+    [[nodiscard]] bool accepted_more() noexcept;
 
     ModbusPortSettings settings_;
     std::vector<std::unique_ptr<ModbusBus>> buses_;
@@ -110,18 +118,24 @@ private:
     StopTimes stop_times_;
     PortTimes times_;
     std::optional<DriveFailure> failure_;
-    ModbusPhase phase_ = ModbusPhase::filling;
-    std::uint64_t entered_us_ = 0; // when phase_ was entered
+    ModbusPhases phases_{modbus_phase_table(), ModbusPhase::filling};
+    ModbusPhaseTimes phase_times_;
     std::uint64_t now_us_ = 0;
     std::uint64_t started_us_ = 0;  // latest instant at which all drives have started
     std::uint64_t executed_ = 0;    // segments executed by all drives
     std::uint32_t executed_to_ = 0; // sequence number of the next one
     std::uint32_t buffer_segments_ = 0;
+    std::uint32_t accepted_to_ = 0; // the next sequence numbers of all drives, added up
+    std::uint64_t started_at_ = 0;  // executed_ at the last start
+    unsigned vain_starts_ = 0;      // in a row, without a segment executed
+    std::size_t disturber_ = 0;     // the drive for which all stopped last
     std::uint32_t stop_at_ = 0;
     std::uint32_t resumes_ = 0;
     int axes_ = 0; // number of machine axes
     bool complete_ = false;
-    bool prepared_ = false; // bus threads run
+    bool prepared_ = false;   // bus threads run
+    bool moves_ = false;      // a command of this port may have moved a drive
+    bool referenced_ = false; // every drive has confirmed the preset of its position
 };
 
 } // namespace splinefeed::hal::modbus

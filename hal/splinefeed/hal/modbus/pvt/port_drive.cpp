@@ -2,6 +2,7 @@
 #include "splinefeed/hal/modbus/pvt/port_drive.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace splinefeed::hal::modbus {
 
@@ -57,6 +58,7 @@ void PortDrive::update(std::uint64_t now_us, const PortTimes& times) noexcept {
     const auto status_us = static_cast<double>(report_.status_us);
     if (starting_ && !report_.command_pending) { // a start that arrived too late took place then
         starting_ = false;
+        start_refused_ = report_.command_refused;
         lag_us_ = std::max(lag_us_, status_us - start_us_);
     }
     ran_ += status().executed - ran_to_; // sequence numbers wrap
@@ -68,6 +70,34 @@ void PortDrive::update(std::uint64_t now_us, const PortTimes& times) noexcept {
     }
 }
 
+DriveProblem PortDrive::lasting_problem(const PortTimes& times) const noexcept {
+    return report_.problem != DriveProblem::none  ? report_.problem
+           : age_us_ > times.away_us              ? DriveProblem::silent
+           : status().state == PvtState::disabled ? DriveProblem::switched_off
+                                                  : DriveProblem::none;
+}
+
+DriveProblem PortDrive::unready(const PortTimes& times) const noexcept {
+    return !online(times) || !report_.clock.known() ? DriveProblem::silent
+           : report_.command_pending                ? DriveProblem::ignores
+           : !at_standstill()                       ? DriveProblem::not_standing
+                                                    : DriveProblem::none;
+}
+
+bool PortDrive::at_joint() const noexcept {
+    if (status().executed == 0) {
+        return status().state == PvtState::standing;
+    }
+    const PvtSegment& before = client_->segment(status().executed - 1);
+    for (std::size_t k = 0; k < wiring_.axes.size(); ++k) {
+        const std::int64_t off = (std::int64_t{status().position[k]} << PvtSegment::position_bits) - before.end[k];
+        if (std::abs(off) > wiring_.axes[k].window_counts << PvtSegment::position_bits) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool PortDrive::at_standstill() const noexcept {
     const PvtState state = status().state;
     return state == PvtState::held || state == PvtState::standing || state == PvtState::disabled ||
@@ -75,8 +105,8 @@ bool PortDrive::at_standstill() const noexcept {
 }
 
 bool PortDrive::presumed_at_standstill(const PortTimes& times) const noexcept {
-    const bool counts = report_.problem == DriveProblem::none || report_.problem == DriveProblem::fault ||
-                        report_.problem == DriveProblem::power_cycled;
+    const bool counts =
+        report_.problem != DriveProblem::words_swapped && report_.problem != DriveProblem::unknown_state;
     if (counts && online(times)) {
         return at_standstill();
     }
@@ -103,7 +133,7 @@ void PortDrive::start(std::uint64_t at_us, const PortTimes& times) noexcept {
     send_once(held ? PvtCommand::resume : PvtCommand::start, report_.clock.drive_clock(at_us));
     starting_ = true;
     start_us_ = static_cast<double>(at_us);
-    from_joint_ = client_->at_joint(status());
+    from_joint_ = at_joint();
     // A drive that speeds up from rest loses one reserve of motion time.
     began_us_ = static_cast<double>(at_us) + (held ? times.reserve_us : 0.0);
     full_rate_us_ = began_us_ + (held ? times.reserve_us : 0.0);

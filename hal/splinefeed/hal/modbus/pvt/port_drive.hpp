@@ -39,6 +39,12 @@ public:
     /// Age of the last report. [us]
     [[nodiscard]] std::uint64_t age_us() const noexcept { return age_us_; }
     [[nodiscard]] bool online(const PortTimes& times) const noexcept { return age_us_ < times.silent_us; }
+    /// What is wrong with it for good; `none`: nothing.
+    [[nodiscard]] DriveProblem lasting_problem(const PortTimes& times) const noexcept;
+    /// Why it cannot be started now; `none`: it can.
+    [[nodiscard]] DriveProblem unready(const PortTimes& times) const noexcept;
+    /// Whether it stands where its next segment starts.
+    [[nodiscard]] bool at_joint() const noexcept;
     /// Whether it reports standstill.
     [[nodiscard]] bool at_standstill() const noexcept;
     /// The same; for a drive that is offline or whose report is not valid, whether its segments and its stop must have
@@ -69,6 +75,8 @@ public:
     [[nodiscard]] bool pending() const noexcept { return report_.command_pending; }
     /// Whether the command of send_once() was refused.
     [[nodiscard]] bool refused() const noexcept { return sent_ && report_.command_refused; }
+    /// Whether it refused the last start.
+    [[nodiscard]] bool refuses_start() const noexcept { return start_refused_; }
     /// Starts or resumes it at an instant of the host clock. [us]
     void start(std::uint64_t at_us, const PortTimes& times) noexcept;
     /// Makes it stop at the end of that segment; if that is too near, as soon as possible.
@@ -97,6 +105,7 @@ private:
     double lag_us_ = 0.0;
     double gained_us_ = 0.0; // its clock minus host clock, at the anchor
     bool sent_ = false;
+    bool start_refused_ = false;
     bool starting_ = false;  // its start is not confirmed yet
     bool from_joint_ = true; // it was started from a joint
 };

@@ -9,8 +9,6 @@
 #include "splinefeed/base/assertion.hpp"
 #include "splinefeed/hal/modbus/pvt/pvt_tables.hpp"
 
-#include <cstdlib>
-
 namespace splinefeed::hal::modbus {
 
 namespace {
@@ -20,6 +18,10 @@ constexpr std::uint64_t idle_every_us = 20'000;  // while it is at standstill
 constexpr std::uint64_t connect_every_us = 20'000;
 constexpr std::uint16_t most_refusals = 20; // of errors that a repetition does not cure
 constexpr std::uint8_t illegal_function = 1;
+
+ExchangeInstants instants_of(const LinkAnswer& answer) noexcept {
+    return {answer.sent_us, answer.arrived_us, answer.replied_us, answer.answered_us};
+}
 
 } // namespace
 
@@ -83,6 +85,11 @@ DriveProblem PvtClient::change_configuration(const PvtSettings& wanted) noexcept
     return tables.write(pvt::configuration_address, registers);
 }
 
+DriveProblem PvtClient::read_status() noexcept {
+    const std::lock_guard lock(mutex_);
+    return report_.problem = PvtTables(*link_, unit_, report_).read_status(axes_, report_.status);
+}
+
 LinkAnswer PvtClient::probe() noexcept {
     const std::lock_guard lock(mutex_);
     if (!link_->connected()) {
@@ -91,7 +98,7 @@ LinkAnswer PvtClient::probe() noexcept {
     std::array<std::uint16_t, pvt::status_registers(max_axes)> raw{};
     const std::span<std::uint16_t> whole(raw.data(), pvt::status_registers(axes_));
     // Without a nonce a late answer to an earlier read is not recognised: its clock must not be used.
-    const bool nothing_late = report_.last_fault == LinkFault::none;
+    const bool nothing_late_before = report_.last_fault == LinkFault::none;
     LinkAnswer answer = link_->read(unit_, pvt::status_address, whole);
     if (answer.ok() && !status_holds(whole)) {
         answer.fault = LinkFault::corrupt;
@@ -99,7 +106,7 @@ LinkAnswer PvtClient::probe() noexcept {
     report_.count(answer);
     if (answer.ok()) {
         report_.status = decode_status(whole, axes_);
-        if (nothing_late) {
+        if (nothing_late_before && answer.arrived_us <= answer.replied_us) {
             sample_clock(answer);
         }
     }
@@ -107,24 +114,9 @@ LinkAnswer PvtClient::probe() noexcept {
 }
 
 void PvtClient::sample_clock(const LinkAnswer& answer) noexcept {
-    report_.clock.sample(answer.arrived_us, answer.replied_us, report_.status.clock_us);
+    report_.clock.sample(instants_of(answer), report_.status.clock_us);
     report_.answered_us = answer.answered_us;
-    report_.status_us = answer.arrived_us;
-}
-
-bool PvtClient::at_joint(const PvtStatus& status) const noexcept {
-    constexpr std::int64_t near_counts = 2; // tolerance of a shaft at standstill
-    if (status.executed == 0) {
-        return status.state == PvtState::standing;
-    }
-    const PvtSegment& before = segment(status.executed - 1);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(axes_); ++k) {
-        const std::int64_t off = (std::int64_t{status.position[k]} << PvtSegment::position_bits) - before.end[k];
-        if (std::abs(off) > near_counts << PvtSegment::position_bits) {
-            return false;
-        }
-    }
-    return true;
+    report_.status_us = report_.clock.earliest_us(instants_of(answer));
 }
 
 std::size_t PvtClient::room() const noexcept {
@@ -286,7 +278,7 @@ void PvtClient::handle_answer(const LinkAnswer& answer, const PvtBlock& block,
         report_.problem = problem;
         report_.status = status;
         report_.answered_us = answer.answered_us;
-        report_.status_us = answer.arrived_us;
+        report_.status_us = report_.clock.earliest_us(instants_of(answer));
         resolve_command(status, block); // the drive can still be stopped
         return;
     }
@@ -299,6 +291,9 @@ DriveProblem PvtClient::check_status(const PvtStatus& status) const noexcept {
     if (status.boot != report_.identity.boot) {
         return status.boot == swapped_words(report_.identity.boot) ? DriveProblem::words_swapped
                                                                    : DriveProblem::power_cycled;
+    }
+    if (status.state > PvtState::homing) {
+        return DriveProblem::unknown_state;
     }
     const auto sent = static_cast<std::int32_t>(sent_ - head_.load(std::memory_order_relaxed));
     const auto executed = static_cast<std::int32_t>(status.executed - head_.load(std::memory_order_relaxed));
@@ -339,6 +334,8 @@ void PvtClient::publish_report(const PvtStatus& status, const PvtBlock& block) n
     LinkCounts& counts = report_.counts;
     if (status.refused == PvtRefusal::none) {
         refusals_in_row_ = 0;
+    } else if (status.refused == PvtRefusal::session && began_ && status.state != PvtState::fault) {
+        report_.problem = DriveProblem::taken; // a drive ends a session by itself only in a fault and by power-up
     } else if (status.refused == PvtRefusal::checksum) {
         ++counts.corrupt;
     } else if (status.refused != PvtRefusal::no_room && status.refused != PvtRefusal::gap) {

@@ -31,6 +31,8 @@ public:
     /// Connects and checks the identity. As configure() and probe(): @pre the bus is not started
     [[nodiscard]] DriveProblem open(int least_axes) noexcept;
     [[nodiscard]] DriveProblem configure(const PvtSettings& wanted) noexcept;
+    /// Reads the status, over a bad line, too.
+    [[nodiscard]] DriveProblem read_status() noexcept;
     /// Reads the status once.
     LinkAnswer probe() noexcept;
     [[nodiscard]] int axes() const noexcept { return axes_; }
@@ -47,8 +49,6 @@ public:
     [[nodiscard]] const PvtSegment& segment(std::uint32_t sequence) const noexcept {
         return queue_[sequence % queue_capacity];
     }
-    /// Whether, by this status, the drive stands where its next segment starts.
-    [[nodiscard]] bool at_joint(const PvtStatus& status) const noexcept;
     /// Sends a command, before any further segments. The argument of `begin` is the number of the next pushed segment.
     /// @pre no command is pending
     void command(PvtCommand command, std::uint32_t argument = 0, const PvtSegment& preset = {}) noexcept;

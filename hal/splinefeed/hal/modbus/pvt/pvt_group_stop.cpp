@@ -30,8 +30,7 @@ bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
         most = std::max(most, executed);
         at_end = at_end && drives[i].executed_all();
         in_time = in_time && stops_[i].hold() == PvtStop::Hold::in_time;
-        at_rest =
-            at_rest && stops_[i].hold() == PvtStop::Hold::at_rest && drives[i].client().at_joint(drives[i].status());
+        at_rest = at_rest && stops_[i].hold() == PvtStop::Hold::at_rest && drives[i].at_joint();
         stands = stands && drives[i].last_report().problem == DriveProblem::none && drives[i].at_standstill();
     }
     return stands && (at_end || (at_rest && most == least) || (in_time && in_step_ && most - least <= 1));

@@ -13,7 +13,7 @@ public:
     explicit PvtGroupStop(std::size_t drives) : facts_(drives), sequence_(drives, {}) { stops_.reserve(drives); }
 
     /// Adds the drives, each once, in order.
-    void add(PvtClient& client) { stops_.emplace_back(client); }
+    void add(PvtClient& client, std::span<const PvtAxis> axes) { stops_.emplace_back(client, axes); }
     void set_times(const StopTimes& times, const PortTimes& port) noexcept {
         sequence_.set_times(times);
         times_ = port;

@@ -102,11 +102,13 @@ struct PvtSegment {
 
 /// Assigns a drive's axis to a machine axis; -1: none.
 struct PvtAxis {
-    PvtAxis(int axis = -1, bool turned = false) noexcept // NOLINT(google-explicit-constructor): a number is an axis
-        : machine_axis(axis), inverted(turned) {}
+    PvtAxis(int axis = -1, bool turned = false, // NOLINT(google-explicit-constructor): a number is an axis
+            std::int64_t window = 2) noexcept
+        : machine_axis(axis), inverted(turned), window_counts(window) {}
 
     int machine_axis;
-    bool inverted; ///< it counts in the opposite direction of the machine's axis
+    bool inverted;              ///< it counts in the opposite direction of the machine's axis
+    std::int64_t window_counts; ///< how far the position of a shaft that stands may dither
 
     friend bool operator==(const PvtAxis&, const PvtAxis&) = default;
 };

@@ -16,14 +16,19 @@ namespace splinefeed::hal::modbus {
 class PvtSetup {
 public:
     static constexpr std::uint64_t command_us = 3'000'000; ///< time limit of a command
+    static constexpr std::uint64_t homing_us = 300'000'000;
+    /// A drive that is silent for this long while it homes is not waited for: the others would home on.
+    static constexpr std::uint64_t silent_us = 1'000'000;
 
     PvtSetup(std::vector<PortDrive>& drives, const PortTimes& times, Clock& clock) noexcept
-        : drives_(drives), times_(times), clock_(clock) {}
+        : drives_(drives), times_(times), clock_(clock), resets_(drives.size(), Reset::none) {}
 
-    /// Enables the drives from any state: waits for moving drives to stop, resets faults.
-    /// @param within_us  time limit of all drives together [us]
-    [[nodiscard]] std::optional<DriveFailure> enable(std::uint64_t within_us);
-    [[nodiscard]] std::optional<DriveFailure> command(PvtCommand command, std::uint32_t argument = 0);
+    /// Enables the drives from any state, within times.away_us: waits for moving drives to stop.
+    /// @param reset  resets faults, once each
+    [[nodiscard]] std::optional<DriveFailure> enable(bool reset);
+    /// @param interrupted  as of home(); nothing is waited for any more
+    [[nodiscard]] std::optional<DriveFailure> command(PvtCommand command, std::uint32_t argument = 0,
+                                                      bool (*interrupted)() = nullptr);
     /// Homes all drives at the same time, each by its own settings, and waits until the last one stands. After a
     /// failure other drives may still move.
     /// @param interrupted  polled meanwhile, may be null; true: a failure of a drive that is still homing
@@ -33,12 +38,18 @@ public:
     [[nodiscard]] static bool carried_out(const std::vector<PortDrive>& drives) noexcept;
 
 private:
-    void poll() noexcept;
+    void update() noexcept;
+    [[nodiscard]] std::optional<DriveFailure> look_at_enabling(bool reset);
+    template <class Problem>
+    [[nodiscard]] std::optional<DriveFailure> first_with(const Problem& problem) const;
+    template <class Done>
+    [[nodiscard]] bool await(std::uint64_t bound_us, const Done& done);
 
     std::vector<PortDrive>& drives_;
     const PortTimes& times_;
     Clock& clock_;
-    std::uint64_t now_us_ = 0;
+    enum class Reset : std::uint8_t { none, sent, executed };
+    std::vector<Reset> resets_;
 };
 
 } // namespace splinefeed::hal::modbus

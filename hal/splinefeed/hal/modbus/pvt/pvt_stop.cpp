@@ -6,14 +6,47 @@
 #include "splinefeed/hal/modbus/pvt/pvt_stop.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace splinefeed::hal::modbus {
 
 namespace {
 
 constexpr std::uint64_t still_us = 15'000; // standstill of an unpowered drive, by its position
+constexpr std::uint64_t look_us = 100'000; // two looks tell whether it slows down
 
 } // namespace
+
+PvtStop::PvtStop(PvtClient& client, std::span<const PvtAxis> axes) noexcept : client_(&client) {
+    window_.fill(PvtAxis().window_counts);
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        window_[k] = axes[k].window_counts;
+    }
+    forget_positions();
+}
+
+void PvtStop::forget_positions() noexcept {
+    for (std::size_t k = 0; k < window_.size(); ++k) {
+        standstill_[k] = Standstill(window_[k]);
+    }
+}
+
+// By the ways of successive looks, each as long: quantities of counts would spoil shorter ones.
+void PvtStop::watch_speed() noexcept {
+    if (report_.status_us < looked_us_ + look_us) {
+        return;
+    }
+    std::int64_t way = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(client_->axes()); ++k) {
+        way += std::abs(std::int64_t{report_.status.position[k]} - looked_.position[k]);
+    }
+    // By time, since answers may be late.
+    way = way * static_cast<std::int64_t>(look_us) / static_cast<std::int64_t>(report_.status_us - looked_us_);
+    slows_ = way < way_counts_;
+    way_counts_ = way;
+    looked_us_ = report_.status_us;
+    looked_ = report_.status;
+}
 
 bool PvtStop::powerless() const noexcept {
     return report_.status.state == PvtState::fault || report_.status.state == PvtState::disabled;
@@ -44,13 +77,15 @@ PvtStop::Hold PvtStop::hold_by(const DriveReport& answer, const PortTimes& times
 
 void PvtStop::update(const DriveReport& report, const PortTimes& times) noexcept {
     const bool is_new = report.status_us != report_.status_us;
-    if (report.status.state != report_.status.state) {
-        standstill_.fill({}); // what made it change may have moved the shaft since the last report
+    if (report.status.state != report_.status.state || state_since_us_ == 0) {
+        forget_positions(); // what made it change may have moved the shaft since the last report
+        state_since_us_ = report.status_us;
     }
     report_ = report;
     for (std::size_t k = 0; is_new && k < static_cast<std::size_t>(client_->axes()); ++k) {
         standstill_[k].update(report_.status_us, report_.status.position[k]);
     }
+    watch_speed();
     if (pending_ == StopRequest::none || report_.command_pending) {
         return;
     }
@@ -88,13 +123,16 @@ void PvtStop::send_once(StopRequest request, std::uint64_t hold_at_us) noexcept 
     client_->interrupt(command_, command_ == PvtCommand::begin ? report_.status.executed : hold_at);
 }
 
-// The state `standing` or `held` is that of the reference: a load may have pushed the shaft since the report before. A
-// drive without power or in fault needs no command and would refuse one. But a pending command may be `enable`.
+// The state `standing` or `held` is that of the reference: a load may have pushed the shaft since the report before.
+// But a shaft that dithers beyond its window for longer than a push lasts stands by its drive's word. A drive without
+// power or in fault needs no command and would refuse one. But a pending command may be `enable`.
 StopFacts PvtStop::facts() const noexcept {
     const PvtState state = report_.status.state;
     const bool stands = state == PvtState::standing || state == PvtState::held;
     StopFacts facts{.status_us = report_.status_us,
-                    .standstill = (stands && still(1)) || (powerless() && still(still_us)),
+                    .standstill = (stands && (still(1) || report_.status_us >= state_since_us_ + own_word_us)) ||
+                                  (powerless() && still(still_us)),
+                    .braking = slows_ && (state == PvtState::stopping || state == PvtState::fault),
                     .executed = executed_,
                     .executed_us = executed_us_};
     if (powerless() && !report_.command_pending) {

@@ -20,7 +20,11 @@ public:
         apart,   ///< it slowed down, perhaps later than the others, or earlier because its ring ended
     };
 
-    explicit PvtStop(PvtClient& client) noexcept : client_(&client) {}
+    /// For so long a drive that stands by its own word is asked for its positions, too.
+    static constexpr std::uint64_t own_word_us = 250'000;
+
+    /// @param axes  of the drive, for the windows in which their shafts stand
+    PvtStop(PvtClient& client, std::span<const PvtAxis> axes) noexcept;
 
     /// Takes the drive's last report. @pre not older than the previous one
     void update(const DriveReport& report, const PortTimes& times) noexcept;
@@ -34,12 +38,20 @@ private:
     [[nodiscard]] PvtCommand command_for(StopRequest request) const noexcept;
     [[nodiscard]] Hold hold_by(const DriveReport& answer, const PortTimes& times) const noexcept;
     [[nodiscard]] bool powerless() const noexcept;
+    void forget_positions() noexcept;
+    void watch_speed() noexcept;
     /// Whether no axis has moved for this long.
     [[nodiscard]] bool still(std::uint64_t least_us) const noexcept;
 
     PvtClient* client_;
     DriveReport report_;
     PerAxis<Standstill> standstill_{};
+    PerAxis<std::int64_t> window_{};
+    std::uint64_t state_since_us_ = 0; // when it reported its state first
+    PvtStatus looked_{};               // at the end of the last look at its speed
+    std::uint64_t looked_us_ = 0;
+    std::int64_t way_counts_ = 0;             // within that look
+    bool slows_ = false;                      // the way before was longer
     StopRequest pending_ = StopRequest::none; // sent and not answered yet
     PvtCommand command_ = PvtCommand::none;
     PvtState state_then_ = PvtState::disabled;
