@@ -72,7 +72,8 @@ SetpointPhases::Bounds setpoint_bounds(const SetpointPhaseTimes& times) noexcept
         bounds[static_cast<std::size_t>(phase)] = {most_us, sentence};
     };
     set(Phase::running, 2 * times.reserve_us + second_us, "the time of the motion does not go on");
-    set(Phase::arriving, 5 * second_us, "it does not report that it has arrived");
+    set(Phase::arriving, 5 * second_us,
+        "it does not report that it has arrived; where its shaft dithers, give its axis a wider standstill_window_mm");
     set(Phase::stopping, 2 * times.reserve_us + second_us, "the time of the motion does not come to rest");
     set(Phase::returning, times.away_us + second_us,
         "it does not come to rest on the path after all drives have stopped; look for a load that moves it, or give "
