@@ -6,14 +6,7 @@
 
 namespace splinefeed {
 
-namespace {
-
-// The lowest cap of the speed away from stops, 1e-3 mm/s squared: below that, the time per cell has no digits in Fixed.
-// At this speed the acceleration of an axis is less than its smallest limit for any curvature below 1e5 /mm.
-constexpr double slowest_sq = 1e-6;
-
-} // namespace
-
+// At slowest_sq the acceleration of an axis is less than its smallest limit for any curvature below 1e5 /mm.
 template <Scalar S>
 S SpeedCaps<S>::cap_sq(const Cell<S>& cell) const noexcept {
     // The block's own maximum limits the feed, whatever is programmed and overridden.

@@ -11,6 +11,10 @@ namespace splinefeed {
 template <Scalar S>
 class SpeedCaps {
 public:
+    /// The lowest speed away from stops, squared: below the least limit of a machine file, 1e-3 mm/s, less what is kept
+    /// of it for rounding. Below that, the time per cell has no digits in Fixed.
+    static constexpr double slowest_sq = 0.9e-3 * 0.9e-3;
+
     /// `limits` must outlive it.
     explicit SpeedCaps(const MotionLimits<S>& limits) noexcept : limits_(limits) {}
 

@@ -67,8 +67,6 @@ public:
     [[nodiscard]] bool empty() const noexcept { return window_.size() == 0; }
 
 private:
-    static constexpr double slowest_sq = 1e-6; // as in FeedPlan
-
     using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
@@ -90,7 +88,7 @@ private:
     [[nodiscard]] S wanted_sq(const SmoothCell<S>& cell) const noexcept {
         const S ratio = steering_.ratio();
         return larger(smaller(cell.max_steady_sq, cell.demand.programmed_sq * (ratio * ratio)),
-                      smaller(cell.max_steady_sq, literal<S>(slowest_sq)));
+                      smaller(cell.max_steady_sq, literal<S>(SpeedCaps<S>::slowest_sq)));
     }
     bool ends_here() noexcept;
     void backward_pass(bool all) noexcept;

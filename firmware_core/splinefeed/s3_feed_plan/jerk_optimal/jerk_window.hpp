@@ -34,7 +34,7 @@ public:
                                                   ///< all
     static constexpr double shortest_mm = 2e-6;   ///< cells are not split into shorter ones, because Fixed would have
                                                   ///< no digits for them
-    static constexpr double slowest_sq = 1e-6;    ///< v^2 below which a motion is not changed
+    static constexpr double slowest_sq = 4e-7;    ///< v^2 below which a motion is not changed: half of SpeedCaps'
 
     /// Overwrites the storage. @pre at least nodes_for() the number of cells; this also holds for all other functions
     JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
