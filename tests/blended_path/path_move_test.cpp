@@ -4,6 +4,8 @@
 #include "support/moves_deviation.hpp"
 #include "support/rounds.hpp"
 
+#include <limits>
+
 using namespace splinefeed;
 using namespace splinefeed_test;
 
@@ -130,6 +132,13 @@ TEMPLATE_TEST_CASE("moves that are none are refused", "[blended_path]", double, 
     PathElement<S> element = element_of<S>(program.moves[0], 3);
     element.arc.centre = {};
     CHECK(move.set({}, element, 3).error() == Error::arc_invalid); // the start is the centre
+    for (const std::int64_t end :
+         {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
+        element.arc.centre[0].raw = end;
+        PerAxis<Position> from{};
+        from[0].raw = end < 0 ? 1 : -2;
+        CHECK(move.set(from, element, 3).error() == Error::move_too_long);
+    }
     element = element_of<S>(program.moves[0], 3);
     element.to[0] = position_from_mm(40.0);
     CHECK(move.set({}, element, 3).error() == Error::arc_invalid); // the radius is another one

@@ -123,7 +123,10 @@ template <Scalar S>
 Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     for (unsigned k = 0; k < in_plane(); ++k) {
         for (const Position end : {from_[k], to_[k]}) {
-            if (const std::int64_t arm = arc.centre[k].raw - end.raw; arm > longest_raw || arm < -longest_raw) {
+            // Modulo 2^64: the centre may be anywhere, and no wrong difference is small, for the ends are checked.
+            const auto arm = static_cast<std::int64_t>(static_cast<std::uint64_t>(arc.centre[k].raw) -
+                                                       static_cast<std::uint64_t>(end.raw));
+            if (arm > longest_raw || arm < -longest_raw) {
                 return Error::move_too_long;
             }
         }
