@@ -79,6 +79,7 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
         return false;
     }
     pushed.row = row_;
+    pushed.short_rows = short_rows_;
     if (step_.kind == StepKind::nothing) {
         return true;
     }
@@ -102,7 +103,9 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
     if (program_->knows_stops()) {
         here_ = step_.element.to;
         push(step_, pushed);
-        row_ = moves ? program_->row_of(moves_ - 1U) : row_;
+        const std::uint32_t row = program_->row_of(moves_ - 1U);
+        row_ = moves ? row : row_;
+        short_rows_ = row_ ? row - *row_ : 0;
         return true;
     }
     if (!moves) {

@@ -37,7 +37,8 @@ public:
         const SourceStep<S>* move{};  ///< it pushed this move; null: none; valid until the next call
         const SourceStep<S>* step{};  ///< a dwell or an event behind the moves so far; null: none; valid as above
         std::optional<std::uint32_t>
-            row{}; ///< of the last move before the step that has a length; none: there was none
+            row{};                    ///< of the last move before the step that has a length; none: there was none
+        std::uint32_t short_rows = 0; ///< rows behind that one: moves without a length, of which a chain may take some
     };
     /// Takes the start or the next step, or finishes the path; false if there is none. Throws InputError; the path then
     /// ends with the moves before. @pre the path is starved
@@ -76,6 +77,7 @@ private:
     SourceStep<S> pushed_;             // the move that was pushed last
     PerAxis<Position> here_{};         // where the last move so far ends, held or not
     std::optional<std::uint32_t> row_; // of the last move with a length
+    std::uint32_t short_rows_ = 0;     // behind it
     std::exception_ptr failure_;       // thrown behind the moves before it
     std::uint32_t moves_ = 0;          // pushed
     bool holds_ = false;

@@ -19,6 +19,7 @@ struct PendingStep {
     std::shared_ptr<const WorkOffsets> offsets{}; ///< what the event makes of them; null: nothing
     std::optional<std::uint32_t> row{}; ///< of the last move before it, as segments name it; none: before every move
     PerAxis<Position> place{};          ///< where that move ends
+    std::uint32_t short_rows = 0; ///< rows behind it with moves too short to be one: the path may have one of them
 };
 
 /// First in, first out. Memory: the steps between what the path has read and what has been travelled.

@@ -38,7 +38,8 @@ void ProgramSteps<S>::add(const typename ElementFeeder<S>::Pushed& pushed) {
         ++summary_.dwells;
         summary_.dwell_s += step.dwell_s;
     }
-    pending_.add({step.kind, step.stops, step.dwell_s, step.line, step.action, step.offsets, pushed.row, place_});
+    pending_.add({step.kind, step.stops, step.dwell_s, step.line, step.action, step.offsets, pushed.row, place_,
+                  pushed.short_rows});
 }
 
 template <Scalar S>

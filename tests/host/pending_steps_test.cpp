@@ -47,3 +47,17 @@ TEST_CASE(
     CHECK(steps.reached(std::nullopt, {0.0}, 1) != nullptr);
     CHECK(steps.passed(0) != nullptr);
 }
+
+TEST_CASE("A step behind moves without a length is due at the end of each of them, and passed behind the last") {
+    PendingSteps steps;
+    PendingStep step = behind(0xffffffffU, 10.0);
+    step.short_rows = 2;
+    steps.add(step);
+    for (const std::uint32_t row : {0xffffffffU, 0U, 1U}) {
+        CHECK(steps.passed(row) == nullptr);
+        CHECK(steps.reached(row, {10.00005}, 1) != nullptr);
+    }
+    CHECK(steps.reached(2, {10.0}, 1) == nullptr);
+    CHECK(steps.reached(0xfffffffeU, {10.0}, 1) == nullptr);
+    CHECK(steps.passed(2) != nullptr);
+}

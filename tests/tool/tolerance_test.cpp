@@ -216,3 +216,24 @@ max_acceleration_mm_s2 = 1000
     tool.write("still.json", R"({"elements": [{"from": [1, 0, 0], "to": [1, 0, 0]}]})");
     refused("still.json", "no element moves; a program needs a move");
 }
+
+TEST_CASE("A dwell behind moves that are too short is kept, whether a chain takes them or not") {
+    const Tool tool;
+    for (const char* const tolerance : {"0", "0.01"}) {
+        std::string program = "{\"elements\": [";
+        double from = 0.0;
+        for (const double to : {1.0, 1.00006, 1.00012, 1.00018, 2.0}) { // 0.06 um each: two are a move
+            program += std::string(from > 0.0 ? "," : "") + R"({"type": "line", "from": [0, )" + std::to_string(from) +
+                       R"(, 0], "to": [0, )" + std::to_string(to) + R"(, 0], "feed_mm_s": 10, "tolerance_mm": )" +
+                       tolerance + "}";
+            from = to;
+        }
+        program += R"(], "dwells": [{"after_element": 2, "seconds": 0.3}, {"after_element": 3, "seconds": 0.3},
+                     {"after_element": 4, "seconds": 0.3}]})";
+        tool.write("short.json", program);
+        const json summary = summary_of(tool("run short.json --quiet --summary json"));
+        CHECK(summary["program"]["dwells"] == 3);
+        CHECK(summary["cycle_time_s"].get<double>() > 0.9);
+        CHECK(summary["tolerance"]["kept"] == true);
+    }
+}
