@@ -99,9 +99,9 @@ void write_sentences(Lines out, const Summary& summary) {
         write_use_sentence(out, use.axis, "acceleration", use.acceleration);
         write_use_sentence(out, use.axis, "jerk", use.jerk.value_or(0.0));
     }
-    if (summary.window_limited > 0) {
+    if (summary.window_limited.value_or(0) > 0) {
         fmt::format_to(out, "The planning window was too short {}: a longer one may be faster.\n",
-                       plural(summary.window_limited, "time"));
+                       plural(*summary.window_limited, "time"));
     }
     if (summary.limit_share && summary.cycle_time_s > 0.0) {
         fmt::format_to(out, "{}", advice(axis_names(summary), *summary.limit_share));
@@ -223,7 +223,7 @@ std::string to_json(const Summary& summary) {
     json["memory_bytes"]["feed_plan"] = summary.memory_bytes.feed_plan;
     json["memory_bytes"]["stream"] = summary.memory_bytes.stream;
     json["stopped"] = summary.stopped;
-    json["window_limited"] = summary.window_limited;
+    json["window_limited"] = summary.window_limited ? Json(*summary.window_limited) : Json(nullptr);
     json["stops"] = summary.stops;
     json["smoothing_bound_mm"] = summary.smoothing_bound_mm;
     json["peak_rss_bytes"] = summary.peak_rss_bytes;

@@ -66,10 +66,12 @@ struct Summary {
     bool stopped = false;                 ///< the run ended before the program
     std::uint64_t events = 0;             ///< of the operator
     std::uint64_t events_not_reached = 0; ///< events after the end of the run
-    std::uint64_t window_limited = 0; ///< how often the planning window was too short to know that the plan is the best
-    std::uint64_t stops = 0;          ///< corners where the feed is zero, without the ends
-    double smoothing_bound_mm = 0.0;  ///< largest distance of the emitted motion from the curve
-    std::uint64_t peak_rss_bytes = 0; ///< memory of the process; 0: unknown
+    /// How often the planning window was too short to know that the plan is the best; nothing: with a jerk limit that
+    /// is not known.
+    std::optional<std::uint64_t> window_limited;
+    std::uint64_t stops = 0;                   ///< corners where the feed is zero, without the ends
+    double smoothing_bound_mm = 0.0;           ///< largest distance of the emitted motion from the curve
+    std::uint64_t peak_rss_bytes = 0;          ///< memory of the process; 0: unknown
     std::optional<LimitShares> limit_share;    ///< which limit bound; axes as in limit_use
     std::optional<ToleranceSummary> tolerance; ///< for elements, and lines within a tolerance
     ProgramSummary program;                    ///< dwells and events

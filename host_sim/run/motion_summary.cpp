@@ -2,6 +2,7 @@
 // What a motion says of itself.
 #include "host_sim/run/motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sys/resource.h>
 
@@ -29,8 +30,12 @@ ToleranceSummary Motion<S>::tolerance_summary() const {
     out.excess = excess();
     const PathCounts counts = feeder_.tolerance_path()->counts();
     out.blended = counts.joints.blended;
-    out.stopped = counts.joints.stopped;
-    out.through = counts.joints.through;
+    // The path knows the stops that it asks for. Where the motion stands at a kink that is too sharp to be passed, that
+    // is found when the arc length is measured.
+    const std::uint64_t unrounded = counts.joints.stopped + counts.joints.through;
+    const std::uint64_t stood = operated_ == 0 ? std::min(rests_, unrounded) : 0;
+    out.stopped = std::max(counts.joints.stopped, stood);
+    out.through = unrounded - out.stopped;
     out.chains = counts.chains;
     out.elements = feeder_.rows() - (input_->lines_within_tolerance() && feeder_.rows() > 0 ? 1U : 0U);
     out.pieces = tee_.segments();
@@ -76,7 +81,9 @@ Summary Motion<S>::summary() const {
     summary.stopped = !stopped_.empty();
     summary.events = operated_;
     summary.events_not_reached = events_.size() - operated_;
-    summary.window_limited = trajectory_.feed_plan().window_limited();
+    if (!limits_->jerk_limited) { // else that counts the window of the plan that another one refines
+        summary.window_limited = trajectory_.feed_plan().window_limited();
+    }
     summary.stops = rests_ > 0 ? rests_ - 1 : 0;
     const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);
     summary.smoothing_bound_mm = duration_s * duration_s * std::sqrt(acceleration_sq) / 6.0;
