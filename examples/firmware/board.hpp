@@ -29,3 +29,12 @@
 #include "step_generator.hpp"
 
 #include FIRMWARE_BOARD
+
+namespace firmware {
+
+/// Gives the drives power, unless the emergency stop is pressed: then they never have it, not for a tick either.
+inline void energise_drives() {
+    board::enable_drives(!board::read_inputs().estop);
+}
+
+} // namespace firmware

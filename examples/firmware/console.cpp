@@ -144,7 +144,11 @@ void Console::execute(const Command& command) noexcept {
         }
         return;
     case Verb::memory: report_memory(); return;
-    case Verb::stall:
+    case Verb::stall: // the watchdog resets the board, and where the machine stands is lost
+        if (motion_.steps().active()) {
+            refuse("stall is for a machine that stands");
+            return;
+        }
         stalled_ = true;
         say("ok\n");
         return;

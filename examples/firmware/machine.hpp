@@ -48,6 +48,7 @@ inline constexpr Lookahead lookahead = [] {
         ++ahead.reserve_log2;
     }
     ahead.start = static_cast<unsigned>(board::parts) * 3 / 4;
+    ahead.leaving_steps = 800; // 10 mm of x and y, 2 mm of z
     ahead.slew = (StepGenerator<axes>::full_rate / 2 * tick_ticks / limits->segment_ticks) >> ahead.reserve_log2;
     return ahead;
 }();

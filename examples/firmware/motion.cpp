@@ -44,7 +44,7 @@ Status Motion::begin(const splinefeed::Waypoint<Real>& first) noexcept {
     program_ = Program::open;
     at_rest_ = true;
     moved_ = finished_ = hold_asked_ = false;
-    board::enable_drives(true);
+    energise_drives();
     return {};
 }
 

@@ -37,6 +37,9 @@ struct Lookahead {
     unsigned start = 1;        ///< a motion begins when the ring holds so many, or a standstill
     unsigned reserve_log2 = 0; ///< 2^this many parts, at most 64: with fewer the motion slows down
     std::uint32_t slew = 1;    ///< change of the rate in a tick: 2^16 / (2 * ticks of the reserve)
+    /// So many ticks with a step may be made from a limit switch on which a motion began, until it is left: a switch
+    /// that stays pressed is broken, or the motion goes the other way.
+    std::uint32_t leaving_steps = 1000;
 };
 
 /// The time of the motion runs at a rate of its own, sigma, 2^16 at most. While no standstill lies ahead in the ring,
@@ -69,12 +72,7 @@ public:
         }
         write(out_);
         count_steps();
-        if (!inputs.limit) {
-            limit_armed_ = true;
-        } else if (limit_armed_ && moving_) { // a machine that stands on a switch may move off it
-            limit_armed_ = false;
-            stopping_ = true;
-        }
+        watch_limit(inputs.limit);
         out_ = shaper_.next(advance());
         active_.store(moving_ || out_.step != 0 || !shaper_.empty(), std::memory_order_release);
     }
@@ -159,7 +157,19 @@ private:
             }
         }
     }
+    /// A machine that stands on a switch, or was stopped by it, may move off it, but not far.
+    void watch_limit(bool pressed) noexcept {
+        if (pressed && !on_limit_) {
+            leaving_ = moving_ ? 0 : lookahead_.leaving_steps;
+        }
+        on_limit_ = pressed;
+        if (pressed && moving_ && leaving_ == 0) {
+            stopping_ = true;
+        }
+        leaving_ -= leaving_ > 0 && out_.step != 0 ? 1U : 0U;
+    }
     void end_with(Stop reason) noexcept {
+        leaving_ = lookahead_.leaving_steps;
         stopping_ = false;
         moving_ = false;
         stop_.store(reason, std::memory_order_relaxed);
@@ -239,12 +249,13 @@ private:
     std::uint32_t rests_passed_ = 0;
     std::uint32_t rate_ = 0;
     std::uint32_t target_ = 0;
-    std::uint32_t phase_ = 0; // part of a tick of the motion that has passed
+    std::uint32_t phase_ = 0;   // part of a tick of the motion that has passed
+    std::uint32_t leaving_ = 0; // steps that are left to leave the switch on which the motion began
     bool moving_ = false;
     bool in_part_ = false;
     bool rest_ = true; // the last part that was begun ends at standstill
     bool stopping_ = false;
-    bool limit_armed_ = false;
+    bool on_limit_ = false;
 };
 
 } // namespace firmware

@@ -238,8 +238,8 @@ def limited(bench):
     for row in (f"{at[0] / 80:.6f},{at[1] / 80:.6f},{at[2] / 400:.6f}", rows[0]):
         bench.board.command(row)
     bench.board.command("end")
+    bench.board.press(LIMIT, False)  # the motion has left it; one that stays pressed ends it again
     bench.event("done")
-    bench.board.press(LIMIT, False)
     return f"limit switch at {at}, on the path, and off the switch"
 
 
@@ -282,8 +282,11 @@ def steered(bench):
 
 
 def bitten(bench):
-    """The main loop hangs: the watchdog resets, and nothing moves any more."""
+    """The main loop hangs: the watchdog resets, and nothing moves any more. A host cannot do that to a moving board."""
     under_way(bench, waypoints("examples/path61.csv"))
+    bench.board.command("stall", "error: stall is")
+    bench.board.send("!")
+    bench.event("held")
     bench.board.command("stall")
     bench.board.wait_for(r"\[boot ")
     bench.new_steps()

@@ -345,3 +345,49 @@ TEST_CASE("Drive: rests on the way, holds and ends at random: the path's end, st
         CHECK(bench.shaft == ends_of(segments));
     }
 }
+
+TEST_CASE("Drive: a limit switch that is pressed from the start is left, or stops the axes", "[drive]") {
+    for (const bool releases : {false, true}) {
+        DriveBench bench;
+        bench.limit = true;
+        bench.run_us(1000);
+        bench.enable_and_begin();
+        bench.give_all(0, there_and_stop(60, 8 * ms_ticks, 2000.0));
+        bench.command(PvtCommand::start);
+        const std::uint32_t took = bench.run_until(PvtState::fault, 100'000);
+        CHECK(took == 100'000); // so far it may leave it
+        bench.limit = !releases;
+        bench.run_us(releases ? 50'000 : 400'000);
+        CHECK(bench.drive.fault() == (releases ? PvtFault::none : PvtFault::limit));
+        CHECK((releases || std::abs(bench.shaft[0]) <= static_cast<int>(drive_leaving_steps) + 250));
+        bench.limit = true; // left once, it stops at once
+        bench.run_us(100'000);
+        CHECK(bench.drive.fault() == PvtFault::limit);
+    }
+}
+
+TEST_CASE("Drive: the ends of the range of positions are refused or told, and overflow nothing", "[drive]") {
+    constexpr std::int64_t least = -(std::int64_t{1} << 47);
+    constexpr std::int64_t most = -(least + 1);
+    for (const std::int64_t end : {least, most}) {
+        DriveBench bench;
+        bench.enable_and_begin();
+        std::vector<PvtSegment> place(1);
+        place[0].duration_ticks = 8000;
+        place[0].end[0] = end;
+        modbus::PvtBlock head;
+        head.session = bench.session;
+        head.command = PvtCommand::preset_position;
+        head.command_counter = ++bench.counter;
+        CHECK(bench.send(head, place).refused == (end == most ? PvtRefusal::malformed : PvtRefusal::none));
+        std::vector<PvtSegment> segments = there_and_stop(20, 8 * ms_ticks, 100.0);
+        for (PvtSegment& segment : segments) { // to the other end of the range
+            segment.end[0] = -(end + 1);
+        }
+        bench.give_all(0, segments);
+        bench.command(PvtCommand::start);
+        bench.run_us(300'000);
+        CHECK(bench.drive.fault() == PvtFault::limit); // faster than any board
+        CHECK(bench.shaft[0] == 0);
+    }
+}

@@ -240,3 +240,23 @@ TEST_CASE("Step generator: a limit switch slows down, and may be left", "[genera
     CHECK(bench.steps->stopped() == Stop::none);
     CHECK(bench.pulses != stopped_at);
 }
+
+TEST_CASE("Step generator: a switch that stays pressed stops every motion that does not leave it", "[generator]") {
+    const std::vector<MotionPart> parts = motion(600, true);
+    Bench bench(128);
+    bench.run({false, true}); // from the start
+    for (int program = 1; program <= 2; ++program) {
+        const std::int32_t before = bench.pulses;
+        bench.next = 0;
+        for (int ms = 0; bench.steps->stopped() == Stop::none && ms < 2000; ++ms) {
+            bench.fill(parts, parts.size());
+            bench.run({false, true});
+        }
+        CHECK(bench.steps->stopped() == Stop::limit);
+        const std::int32_t way = std::abs(bench.pulses - before);
+        CHECK(way >= 900);               // it may leave it: 1000 steps, some ticks with two
+        CHECK(way <= 1000 + 8 * 64 + 8); // and slow down over the reserve
+        bench.steps->restart();
+        bench.steps->forgive();
+    }
+}

@@ -60,7 +60,7 @@ int main() {
         motion.poll(limit.load(std::memory_order_relaxed));
         if (motion.powered() != powered) {
             powered = !powered;
-            board::enable_drives(powered);
+            powered ? energise_drives() : board::enable_drives(false);
         }
         if (wire.asked()) {
             wire.answer(answer_request(wire.request(), drive_unit, map, wire.reply()));

@@ -31,6 +31,9 @@ inline constexpr std::uint32_t slot_ticks = slot_us * 8; ///< [1/8 us]
 /// Of a quick stop, and of a fault: from the largest speed to standstill in a twentieth of a second.
 inline constexpr std::uint32_t drive_stop_steps_s2 = 20 * drive_steps_per_s;
 
+/// So far an axis may go from a limit switch on which a motion began, until it is left.
+inline constexpr std::uint32_t drive_leaving_steps = 800;
+
 using DriveSteps = StepGenerator<drive_axes>;
 inline constexpr Lookahead no_lookahead{.start = 1, .reserve_log2 = 0, .slew = DriveSteps::full_rate};
 inline constexpr std::size_t slots_ahead = 2; ///< in the ring, beside the one that is made: time to answer a request

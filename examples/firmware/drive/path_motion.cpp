@@ -63,10 +63,11 @@ bool PathMotion::load() noexcept {
     const Segment& segment = queue_.front();
     const UnitScale to_duration = UnitScale::ratio(segment.duration_ticks, start_ticks_);
     for (unsigned k = 0; k < drive_axes; ++k) {
-        const std::int64_t way = segment.end[k] * position_units - start_[k];
+        std::int64_t way = 0; // both ends may be at the ends of their range
+        const bool fits = !__builtin_sub_overflow(segment.end[k] * position_units, start_[k], &way);
         const std::int64_t v0 = scaled_by(start_velocity_[k], to_duration);
         const std::int64_t v1 = segment.end_velocity[k] * velocity_units;
-        if (!is_within(way, std::int64_t{1} << 48) || !is_within(v0, std::int64_t{1} << 50) ||
+        if (!fits || !is_within(way, std::int64_t{1} << 48) || !is_within(v0, std::int64_t{1} << 50) ||
             !is_within(v1, std::int64_t{1} << 50)) {
             fast_axis_ = k;
             return false;

@@ -98,7 +98,11 @@ PvtRefusal PvtDrive::preset_position(std::span<const PvtSegment> segments) noexc
     PerAxis<std::int32_t> counts{};
     for (unsigned k = 0; k < drive_axes; ++k) {
         position[k] = segments[0].end[k] * (splinefeed::units_per_count >> PvtSegment::position_bits);
-        counts[k] = static_cast<std::int32_t>(splinefeed::nearest_step(position[k]));
+        const std::int64_t step = splinefeed::nearest_step(position[k]);
+        counts[k] = static_cast<std::int32_t>(step);
+        if (counts[k] != step) {
+            return PvtRefusal::malformed;
+        }
     }
     steps_.set_counts(counts);
     slots_.stand_at(position);
@@ -227,12 +231,27 @@ void PvtDrive::notice_inputs(bool limit) noexcept {
         stand_where_the_motors_are();
         stand(PvtState::fault);
     }
-    if (!limit) {
-        limit_armed_ = true;
-    } else if (limit_armed_ && motion_ == Motion::ring) { // axes that stand on a switch may move off it
-        limit_armed_ = false;
-        fail(PvtFault::limit, 0);
+    if (limit && !on_limit_) { // axes that stand on a switch, or were stopped by it, may move off it, but not far
+        leaving_ = motion_ != Motion::ring;
+        for (unsigned k = 0; k < drive_axes; ++k) {
+            pressed_at_[k] = steps_.count(k);
+        }
     }
+    on_limit_ = limit;
+    if (limit && motion_ == Motion::ring && !(leaving_ && is_beside(pressed_at_))) {
+        fail(PvtFault::limit, 0);
+        on_limit_ = false; // it is pressed anew where the axes are stopped
+    }
+}
+
+bool PvtDrive::is_beside(const PerAxis<std::int32_t>& place) const noexcept {
+    for (unsigned k = 0; k < drive_axes; ++k) {
+        const auto way = static_cast<std::uint32_t>(steps_.count(k)) - static_cast<std::uint32_t>(place[k]);
+        if (way + drive_leaving_steps > 2 * drive_leaving_steps) { // modulo 2^32
+            return false;
+        }
+    }
+    return true;
 }
 
 /// A segment is executed when the slot in which it ends has been made into steps.

@@ -67,6 +67,7 @@ private:
     void stop_axes(PvtState meanwhile, PvtState then) noexcept;
     void fail(PvtFault fault, unsigned axis) noexcept;
     void notice_inputs(bool limit) noexcept;
+    [[nodiscard]] bool is_beside(const PerAxis<std::int32_t>& place) const noexcept;
     void publish_executed() noexcept;
     void fire_events() noexcept;
     void start_ring() noexcept;
@@ -101,7 +102,9 @@ private:
     bool ends_ = false; // the last slot of a motion is made
     bool start_waits_ = false;
     bool hold_waits_ = false;
-    bool limit_armed_ = false;
+    PerAxis<std::int32_t> pressed_at_{}; // where the limit switch was pressed
+    bool on_limit_ = false;
+    bool leaving_ = false; // it was pressed without a motion along the ring: one may leave it
 };
 
 } // namespace firmware
