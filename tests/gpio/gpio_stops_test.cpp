@@ -172,16 +172,16 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
         hal::PortPhase phase;
         const char* why;
     };
-    // 50 ms are held, 100 ms is the braking time, and a plan acts with its next segment.
+    // 80 ms are held at full speed, 100 ms is the braking time, and a plan acts with its next segment.
     const std::array kinds{
-        Kind{"signal", Cause::hold, false, 152.0, hal::PortPhase::idle, "interrupted: held on the path"},
-        Kind{"signal, planner blocked", Cause::hold, true, 92.0, hal::PortPhase::halted,
+        Kind{"signal", Cause::hold, false, 182.0, hal::PortPhase::idle, "interrupted: held on the path"},
+        Kind{"signal, planner blocked", Cause::hold, true, 132.0, hal::PortPhase::halted,
              "interrupted: held on the path"},
-        Kind{"second signal", Cause::hold_then_quick_stop, false, 62.0, hal::PortPhase::halted, "interrupted twice"},
-        Kind{"two signals at once, planner blocked", Cause::quick_stop, true, 42.0, hal::PortPhase::halted,
+        Kind{"second signal", Cause::hold_then_quick_stop, false, 122.0, hal::PortPhase::halted, "interrupted twice"},
+        Kind{"two signals at once, planner blocked", Cause::quick_stop, true, 102.0, hal::PortPhase::halted,
              "interrupted twice"},
-        Kind{"limit switch", Cause::limit, false, 154.0, hal::PortPhase::idle, "the limit of axis x (line 1) acts"},
-        Kind{"limit switch, planner blocked", Cause::limit, true, 94.0, hal::PortPhase::halted,
+        Kind{"limit switch", Cause::limit, false, 184.0, hal::PortPhase::idle, "the limit of axis x (line 1) acts"},
+        Kind{"limit switch, planner blocked", Cause::limit, true, 134.0, hal::PortPhase::halted,
              "the limit of axis x (line 1) acts"},
         Kind{"e-stop", Cause::e_stop, false, 0.6, hal::PortPhase::fault,
              "the e-stop was pressed: the drives were disabled"},

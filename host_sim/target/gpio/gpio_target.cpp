@@ -24,6 +24,21 @@ constexpr double us_per_s = 1e6;
 constexpr int calls = 500;            // to measure one by
 constexpr double share_of_time = 0.5; // that calls may take
 constexpr std::uint32_t ns_per_us = 1000;
+constexpr double most_reserve_ms = 50.0; // of a slow-down that takes twice as long: a hold waits for what is buffered
+constexpr std::uint32_t supply_ms = 30;  // that the planner may be late
+
+/// Half of the longest time in which an axis brakes from the speed that it may have.
+std::uint32_t reserve_ms(const MachineDescription& machine) {
+    double braking_s = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        const double most =
+            axis.rotary ? axis.max_velocity_mm_s : std::min(axis.max_velocity_mm_s, machine.settings.max_feed_mm_s);
+        braking_s = std::max(braking_s, most / axis.max_acceleration_mm_s2);
+    }
+    return static_cast<std::uint32_t>(
+        std::ceil(std::clamp(braking_s * 500.0, double{hal::gpio::StepPort::least_reserve_ms}, most_reserve_ms)));
+}
 
 /// A hold begins behind what was handed over, and takes the braking time of the path: each axis's from its full speed,
 /// twice, for feeds that brake along a bend. A plan that does not bring that in time is stopped by the port.
@@ -36,7 +51,7 @@ hal::StopTimes stop_times(const MachineDescription& machine) {
         braking_s = std::max(braking_s, axis.max_velocity_mm_s / axis.max_acceleration_mm_s2 + jerk_s);
     }
     return {.hold_us = static_cast<std::uint64_t>((handed_over_s + 2.0 * braking_s) * us_per_s),
-            .quick_stop_us = 200'000,
+            .quick_stop_us = 400'000, // the port's slow-down, four times
             .disable_us = 200'000,
             .settle_us = 2000};
 }
@@ -82,6 +97,11 @@ double asked_edges_per_s(const MachineDescription& machine) noexcept {
 hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
                                           hal::Clock* clock) {
     const bool real = clock == nullptr;
+    PerAxis<double> acceleration{};
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        acceleration[k] = axis.max_acceleration_mm_s2 * axis.steps_per_mm;
+    }
     return {.axes = machine.settings.axes,
             .timing = checked_step_timing(machine),
             .real_time = {.priority = real ? map.thread.priority : 0,
@@ -91,6 +111,8 @@ hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, con
             .settle_ms = map.enable ? map.enable->settle_ms : 0,
             .brake_release_ms = map.brake ? map.brake->release_ms : 0,
             .brake_engage_ms = map.brake ? map.brake->engage_ms : 0,
+            .acceleration = acceleration,
+            .reserve_ms = reserve_ms(machine),
             .stall_ns = std::uint64_t{map.thread.stall_ms} * 1000 * ns_per_us,
             .clock = clock};
 }

@@ -26,8 +26,9 @@ public:
 
     /// Motion time is motion_ns up to that instant, and advances at rate 1 from there on.
     void start(std::uint64_t at_ns, std::int64_t motion_ns) noexcept;
-    /// Begins to slow down at that instant. @pre running
+    /// Begins to slow down at that instant, within twice the settings' reserve or another one. @pre running
     void stop(std::uint64_t at_ns) noexcept { clock_.stop(at_ns); }
+    void stop(std::uint64_t at_ns, std::uint64_t reserve_ns) noexcept { clock_.stop(at_ns, reserve_ns); }
     /// Begins to speed up from standstill at that instant. @pre at_standstill(at_ns)
     void resume(std::uint64_t at_ns) noexcept { clock_.resume(at_ns); }
     [[nodiscard]] bool stopping() const noexcept { return clock_.stopping(); }

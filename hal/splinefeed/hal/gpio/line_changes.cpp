@@ -9,12 +9,13 @@ namespace splinefeed::hal::gpio {
 
 void LineChanges::begin() noexcept {
     drop();
-    up_ = {};
-    base_ = level_;
+    now_.up = written_.up = {};
+    base_ = now_.step;
 }
 
 void LineChanges::drop() noexcept {
     std::fill(change_.begin(), change_.end(), Change{});
+    now_ = written_;
 }
 
 void LineChanges::take(std::size_t chip, const LevelMasks& lines, bool level) noexcept {
@@ -56,7 +57,7 @@ void LineChanges::add(const Edge& edge) noexcept {
     for (std::size_t c = 0; c < chips_.size(); ++c) {
         take(c, edge.line == Line::step ? chips_[c].step[edge.axis] : chips_[c].direction[edge.axis], level);
     }
-    (edge.line == Line::direction ? up_ : level_)[edge.axis] = level;
+    (edge.line == Line::direction ? now_.up : now_.step)[edge.axis] = level;
 }
 
 bool LineChanges::write() noexcept {
@@ -68,6 +69,7 @@ bool LineChanges::write() noexcept {
         }
         change = {};
     }
+    written_ = now_;
     errno = error != 0 ? error : errno;
     return error == 0;
 }

@@ -32,6 +32,7 @@ public:
 
     /// Prepares for another motion, whose edges assume low step lines and negative directions. Drops collected changes.
     void begin() noexcept;
+    /// Forgets collected changes: the lines keep what was written.
     void drop() noexcept;
     void add(const Edge& edge) noexcept;
     /// Writes collected changes with one call per chip. Returns false if a chip failed, with errno; the others are
@@ -43,7 +44,7 @@ public:
     /// Releases or engages the brake, together with the collected changes.
     [[nodiscard]] bool brake(bool released) noexcept;
     /// The axis's last direction; true: positive.
-    [[nodiscard]] bool up(unsigned axis) const noexcept { return up_[axis]; }
+    [[nodiscard]] bool up(unsigned axis) const noexcept { return now_.up[axis]; }
 
 private:
     struct Change {
@@ -57,9 +58,13 @@ private:
     std::vector<Change> change_; // of each chip
     int axes_;
     bool step_on_edge_;
-    PerAxis<bool> up_{};
-    PerAxis<bool> level_{}; // of the step line, with step_on_edge
-    PerAxis<bool> base_{};  // the same at the start of the motion
+    struct Levels {
+        PerAxis<bool> up{};
+        PerAxis<bool> step{}; // of the step line, with step_on_edge
+    };
+    Levels now_;           // with the collected changes
+    Levels written_;       // without them
+    PerAxis<bool> base_{}; // of the step line at the start of the motion
 };
 
 } // namespace splinefeed::hal::gpio

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // With the reserve S the rate changes by 1 in 2 S. Rising from 0: m = t^2 / 4 S up to t = 2 S, then t - S. Falling for
-// f from the rate r = f / 2 S: m = r t - t^2 / 4 S up to t = f, where m = S r^2. instant() solves both for t. time()
-// uses integers, so it is exact for instants of any size; f^2 <= 4 S^2 fits 64 bits.
+// f from the rate r = f / 2 S: m = r t - t^2 / 4 S up to t = f, where m = S r^2. A stop may have an S of its own: f is
+// then what it takes from the rate that has risen. instant() solves both for t. time() uses integers, so it is exact
+// for instants of any size; f^2 <= 4 S^2 fits 64 bits.
 #include "splinefeed/hal/rt/motion_clock.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ void MotionClock::start(std::uint64_t at) noexcept {
     stopping_ = false;
 }
 
-void MotionClock::stop(std::uint64_t at) noexcept {
+void MotionClock::stop(std::uint64_t at, std::uint64_t reserve) noexcept {
+    stop_reserve_ = reserve;
     stop_ = std::max(at, start_);
     stopping_ = true;
 }
@@ -40,8 +42,8 @@ std::uint64_t MotionClock::risen(std::uint64_t passed) const noexcept {
 
 /// Duration of the slow-down, from the rate at stop_.
 std::uint64_t MotionClock::fall() const noexcept {
-    const std::uint64_t full = 2 * reserve_;
-    return rises_ ? std::min(stop_ - start_, full) : full;
+    const bool whole = !rises_ || stop_ - start_ >= 2 * reserve_;
+    return whole ? 2 * stop_reserve_ : (stop_ - start_) * stop_reserve_ / reserve_;
 }
 
 std::uint64_t MotionClock::time(std::uint64_t now) const noexcept {
@@ -53,11 +55,10 @@ std::uint64_t MotionClock::time(std::uint64_t now) const noexcept {
     }
     const std::uint64_t falls = fall();
     const std::uint64_t t = std::min(now - stop_, falls);
-    return base_ + risen(stop_ - start_) + (2 * falls * t - t * t) / (4 * reserve_);
+    return base_ + risen(stop_ - start_) + (2 * falls * t - t * t) / (4 * stop_reserve_);
 }
 
 std::uint64_t MotionClock::instant(std::int64_t time) const noexcept {
-    const auto reserve = static_cast<double>(reserve_);
     const std::uint64_t from = stopping_ ? stop_ : start_;
     const std::int64_t way = time - static_cast<std::int64_t>(this->time(from));
     if (!stopping_ && !rises_) {
@@ -68,12 +69,14 @@ std::uint64_t MotionClock::instant(std::int64_t time) const noexcept {
     }
     const auto m = static_cast<double>(way);
     if (stopping_) {
+        const auto reserve = static_cast<double>(stop_reserve_);
         const double rate = static_cast<double>(fall()) / (2.0 * reserve);
         const double square = rate * rate - m / reserve;
         return square < 0.0
                    ? never
                    : from + static_cast<std::uint64_t>(std::llround(2.0 * reserve * (rate - std::sqrt(square))));
     }
+    const auto reserve = static_cast<double>(reserve_);
     return from + (m < reserve ? static_cast<std::uint64_t>(std::llround(2.0 * std::sqrt(reserve * m)))
                                : static_cast<std::uint64_t>(way) + reserve_);
 }

@@ -20,7 +20,9 @@ public:
     /// Starts a motion at time 0 and at once at rate 1.
     void start(std::uint64_t at) noexcept;
     /// Begins to slow down at that instant, or at the start if that is later. @pre not stopping()
-    void stop(std::uint64_t at) noexcept;
+    void stop(std::uint64_t at) noexcept { stop(at, reserve_); }
+    /// The same with another reserve for this stop: from rate 1 it takes twice that one. 1 to 10^9
+    void stop(std::uint64_t at, std::uint64_t reserve) noexcept;
     /// Begins to speed up from standstill at that instant. @pre at_standstill(at)
     void resume(std::uint64_t at) noexcept;
     /// Shifts the rest of the motion to later instants by that much.
@@ -42,6 +44,7 @@ private:
     [[nodiscard]] std::uint64_t fall() const noexcept;
 
     std::uint64_t reserve_;
+    std::uint64_t stop_reserve_ = reserve_;
     std::uint64_t base_ = 0;           // motion time at start_
     std::uint64_t start_ = UINT64_MAX; // not started
     std::uint64_t stop_ = 0;

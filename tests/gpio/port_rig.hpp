@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// A StepPort with a brake on simulated lines, and what the lines tell of its motion.
+#pragma once
+
+#include "gpio_bench.hpp"
+#include "host_sim/planning/straight_motion.hpp"
+#include "host_sim/target/gpio/gpio_target.hpp"
+#include "support/virtual_clock.hpp"
+
+#include <cmath>
+
+namespace splinefeed_test {
+
+inline const std::string braked_map = map_text + R"([brake]
+line = 5
+release_ms = 30
+engage_ms = 80
+)";
+
+struct PortRig {
+    [[nodiscard]] double now_ms() const { return static_cast<double>(clock.now_ns() - began_ns) * 1e-6; }
+    /// Hands segments over as long as there is room; the last one is not at rest where the motion goes on.
+    bool feed(splinefeed::host::StraightMotion& motion) {
+        splinefeed::FeedSegment segment;
+        while (port.room() > 0) {
+            if (!motion.next(segment)) {
+                return false;
+            }
+            if (!port.submit(segment)) {
+                return true;
+            }
+        }
+        return true;
+    }
+    /// Signed steps of an axis on its lines up to an instant, from the first row on.
+    [[nodiscard]] std::int64_t steps(unsigned axis, std::uint64_t until_ns = UINT64_MAX) const {
+        std::int64_t count = 0;
+        const auto& rows = lines.rows();
+        for (std::size_t i = 1; i < rows.size() && rows[i].at_ns <= until_ns; ++i) {
+            if (((~rows[i - 1].levels & rows[i].levels) >> (2 * axis) & 1U) != 0) {
+                count += (rows[i].levels >> (2 * axis + 1) & 1U) != 0 ? 1 : -1;
+            }
+        }
+        return count;
+    }
+    /// The most that an axis accelerated or braked, by its steps, in stretches of 20 ms. [mm/s^2]
+    [[nodiscard]] double most_acceleration(unsigned axis) const {
+        constexpr std::uint64_t stretch_ns = 20'000'000;
+        double most = 0.0;
+        std::array<double, 3> at{};
+        const std::uint64_t end_ns = lines.rows().back().at_ns + 2 * stretch_ns;
+        for (std::uint64_t t = began_ns; t <= end_ns; t += stretch_ns) {
+            at = {at[1], at[2], static_cast<double>(steps(axis, t)) / steps_per_mm};
+            most = std::max(most, std::fabs(at[0] - 2.0 * at[1] + at[2]) / (20e-3 * 20e-3));
+        }
+        return most;
+    }
+
+    VirtualClock clock;
+    std::uint64_t began_ns = clock.now_ns();
+    splinefeed::host::MachineDescription machine = two_axes();
+    splinefeed::hal::gpio::LineMap map = splinefeed::host::parse_gpio_map(braked_map, "m.toml", machine, "chip");
+    SimulatedLines lines{map, clock};
+    splinefeed::hal::gpio::StepPort port{lines.outputs(), splinefeed::host::port_settings(machine, map, &clock)};
+};
+
+} // namespace splinefeed_test
