@@ -22,7 +22,9 @@ TEST_CASE("homing", "[stopping]") {
         GpioMover mover(
             machine, map, inputs, port, [&] { return interrupts; }, [&] { port.quick_stop(); }, clock);
         const auto friendly = clock.start([&] { meanwhile(); });
+        mover.forget_position(0);
         std::string what = mover.home();
+        CHECK_FALSE(mover.referenced(0)); // whatever ended it
         friendly->join();
         port.stop();
         return what;
@@ -61,6 +63,7 @@ TEST_CASE("homing", "[stopping]") {
             what = mover.home();
             homes = false;
             carriage->join();
+            CHECK(mover.referenced(0));
             CHECK(std::fabs(mover.position(0) - 2.0) < 1e-9); // pull_off_mm clear of the edge, which is at 0
             CHECK(std::llabs(port.counts(0) - 560) <= 2);     // the edge, and 2 mm
             port.stop();

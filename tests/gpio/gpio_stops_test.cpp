@@ -20,12 +20,13 @@ constexpr std::uint64_t ns_per_ms = 1'000'000;
 constexpr double to_x_mm = 200.0;
 constexpr double to_y_mm = 100.0;
 struct Bench {
-    Bench() {
+    explicit Bench(const RunOptions& options = {}) {
+        machine.travel[0] = {0.0, 10.0};
         auto own_map = std::make_unique<hal::gpio::LineMap>(parse_gpio_map(map_text, "m.toml", machine, "chip"));
         map = own_map.get();
         auto own_lines = std::make_unique<SimulatedLines>(*map, clock);
         lines = own_lines.get();
-        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, RunOptions{}, &clock);
+        target = std::make_unique<GpioTarget>(std::move(own_map), std::move(own_lines), machine, options, &clock);
     }
 
     [[nodiscard]] double now_ms() const {
@@ -209,6 +210,9 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
             CHECK(outcome.why.find(kinds[kind].why) != std::string::npos);
             CHECK(outcome.standstill_ms <= kinds[kind].standstill_ms);
             CHECK(outcome.after == 0);
+            for (const RunTarget::AxisPlace& place : bench.target->places()) {
+                CHECK(place.known().has_value() == (outcome.phase != hal::PortPhase::fault));
+            }
             if (outcome.phase != hal::PortPhase::fault) {
                 require_on_path(bench);
             } else if (story.cause == Cause::e_stop) {
@@ -224,6 +228,21 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
         fmt::print("  {:38} standstill within {:7.2f} ms, end of the run within {:7.1f} ms, steps after it {}\n",
                    kinds[kind].name, worst_ms, over_ms, after);
     }
+}
+
+TEST_CASE("an axis that did not find its reference has no place, the others do", "[stopping]") {
+    Bench bench({.home = true});
+    StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
+    FeedSegment first;
+    REQUIRE(motion.next(first));
+    RunTarget& target = *bench.target;
+    CHECK(target.prepare(first).find("axis x does not find its reference: the home of axis x (line 2) does not act") ==
+          0);
+    REQUIRE(target.places().size() == 2);
+    CHECK_FALSE(target.places()[0].known());
+    CHECK(target.places()[1].known() == 0.0);
+    CHECK(target.where().find("y=0.0000") != std::string::npos);
+    CHECK(target.where().find("x=") == std::string::npos);
 }
 
 TEST_CASE("a switch whose edge nobody told stops the machine by its level", "[stopping]") {
@@ -275,6 +294,7 @@ TEST_CASE("a host that stands still for longer than motors tolerate is a fault, 
         CHECK(phase == hal::PortPhase::fault);
         CHECK(target.fault().find("no step was made for longer than 40 ms") != std::string::npos);
         CHECK(target.where().find("is not known") != std::string::npos);
+        CHECK_FALSE(target.places().front().known());
         CHECK(bench.last_step_ms() < 800.0 + stall_ms + 2.0);
         CHECK_FALSE(bench.lines->enabled());
     }

@@ -88,5 +88,6 @@ TEST_CASE("A line that cannot be set is trouble that names it; the other chip be
     CHECK(bench.chips.chip[0]->rows().size() == calls);
     bench.switches->end();
     CHECK(bench.levels(0) == flood_off); // it was tried
+    CHECK(bench.switches->unconfirmed() == "/dev/gpiochip0 MIST");
     CHECK(bench.levels(1) == clamp);
 }

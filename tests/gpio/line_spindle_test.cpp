@@ -169,3 +169,16 @@ TEST_CASE("A line of the spindle that cannot be set is trouble that names it", "
     CHECK(bench.spindle.trouble() == "/dev/gpiochip0 ON cannot be set: No such device");
     CHECK_FALSE(bench.spindle.reached());
 }
+
+TEST_CASE("A spindle whose line cannot be set any more is not said to stand", "[line spindle]") {
+    Bench bench("");
+    bench.spindle.order(1, 5000.0);
+    bench.pass_ms(2500);
+    bench.chips.chip[0]->fail_after(1);
+    bench.spindle.end();
+    bench.pass_ms(10'000);
+    CHECK_FALSE(bench.spindle.stands());
+    bench.chips.chip[0]->fail_after(0);
+    bench.pass_ms(3001);
+    CHECK(bench.spindle.stands());
+}

@@ -4,12 +4,16 @@
 #ifdef SPLINEFEED_HAS_GPIO
 #include "gpio_access/fake_chip.hpp"
 #include "host/refusal.hpp"
+#include "splinefeed/hal/gpio/crash_guard.hpp"
 #include "splinefeed/hal/gpio/input_lines.hpp"
 #include "splinefeed/hal/gpio/output_lines.hpp"
 #include "support/catch.hpp"
 
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace splinefeed::hal::gpio;
 using splinefeed_test::fake_chip;
@@ -121,5 +125,41 @@ TEST_CASE("Input lines: edges in order of time, time-outs, signals and failures"
     fake_chip.wait_error = ENODEV;
     CHECK(lines.wait(out, 0) == -1);
     CHECK(errno == ENODEV);
+}
+TEST_CASE("A signal that ends the program makes the lines safe first, one that somebody handles does not") {
+    const auto handler = [](int signal) {
+        struct sigaction action {};
+        REQUIRE(sigaction(signal, nullptr, &action) == 0);
+        return action.sa_handler;
+    };
+    const auto others = +[](int) {
+    };
+    REQUIRE(std::signal(SIGQUIT, others) != SIG_ERR);
+    REQUIRE(std::signal(SIGPIPE, SIG_IGN) != SIG_ERR);
+    OutputLines lines("chip", "test", three);
+    std::array<OutputLines*, 1> chips{&lines};
+    {
+        const CrashGuard guard(chips);
+        CHECK(handler(SIGQUIT) == others);
+        CHECK(handler(SIGPIPE) == SIG_IGN);
+        for (const int signal : {SIGALRM, SIGXFSZ, SIGPROF, SIGXCPU}) {
+            CHECK(handler(signal) != SIG_DFL);
+            const pid_t child = fork();
+            if (child == 0) {
+                fake_chip.between = [] {
+                    _exit(42);
+                }; // the write comes
+                static_cast<void>(raise(signal));
+                _exit(1);
+            }
+            int status = 0;
+            REQUIRE(waitpid(child, &status, 0) == child);
+            CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 42));
+        }
+    }
+    CHECK(handler(SIGALRM) == SIG_DFL);
+    CHECK(handler(SIGQUIT) == others);
+    static_cast<void>(std::signal(SIGQUIT, SIG_DFL));
+    static_cast<void>(std::signal(SIGPIPE, SIG_DFL));
 }
 #endif

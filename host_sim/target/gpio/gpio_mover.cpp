@@ -28,6 +28,7 @@ double GpioMover::mm_of(int axis, std::int64_t count) const noexcept {
 
 void GpioMover::preset_position(int axis, std::int64_t count) noexcept {
     origin_[static_cast<unsigned>(axis)] = count - port_->counts(axis);
+    referenced_[static_cast<unsigned>(axis)] = true;
 }
 
 // What a move must not go on with, but the switch that it waits for, and limits that are this switch or share its line.
@@ -135,6 +136,8 @@ GpioMover::Moved GpioMover::move(const PerAxis<double>& to_mm, double feed_mm_s,
     }
     if (port_->poll().phase == hal::PortPhase::fault) {
         moved.trouble = inputs_->trouble().empty() ? port_->trouble() : inputs_->trouble();
+    } else if (port_->halted() && moved.trouble.empty()) {
+        moved.trouble = "the port stopped before the end of the move: " + port_->trouble();
     }
     return moved;
 }
@@ -201,6 +204,7 @@ std::string GpioMover::home(int axis) {
     }
     const double steps_per_mm = machine_->settings.axis[k].steps_per_mm;
     origin_[k] = std::llround(search.position_mm * steps_per_mm) - (*moved.counts_at)[k];
+    referenced_[k] = true;
     const double clear = search.position_mm - towards * search.pull_off_mm;
     return move_by(axis, clear - position(axis), search.seek_mm_s, Way::off).trouble;
 }

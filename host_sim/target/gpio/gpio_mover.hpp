@@ -30,6 +30,10 @@ public:
 
     /// Defines the present position as this count of the machine.
     void preset_position(int axis, std::int64_t count) noexcept;
+    /// Where the axis stands is not known until home() has found its reference.
+    void forget_position(int axis) noexcept { referenced_[static_cast<unsigned>(axis)] = false; }
+    /// Whether the counts of the axis have a reference.
+    [[nodiscard]] bool referenced(int axis) const noexcept { return referenced_[static_cast<unsigned>(axis)]; }
     [[nodiscard]] std::int64_t count(int axis) const noexcept {
         return port_->counts(axis) + origin_[static_cast<unsigned>(axis)];
     }
@@ -73,6 +77,7 @@ private:
     std::function<void()> quick_stop_;
     hal::Clock* time_;
     PerAxis<std::int64_t> origin_{};
+    PerAxis<bool> referenced_{};
 };
 
 } // namespace splinefeed::host

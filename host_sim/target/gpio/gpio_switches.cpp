@@ -9,11 +9,17 @@
 namespace splinefeed::host {
 
 // The first trouble is told. Coils are those of others.
-void GpioSwitches::turn(const SwitchTurn& turn) {
+std::string GpioSwitches::turn(const SwitchTurn& turn) {
     const auto* const line = std::get_if<SwitchedLine>(turn.line);
-    if (line != nullptr && !chips_.set(*line, turn.on) && trouble_.empty()) {
-        trouble_ = fmt::format("{} cannot be set: {}", name_of_output(*lines_, line->line), std::strerror(errno));
+    if (line == nullptr || chips_.set(*line, turn.on)) {
+        return {};
     }
+    const int error = errno;
+    std::string name = name_of_output(*lines_, line->line);
+    if (trouble_.empty()) {
+        trouble_ = fmt::format("{} cannot be set: {}", name, std::strerror(error));
+    }
+    return name;
 }
 
 void GpioSwitches::act(EventKind kind, std::int32_t number) {
@@ -33,8 +39,14 @@ void GpioSwitches::end() noexcept {
         return;
     }
     for (const SwitchTurn& each : safe_turns(*lines_)) {
-        turn(each);
+        const std::string name = turn(each);
+        unset_ = unset_.empty() ? name : unset_;
     }
+}
+
+std::string GpioSwitches::unconfirmed() const {
+    const std::lock_guard lock(mutex_);
+    return unset_;
 }
 
 std::string GpioSwitches::trouble() const {

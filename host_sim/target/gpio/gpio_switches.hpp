@@ -19,15 +19,18 @@ public:
     void act(EventKind kind, std::int32_t number) override;
     void end() noexcept override;
     [[nodiscard]] std::string trouble() const override;
+    [[nodiscard]] std::string unconfirmed() const override;
 
 private:
-    void turn(const SwitchTurn& turn);
+    /// Returns the line that cannot be set; empty: it is set, or another's.
+    std::string turn(const SwitchTurn& turn);
 
     const ProgramLines* lines_;
     ProgramChips chips_;
     mutable std::mutex mutex_;
     bool ended_ = false;
     std::string trouble_;
+    std::string unset_; // the first line that end() could not set
 };
 
 } // namespace splinefeed::host

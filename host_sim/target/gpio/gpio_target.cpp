@@ -189,6 +189,11 @@ std::string GpioTarget::prepare(const FeedSegment& first) {
                          machine_->settings.axis[axis].steps_per_mm;
     }
     if (options_.home) {
+        for (int k = 0; k < machine_->settings.axes; ++k) {
+            if (map_->home[static_cast<unsigned>(k)]) {
+                mover_.forget_position(k);
+            }
+        }
         if (std::string what = mover_.home(); !what.empty()) {
             return port_.was_disabled() ? fault() : what;
         }
@@ -286,6 +291,9 @@ void GpioTarget::quick_stop() {
 }
 
 std::string GpioTarget::halted(bool /*quick*/) const {
+    if (const std::string what = port_.trouble(); !quick_ && !what.empty()) {
+        return (holds_.empty() ? holds_ : holds_ + "; ") + what + ": stopped on the path by the port";
+    }
     return quick_ ? holds_ : holds_ + " (by the port: the plan did not bring the way to standstill in time)";
 }
 
@@ -297,7 +305,9 @@ std::string GpioTarget::finish() {
         port_.park();
     }
     finished_ = true;
-    return {};
+    return port_.may_be_on() && port_.position_known()
+               ? "the drives could not be disabled and may still be on: " + port_.trouble()
+               : std::string();
 }
 
 void GpioTarget::release() noexcept {
@@ -308,23 +318,27 @@ void GpioTarget::release() noexcept {
 }
 
 std::string GpioTarget::fault() const {
+    const char* const drives = port_.may_be_on() ? "the drives could not be disabled" : "the drives were disabled";
     if (const std::string what = inputs_.trouble(); !what.empty()) {
-        return what + ": the drives were disabled";
+        return what + ": " + drives;
     }
     if (!port_.was_disabled()) {
         return port_.trouble();
     }
     // Asked of the port as the last means, or of the switch.
-    return stop_.report(0).request == hal::StopRequest::disable
-               ? holds_ + ", but the port did not stop: the drives were disabled"
-               : "the e-stop was pressed: the drives were disabled";
+    return stop_.report(0).request == hal::StopRequest::disable ? holds_ + ", but the port did not stop: " + drives
+                                                                : std::string("the e-stop was pressed: ") + drives;
+}
+
+// By the steps that were made from a reference on.
+std::optional<double> GpioTarget::place(int axis) const {
+    return mover_.referenced(axis) ? std::optional(mover_.position(axis)) : std::nullopt;
 }
 
 std::vector<RunTarget::AxisPlace> GpioTarget::places() const {
     std::vector<AxisPlace> out;
     for (int k = 0; began_ && k < machine_->settings.axes; ++k) {
-        out.push_back(
-            {static_cast<unsigned>(k), port_.position_known() ? std::optional(mover_.position(k)) : std::nullopt});
+        out.push_back({static_cast<unsigned>(k), port_.position_known() ? place(k) : std::nullopt});
     }
     return out;
 }
@@ -333,16 +347,15 @@ std::string GpioTarget::where() const {
     if (!began_) {
         return "; nothing was moved";
     }
-    PlaceText place(port_.position_known() ? "; the machine stands at"
-                    : port_.may_be_on()
-                        ? "; drives may still be on, since a line cannot be set, and where the machine "
-                          "stands is not known (find the references again); the last steps were those to"
-                        : "; drives are off, and where the machine stands is not known (find the "
-                          "references again); the last steps were those to");
+    PlaceText text(port_.position_known() ? "; the machine stands at"
+                   : port_.may_be_on() ? "; drives may still be on, since a line cannot be set, and where the machine "
+                                         "stands is not known (find the references again); the last steps were those to"
+                                       : "; drives are off, and where the machine stands is not known (find the "
+                                         "references again); the last steps were those to");
     for (int k = 0; k < machine_->settings.axes; ++k) {
-        place.add(machine_->axis_name[static_cast<unsigned>(k)], mover_.position(k));
+        text.add(machine_->axis_name[static_cast<unsigned>(k)], place(k));
     }
-    return place.text();
+    return text.text();
 }
 
 void GpioTarget::describe(Summary& summary) const {

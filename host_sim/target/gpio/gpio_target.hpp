@@ -40,6 +40,7 @@ private:
     void update() override;
     [[nodiscard]] std::string fault() const override;
 
+    [[nodiscard]] std::optional<double> place(int axis) const;
     void take_changes();
     void follow_stop();
 

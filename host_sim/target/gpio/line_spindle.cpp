@@ -25,18 +25,20 @@ bool LineSpindle::passed(double s) const noexcept {
     return static_cast<double>(clock_->now_us() - changed_us_) >= s * us_in_s;
 }
 
-void LineSpindle::set(const SwitchedLine& line, bool on) {
-    if (!chips_.set(line, on) && trouble_.empty()) {
+bool LineSpindle::set(const SwitchedLine& line, bool on) {
+    const bool done = chips_.set(line, on);
+    if (!done && trouble_.empty()) {
         trouble_ = fmt::format("{} cannot be set: {}", name_of_output(*lines_, line.line), std::strerror(errno));
     }
     changed_us_ = clock_->now_us();
+    return done;
 }
 
 void LineSpindle::turn_off() {
     on_ = 0;
     at_speed_ = had_speed_ = false;
     slow_us_ = 0;
-    set(spindle_->enable, false);
+    obeys_ = set(spindle_->enable, false);
 }
 
 // Whatever the trouble is, the spindle ends.
@@ -72,7 +74,7 @@ void LineSpindle::follow() {
     turned_ = wanted_;
     if (spindle_->reverse && reverse_ != (wanted_ < 0)) {
         reverse_ = wanted_ < 0;
-        set(*spindle_->reverse, reverse_);
+        static_cast<void>(set(*spindle_->reverse, reverse_));
         return;
     }
     if (spindle_->reverse && !passed(relay_s)) {
@@ -80,7 +82,7 @@ void LineSpindle::follow() {
     }
     on_ = wanted_;
     is_on_ = true;
-    set(spindle_->enable, true);
+    static_cast<void>(set(spindle_->enable, true));
 }
 
 // The input, while the spindle is on.
@@ -111,6 +113,8 @@ void LineSpindle::update() {
     if (!ended_ && trouble_.empty()) {
         follow();
         watch();
+    } else if (!obeys_) {
+        turn_off();
     }
 }
 
@@ -134,7 +138,7 @@ bool LineSpindle::reached() const {
 
 bool LineSpindle::stands() const {
     const std::lock_guard lock(mutex_);
-    return !is_on_ || (on_ == 0 && passed(spindle_->spin_down_s));
+    return !is_on_ || (on_ == 0 && obeys_ && passed(spindle_->spin_down_s));
 }
 
 std::string LineSpindle::trouble() const {

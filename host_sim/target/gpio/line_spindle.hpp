@@ -29,7 +29,7 @@ public:
     [[nodiscard]] double stop_timeout_s() const override { return spindle_->spin_down_s + 0.5; }
 
 private:
-    void set(const SwitchedLine& line, bool on);
+    [[nodiscard]] bool set(const SwitchedLine& line, bool on);
     void turn_off();
     void follow();
     void watch();
@@ -47,6 +47,7 @@ private:
     int turned_ = 0;        // the last direction; 0: unknown
     bool reverse_ = false;  // level of that line
     bool is_on_ = false;    // it was on in this run
+    bool obeys_ = true;     // the line that turns it off could be set
     bool at_speed_ = false; // by the input, if there is one
     bool had_speed_ = false;
     std::uint64_t changed_us_; // a line changed last

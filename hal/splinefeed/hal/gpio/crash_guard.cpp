@@ -7,7 +7,10 @@ namespace splinefeed::hal::gpio {
 
 namespace {
 
-constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGXCPU, SIGSYS};
+/// All whose default is to end the program, but SIGKILL.
+constexpr std::array crashes{SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,  SIGABRT, SIGQUIT,  SIGXCPU, SIGXFSZ,
+                             SIGSYS,  SIGTRAP, SIGPIPE, SIGALRM, SIGTERM, SIGINT,   SIGHUP,  SIGVTALRM,
+                             SIGPROF, SIGPOLL, SIGPWR,  SIGUSR1, SIGUSR2, SIGSTKFLT};
 
 std::array<std::atomic<OutputLines*>, CrashGuard::most_chips> guarded{};
 static_assert(std::atomic<OutputLines*>::is_always_lock_free);
@@ -24,6 +27,19 @@ extern "C" void make_lines_safe(int signal) {
     static_cast<void>(std::raise(signal));
 }
 
+void change_actions(void (*from)(int), void (*to)(int)) noexcept {
+    for (const int signal : crashes) {
+        struct sigaction action {};
+        if (sigaction(signal, nullptr, &action) != 0 || (action.sa_flags & SA_SIGINFO) != 0 ||
+            action.sa_handler != from) {
+            continue;
+        }
+        action.sa_handler = to;
+        action.sa_flags = SA_ONSTACK;
+        static_cast<void>(sigaction(signal, &action, nullptr));
+    }
+}
+
 } // namespace
 
 CrashGuard::CrashGuard(std::span<OutputLines* const> chips) noexcept {
@@ -34,12 +50,7 @@ CrashGuard::CrashGuard(std::span<OutputLines* const> chips) noexcept {
             guarded[i].store(own_[i]);
         }
     }
-    for (const int signal : crashes) {
-        struct sigaction action {};
-        action.sa_handler = make_lines_safe;
-        action.sa_flags = SA_ONSTACK;
-        static_cast<void>(sigaction(signal, &action, nullptr));
-    }
+    change_actions(SIG_DFL, make_lines_safe);
 }
 
 CrashGuard::~CrashGuard() {
@@ -47,10 +58,8 @@ CrashGuard::~CrashGuard() {
     for (std::size_t i = 0; i < most_chips; ++i) {
         others = others || (own_[i] == nullptr && guarded[i].load() != nullptr);
     }
-    for (const int signal : crashes) {
-        if (!others) {
-            static_cast<void>(std::signal(signal, SIG_DFL));
-        }
+    if (!others) {
+        change_actions(make_lines_safe, SIG_DFL);
     }
     for (std::size_t i = 0; i < most_chips; ++i) {
         if (own_[i] != nullptr) {

@@ -9,9 +9,9 @@
 
 namespace splinefeed::hal::gpio {
 
-/// While an object exists, fatal signals (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT, SIGXCPU, SIGSYS) first set
-/// the lines to their safe levels. Objects are made and destroyed by one thread. SIGKILL cannot be handled: the chip
-/// then decides what the lines do.
+/// While an object exists, signals that would end the program and that nobody handles or ignores (crashes, SIGQUIT,
+/// SIGPIPE, SIGXFSZ, SIGALRM, ...) first set the lines to their safe levels. A handler that the program sets stays.
+/// Objects are made and destroyed by one thread. SIGKILL cannot be handled: the chip then decides what the lines do.
 class CrashGuard {
 public:
     static constexpr std::size_t most_chips = 16; ///< of all objects

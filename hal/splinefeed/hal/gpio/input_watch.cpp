@@ -157,7 +157,8 @@ void InputWatch::work() noexcept {
             missed_.fetch_add(event.missed);
             for (std::size_t i = 0; i < watched_.size(); ++i) {
                 if (watched_[i].input.bit == event.line) {
-                    edge(i, event.time_ns, event.rising);
+                    // An instant of another clock (Linux before 5.7) would never have passed.
+                    edge(i, std::min(event.time_ns, time_->now_ns()), event.rising);
                 }
             }
         }

@@ -147,7 +147,11 @@ void StepPort::take(StepEvent event) noexcept {
 // Drops pending edges and disables the drives. The thread tries again if a line cannot be set.
 void StepPort::switch_off(StepEvent why) noexcept {
     lines_.drop();
-    may_be_on_.store(!lines_.enable(false));
+    const bool set = lines_.enable(false);
+    if (int none = 0; !set) {
+        error_.compare_exchange_strong(none, errno); // the first one is told
+    }
+    may_be_on_.store(!set);
     take(why);
 }
 
