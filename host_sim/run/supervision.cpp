@@ -196,9 +196,7 @@ std::string Supervision::outputs_end() const {
         return {};
     }
     const int signals = SignalWatch::interrupts();
-    const std::uint64_t until_us =
-        system_clock().now_us() + static_cast<std::uint64_t>(outputs_->end_timeout_s() * us_per_s);
-    while (!outputs_->unended().empty() && system_clock().now_us() < until_us && SignalWatch::interrupts() == signals) {
+    while (outputs_->ends() && SignalWatch::interrupts() == signals) {
         system_clock().sleep_us(poll_every_us);
     }
     return outputs_->unended();

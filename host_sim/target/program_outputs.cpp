@@ -48,6 +48,8 @@ void ProgramOutputs::update() {
 }
 
 void ProgramOutputs::end() {
+    std::uint64_t not_yet = 0;
+    ended_us_.compare_exchange_strong(not_yet, clock_->now_us());
     if (spindle_ != nullptr) {
         spindle_->end();
     }
@@ -67,9 +69,8 @@ std::string ProgramOutputs::trouble() const {
     return what;
 }
 
-std::string ProgramOutputs::unended() const {
-    std::string what =
-        spindle_stands() ? std::string() : "the spindle did not confirm that it stands and may still turn";
+std::string ProgramOutputs::unconfirmed() const {
+    std::string what;
     for (const auto& switches : switches_) {
         const std::string line = switches->unconfirmed();
         what += line.empty() ? "" : (what.empty() ? "" : "; ") + line + " did not confirm its last level";
@@ -77,10 +78,18 @@ std::string ProgramOutputs::unended() const {
     return what;
 }
 
-double ProgramOutputs::end_timeout_s() const {
+std::string ProgramOutputs::unended() const {
+    const std::string lines = unconfirmed();
+    return spindle_stands()
+               ? lines
+               : "the spindle did not confirm that it stands and may still turn" + (lines.empty() ? "" : "; " + lines);
+}
+
+bool ProgramOutputs::ends() const {
     constexpr double switches_s = 1.0;
-    const double spindle_s = spindle_ != nullptr ? spindle_->stop_timeout_s() : 0.0;
-    return switches_.empty() ? spindle_s : std::max(spindle_s, switches_s);
+    const double passed_s = 1e-6 * static_cast<double>(clock_->now_us() - ended_us_.load());
+    return (!spindle_stands() && passed_s < spindle_->stop_timeout_s()) ||
+           (passed_s < switches_s && !unconfirmed().empty());
 }
 
 } // namespace splinefeed::host

@@ -47,8 +47,8 @@ public:
     [[nodiscard]] bool spindle_stands() const { return spindle_ == nullptr || spindle_->stands(); }
     /// After end(): what may not have ended yet, "the spindle did not confirm ..."; empty: everything has.
     [[nodiscard]] std::string unended() const;
-    /// How long that may take. [s]
-    [[nodiscard]] double end_timeout_s() const;
+    /// After end(): whether something that has not ended may still do so, each in the time that it may take.
+    [[nodiscard]] bool ends() const;
 
     /// Whether an event acts on an output.
     [[nodiscard]] static bool is_of(const ProgramAction& action) noexcept {
@@ -57,6 +57,7 @@ public:
 
 private:
     void ask(const ProgramAction& action);
+    [[nodiscard]] std::string unconfirmed() const;
 
     std::unique_ptr<RunSpindle> spindle_;
     Switches switches_;
@@ -66,6 +67,7 @@ private:
     std::optional<InputQuestion> question_;
     std::atomic<bool> asks_{false};
     std::atomic<int> answer_{0};
+    std::atomic<std::uint64_t> ended_us_{0}; // 0: not yet
 };
 
 } // namespace splinefeed::host

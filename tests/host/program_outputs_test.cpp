@@ -3,6 +3,7 @@
 #include "host_sim/target/program_outputs.hpp"
 
 #include "support/catch.hpp"
+#include "support/virtual_clock.hpp"
 #include "talking_target.hpp"
 
 #include <algorithm>
@@ -49,11 +50,12 @@ public:
     [[nodiscard]] bool reached() const override { return is_reached; }
     [[nodiscard]] bool stands() const override { return is_still; }
     [[nodiscard]] std::string trouble() const override { return lost ? "no answer" : ""; }
-    [[nodiscard]] double stop_timeout_s() const override { return 0.05; }
+    [[nodiscard]] double stop_timeout_s() const override { return timeout_s; }
 
     std::atomic<bool> ended{false};
     std::atomic<bool> is_reached{false};
     std::atomic<bool> is_still{true};
+    double timeout_s = 0.05;
     std::atomic<bool> lost{false};
 
 private:
@@ -343,4 +345,34 @@ TEST_CASE("an output that does not confirm its end is said", "[supervision]") {
     REQUIRE(supervision.submit(segment(0)));
     CHECK_FALSE(supervision.finish());
     CHECK(supervision.ending() == "output 3 did not confirm its last level; there");
+}
+
+TEST_CASE("the end waits for each output as long as that one may take", "[supervision]") {
+    constexpr std::uint64_t us_per_ms = 1000;
+    TalkingTarget target;
+    VirtualClock clock;
+    auto made = std::make_unique<TalkingSpindle>(target);
+    TalkingSpindle& spindle = *made;
+    spindle.timeout_s = 10.0;
+    ProgramOutputs::Switches switches;
+    switches.push_back(std::make_unique<TalkingSwitches>(target));
+    auto& lines = static_cast<TalkingSwitches&>(*switches.back());
+    ProgramOutputs outputs(std::move(made), std::move(switches), {}, clock);
+    outputs.end();
+    CHECK_FALSE(outputs.ends());
+    lines.hangs = true; // a module that does not answer
+    clock.sleep_us(900 * us_per_ms);
+    CHECK(outputs.ends());
+    clock.sleep_us(200 * us_per_ms);
+    CHECK_FALSE(outputs.ends());
+    CHECK(outputs.unended() == "output 3 did not confirm its last level");
+    spindle.is_still = false;
+    clock.sleep_us(8800 * us_per_ms);
+    outputs.end(); // once more: the time counts from the first
+    CHECK(outputs.ends());
+    clock.sleep_us(200 * us_per_ms);
+    CHECK_FALSE(outputs.ends());
+    CHECK(outputs.unended() ==
+          "the spindle did not confirm that it stands and may still turn; output 3 did not confirm "
+          "its last level");
 }

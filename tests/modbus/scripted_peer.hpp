@@ -55,10 +55,13 @@ inline Bytes tcp_reply(const Bytes& request, const Bytes& body) {
 /// script makes of each.
 class ScriptedPeer {
 public:
-    /// An empty reply: none. What sleeps in it answers late. `hang_up` closes after what was sent.
+    /// An empty reply: none. What sleeps in it answers late. `hang_up` closes after what was sent; with `drip_us` the
+    /// bytes come that far apart; `flood` sends them again and again until the other end closes.
     struct Reply {
         Bytes bytes;
         bool hang_up = false;
+        unsigned drip_us = 0;
+        bool flood = false;
     };
     using Script = std::function<Reply(const Bytes& request)>;
     enum class Wire { tcp, pty };
@@ -163,6 +166,12 @@ private:
         }
     }
 
+    /// Returns whether the other end is still there.
+    [[nodiscard]] bool put(const std::uint8_t* bytes, std::size_t size) const {
+        const ssize_t done = serial_ ? write(line_, bytes, size) : send(line_, bytes, size, MSG_NOSIGNAL);
+        return done == static_cast<ssize_t>(size);
+    }
+
     void answer(const Bytes& request) {
         {
             const std::lock_guard lock(mutex_);
@@ -173,11 +182,17 @@ private:
             const std::lock_guard lock(mutex_);
             replied_us_.push_back(splinefeed::hal::system_clock().now_us());
         }
-        if (!reply.bytes.empty() &&
-            write(line_, reply.bytes.data(), reply.bytes.size()) != static_cast<ssize_t>(reply.bytes.size())) {
-            hang_up();
+        bool open = true;
+        const std::size_t step = reply.drip_us != 0 ? 1 : reply.bytes.size();
+        for (std::size_t at = 0; open && at < reply.bytes.size(); at += step) {
+            usleep(at == 0 ? 0 : reply.drip_us);
+            open = put(&reply.bytes[at], step);
         }
-        if (reply.hang_up) {
+        while (reply.flood && open && !stopping_) {
+            const ssize_t size = send(line_, reply.bytes.data(), reply.bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+            open = size >= 0 || errno == EAGAIN;
+        }
+        if (reply.hang_up || !open) {
             hang_up();
         }
     }

@@ -180,3 +180,37 @@ TEST_CASE("Modules: what was not confirmed is written again", "[modules]") {
     CHECK_FALSE(bench.coil(0));
     CHECK(bench.bus->trouble().empty());
 }
+
+TEST_CASE("Modules: one that does not answer keeps the others waiting for one time-out, however many coils it has",
+          "[modules]") {
+    constexpr int coils = 8;
+    VirtualClock clock;
+    std::map<int, SimulatedModule> modules;
+    ModuleBus bus(
+        LinkAddress{}, ModuleBusSettings{},
+        [&](const auto& address, const auto& timing, auto& by) {
+            return std::make_unique<ModuleLine>(modules, address, timing, by);
+        },
+        clock);
+    std::vector<std::size_t> all;
+    for (int i = 0; i < coils; ++i) {
+        modules[1].coils[i] = false;
+        all.push_back(bus.add_coil({1, BitTable::coils, i, "output " + std::to_string(i)}, false));
+    }
+    modules[2].coils[0] = false;
+    all.push_back(bus.add_coil({2, BitTable::coils, 0, "flood"}, false));
+    REQUIRE(bus.open().empty());
+    for (const std::size_t coil : all) {
+        bus.set(coil, true);
+    }
+    clock.sleep_us(100'000);
+    REQUIRE(modules[2].coils[0]);
+    modules[1].mute = true;
+    bus.end();
+    clock.sleep_us(150'000); // one time-out is 100 ms
+    CHECK_FALSE(modules[2].coils[0]);
+    modules[1].mute = false;
+    clock.sleep_us(300'000);
+    CHECK(bus.unconfirmed().empty());
+    CHECK_FALSE(modules[1].coils[coils - 1]);
+}

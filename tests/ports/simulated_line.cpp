@@ -92,7 +92,7 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::take_other(LinkAnswer answer,
     if (other.unit != mine.unit) {
         return fail(answer, LinkFault::wrong_unit, other.at_us);
     }
-    if (other.reading != mine.reading || other.registers.size() != out.size()) {
+    if (other.kind != mine.kind || other.registers.size() != out.size()) {
         return fail(answer, LinkFault::wrong_length, other.at_us);
     }
     clock_.sleep_until_us(other.at_us);
@@ -138,8 +138,11 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
         return answer;
     }
     const bool serial = address_.wire == Wire::rtu;
-    const bool reading = written.empty();
-    clock_.sleep_until_us(std::max(next_us(), serial && reading ? open_reads_.until_us(unit) : 0));
+    const RequestKind kind = written.empty() ? RequestKind::reading
+                             : out.empty()   ? RequestKind::write
+                                             : RequestKind::exchange;
+    const std::uint64_t content = splinefeed::hal::modbus::content_of(0, written);
+    clock_.sleep_until_us(std::max(next_us(), serial ? open_.until_us(unit, kind, content) : 0));
     if (dirty_) {
         std::erase_if(on_way_, [&](const OnWay& other) { return other.at_us <= clock_.now_us(); });
     }
@@ -147,8 +150,8 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
     answer.sent_us = clock_.now_us();
     const auto miss = [&](LinkFault fault, std::uint64_t at_us) {
         const LinkAnswer missed = fail(answer, fault, at_us);
-        if (serial && reading) {
-            open_reads_.missed(unit, clock_.now_us());
+        if (serial) {
+            open_.missed(unit, kind, content, clock_.now_us());
         }
         return missed;
     };
@@ -195,12 +198,12 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
     if (happens(wire_.faults.lost_answer) || happens(wire_.faults.broken)) {
         return miss(LinkFault::timeout, deadline_us);
     }
-    const OnWay mine{answers_us, unit, reading, read};
+    const OnWay mine{answers_us, unit, kind, read};
     if (serial && exception == ModbusException::none) {
         if (first_before(std::min(answers_us, deadline_us)) != nullptr) {
             LinkAnswer other = take_other(answer, mine, out);
-            if (!other.ok() && reading) {
-                open_reads_.missed(unit, clock_.now_us());
+            if (!other.ok()) {
+                open_.missed(unit, kind, content, clock_.now_us());
             }
             return other;
         }
@@ -224,8 +227,8 @@ splinefeed::hal::modbus::LinkAnswer SimulatedLine::transact(int unit, Registers 
         return fail(answer, LinkFault::corrupt, answers_us);
     }
     clock_.sleep_until_us(answers_us);
-    if (!reading) {
-        open_reads_.answered(unit);
+    if (serial) {
+        open_.answered(unit, kind);
     }
     answer.answered_us = quiet_from_us_ = clock_.now_us();
     answer.arrived_us = answer.sent_us + frame_us(address_, bytes.request);

@@ -5,7 +5,7 @@
 
 #include "host_sim/drive/drive_model.hpp"
 #include "splinefeed/hal/modbus/link/modbus_line.hpp"
-#include "splinefeed/hal/modbus/link/open_reads.hpp"
+#include "splinefeed/hal/modbus/link/open_answers.hpp"
 
 #include <deque>
 #include <map>
@@ -87,6 +87,7 @@ public:
     using LinkAddress = splinefeed::hal::modbus::LinkAddress;
     using LinkAnswer = splinefeed::hal::modbus::LinkAnswer;
     using LinkTiming = splinefeed::hal::modbus::LinkTiming;
+    using RequestKind = splinefeed::hal::modbus::RequestKind;
 
     SimulatedLine(SimulatedWire& wire, const LinkAddress& address, const LinkTiming& timing,
                   splinefeed::hal::Clock& clock)
@@ -102,7 +103,10 @@ public:
                         std::span<std::uint16_t> out) noexcept override;
     void resynchronise() noexcept override { behind_ = address_.wire == splinefeed::hal::modbus::Wire::rtu; }
     [[nodiscard]] std::uint64_t next_us() const noexcept override;
-    [[nodiscard]] std::uint64_t read_from_us(int unit) const noexcept override { return open_reads_.until_us(unit); }
+    [[nodiscard]] std::uint64_t read_from_us(int unit) const noexcept override {
+        return open_.until_us(unit, RequestKind::reading, 0);
+    }
+    [[nodiscard]] bool owes_answer(int unit) const noexcept override { return open_.owes(unit, clock_.now_us()); }
     [[nodiscard]] const LinkAddress& address() const noexcept override { return address_; }
     [[nodiscard]] splinefeed::hal::Clock& clock() const noexcept override { return clock_; }
 
@@ -120,7 +124,7 @@ private:
     struct OnWay {
         std::uint64_t at_us = 0;
         int unit = 0;
-        bool reading = false;
+        RequestKind kind = RequestKind::reading;
         Registers registers;
     };
     [[nodiscard]] OnWay* first_before(std::uint64_t instant_us);
@@ -137,7 +141,7 @@ private:
     bool behind_ = false;
     std::map<std::pair<int, std::size_t>, Registers> earlier_; // answers, by unit and size
     std::vector<OnWay> on_way_;                                // on a serial line
-    splinefeed::hal::modbus::OpenReads open_reads_;
+    splinefeed::hal::modbus::OpenAnswers open_;
 };
 
 } // namespace splinefeed_test

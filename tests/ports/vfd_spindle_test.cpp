@@ -22,12 +22,14 @@ constexpr double ramp_hz_s = 100.0;
 
 /// An inverter on a line, and the spindle that a run has.
 struct Bench {
-    explicit Bench(const std::string& profile, const VfdSpindleSettings& settings = {}) : wire(plant.add_wire()) {
+    explicit Bench(const std::string& profile, const VfdSpindleSettings& settings = {}, Wire kind = Wire::tcp)
+        : wire(plant.add_wire()) {
         auto model = std::make_unique<VfdDrive>(find_profile(profile), VfdDriveParameters{.ramp_hz_s = ramp_hz_s});
         vfd = model.get();
         plant.add(std::move(model), 1, 0.0, wire);
-        spindle = std::make_unique<VfdSpindle>(VfdWiring{{.port = 1502, .unit = 1}, find_profile(profile)}, settings,
-                                               plant.make_line(), plant.clock);
+        spindle =
+            std::make_unique<VfdSpindle>(VfdWiring{{.wire = kind, .port = 1502, .unit = 1}, find_profile(profile)},
+                                         settings, plant.make_line(), plant.clock);
     }
 
     /// For so long, looked at every millisecond.
@@ -172,7 +174,7 @@ TEST_CASE("Spindle: a lost inverter is trouble while it turns, and is stopped wh
     bench.pass_ms(900);
     CHECK(bench.spindle->trouble().empty());
     bench.pass_ms(700);
-    CHECK(bench.spindle->trouble().rfind("the VFD does not answer (", 0) == 0);
+    CHECK(bench.spindle->trouble().rfind("the VFD does not answer: ", 0) == 0);
     CHECK_FALSE(bench.spindle->stands());
     CHECK(bench.vfd->direction() == 1); // nobody can tell it anything
     bench.pass_ms(4000);
@@ -302,7 +304,7 @@ TEST_CASE("Spindle: an inverter or a gateway that is busy counts as one that doe
     bench.wire.faults.exception = 1.0;
     bench.pass_ms(1500);
     CHECK(bench.spindle->trouble() ==
-          "the VFD does not answer (exception " + std::string(exception_name(static_cast<std::uint8_t>(code))) + ")");
+          "the VFD answers nothing but exception " + std::string(exception_name(static_cast<std::uint8_t>(code))));
     bench.wire.faults.exception = 0.0;
     bench.pass_ms(3000);
     CHECK(bench.vfd->direction() == 0);
@@ -337,5 +339,35 @@ TEST_CASE("Spindle: an inverter that turns when the run begins is stopped, and s
         bench.pass_ms(700, [&] { REQUIRE(bench.vfd->direction() == 0); });
         bench.pass_ms(3000);
         CHECK(bench.spindle->reached());
+    }
+}
+
+TEST_CASE("Spindle: an order that nobody confirms is trouble, though the spindle never turned", "[spindle]") {
+    Bench bench("vfd-gs2");
+    REQUIRE(bench.spindle->open().empty());
+    bench.plant.stations.front()->mute.push_back({0, UINT64_MAX});
+    bench.pass_ms(3000);
+    CHECK(bench.spindle->trouble().empty()); // nothing is wanted of it
+    bench.spindle->order({0, 0.0});
+    bench.pass_ms(200);
+    CHECK_FALSE(bench.spindle->trouble().empty());
+}
+
+TEST_CASE("Spindle: answers that are late, break off, or are others' do not end a run on a serial line", "[spindle]") {
+    for (const LineFaults& faults : {LineFaults{.late = 0.1, .late_us = 300'000}, LineFaults{.broken = 0.03},
+                                     LineFaults{.foreign = 0.03}, LineFaults{.lost_answer = 0.03}}) {
+        Bench bench("vfd-gs2", {}, Wire::rtu);
+        REQUIRE(bench.spindle->open().empty());
+        bench.spindle->order({1, 200.0});
+        bench.pass_ms(4000);
+        REQUIRE(bench.spindle->reached());
+        bench.wire.faults = faults;
+        bench.pass_ms(120'000, [&] { REQUIRE(bench.spindle->trouble().empty()); });
+        CHECK(bench.wire.hiccups > 20);
+        CHECK(bench.spindle->output_hz() == Approx(200.0).margin(0.1));
+        bench.spindle->end();
+        bench.pass_ms(6000);
+        CHECK(bench.vfd->output_hz() == 0.0);
+        CHECK(bench.spindle->stands());
     }
 }

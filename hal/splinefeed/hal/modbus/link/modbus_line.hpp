@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_address.hpp"
+#include "splinefeed/hal/modbus/link/open_answers.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <span>
@@ -45,8 +46,8 @@ struct LinkAnswer {
 /// Name of an exception code, for example "illegal address".
 [[nodiscard]] const char* exception_name(std::uint8_t code) noexcept;
 
-/// One line to one or several drives. For one thread at a time. Calls block until the answer or the time-out. Call
-/// connect() again after the connection is lost.
+/// One line to one or several drives. For one thread at a time. Calls block until the answer or the time-out: a call
+/// takes longest_exchange_us() at most, whatever comes in. Call connect() again after the connection is lost.
 class ModbusLine {
 public:
     ModbusLine() = default;
@@ -86,9 +87,11 @@ public:
     /// When a request made now would be sent, after the required silence. [us]
     [[nodiscard]] virtual std::uint64_t next_us() const noexcept = 0;
 
-    /// A reading of that unit before this instant waits until then: an answer to an earlier one may still come, and a
-    /// serial frame does not show to which reading it belongs. Who has others to speak to asks later. [us]
+    /// A reading of that unit before this instant waits until then: OpenAnswers. Who has others to speak to asks later.
+    /// [us]
     [[nodiscard]] virtual std::uint64_t read_from_us(int /*unit*/) const noexcept { return 0; }
+    /// Whether the unit may still answer an earlier request: a request of another kind that it answers says that not.
+    [[nodiscard]] virtual bool owes_answer(int /*unit*/) const noexcept { return false; }
 
     [[nodiscard]] virtual const LinkAddress& address() const noexcept = 0;
     /// Clock of the line and of everything on it; outlives the line.
@@ -97,6 +100,14 @@ public:
 
 /// What went wrong with a request on a line: "no answer in time ...", "exception busy", "there is no connection: ...".
 [[nodiscard]] std::string describe(const LinkAnswer& answer, const ModbusLine& line);
+
+/// Longest time of an exchange: what may still come of earlier ones is waited for, then the answer. [us]
+[[nodiscard]] constexpr std::uint64_t longest_exchange_us(const LinkAddress& address, const LinkTiming& timing,
+                                                          std::size_t written, std::size_t read) noexcept {
+    constexpr std::uint64_t scheduling_us = 50'000; // the host is late
+    const std::uint64_t answer_us = std::uint64_t{timing.answer_us} + exchange_us(address, written, read);
+    return OpenAnswers::latest_us + 2 * answer_us + timing.before_us + scheduling_us;
+}
 
 /// Factory of lines.
 using MakeLine =

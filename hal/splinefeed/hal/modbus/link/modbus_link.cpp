@@ -69,6 +69,7 @@ struct ModbusLink::Context {
     int timeouts = 0;    // in a row
     bool dirty = false;  // late input is possible
     bool behind = false; // whole answers may be outstanding
+    OpenAnswers open;    // of a serial line
 
     [[nodiscard]] bool lost() const noexcept { return address.wire == Wire::rtu && failures >= lost_failures; }
     [[nodiscard]] std::uint64_t next_us() const noexcept {
@@ -78,6 +79,14 @@ struct ModbusLink::Context {
                                               : 0;
         return quiet_from_us + silence_us(address) + timing.before_us + settle;
     }
+};
+
+struct ModbusLink::Request {
+    int unit;
+    RequestKind kind;
+    std::uint64_t content;
+    ExchangeBytes bytes;
+    int expected; // what libmodbus returns where all is well
 };
 
 ModbusLink::ModbusLink(const LinkAddress& address, const LinkTiming& timing, Clock& clock)
@@ -129,6 +138,14 @@ void ModbusLink::resynchronise() noexcept {
     }
 }
 
+std::uint64_t ModbusLink::read_from_us(int unit) const noexcept {
+    return is_unit(Wire::rtu, unit) ? context_->open.until_us(unit, RequestKind::reading, 0) : 0;
+}
+
+bool ModbusLink::owes_answer(int unit) const noexcept {
+    return is_unit(Wire::rtu, unit) && context_->open.owes(unit, context_->clock->now_us());
+}
+
 bool ModbusLink::connect() noexcept {
     Context& context = *context_;
     if (context.modbus == nullptr) {
@@ -137,6 +154,8 @@ bool ModbusLink::connect() noexcept {
     close();
     const std::uint32_t most = context.timing.answer_us;
     modbus_set_response_timeout(context.modbus, most / us_per_s, most % us_per_s);
+    // Without a time-out of its own for each byte that of the response is for the whole of it.
+    modbus_set_byte_timeout(context.modbus, 0, 0);
     if (modbus_connect(context.modbus) != 0) {
         context.error = errno;
         return false;
@@ -165,9 +184,29 @@ void ModbusLink::abandon() noexcept {
     close();
 }
 
-template <class Call>
-LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expected, const Call& call) noexcept {
+// Of a device that sends without an end there is always more: such a connection is of no use.
+bool ModbusLink::flush() noexcept {
+    constexpr int most_frames = 16;
     Context& context = *context_;
+    context.dirty = context.behind = false;
+    if (context.address.wire == Wire::rtu) {
+        modbus_flush(context.modbus);
+        return true;
+    }
+    std::array<std::uint8_t, longest_frame> old{};
+    for (int i = 0; i < most_frames; ++i) {
+        const ssize_t size = recv(modbus_get_socket(context.modbus), old.data(), old.size(), MSG_DONTWAIT);
+        if (size < static_cast<ssize_t>(old.size())) {
+            return true;
+        }
+    }
+    return false;
+}
+
+template <class Call>
+LinkAnswer ModbusLink::transact(const Request& request, const Call& call) noexcept {
+    Context& context = *context_;
+    const auto& [unit, kind, content, bytes, expected] = request;
     LinkAnswer answer;
     answer.sent_us = answer.answered_us = context.clock->now_us();
     if (!context.connected) {
@@ -179,15 +218,20 @@ LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expect
         answer.fault = LinkFault::bad_unit;
         return answer;
     }
-    const bool lost = context.lost();
-    const std::uint64_t quiet = context.next_us();
+    const bool serial = context.address.wire == Wire::rtu;
+    const std::uint64_t quiet =
+        std::max(context.next_us(), serial ? context.open.until_us(unit, kind, content) : std::uint64_t{0});
+    context.failures = context.lost() ? 0 : context.failures;
     if (answer.sent_us < quiet) {
         context.clock->sleep_until_us(quiet);
         answer.sent_us = context.clock->now_us();
     }
-    if (context.dirty) {
-        modbus_flush(context.modbus);
-        context.dirty = context.behind = false;
+    if (context.dirty && !flush()) {
+        context.error = EMBMDATA;
+        abandon();
+        answer.fault = LinkFault::disconnected;
+        answer.answered_us = context.clock->now_us();
+        return answer;
     }
     // libmodbus counts the time-out from the moment when the request is in the system's buffer.
     const std::uint32_t most = context.timing.answer_us + frame_us(context.address, bytes.request + bytes.reply);
@@ -195,33 +239,42 @@ LinkAnswer ModbusLink::transact(int unit, const ExchangeBytes& bytes, int expect
     errno = 0;
     const int done = call(context.modbus);
     answer.answered_us = context.quiet_from_us = context.clock->now_us();
-    context.failures = done == expected ? 0 : lost ? 1 : context.failures + 1;
-    if (done == expected) {
-        context.timeouts = 0;
-        answer.arrived_us = answer.sent_us + frame_us(context.address, bytes.request);
-        answer.replied_us = answer.answered_us - frame_us(context.address, bytes.reply);
-        return answer;
-    }
+    judge(request, done, answer);
+    return answer;
+}
+
+void ModbusLink::judge(const Request& request, int done, LinkAnswer& answer) noexcept {
     const int error = errno;
-    answer.fault = done >= 0 ? LinkFault::wrong_length : fault_of(error);
-    context.dirty = true;
-    context.timeouts = answer.fault == LinkFault::timeout ? context.timeouts + 1 : 0;
+    Context& context = *context_;
+    const bool serial = context.address.wire == Wire::rtu;
+    if (done == request.expected) {
+        context.failures = context.timeouts = 0;
+        answer.arrived_us = answer.sent_us + frame_us(context.address, request.bytes.request);
+        answer.replied_us = answer.answered_us - frame_us(context.address, request.bytes.reply);
+    } else {
+        ++context.failures;
+        answer.fault = done >= 0 ? LinkFault::wrong_length : fault_of(error);
+        context.dirty = answer.fault != LinkFault::exception;
+        context.timeouts = answer.fault == LinkFault::timeout ? context.timeouts + 1 : 0;
+    }
+    if (serial && context.dirty) {
+        context.open.missed(request.unit, request.kind, request.content, answer.answered_us);
+    } else if (serial) {
+        context.open.answered(request.unit, request.kind);
+    }
     if (answer.fault == LinkFault::exception) {
         answer.exception = static_cast<std::uint8_t>(error - MODBUS_ENOBASE);
-        context.dirty = false;
-    } else if (answer.fault == LinkFault::disconnected ||
-               (context.address.wire == Wire::tcp && context.timeouts > context.timing.retries)) {
+    } else if (answer.fault == LinkFault::disconnected || (!serial && context.timeouts > context.timing.retries)) {
         context.error = error;
         abandon();
     }
-    return answer;
 }
 
 LinkAnswer ModbusLink::read(int unit, int address, std::span<std::uint16_t> out) noexcept {
     std::array<std::uint16_t, MODBUS_MAX_READ_REGISTERS> in{};
     const int count = static_cast<int>(out.size());
     const LinkAnswer answer =
-        transact(unit, exchange_bytes(context_->address, 0, out.size()), count,
+        transact({unit, RequestKind::reading, 0, exchange_bytes(context_->address, 0, out.size()), count},
                  [&](modbus_t* modbus) { return modbus_read_registers(modbus, address, count, in.data()); });
     if (answer.ok()) {
         std::memcpy(out.data(), in.data(), out.size_bytes());
@@ -231,14 +284,15 @@ LinkAnswer ModbusLink::read(int unit, int address, std::span<std::uint16_t> out)
 
 LinkAnswer ModbusLink::write(int unit, int address, std::span<const std::uint16_t> values) noexcept {
     const int count = static_cast<int>(values.size());
-    return transact(unit, exchange_bytes(context_->address, values.size(), 0), count,
+    return transact({unit, RequestKind::write, content_of(address, values),
+                     exchange_bytes(context_->address, values.size(), 0), count},
                     [&](modbus_t* modbus) { return modbus_write_registers(modbus, address, count, values.data()); });
 }
 
 // The request is as long as that of a read, and the answer repeats the request.
 LinkAnswer ModbusLink::write_one(int unit, int address, std::uint16_t value) noexcept {
     const std::size_t bytes = exchange_bytes(context_->address, 0, 1).request;
-    return transact(unit, {bytes, bytes}, 1,
+    return transact({unit, RequestKind::single_write, content_of(address, std::span(&value, 1)), {bytes, bytes}, 1},
                     [&](modbus_t* modbus) { return modbus_write_register(modbus, address, value); });
 }
 
@@ -246,11 +300,11 @@ LinkAnswer ModbusLink::exchange(int unit, int write_address, std::span<const std
                                 std::span<std::uint16_t> out) noexcept {
     std::array<std::uint16_t, MODBUS_MAX_WR_READ_REGISTERS> in{};
     const int count = static_cast<int>(out.size());
-    const LinkAnswer answer =
-        transact(unit, exchange_bytes(context_->address, values.size(), out.size()), count, [&](modbus_t* modbus) {
-            return modbus_write_and_read_registers(modbus, write_address, static_cast<int>(values.size()),
-                                                   values.data(), read_address, count, in.data());
-        });
+    const ExchangeBytes bytes = exchange_bytes(context_->address, values.size(), out.size());
+    const LinkAnswer answer = transact({unit, RequestKind::exchange, 0, bytes, count}, [&](modbus_t* modbus) {
+        return modbus_write_and_read_registers(modbus, write_address, static_cast<int>(values.size()), values.data(),
+                                               read_address, count, in.data());
+    });
     if (answer.ok()) {
         std::memcpy(out.data(), in.data(), out.size_bytes());
     }
@@ -261,10 +315,11 @@ LinkAnswer ModbusLink::exchange(int unit, int write_address, std::span<const std
 LinkAnswer ModbusLink::read_bit(int unit, BitTable table, int address, bool& out) noexcept {
     const std::size_t request = exchange_bytes(context_->address, 0, 1).request;
     std::uint8_t bit = 0;
-    const LinkAnswer answer = transact(unit, {request, request - 2}, 1, [&](modbus_t* modbus) {
-        return table == BitTable::coils ? modbus_read_bits(modbus, address, 1, &bit)
-                                        : modbus_read_input_bits(modbus, address, 1, &bit);
-    });
+    const LinkAnswer answer =
+        transact({unit, RequestKind::reading, 0, {request, request - 2}, 1}, [&](modbus_t* modbus) {
+            return table == BitTable::coils ? modbus_read_bits(modbus, address, 1, &bit)
+                                            : modbus_read_input_bits(modbus, address, 1, &bit);
+        });
     if (answer.ok()) {
         out = bit != 0;
     }
@@ -273,7 +328,7 @@ LinkAnswer ModbusLink::read_bit(int unit, BitTable table, int address, bool& out
 
 LinkAnswer ModbusLink::write_coil(int unit, int address, bool on) noexcept {
     const std::size_t bytes = exchange_bytes(context_->address, 0, 1).request;
-    return transact(unit, {bytes, bytes}, 1,
+    return transact({unit, RequestKind::single_write, content_of(address, std::array{on}), {bytes, bytes}, 1},
                     [&](modbus_t* modbus) { return modbus_write_bit(modbus, address, on ? 1 : 0); });
 }
 

@@ -32,16 +32,21 @@ public:
 
     void resynchronise() noexcept override;
     [[nodiscard]] std::uint64_t next_us() const noexcept override;
+    [[nodiscard]] std::uint64_t read_from_us(int unit) const noexcept override;
+    [[nodiscard]] bool owes_answer(int unit) const noexcept override;
     [[nodiscard]] const LinkAddress& address() const noexcept override;
     [[nodiscard]] Clock& clock() const noexcept override;
 
 private:
     struct Context;
+    struct Request;
 
     void abandon() noexcept;
+    [[nodiscard]] bool flush() noexcept;
+    void judge(const Request& request, int done, LinkAnswer& answer) noexcept;
 
     template <class Call>
-    LinkAnswer transact(int unit, const ExchangeBytes& bytes, int expected, const Call& call) noexcept;
+    LinkAnswer transact(const Request& request, const Call& call) noexcept;
 
     std::unique_ptr<Context> context_;
 };

@@ -170,9 +170,17 @@ bool ModuleBus::took(const ModuleBit& bit, const LinkAnswer& answer) {
     if (answer.refused()) {
         fail(bit.name + ": " + describe(answer, *line_));
     } else if (!answer.ok() && now_us > module.answered_us + us_per_ms * settings_.lost_ms) {
-        fail(bit.name + ": its module does not answer (" + describe(answer, *line_) + ")");
+        fail(bit.name +
+             (answer.fault == LinkFault::exception ? ": its module answers nothing but "
+                                                   : ": its module does not answer: ") +
+             describe(answer, *line_));
     }
     return answer.ok();
+}
+
+// It would wait for what the module may still answer, and other modules for that.
+bool ModuleBus::may_not_read(int unit) const {
+    return clock_->now_us() < line_->read_from_us(unit);
 }
 
 void ModuleBus::work() {
@@ -180,7 +188,8 @@ void ModuleBus::work() {
         write_coils();
         read_watched();
         for (Module& module : modules_) {
-            if (clock_->now_us() >= module.look_us) {
+            const bool due = clock_->now_us() >= module.look_us || line_->owes_answer(module.unit);
+            if (due && !may_not_read(module.unit)) {
                 look(module);
                 module.look_us = clock_->now_us() + us_per_ms * settings_.look_ms;
             }
@@ -190,8 +199,14 @@ void ModuleBus::work() {
 }
 
 // What is set while another coil is written comes before the rest: each is looked at again. No lock is held meanwhile.
+// A module that does not answer keeps the others from their turn once only, however many coils it has: that coil is
+// tried until it is confirmed, then the rest of them.
 void ModuleBus::write_coils() {
+    std::optional<int> silent;
     for (Coil& coil : coils_) {
+        if (silent == coil.bit.unit) {
+            continue;
+        }
         bool on = false;
         {
             const std::lock_guard lock(mutex_);
@@ -201,9 +216,12 @@ void ModuleBus::write_coils() {
             on = coil.wanted;
             coil.told.reset(); // it may take what it does not confirm
         }
-        if (took(coil.bit, write(coil.bit, on))) {
+        const LinkAnswer answer = write(coil.bit, on);
+        if (took(coil.bit, answer)) {
             const std::lock_guard lock(mutex_);
             coil.told = on;
+        } else if (answer.fault != LinkFault::exception) {
+            silent = coil.bit.unit;
         }
     }
 }
@@ -216,7 +234,7 @@ void ModuleBus::read_watched() {
         input = watched_;
         watch = watches_;
     }
-    if (!input) {
+    if (!input || may_not_read(inputs_[*input].unit)) {
         return;
     }
     Reading reading{.asked_us = clock_->now_us()};

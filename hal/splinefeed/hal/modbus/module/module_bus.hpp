@@ -92,6 +92,7 @@ private:
     template <class Exchange>
     [[nodiscard]] std::string try_out(const ModuleBit& bit, const Exchange& exchange);
     void work();
+    [[nodiscard]] bool may_not_read(int unit) const;
     void write_coils();
     void read_watched();
     void look(Module& module);

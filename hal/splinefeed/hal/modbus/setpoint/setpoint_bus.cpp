@@ -173,7 +173,9 @@ void SetpointBus::read_statuses() noexcept {
     const std::size_t next = next_read_++ % drives_.size();
     for (std::size_t i = 0; i < drives_.size() && link_->connected(); ++i) {
         Slot& slot = drives_[i];
-        const bool asked = i == next || slot.stop_request.load(std::memory_order_relaxed) != StopRequest::none;
+        // One that may still confirm an earlier target is asked, too, or the next target would have to wait for that.
+        const bool asked = i == next || slot.stop_request.load(std::memory_order_relaxed) != StopRequest::none ||
+                           link_->owes_answer(slot.drive.unit());
         if (asked && link_->clock().now_us() >= link_->read_from_us(slot.drive.unit())) {
             static_cast<void>(slot.drive.read_next());
         }

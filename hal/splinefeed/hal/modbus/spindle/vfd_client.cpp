@@ -84,6 +84,10 @@ LinkAnswer VfdClient::command(DriveCommand command) {
     return answer;
 }
 
+bool VfdClient::may_read() const {
+    return clock_->now_us() >= line_->read_from_us(wiring_.link.unit);
+}
+
 // Several tests may be of one field: it is read once.
 bool VfdClient::read_once(FieldIndex field, std::int64_t& raw, LinkAnswer& answer) {
     if (!read_[field]) {

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] LinkAnswer command(DriveCommand command);
     /// Reads output frequency, state and fault.
     [[nodiscard]] LinkAnswer read(VfdReading& out);
+    /// Whether a reading would be sent at once: ModbusLine::read_from_us().
+    [[nodiscard]] bool may_read() const;
 
     /// Speed that the register can hold, next to this one. [Hz]
     [[nodiscard]] double nearest_hz(double hz) const;

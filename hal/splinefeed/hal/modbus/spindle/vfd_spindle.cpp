@@ -106,6 +106,12 @@ bool VfdSpindle::was_on() const {
     return was_on_;
 }
 
+// A spindle that may turn has to be heard of, and an order is waited for.
+bool VfdSpindle::awaited() const {
+    const std::lock_guard lock(mutex_);
+    return (was_on_ && !stands_) || (!ended_ && carried_out_ != ordered_);
+}
+
 std::string VfdSpindle::trouble() const {
     const std::lock_guard lock(mutex_);
     return trouble_;
@@ -154,8 +160,9 @@ bool VfdSpindle::took(const LinkAnswer& answer, const char* what) {
     if (answer.refused()) {
         answered_us_ = now_us;
         fail(std::string("the VFD refuses ") + what + ": " + exception_name(answer.exception));
-    } else if (now_us > answered_us_ + us_per_ms * settings_.lost_ms && (was_on() && !stands())) {
-        fail(std::string("the VFD does not answer (") + client_.describe(answer) + ")");
+    } else if (now_us > answered_us_ + us_per_ms * settings_.lost_ms && awaited()) {
+        fail((answer.fault == LinkFault::exception ? "the VFD answers nothing but " : "the VFD does not answer: ") +
+             client_.describe(answer));
     }
     return false;
 }
@@ -202,6 +209,8 @@ void VfdSpindle::carry_out(const SpindleOrder& order, bool fresh) {
     told_ = order;
 }
 
+// After a reading that failed it is told once more what it has been told: an answer to that says that none of the
+// reading is to come any more, and the next reading is not that old one.
 void VfdSpindle::step() {
     SpindleOrder order;
     bool fresh = false;
@@ -217,8 +226,15 @@ void VfdSpindle::step() {
     }
     carry_out(order, fresh);
     VfdReading reading;
-    if ((known_ || order.direction != 0) && took(client_.read(reading), "a reading")) {
+    if ((!known_ && order.direction == 0) || !client_.may_read()) {
+        return;
+    }
+    if (took(client_.read(reading), "a reading")) {
         judge(order, reading);
+    } else if (order.direction == 0) {
+        known_ = false;
+    } else {
+        told_.hz = -1.0;
     }
 }
 

@@ -56,6 +56,7 @@ public:
 
 private:
     [[nodiscard]] bool ended() const;
+    [[nodiscard]] bool awaited() const;
     void work();
     void step();
     void carry_out(const SpindleOrder& order, bool fresh);
