@@ -54,9 +54,11 @@ nlohmann::json parse_json(std::string_view text, const std::string& file, std::s
         if (!hint.empty()) {
             throw InputError(file, line, fmt::format("not JSON; {}", hint));
         }
+        // "[json.exception.parse_error.101] parse error at line 2, column 1: syntax error while parsing value - WHY"
         std::string_view why = error.what();
-        why.remove_prefix(
-            std::min(why.size(), why.rfind("; last read") == std::string_view::npos ? 0 : why.find("while")));
+        const std::size_t dash = why.find(" - ");
+        why.remove_prefix(dash == std::string_view::npos ? std::min(why.find(": ") + 2, why.size()) : dash + 3);
+        why = why.substr(0, why.find("; last read"));
         throw InputError(file, line, fmt::format("not JSON: {}", why));
     } catch (const nlohmann::json::out_of_range&) {
         throw InputError(file, 0, "a number is out of range; coordinates must lie within +-1048576 mm");

@@ -4,13 +4,110 @@
 #include "splinefeed/hal/base/edit_distance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <vector>
 
 namespace splinefeed::host {
 
 namespace {
 
 constexpr std::size_t longest_name = 64; // beyond, nobody has mistyped anything
+constexpr std::size_t most_listed = 12;  // names that a sentence can hold
+
+/// What people from other programs call a thing; words of names here.
+struct Meaning {
+    std::string_view word;
+    std::string_view here;
+};
+
+constexpr std::array meanings{
+    Meaning{"speed", "velocity"},
+    Meaning{"seek", "velocity"},
+    Meaning{"rapid", "velocity"},
+    Meaning{"vmax", "velocity"},
+    Meaning{"vel", "velocity"},
+    Meaning{"rate", "velocity"},
+    Meaning{"amax", "acceleration"},
+    Meaning{"accel", "acceleration"},
+    Meaning{"deceleration", "braking"},
+    Meaning{"decel", "braking"},
+    Meaning{"limits", "travel"},
+    Meaning{"limit", "travel"},
+    Meaning{"range", "travel"},
+    Meaning{"stroke", "travel"},
+    Meaning{"scale", "steps"},
+    Meaning{"pulses", "steps"},
+    Meaning{"counts", "steps"},
+    Meaning{"feedrate", "feed"},
+    Meaning{"reverse", "invert"},
+    Meaning{"reversed", "invert"},
+    Meaning{"type", "kind"},
+    Meaning{"letter", "name"},
+    Meaning{"port", "drive"},
+    Meaning{"address", "drive"},
+    Meaning{"slave", "unit"},
+    Meaning{"id", "unit"},
+    Meaning{"baudrate", "baud"},
+    Meaning{"bits", "stop"},
+    Meaning{"stop", "hold"},
+    Meaning{"pause", "hold"},
+    Meaning{"start", "resume"},
+    Meaning{"continue", "resume"},
+    Meaning{"cancel", "abort"},
+    Meaning{"feed", "override"},
+    Meaning{"simulate", "run"},
+    Meaning{"execute", "run"},
+    Meaning{"output", "trace"},
+    Meaning{"config", "machine"},
+    Meaning{"verify", "check"},
+    Meaning{"test", "check"},
+};
+
+/// Words that many names have: units, and whether a value is the largest.
+constexpr std::array<std::string_view, 11> common{"max", "min", "mm", "s", "s2", "s3", "us", "ms", "per", "of", "axis"};
+
+std::vector<std::string> words_of(std::string_view name) {
+    std::vector<std::string> words(1);
+    for (const char c : name) {
+        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        if (letter) {
+            words.back() += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        } else if (!words.back().empty()) {
+            words.emplace_back();
+        }
+    }
+    const auto dull = [](const std::string& word) {
+        return word.empty() || std::find(common.begin(), common.end(), word) != common.end();
+    };
+    words.erase(std::remove_if(words.begin(), words.end(), dull), words.end());
+    return words;
+}
+
+bool means(std::string_view word, std::string_view here) {
+    constexpr std::size_t shortest_part = 3; // "acc" of "acceleration"
+    return word == here || (word.size() >= shortest_part && here.substr(0, word.size()) == word) ||
+           std::any_of(meanings.begin(), meanings.end(),
+                       [&](const Meaning& of) { return of.word == word && of.here == here; });
+}
+
+/// The known name that has all words of the name, or words that mean the same, and the fewest others.
+std::string_view nearest_meaning(std::string_view name, std::span<const std::string_view> known) {
+    const std::vector<std::string> words = words_of(name);
+    std::string_view best;
+    std::size_t fewest = longest_name;
+    for (const std::string_view candidate : known) {
+        const std::vector<std::string> here = words_of(candidate);
+        const bool has_all = !words.empty() && std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+            return std::any_of(here.begin(), here.end(), [&](const std::string& h) { return means(word, h); });
+        });
+        if (has_all && here.size() <= fewest) {
+            best = here.size() < fewest ? candidate : std::string_view{}; // of two as good ones neither
+            fewest = here.size();
+        }
+    }
+    return best;
+}
 
 } // namespace
 
@@ -31,6 +128,11 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
     return best;
 }
 
+std::string_view meant_name(std::string_view name, std::span<const std::string_view> known) {
+    const std::string_view near = nearest_name(name, known);
+    return near.empty() ? nearest_meaning(name, known) : near;
+}
+
 std::string listed(std::span<const std::string_view> names) {
     std::string out;
     for (const std::string_view name : names) {
@@ -42,9 +144,12 @@ std::string listed(std::span<const std::string_view> names) {
     return out;
 }
 
-std::string suggestion(std::string_view name, std::span<const std::string_view> known) {
-    const std::string_view best = nearest_name(name, known);
-    return best.empty() ? fmt::format("; known are {}", listed(known)) : fmt::format("; did you mean '{}'?", best);
+std::string suggestion(std::string_view name, std::span<const std::string_view> known, std::string_view page) {
+    if (const std::string_view best = meant_name(name, known); !best.empty()) {
+        return fmt::format("; did you mean '{}'?", best);
+    }
+    return known.size() > most_listed && !page.empty() ? fmt::format("; {} lists what is known", page)
+                                                       : fmt::format("; known are {}", listed(known));
 }
 
 } // namespace splinefeed::host

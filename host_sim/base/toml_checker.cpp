@@ -2,6 +2,7 @@
 #include "host_sim/base/toml_checker.hpp"
 
 #include "host_sim/base/nearest_name.hpp"
+#include "host_sim/base/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +16,28 @@ void TomlChecker::require_known(const toml::table& table, std::span<const std::s
         const std::string_view name = key.str();
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             throw InputError(file_, key.source().begin.line,
-                             fmt::format("unknown key {} in {}{}", in_quotes(name), where, suggestion(name, known)));
+                             fmt::format("unknown key {} in {}{}", in_quotes(name), where, in_place_of(name, known)));
         }
     }
+}
+
+// A key of another table is in the wrong place; any other may be mistyped.
+std::string TomlChecker::in_place_of(std::string_view key, std::span<const std::string_view> known) const {
+    for (const KnownTable& other : elsewhere_) {
+        if (std::find(other.keys.begin(), other.keys.end(), key) != other.keys.end()) {
+            return fmt::format("; it belongs below {}", other.where);
+        }
+    }
+    return suggestion(key, known, page_);
+}
+
+void TomlChecker::fail_type(const toml::node& node, std::string_view key, std::string_view what) const {
+    const auto text = node.value_exact<std::string>();
+    double number = 0.0;
+    if (text && (*text == "true" || *text == "false" || read_number(*text, number) == NumberText::number)) {
+        fail(node, fmt::format("{0} must be {1}, without quotes: {0} = {2}", key, what, *text));
+    }
+    fail(node, fmt::format("{} must be {}", key, what));
 }
 
 std::string TomlChecker::text(const toml::node& node, std::string_view key) const {
@@ -31,7 +51,7 @@ std::string TomlChecker::text(const toml::node& node, std::string_view key) cons
 bool TomlChecker::flag(const toml::node& node, std::string_view key) const {
     const auto value = node.value_exact<bool>();
     if (!value) {
-        fail(node, fmt::format("{} must be true or false", key));
+        fail_type(node, key, "true or false");
     }
     return *value;
 }
@@ -39,7 +59,7 @@ bool TomlChecker::flag(const toml::node& node, std::string_view key) const {
 std::int64_t TomlChecker::whole(const toml::node& node, std::string_view key, WholeRange range) const {
     const auto value = node.value_exact<std::int64_t>();
     if (!value || *value < range.low || *value > range.high) {
-        fail(node, fmt::format("{} must be a whole number from {} to {}", key, range.low, range.high));
+        fail_type(node, key, fmt::format("a whole number from {} to {}", range.low, range.high));
     }
     return *value;
 }
@@ -47,7 +67,7 @@ std::int64_t TomlChecker::whole(const toml::node& node, std::string_view key, Wh
 double TomlChecker::finite(const toml::node& node, std::string_view key) const {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value)) {
-        fail(node, fmt::format("{} must be a finite number", key));
+        fail_type(node, key, node.is_number() ? "a finite number" : "a number");
     }
     return *value;
 }
@@ -55,7 +75,7 @@ double TomlChecker::finite(const toml::node& node, std::string_view key) const {
 double TomlChecker::number(const toml::node& node, std::string_view key, const NumberRange& range) const {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !(*value >= range.low && *value <= range.high)) {
-        fail(node, fmt::format("{} must be a number from {} to {} {}", key, range.low, range.high, range.unit));
+        fail_type(node, key, fmt::format("a number from {} to {} {}", range.low, range.high, range.unit));
     }
     return *value;
 }
@@ -64,7 +84,7 @@ std::uint32_t TomlChecker::microseconds(const toml::node& node, std::string_view
     constexpr double us_per_ms = 1000.0;
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !(*value >= 0.0 && *value <= most_ms)) {
-        fail(node, fmt::format("{} must be a number from 0 to {} ms", key, most_ms));
+        fail_type(node, key, fmt::format("a number from 0 to {} ms", most_ms));
     }
     return static_cast<std::uint32_t>(std::lround(*value * us_per_ms));
 }

@@ -31,7 +31,15 @@ struct NumberRange {
 /// "[link]".
 class TomlChecker {
 public:
-    explicit TomlChecker(const std::string& file) : file_(file) {}
+    /// @param page  of the docs, with all keys: for tables that have many
+    explicit TomlChecker(const std::string& file, std::string_view page) : file_(file), page_(page) {}
+
+    /// Keys of a table that a user may write into another one by mistake.
+    struct KnownTable {
+        std::string_view where;
+        std::span<const std::string_view> keys;
+    };
+    void name_table(KnownTable table) { elsewhere_.push_back(table); }
 
     template <class Node>
     [[noreturn]] void fail(const Node& node, std::string_view what) const {
@@ -78,7 +86,13 @@ public:
     void take_ms(const toml::table& table, std::string_view key, double most_ms, std::uint32_t& out_us) const;
 
 private:
+    [[nodiscard]] std::string in_place_of(std::string_view key, std::span<const std::string_view> known) const;
+    /// The value is not `what`. A number or a truth value in quotes is told to be written without them.
+    [[noreturn]] void fail_type(const toml::node& node, std::string_view key, std::string_view what) const;
+
     const std::string& file_;
+    std::string_view page_;
+    std::vector<KnownTable> elsewhere_;
 };
 
 } // namespace splinefeed::host

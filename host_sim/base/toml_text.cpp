@@ -2,7 +2,9 @@
 #include "host_sim/base/toml_text.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/base/number_text.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <fmt/format.h>
 
@@ -45,6 +47,13 @@ bool assigns(std::string_view line) {
     return line.find_first_not_of(blanks, equals + 1) == std::string_view::npos;
 }
 
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(blanks);
+    return first == std::string_view::npos ? std::string_view{}
+                                           : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 bool blank_of_toml(char c) {
     return c == ' ' || c == '\t';
 }
@@ -62,8 +71,6 @@ std::string wrong_mark(std::string_view rest, int dots, bool line_starts, char b
     }
     return {};
 }
-
-} // namespace
 
 void require_plain_toml(std::string_view toml, const std::string& file) {
     enum class Inside : char { nothing = 0, comment = '#', text = '"', literal = '\'' };
@@ -106,6 +113,51 @@ void require_plain_toml(std::string_view toml, const std::string& file) {
             i += i + 1 < toml.size() && toml[i + 1] != '\n' ? 1U : 0U;
         }
         line_starts = line_starts && blank_of_toml(c);
+    }
+}
+
+/// What is wrong with a line, in the user's words where they can be found.
+InputError toml_error(std::string_view toml, const std::string& file, std::uint64_t line,
+                      std::string_view description) {
+    for (std::uint64_t i = 1; i < line && !toml.empty(); ++i) {
+        toml.remove_prefix(std::min(toml.find('\n'), toml.size() - 1) + 1);
+    }
+    const std::string_view text = trimmed(toml.substr(0, toml.find('\n')));
+    const std::size_t equals = text.find('=');
+    const std::string_view key = trimmed(text.substr(0, equals));
+    const std::string_view value = equals == std::string_view::npos ? "" : trimmed(text.substr(equals + 1));
+    const std::string_view number = value.substr(0, value.find_first_not_of("+-.0123456789eE"));
+    const std::string_view rest = value.substr(number.size());
+    double ignored = 0.0;
+    const bool begins_with_number = read_number(number, ignored) == NumberText::number;
+    if (begins_with_number && rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9') {
+        return {file, line, fmt::format("a number has a point, not a comma: {} = {}.{}", key, number, rest.substr(1))};
+    }
+    if (begins_with_number && !rest.empty() && rest[0] != '#') {
+        return {file, line,
+                fmt::format("behind the number stands {}; write the number alone: {} = {}", in_quotes(trimmed(rest)),
+                            key, number)};
+    }
+    if (!value.empty() &&
+        ((value[0] >= 'a' && value[0] <= 'z') || (value[0] >= 'A' && value[0] <= 'Z') || value[0] == '/')) {
+        return {file, line, fmt::format("a text stands in quotes: {} = \"{}\"", key, value.substr(0, value.find('#')))};
+    }
+    if (text.substr(0, 1) == "[" && text.find(']') == std::string_view::npos) {
+        return {file, line, fmt::format("the name of a table ends with ]: {}]", text)};
+    }
+    const std::size_t colon = description.find(": "); // "Error while parsing value: WHY"
+    const std::string_view why = colon == std::string_view::npos ? description : description.substr(colon + 2);
+    return {file, line, fmt::format("{} is no line of a .toml file: {}", in_quotes(text), why)};
+}
+
+} // namespace
+
+toml::table parse_toml(std::string_view toml, const std::string& file) {
+    require_plain_toml(toml, file);
+    try {
+        return toml::parse(toml, file);
+    } catch (const toml::parse_error& error) {
+        throw toml_error(toml, file, error.source().begin.line, error.description());
     }
 }
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
+#include <span>
 
 namespace splinefeed::host {
 
@@ -31,7 +32,9 @@ std::string joined(std::initializer_list<std::string_view> names) {
 
 [[noreturn]] void refuse_value(std::string_view option, std::string_view value,
                                std::initializer_list<std::string_view> known) {
-    throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(value), joined(known)));
+    const std::string_view near = nearest_name(value, {known.begin(), known.size()});
+    throw UsageError(fmt::format("{} {}: it must be one of {}{}", option, in_quotes(value), joined(known),
+                                 near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
 /// The options of an app by their long names, as they are typed.
@@ -52,13 +55,25 @@ bool takes_no_input(const CLI::App& app) {
     return app.get_name() == "drive" || app.get_name() == "link";
 }
 
+// CLI11 would take -machine for -m achine.
+void refuse_short_names(const CLI::App& app, std::span<const char* const> words) {
+    const std::vector<std::string> names = option_names(app);
+    for (const std::string_view word : words) {
+        const std::string name = fmt::format("-{}", word.substr(0, word.find('=')));
+        if (word.size() > 2 && word[0] == '-' && std::find(names.begin(), names.end(), name) != names.end()) {
+            throw UsageError(
+                fmt::format("'{}' has no option {}; did you mean '{}'?", app.get_name(), in_quotes(word), name));
+        }
+    }
+}
+
 // What CLI11 did not know: an option, or one word too many.
 void refuse_extras(const CLI::App& app, const Job& job) {
     for (const std::string& word : app.remaining()) {
         if (word.size() > 1 && word.front() == '-') {
             const std::vector<std::string> names = option_names(app);
             const std::vector<std::string_view> known(names.begin(), names.end());
-            const std::string_view near = nearest_name(word.substr(0, word.find('=')), known);
+            const std::string_view near = meant_name(word.substr(0, word.find('=')), known);
             throw UsageError(fmt::format("'{}' has no option {}; {}", app.get_name(), in_quotes(word),
                                          near.empty() ? fmt::format("see splinefeed {} --help", app.get_name())
                                                       : fmt::format("did you mean '{}'?", near)));
@@ -97,7 +112,9 @@ void take_format(Job& job, const std::string& format) {
     if (const InputFormat* const known = format.empty() ? format_of_suffix(suffix) : input_format(format)) {
         job.run.path.format = known;
     } else if (!format.empty()) {
-        throw UsageError(fmt::format("--format {}: it must be one of {}", in_quotes(format), input_formats(", ")));
+        const InputFormat* const meant = format_of_suffix(format); // "ngc" for gcode
+        throw UsageError(fmt::format("--format {}: it must be one of {}{}", in_quotes(format), input_formats(", "),
+                                     meant != nullptr ? fmt::format("; did you mean '{}'?", meant->name) : ""));
     } else {
         throw UsageError(fmt::format("{}: the name does not say what it is; name a {} file, or add --format {}",
                                      in_quotes(job.run.path.input), input_formats(" or ", "."), input_formats("|")));
@@ -158,6 +175,27 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
     job.run.summary = on_stdout != nullptr ? SummaryKind::none
                       : summary == "json"  ? SummaryKind::json
                                            : SummaryKind::text;
+}
+
+constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curve", "surface", "drive", "link"};
+
+// What stands in the place of a command, or before it. @param command  the one that is meant
+[[noreturn]] void refuse_without_command(const std::vector<std::string>& words, std::string_view command) {
+    if (words.empty()) {
+        throw UsageError("there is no command; it must be one of " + listed(commands) + "; see splinefeed --help");
+    }
+    const std::string& word = words.front();
+    if (word.size() > 1 && word.front() == '-') {
+        throw UsageError(fmt::format("{} stands before the command; write it behind: splinefeed {} {} ...",
+                                     in_quotes(word), command, word));
+    }
+    std::error_code ignored;
+    const std::size_t dot = word.rfind('.');
+    if (word == "-" || (dot != std::string::npos && format_of_suffix(word.substr(dot + 1)) != nullptr) ||
+        std::filesystem::exists(word, ignored)) {
+        throw UsageError(fmt::format("there is no command before {}; write splinefeed run {}", in_quotes(word), word));
+    }
+    throw UsageError(fmt::format("there is no command {}{}", in_quotes(word), suggestion(word, commands)));
 }
 
 void describe_commands(CLI::App& app, Job& job, Typed& typed) {
@@ -226,7 +264,6 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
 } // namespace
 
 std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) {
-    constexpr std::array<std::string_view, 7> commands{"run", "plan", "check", "curve", "surface", "drive", "link"};
     Job job;
     Typed typed;
     CLI::App app("splinefeed turns waypoints and G-code into smooth motion.", "splinefeed");
@@ -248,19 +285,11 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         throw UsageError(explained(error));
     }
     const auto chosen = app.get_subcommands();
-    if (chosen.empty()) {
-        const std::vector<std::string> words = app.remaining();
-        if (words.empty()) {
-            throw UsageError("there is no command; it must be one of " + listed(commands) + "; see splinefeed --help");
-        }
-        if (words.front().substr(0, 1) == "-") {
-            throw UsageError(fmt::format("there is no option {}; before a command there are --help and --version",
-                                         in_quotes(words.front())));
-        }
-        throw UsageError(
-            fmt::format("there is no command {}{}", in_quotes(words.front()), suggestion(words.front(), commands)));
+    if (const std::vector<std::string> words = app.remaining(); chosen.empty() || !words.empty()) {
+        refuse_without_command(words, chosen.empty() ? "run" : chosen.front()->get_name());
     }
     const CLI::App& command = *chosen.front();
+    refuse_short_names(command, {argv, static_cast<std::size_t>(argc)});
     refuse_extras(command, job);
     if (takes_no_input(command)) {
         job.command = command.get_name() == "drive" ? Command::drive : Command::link;

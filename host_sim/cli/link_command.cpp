@@ -42,7 +42,11 @@ int report_link(const LinkArguments& arguments) {
     const double seconds = measuring_time(arguments.seconds);
     const bool any_machine = arguments.machine.empty();
     const MachineDescription machine = any_machine ? default_machine() : read_machine_file(arguments.machine);
-    print_whole(kind.report(arguments.target, machine, any_machine, seconds), "the report");
+    const LinkReport report = kind.report(arguments.target, machine, any_machine, seconds);
+    print_whole(report.text, "the report");
+    if (!report.trouble.empty()) {
+        throw TargetError(report.trouble);
+    }
     return 0;
 }
 

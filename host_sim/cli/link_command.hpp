@@ -19,7 +19,7 @@ struct LinkArguments {
 void add_link_options(CLI::App& app, LinkArguments& arguments);
 
 /// Measures every drive of the target for the given time and prints the result with advice; nothing moves. Returns the
-/// exit status, 0. Throws UsageError, InputError, and TargetError if a drive cannot be used.
+/// exit status, 0. Throws UsageError, InputError, and TargetError if a drive cannot be used or is in fault.
 [[nodiscard]] int report_link(const LinkArguments& arguments);
 
 } // namespace splinefeed::host

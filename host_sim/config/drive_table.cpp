@@ -13,14 +13,6 @@ using namespace hal::modbus;
 
 namespace {
 
-TargetAddress address_of(const std::string& text) {
-    try {
-        return parse_target_address(text);
-    } catch (const AddressError& error) {
-        throw UsageError(fmt::format("--target {}: {}", in_quotes(text), error.what()));
-    }
-}
-
 void take_defaults(TargetAddress& address, const LinkSettings& link) {
     address.link.unit = address.states_unit ? address.link.unit : link.unit;
     address.link.baud = address.states_baud ? address.link.baud : link.baud;
@@ -32,17 +24,20 @@ void take_defaults(TargetAddress& address, const LinkSettings& link) {
     }
 }
 
+/// What is wrong with an address, without the place where it stands: drive_table() adds that.
+template <class... Values>
+[[noreturn]] void refuse(fmt::format_string<Values...> text, Values&&... values) {
+    throw AddressError(fmt::format(text, std::forward<Values>(values)...));
+}
+
 /// A drive on a serial line may stand behind a gateway; one with a socket of its own has no serial line.
 void check_wire(const TargetAddress& address, const DriveProfile& profile) {
     if (address.link.wire == Wire::rtu && !profile.link.rtu) {
-        throw UsageError(fmt::format("--target {}: the profile {} is of drives on tcp alone (`wires`); write "
-                                     "modbus-tcp://HOST:PORT",
-                                     in_quotes(address.text), profile.name));
+        refuse("the profile {} is of drives on tcp alone (`wires`); write modbus-tcp://HOST:PORT", profile.name);
     }
     if (!is_unit(address.link.wire, address.link.unit)) {
-        throw UsageError(fmt::format("--target {}: the profile {} has the unit {}, which a serial line does not; give "
-                                     "&unit= from 1 to {}",
-                                     in_quotes(address.text), profile.name, address.link.unit, most_unit));
+        refuse("the profile {} has the unit {}, which a serial line does not; give &unit= from 1 to {}", profile.name,
+               address.link.unit, most_unit);
     }
 }
 
@@ -53,14 +48,12 @@ void take_window(const TargetAddress& address, DriveProfile& profile) {
     }
     const RegisterField* const field = profile.field_of(FieldRole::following_error_window);
     if (profile.stream != StreamWay::pvt && (field == nullptr || !field->writable())) {
-        throw UsageError(fmt::format("--target {}: the profile {} has no register for following_window; set the window "
-                                     "in the drive, and leave the key out",
-                                     in_quotes(address.text), profile.name));
+        refuse(
+            "the profile {} has no register for following_window; set the window in the drive, and leave the key out",
+            profile.name);
     }
     if (profile.stream != StreamWay::pvt && *address.following_window_counts == 0) {
-        throw UsageError(fmt::format("--target {}: following_window=0, no window, is known of splinefeed-pvt alone; "
-                                     "give a number of counts",
-                                     in_quotes(address.text)));
+        refuse("following_window=0, no window, is known of splinefeed-pvt alone; give a number of counts");
     }
     profile.following_error_window_counts = address.following_window_counts;
 }
@@ -69,13 +62,11 @@ void take_window(const TargetAddress& address, DriveProfile& profile) {
 void check_ramp(const TargetAddress& address, const DriveProfile& profile) {
     const bool blocks = profile.stream == StreamWay::blocks;
     if (blocks && profile.field_of(FieldRole::profile_acceleration) == nullptr && !address.ramp_counts_s2) {
-        throw UsageError(fmt::format("--target {}: the profile {} has no register for ramps; say with &ramp= what the "
-                                     "drive's is set to, in counts/s^2",
-                                     in_quotes(address.text), profile.name));
+        refuse("the profile {} has no register for ramps; say with &ramp= what the drive's is set to, in counts/s^2",
+               profile.name);
     }
     if (!blocks && address.ramp_counts_s2) {
-        throw UsageError(fmt::format("--target {}: the profile {} needs no ramp; leave it out", in_quotes(address.text),
-                                     profile.name));
+        refuse("the profile {} needs no ramp; leave it out", profile.name);
     }
 }
 
@@ -87,43 +78,40 @@ public:
         const auto k = static_cast<unsigned>(machine_axis);
         DriveProfile profile = find_profile(address.profile);
         if (profile.stream == StreamWay::speed) {
-            throw UsageError(fmt::format("--target {}: the profile {} is of a spindle, not of an axis; name it in "
-                                         "[spindle] of the machine file",
-                                         in_quotes(address.text), profile.name));
+            refuse("the profile {} is of a spindle, not of an axis; name it in [spindle] of the machine file",
+                   profile.name);
         }
         complete_address(address, profile);
         take_window(address, profile);
         check_ramp(address, profile);
-        check_line(address, machine_.axis_name[k]);
+        check_line(address);
         DriveTable::Drive& drive = drive_at(address, profile);
         const auto place = static_cast<std::size_t>(address.axis);
         if (address.axis >= profile.axes) {
-            throw UsageError(
-                fmt::format("--target {}: axis {} of a drive with the profile {}, which has {}; each axis "
-                            "needs a drive of its own then, named in the machine file, with --target modbus",
-                            in_quotes(address.text), address.axis, profile.name,
-                            profile.axes == 1 ? "one" : fmt::format("{}", profile.axes)));
+            refuse("a drive with the profile {} has {}, and axis {} needs one more; name a drive for each axis in the "
+                   "machine file, and run with --target modbus",
+                   profile.name, profile.axes == 1 ? "one axis" : fmt::format("{} axes", profile.axes),
+                   machine_.axis_name[k]);
         }
         drive.machine_axis.resize(std::max(drive.machine_axis.size(), place + 1), -1);
         if (drive.machine_axis[place] >= 0) {
-            throw UsageError(fmt::format("--target modbus: the drive of axis {} is that of another axis, too; name "
-                                         "another address, unit or &axis= in the machine file",
-                                         machine_.axis_name[k]));
+            refuse("axis {} has the same drive; give this one another address, unit or &axis=",
+                   machine_.axis_name[static_cast<unsigned>(drive.machine_axis[place])]);
         }
         drive.machine_axis[place] = machine_axis;
     }
     [[nodiscard]] DriveTable take() && { return std::move(table_); }
 
 private:
-    void check_line(const TargetAddress& address, const std::string& axis) const {
+    void check_line(const TargetAddress& address) const {
         for (const DriveTable::Drive& drive : table_.drives) {
             const LinkAddress& link = drive.address.link;
             if (link.same_wire(address.link) && (link.baud != address.link.baud || link.parity != address.link.parity ||
                                                  link.stops() != address.link.stops())) {
-                throw UsageError(fmt::format("--target modbus: the drive of axis {} is on {} with another baud rate, "
-                                             "parity or number of stop bits than a drive before it; all on one line "
-                                             "have the same",
-                                             axis, address.link.host));
+                refuse("{} has another baud rate, parity or number of stop bits for a drive before it; all on one line "
+                       "have "
+                       "the same",
+                       address.link.host);
             }
         }
     }
@@ -131,10 +119,9 @@ private:
     DriveTable::Drive& drive_at(const TargetAddress& address, const DriveProfile& profile) {
         const bool interpolates = profile.stream == StreamWay::pvt;
         if (!table_.drives.empty() && table_.interpolate != interpolates) {
-            throw UsageError(
-                fmt::format("--target modbus: the drives of a run must all interpolate (splinefeed-pvt) or "
-                            "none of them; {} and {} do not go together",
-                            table_.drives.front().profile.name, profile.name));
+            refuse("the drives of a run must all interpolate (splinefeed-pvt) or none of them; {} and {} do not go "
+                   "together",
+                   table_.drives.front().profile.name, profile.name);
         }
         table_.interpolate = interpolates;
         const auto known =
@@ -144,7 +131,7 @@ private:
             check_same(*known, address, profile);
             return *known;
         }
-        table_.drives.push_back({address, profile, {}});
+        table_.drives.push_back({address, profile, {}, {}, {}, {}});
         return table_.drives.back();
     }
 
@@ -154,9 +141,8 @@ private:
         if (known.address.profile != address.profile || known.address.resample != address.resample ||
             (known.address.following_window_counts && address.following_window_counts &&
              window != profile.following_error_window_counts)) {
-            throw UsageError(fmt::format("--target modbus: {} and {} are one drive; give both the same profile, "
-                                         "resample and following_window",
-                                         in_quotes(known.address.text), in_quotes(address.text)));
+            refuse("{} and {} are one drive; give both the same profile, resample and following_window",
+                   in_quotes(known.address.text), in_quotes(address.text));
         }
         window = address.following_window_counts ? profile.following_error_window_counts : window;
     }
@@ -164,6 +150,23 @@ private:
     const MachineDescription& machine_;
     DriveTable table_;
 };
+
+// An address names a drive that a user typed; the others are found by their axes and lines.
+void name_drive(DriveTable::Drive& drive, bool of_file, const MachineDescription& machine) {
+    std::string axes;
+    std::uint64_t line = 0;
+    for (std::size_t i = 0; i < drive.machine_axis.size(); ++i) {
+        const auto k = static_cast<unsigned>(drive.machine_axis[i]);
+        const bool used = drive.machine_axis[i] >= 0;
+        drive.axis_names.push_back(used ? "axis " + machine.axis_name[k] : fmt::format("its axis {}", i));
+        if (used) {
+            axes += (axes.empty() ? "" : " and ") + machine.axis_name[k];
+            line = line == 0 ? machine.axis_line[k] : line;
+        }
+    }
+    drive.place = of_file && !machine.file.empty() ? fmt::format("{}:{}: ", machine.file, line) : "";
+    drive.name = of_file ? fmt::format("drive of {} ({})", axes, drive.address.text) : drive.address.text;
+}
 
 } // namespace
 
@@ -174,20 +177,40 @@ void complete_address(TargetAddress& address, const DriveProfile& profile) {
 
 DriveTable drive_table(const std::string& target, const MachineDescription& machine) {
     Builder builder(machine);
-    for (int k = 0; k < machine.settings.axes; ++k) {
-        const auto axis = static_cast<unsigned>(k);
-        if (target == "modbus" && machine.drive[axis].empty()) {
-            throw UsageError(fmt::format("--target modbus: axis {} has no drive; add drive = "
-                                         "\"modbus-tcp://HOST:PORT?unit=1\" to it in the machine file",
-                                         machine.axis_name[axis]));
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const bool of_file = target == "modbus";
+        if (of_file && machine.drive[k].empty()) {
+            if (machine.file.empty()) {
+                throw UsageError("--target modbus takes the drives from the machine file; name it with -m");
+            }
+            throw InputError(machine.file, machine.axis_line[k],
+                             fmt::format("axis {} has no drive; add drive = \"modbus-tcp://HOST:PORT?unit=1\" to it",
+                                         machine.axis_name[k]));
         }
-        TargetAddress address = address_of(target == "modbus" ? machine.drive[axis] : target);
-        if (target != "modbus") {
-            address.axis = k;
+        const auto refused = [&](const std::runtime_error& error) {
+            if (of_file) {
+                throw InputError(machine.file, machine.axis_line[k],
+                                 fmt::format("drive of axis {}: {}", machine.axis_name[k], error.what()));
+            }
+            throw UsageError(fmt::format("--target {}: {}", in_quotes(target), error.what()));
+        };
+        try {
+            TargetAddress address = parse_target_address(of_file ? machine.drive[k] : target);
+            if (!of_file) {
+                address.axis = static_cast<int>(k);
+            }
+            builder.add(std::move(address), static_cast<int>(k));
+        } catch (const AddressError& error) {
+            refused(error);
+        } catch (const UsageError& error) { // of a profile
+            refused(error);
         }
-        builder.add(std::move(address), k);
     }
-    return std::move(builder).take();
+    DriveTable table = std::move(builder).take();
+    for (DriveTable::Drive& drive : table.drives) {
+        name_drive(drive, target == "modbus", machine);
+    }
+    return table;
 }
 
 } // namespace splinefeed::host

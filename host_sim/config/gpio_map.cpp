@@ -25,7 +25,7 @@ constexpr double least_speed_mm_s = 0.001;
 class Reader {
 public:
     Reader(const std::string& file, const MachineDescription& machine, const std::string& chip)
-        : check_(file), machine_(machine), lines_(check_, chip, map_.chips) {
+        : check_(file, "docs/reference/gpio.md"), machine_(machine), lines_(check_, chip, map_.chips) {
         for (int k = 0; k < machine.settings.axes; ++k) {
             axis_names_.push_back(machine.axis_name[static_cast<std::size_t>(k)]);
         }
@@ -117,7 +117,8 @@ private:
             // Idle levels: no pulse, and downwards.
             const auto line = [&](std::string_view key, bool idle) {
                 const toml::node& node = check_.required(
-                    table, key, where, m == 0 ? "a line" : "a line, as the machine file says motors = 2");
+                    table, key, where,
+                    m == 0 ? GpioMapLines::what : std::string_view("a line, as the machine file says motors = 2"));
                 return lines_.output(node, fmt::format("{} of {}", key, where), idle);
             };
             lines.motor[m].step = line(keys[m][0], motors.invert_step);
@@ -129,7 +130,7 @@ private:
         check_.require_known(table, {"line", "active", "settle_ms"}, "[enable]");
         EnableLine enable;
         enable.active_level = level(table, "active", true);
-        enable.line = lines_.output(check_.required(table, "line", "[enable]", "a line"), "line of [enable]",
+        enable.line = lines_.output(check_.required(table, "line", "[enable]", GpioMapLines::what), "line of [enable]",
                                     !enable.active_level);
         check_.take(table, "settle_ms", {0, 60000}, enable.settle_ms);
         map_.enable = enable;
@@ -139,7 +140,7 @@ private:
         check_.require_known(table, {"line", "released", "release_ms", "engage_ms"}, "[brake]");
         BrakeLine brake;
         brake.released_level = level(table, "released", true);
-        brake.line = lines_.output(check_.required(table, "line", "[brake]", "a line"), "line of [brake]",
+        brake.line = lines_.output(check_.required(table, "line", "[brake]", GpioMapLines::what), "line of [brake]",
                                    !brake.released_level);
         check_.take(table, "release_ms", {0, 5000}, brake.release_ms);
         check_.take(table, "engage_ms", {0, 5000}, brake.engage_ms);
@@ -173,7 +174,7 @@ private:
         check_.take(table, "debounce_us", {0, 100000}, input.debounce_us);
         const toml::node* const bias = table.get("bias");
         input.line =
-            lines_.input(check_.required(table, "line", "[[input]]", "a line"),
+            lines_.input(check_.required(table, "line", "[[input]]", GpioMapLines::what),
                          fmt::format("line of the input {}", role_names[kind]),
                          bias != nullptr ? static_cast<Bias>(check_.choice(*bias, "bias", bias_names)) : Bias::as_is);
         for (const MappedInput& other : map_.inputs) {
@@ -243,12 +244,7 @@ private:
 
 LineMap parse_gpio_map(std::string_view text, const std::string& file, const MachineDescription& machine,
                        const std::string& chip) {
-    require_plain_toml(text, file);
-    try {
-        return Reader(file, machine, chip).map(toml::parse(text, file));
-    } catch (const toml::parse_error& error) {
-        throw InputError(file, error.source().begin.line, error.description());
-    }
+    return Reader(file, machine, chip).map(parse_toml(text, file));
 }
 
 LineMap read_gpio_map(const std::string& file, const MachineDescription& machine, const std::string& chip) {

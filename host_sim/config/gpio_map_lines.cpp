@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::size_t longest_name = 31;    // the kernel has 32 bytes, with a zero
 constexpr std::int64_t most_offset = 65535; // the largest chips have about a thousand
-constexpr std::string_view a_line =
-    "a line's name like \"X_STEP\", its offset like 4, or { offset = 4, name = \"X_STEP\" }";
 
 } // namespace
 
@@ -61,7 +59,7 @@ GpioMapLines::Wanted GpioMapLines::wanted_line(const toml::node& node, std::stri
     }
     const toml::table* const table = node.as_table();
     if (table == nullptr) {
-        check_.fail(node, fmt::format("{} must be {}", key, a_line));
+        check_.fail(node, fmt::format("{} must be {}", key, what));
     }
     check_.require_known(*table, {"chip", "offset", "name"}, key);
     if (const toml::node* given = table->get("chip")) {

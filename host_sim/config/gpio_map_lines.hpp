@@ -16,6 +16,10 @@ namespace splinefeed::host {
 /// Fills the list of chips of a LineMap, or of ProgramLines. Its members throw InputError, with the line of the error.
 class GpioMapLines {
 public:
+    /// What a line may be given as, for messages.
+    static constexpr std::string_view what =
+        "a line's name like \"X_STEP\", its offset like 4, or { offset = 4, name = \"X_STEP\" }";
+
     /// @param chip  chip of lines for which the file names none; empty: each has to name one
     GpioMapLines(const TomlChecker& check, std::string chip, std::vector<hal::gpio::ChipLines>& chips)
         : check_(check), default_chip_(std::move(chip)), chips_(chips) {}

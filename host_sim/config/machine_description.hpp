@@ -9,6 +9,7 @@
 #include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s5_pulse_train/step_timing.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -47,6 +48,12 @@ struct MachineDescription {
     /// 2 counts.
     PerAxis<std::optional<double>> standstill_window_mm{};
     PerAxis<std::string> drive{}; ///< address of the axis's drive, for --target modbus; empty: none
+    /// Line of `file`, for messages: where the axis's drive is named, else where the axis begins.
+    PerAxis<std::uint64_t> axis_line{};
+
+    [[nodiscard]] bool has_drives() const noexcept {
+        return std::any_of(drive.begin(), drive.end(), [](const std::string& address) { return !address.empty(); });
+    }
 };
 
 /// The window of standstill of an axis, at least 1 count: a position on the edge of two is reported as either. [counts]

@@ -9,6 +9,7 @@
 #include "host_sim/config/spindle_section.hpp"
 #include "host_sim/config/target_address.hpp"
 
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -21,6 +22,40 @@ namespace {
 constexpr std::string_view axis_letters = "xyzabc";
 constexpr double counter_limit = 2147483647.0;
 
+constexpr std::array<std::string_view, 12> machine_keys{"name",    "sample_period_us", "drives_at_end", "path",
+                                                        "step",    "spindle",          "lines",         "module",
+                                                        "coolant", "output",           "input",         "axis"};
+constexpr std::array<std::string_view, 7> step_keys{
+    "engine", "tick_us", "step_length_us", "step_space_us", "direction_setup_us", "direction_hold_us", "step_on_edge"};
+constexpr std::array<std::string_view, 16> axis_keys{"name",
+                                                     "kind",
+                                                     "travel_mm",
+                                                     "travel_end_zone_mm",
+                                                     "travel_end_velocity_mm_s",
+                                                     "max_velocity_mm_s",
+                                                     "max_acceleration_mm_s2",
+                                                     "max_braking_mm_s2",
+                                                     "max_jerk_mm_s3",
+                                                     "steps_per_mm",
+                                                     "invert",
+                                                     "motors",
+                                                     "invert_step",
+                                                     "invert_direction",
+                                                     "drive",
+                                                     "standstill_window_mm"};
+
+/// Those of [path]: its own, and those that other files state.
+std::vector<std::string_view> path_keys() {
+    std::vector<std::string_view> keys{"max_feed_mm_s", "jerk_plan"};
+    for (const SpeedLimit& limit : speed_limits) {
+        keys.insert(keys.end() - 1, limit.key);
+    }
+    for (const PathToleranceKey& tolerance : path_tolerance_keys) {
+        keys.emplace_back(tolerance.key);
+    }
+    return keys;
+}
+
 // As MotionLimits::make has them: here with the line of the file.
 constexpr NumberRange velocity_range{0.001, 10000.0, "mm/s"};
 constexpr NumberRange acceleration_range{0.1, 1e6, "mm/s^2"};
@@ -32,13 +67,15 @@ constexpr NumberRange standstill_range{1e-4, 10.0, "mm"};
 /// Reads one file.
 class MachineReader {
 public:
-    explicit MachineReader(const std::string& file) : file_(file), check_(file) {}
+    explicit MachineReader(const std::string& file)
+        : file_(file), path_keys_(path_keys()), check_(file, "docs/reference/files.md") {
+        check_.name_table({"[[axis]]", axis_keys});
+        check_.name_table({"[path]", path_keys_});
+        check_.name_table({"[step]", step_keys});
+    }
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
-        check_.require_known(root,
-                             {"name", "sample_period_us", "drives_at_end", "path", "step", "spindle", "lines", "module",
-                              "coolant", "output", "input", "axis"},
-                             "the machine file");
+        check_.require_known(root, machine_keys, "the machine file");
         MachineDescription machine;
         machine.file = file_;
         if (const toml::node* node = root.get("name")) {
@@ -78,8 +115,8 @@ private:
                                   std::string_view where) const {
         const toml::node* node = table.get(key);
         if (node == nullptr) {
-            check_.fail(table, fmt::format("{} has no {}; it must be a number between {} and {} {}", where, key,
-                                           range.low, range.high, range.unit));
+            check_.fail(table, fmt::format("{} has no {}; add a number between {} and {} {}", where, key, range.low,
+                                           range.high, range.unit));
         }
         return number(*node, key, range);
     }
@@ -90,14 +127,7 @@ private:
             check_.fail_file("there is no [path]; write [path] and below it max_feed_mm_s = 100");
         }
         const toml::table& table = check_.table(*node, "path");
-        std::vector<std::string_view> known{"max_feed_mm_s", "jerk_plan"};
-        for (const SpeedLimit& limit : speed_limits) {
-            known.insert(known.end() - 1, limit.key);
-        }
-        for (const PathToleranceKey& tolerance : path_tolerance_keys) {
-            known.emplace_back(tolerance.key);
-        }
-        check_.require_known(table, known, "[path]");
+        check_.require_known(table, path_keys_, "[path]");
         settings.max_feed_mm_s = required(table, "max_feed_mm_s", velocity_range, "[path]");
         for (const SpeedLimit& limit : speed_limits) {
             if (const toml::node* given = table.get(limit.key)) {
@@ -132,10 +162,7 @@ private:
             return;
         }
         const toml::table& table = check_.table(*node, "step");
-        check_.require_known(table,
-                             {"engine", "tick_us", "step_length_us", "step_space_us", "direction_setup_us",
-                              "direction_hold_us", "step_on_edge"},
-                             "[step]");
+        check_.require_known(table, step_keys, "[step]");
         const toml::node* engine = table.get("engine");
         const std::string kind = engine != nullptr ? check_.text(*engine, "engine") : "intervals";
         if (kind != "intervals" && kind != "fixed-rate") {
@@ -222,17 +249,15 @@ private:
     }
 
     void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
-        check_.require_known(table,
-                             {"name", "kind", "travel_mm", "travel_end_zone_mm", "travel_end_velocity_mm_s",
-                              "max_velocity_mm_s", "max_acceleration_mm_s2", "max_braking_mm_s2", "max_jerk_mm_s3",
-                              "steps_per_mm", "invert", "motors", "invert_step", "invert_direction", "drive",
-                              "standstill_window_mm"},
-                             "[[axis]]");
+        check_.require_known(table, axis_keys, "[[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
             check_.fail(table, "[[axis]] has no name; it must be one of x, y, z, a, b, c");
         }
-        const std::string letter = check_.text(*name, "name");
+        std::string letter = check_.text(*name, "name");
+        if (letter.size() == 1 && letter[0] >= 'A' && letter[0] <= 'Z') {
+            letter[0] = static_cast<char>(letter[0] - 'A' + 'a'); // as in the header of waypoints
+        }
         if (letter.size() != 1 || axis_letters.find(letter) == std::string_view::npos) {
             check_.fail(*name, fmt::format("axis name {}; it must be one of x, y, z, a, b, c", in_quotes(letter)));
         }
@@ -243,6 +268,7 @@ private:
         }
         const std::string where = fmt::format("axis {}", letter);
         machine.axis_name[k] = letter;
+        machine.axis_line[k] = table.source().begin.line;
         AxisSettings& axis = machine.settings.axis[k];
         if (const toml::node* kind = table.get("kind")) {
             axis.rotary = is_rotary(*kind);
@@ -274,6 +300,7 @@ private:
         }
         if (const toml::node* drive = table.get("drive")) {
             machine.drive[k] = check_.text(*drive, "drive");
+            machine.axis_line[k] = drive->source().begin.line;
             try {
                 static_cast<void>(parse_target_address(machine.drive[k]));
             } catch (const AddressError& error) {
@@ -335,6 +362,7 @@ private:
     }
 
     const std::string& file_;
+    std::vector<std::string_view> path_keys_;
     TomlChecker check_;
 };
 
@@ -349,12 +377,7 @@ double standstill_window_counts(const MachineDescription& machine, unsigned axis
 }
 
 MachineDescription parse_machine(std::string_view text, const std::string& file) {
-    require_plain_toml(text, file);
-    try {
-        return MachineReader(file).machine(toml::parse(text, file));
-    } catch (const toml::parse_error& error) {
-        throw InputError(file, error.source().begin.line, error.description());
-    }
+    return MachineReader(file).machine(parse_toml(text, file));
 }
 
 MachineDescription read_machine_file(const std::string& path) {

@@ -100,7 +100,7 @@ void require_complete(const TomlChecker& check, const DriveProfile& profile) {
 }
 
 DriveProfile profile_of(const toml::table& root, const std::string& file) {
-    const TomlChecker check(file);
+    const TomlChecker check(file, "docs/reference/profiles.md");
     check.require_known(root,
                         {"name", "drive", "sources", "not_verified", "stream", "axes", "states", "link", "field",
                          "group", "state", "command", "motion", "watchdog", "init", "identity"},
@@ -137,12 +137,7 @@ DriveProfile profile_of(const toml::table& root, const std::string& file) {
 } // namespace
 
 DriveProfile parse_profile(std::string_view text, const std::string& file) {
-    require_plain_toml(text, file);
-    try {
-        return profile_of(toml::parse(text, file), file);
-    } catch (const toml::parse_error& error) {
-        throw InputError(file, error.source().begin.line, error.description());
-    }
+    return profile_of(parse_toml(text, file), file);
 }
 
 DriveProfile read_profile_file(const std::string& path) {

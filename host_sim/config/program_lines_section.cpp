@@ -26,8 +26,8 @@ SwitchedLine switched_line(const TomlChecker& check, GpioMapLines& lines, const 
                            const std::string& where, bool safe_on) {
     SwitchedLine switched;
     switched.on_level = choice_of(check, table, "active", line_levels, 1) == 1;
-    switched.line =
-        lines.output(check.required(table, "line", where, "a line"), "line of " + where, safe_on == switched.on_level);
+    switched.line = lines.output(check.required(table, "line", where, GpioMapLines::what), "line of " + where,
+                                 safe_on == switched.on_level);
     return switched;
 }
 
@@ -85,7 +85,7 @@ SensedLine sensed_line(const TomlChecker& check, GpioMapLines& lines, const toml
                        const std::string& where) {
     SensedLine sensed;
     sensed.active_level = choice_of(check, table, "active", line_levels, 1) == 1;
-    sensed.line = lines.input(check.required(table, "line", where, "a line"), "line of " + where,
+    sensed.line = lines.input(check.required(table, "line", where, GpioMapLines::what), "line of " + where,
                               static_cast<hal::gpio::Bias>(choice_of(check, table, "bias", line_biases, 0)));
     return sensed;
 }

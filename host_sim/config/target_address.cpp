@@ -10,6 +10,7 @@
 
 #include "splinefeed/base/capacity.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
 
@@ -89,6 +90,9 @@ void take_key(TargetAddress& address, std::string_view key, std::string_view val
         address.link.stop_bits = whole_number(key, value, 1, 2);
     } else {
         const std::size_t known = line ? serial.size() : serial.size() - serial_only;
+        if (std::find(serial.begin(), serial.end(), key) != serial.end()) {
+            throw AddressError(fmt::format("{} is of serial lines; leave it out", key));
+        }
         throw AddressError(fmt::format("unknown key {}{}", in_quotes(key), suggestion(key, {serial.data(), known})));
     }
 }

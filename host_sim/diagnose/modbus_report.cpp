@@ -11,6 +11,7 @@
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace splinefeed::host {
@@ -28,6 +29,35 @@ struct Measured {
     hal::TimeHistogram round_trips;
     std::uint64_t lost = 0;
 };
+
+constexpr std::array<std::string_view, 7> pvt_states{"disabled", "enabled, it stands", "running", "stopping",
+                                                     "held",     "in fault",           "homing"};
+constexpr std::array<std::string_view, drive_states> profile_states{"unknown: it matches none of its profile's states",
+                                                                    "not ready",
+                                                                    "disabled",
+                                                                    "enabled, it stands",
+                                                                    "moving",
+                                                                    "homing",
+                                                                    "halted",
+                                                                    "in a quick stop",
+                                                                    "in fault"};
+
+/// A drive in fault, and the way out.
+std::string fault_trouble(const DriveTable::Drive& drive, const std::string& fault) {
+    return fmt::format("{}{}: it is in fault, {}; mend the cause, then run with --reset", drive.place, drive.name,
+                       fault);
+}
+
+/// Where an axis of a drive stands. @param in_mm  the user named the machine
+std::string standing(const DriveTable::Drive& drive, std::size_t axis, double counts, const MachineDescription& machine,
+                     bool in_mm) {
+    const int machine_axis = axis < drive.machine_axis.size() ? drive.machine_axis[axis] : -1;
+    const auto k = static_cast<unsigned>(std::max(machine_axis, 0));
+    const std::string name = axis < drive.axis_names.size() ? drive.axis_names[axis] : fmt::format("its axis {}", axis);
+    const double mm = (machine.inverted[k] ? -counts : counts) / machine.settings.axis[k].steps_per_mm;
+    return machine_axis < 0 || !in_mm ? fmt::format("  {}: at {:.0f} counts\n", name, counts)
+                                      : fmt::format("  {}: at {:.4f} mm, {:.0f} counts\n", name, mm, counts);
+}
 
 template <class Port>
 void measure(Port& port, double seconds, std::vector<Measured>& drives) {
@@ -66,6 +96,25 @@ std::string advice_on_losses(std::size_t drive, const Measured& measured, const 
                        drive + 1, 100.0 * static_cast<double>(measured.lost) / all,
                        link.wire == Wire::rtu ? "termination, shielding, and whether another master is on the line"
                                               : "the network's load and cables");
+}
+
+std::string fault_text(const PvtStatus& status, const DriveTable::Drive& drive) {
+    const std::size_t axis = status.fault_axis;
+    return fmt::format("code {} on {}: {}", status.fault,
+                       axis < drive.axis_names.size() ? drive.axis_names[axis] : fmt::format("its axis {}", axis),
+                       fault_name(status.fault));
+}
+
+std::string state_of(const DriveReport& report, const DriveTable::Drive& drive, const MachineDescription& machine,
+                     bool in_mm) {
+    const auto state = static_cast<std::size_t>(report.status.state);
+    std::string text = state < pvt_states.size() ? fmt::format("  state: {}", pvt_states[state])
+                                                 : fmt::format("  state: {}, which the map does not have", state);
+    text += report.status.fault != 0 ? ", " + fault_text(report.status, drive) + "\n" : ", no fault\n";
+    for (std::size_t k = 0; k < static_cast<std::size_t>(report.identity.axes); ++k) {
+        text += standing(drive, k, report.status.position[k], machine, in_mm);
+    }
+    return text;
 }
 
 std::string about(const ModbusPort& port, std::size_t drive, const Measured& measured) {
@@ -107,34 +156,52 @@ std::string advice(const ModbusPort& port, const std::vector<Measured>& drives, 
     return text;
 }
 
-std::string pvt_report(const DriveTable& table, const MachineDescription& machine, double seconds) {
+LinkReport pvt_report(const DriveTable& table, const MachineDescription& machine, bool in_mm, double seconds) {
     ModbusPort port(pvt_wiring(table, machine), {});
     if (const auto failure = port.open()) {
         throw TargetError(drive_sentence(table, port, *failure));
     }
     std::vector<Measured> drives(port.drives());
     measure(port, seconds, drives);
-    std::string text;
+    LinkReport out;
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        text += fmt::format("drive {}: {}\n", i + 1, table.drives[i].address.text) + about(port, i, drives[i]);
+        const DriveTable::Drive& drive = table.drives[i];
+        const DriveReport report = port.report(i);
+        out.text += fmt::format("drive {}: {}\n", i + 1, drive.address.text) + state_of(report, drive, machine, in_mm) +
+                    about(port, i, drives[i]);
+        if (report.status.state == PvtState::fault && out.trouble.empty()) {
+            out.trouble = fault_trouble(drive, fault_text(report.status, drive));
+        }
     }
-    return text + "what that means:\n" + advice(port, drives, port.least_segment_us(), machine);
+    out.text += "what that means:\n" + advice(port, drives, port.least_segment_us(), machine);
+    return out;
 }
 
 /// Of drives that follow target positions.
-std::string target_report(const DriveTable& table, const MachineDescription& machine, double seconds) {
+LinkReport target_report(const DriveTable& table, const MachineDescription& machine, bool in_mm, double seconds) {
     SetpointPort port(target_wiring(table, machine), {});
     if (const std::string what = port.open(); !what.empty()) {
-        throw TargetError(fmt::format("{}: {}", table.drives[port.trouble_with()].address.text, what));
+        const DriveTable::Drive& drive = table.drives[port.trouble_with()];
+        throw TargetError(fmt::format("{}{}: {}", drive.place, drive.name, what));
     }
     std::vector<Measured> drives(port.drives());
     measure(port, seconds, drives);
-    std::string text;
+    LinkReport out;
+    std::string& text = out.text;
     std::string advice;
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        const DriveProfile& profile = table.drives[i].profile;
-        text += fmt::format("drive {}: {}\n  {}: {}; it says what its profile expects\n  it stands at {:.0f} counts\n",
-                            i + 1, table.drives[i].address.text, profile.name, profile.drive, port.standing_counts(i));
+        const DriveTable::Drive& drive = table.drives[i];
+        const DriveProfile& profile = drive.profile;
+        const DriveReading& reading = port.reading(i);
+        const bool faulty = reading.state == DriveState::fault;
+        const std::string fault = fmt::format("code {}; see its manual", reading.fault_code);
+        text += fmt::format("drive {}: {}\n  {}: {}; it says what its profile expects\n  state: {}{}\n", i + 1,
+                            drive.address.text, profile.name, profile.drive,
+                            profile_states[static_cast<std::size_t>(reading.state)], faulty ? ", " + fault : "");
+        text += standing(drive, 0, static_cast<double>(reading.position_q16) / (1 << physical_bits), machine, in_mm);
+        if (faulty && out.trouble.empty()) {
+            out.trouble = fault_trouble(drive, fault);
+        }
         text += trips(drives[i], port.counts(i));
         advice += advice_on_losses(i, drives[i], table.drives[i].address.link);
     }
@@ -146,18 +213,20 @@ std::string target_report(const DriveTable& table, const MachineDescription& mac
                               machine.axis_name[axis],
                               1e3 * port.deviation_bound_counts(i) / machine.settings.axis[axis].steps_per_mm);
     }
-    return text + "what that means:\n" + advice;
+    text += "what that means:\n" + advice;
+    return out;
 }
 
 } // namespace
 
-std::string modbus_report(const std::string& target, MachineDescription machine, bool any_axes, double seconds) {
+LinkReport modbus_report(const std::string& target, MachineDescription machine, bool any_axes, double seconds) {
     if (any_axes && target != "modbus") {
         const DriveProfile profile = find_profile(parse_target_address(target).profile);
         machine.settings.axes = std::min(machine.settings.axes, profile.axes);
     }
     const DriveTable table = drive_table(target, machine);
-    return table.interpolate ? pvt_report(table, machine, seconds) : target_report(table, machine, seconds);
+    return table.interpolate ? pvt_report(table, machine, !any_axes, seconds)
+                             : target_report(table, machine, !any_axes, seconds);
 }
 
 } // namespace splinefeed::host

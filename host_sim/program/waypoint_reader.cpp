@@ -226,8 +226,8 @@ void WaypointReader::read_header(std::string_view line) {
                                  in_quotes(field)));
             }
             const std::string_view near = nearest_name(name, known);
-            fail(fmt::format("unknown column {}{}; a waypoint file has {}", in_quotes(field),
-                             near.empty() ? "" : fmt::format(", did you mean '{}'?", near), listed(known)));
+            fail(fmt::format("unknown column {}; a waypoint file has {}{}", in_quotes(field), listed(known),
+                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
         }
         if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) {
             fail(fmt::format("there are two columns {}; name each once", column_name(column)));
@@ -255,8 +255,9 @@ void WaypointReader::assume_columns(std::string_view line) {
             fail(fmt::format("{} is no waypoint; write the coordinates with commas between them, like 10,5,0",
                              in_quotes(line)));
         }
-        fail(fmt::format("there are {} columns and no header; without one there must be {} to {}: {}", count, fewest,
-                         most, fmt::join(axes_, ",")));
+        fail(fewest == most ? fmt::format("there are {} columns, and the machine has one axis: {}", count, axes_[0])
+                            : fmt::format("there are {} columns and no header; without one there must be {} to {}: {}",
+                                          count, fewest, most, fmt::join(axes_, ",")));
     }
     for (std::size_t i = 0; i < count; ++i) {
         const int column = axis_index(all_axes.substr(i, 1));
@@ -296,7 +297,9 @@ void WaypointReader::parse(std::string_view line, WaypointRow& row) const {
         parse_field(field, column, row);
     }
     if (more) {
-        fail(fmt::format("values: {}; there must be {}, one for each column", count_fields(line), columns_.size()));
+        const std::size_t count = count_fields(line);
+        fail(fmt::format("the row has {} value{}; there must be {}, one for each column", count, count == 1 ? "" : "s",
+                         columns_.size()));
     }
 }
 

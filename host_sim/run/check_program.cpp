@@ -5,6 +5,7 @@
 #include "host_sim/base/standard_output.hpp"
 #include "host_sim/output/program_report_text.hpp"
 #include "host_sim/planning/move_sources.hpp"
+#include "host_sim/run/machine_limits.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include <fmt/format.h>
@@ -74,10 +75,7 @@ private:
 template <Scalar S>
 int check_with(const RunArguments& arguments) {
     const RunMachine of(arguments.machine, *arguments.path.format);
-    const auto limits = MotionLimits<S>::make(of.machine.settings);
-    if (!limits.has_value()) {
-        throw InputError(of.machine.file, 0, describe(limits.error()));
-    }
+    const MotionLimits<S> limits = machine_limits<S>(of.machine);
     PathInput input(arguments.path, PathUse::executed, of.axes, of.tolerances);
     if (input.gcode() == nullptr) {
         throw UsageError("check takes a program in G-code; for other inputs: splinefeed plan");
@@ -102,7 +100,7 @@ int check_with(const RunArguments& arguments) {
     motion_arguments.report = &report;
     const PathLimits path_limits(of.machine);
     Outputs outputs(arguments.outputs, input.curve_name(), false, of.machine);
-    Motion<S> motion(motion_arguments, of.machine, *limits, input, path_limits, outputs);
+    Motion<S> motion(motion_arguments, of.machine, limits, input, path_limits, outputs);
     const std::string stopped = motion.run(std::nullopt);
     print_whole(text(report, of.machine,
                      stopped.empty() ? std::vector<std::string>{} : std::vector<std::string>{stopped},

@@ -9,6 +9,7 @@
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
+#include "host_sim/run/machine_limits.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/path_tee.hpp"
 #include "host_sim/run/run_machine.hpp"
@@ -109,29 +110,29 @@ void print(const Summary& summary, SummaryKind kind) {
 /// The limits with segments that the lines carry: those of the machine file, or longer ones. Then nothing is lost but
 /// smoothness in space, which the summary states.
 template <Scalar S>
-Result<MotionLimits<S>> fitted(MachineDescription& machine, const RunTarget& target, bool quiet) {
+MotionLimits<S> fitted(MachineDescription& machine, const RunTarget& target, bool quiet) {
     constexpr int longest_us = 100'000;
     constexpr int step_us = 50;
     const int asked_us = machine.settings.sample_period_us;
     const std::string lowered = target.fit(machine);
-    auto limits = MotionLimits<S>::make(machine.settings);
+    MotionLimits<S> limits = machine_limits<S>(machine);
     for (const std::string& note : {lowered, target.note()}) {
         if (!note.empty() && !quiet) {
             tell("splinefeed: note: {}\n", printable(note));
         }
     }
-    if (!limits.has_value() || limits->segment_ticks >= target.least_segment_us() * ticks_per_us) {
+    if (limits.segment_ticks >= target.least_segment_us() * ticks_per_us) {
         return limits;
     }
     const int period_us = step_us * static_cast<int>(std::ceil(target.least_segment_us() / step_us));
     if (!target.resamples() || period_us > longest_us) {
         throw UsageError(fmt::format("the drives' lines carry a segment every {:.2f} ms at most often, and the machine "
                                      "file asks for one every {:.2f} ms; raise sample_period_us, or take a faster line",
-                                     target.least_segment_us() * 1e-3, limits->segment_ticks * 1e-3 / ticks_per_us));
+                                     target.least_segment_us() * 1e-3, limits.segment_ticks * 1e-3 / ticks_per_us));
     }
     machine.settings.sample_period_us = std::max(period_us, asked_us);
     machine.settings.segments_per_sample = 1;
-    limits = MotionLimits<S>::make(machine.settings);
+    limits = machine_limits<S>(machine);
     if (!quiet) {
         tell("splinefeed: note: the drives' lines carry a segment every {:.2f} ms at most often: segments and "
              "samples are {:.2f} ms long, not {:.2f} ms; what that smoothes the path is in the summary\n",
@@ -149,10 +150,7 @@ int move_machine(const RunArguments& arguments) {
     }
     RunMachine of(arguments.machine, *arguments.path.format);
     MachineDescription& machine = of.machine;
-    auto limits = MotionLimits<S>::make(machine.settings);
-    if (!limits.has_value()) {
-        throw InputError(machine.file, 0, describe(limits.error()));
-    }
+    MotionLimits<S> limits = machine_limits<S>(machine);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
     input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
     input.use_outputs(machine.spindle, machine.lines);
@@ -173,7 +171,7 @@ int move_machine(const RunArguments& arguments) {
     if (signals) {
         target.reset(target_kind(arguments.target).make(arguments.target, machine, arguments.options).release());
         limits = fitted<S>(machine, *target, arguments.motion.quiet);
-        target->check(machine, limits->segment_ticks / static_cast<double>(ticks_per_us));
+        target->check(machine, limits.segment_ticks / static_cast<double>(ticks_per_us));
         program_outputs.reset(input.gcode() != nullptr ? make_outputs(machine, arguments.target).release() : nullptr);
     }
     if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing
@@ -183,7 +181,11 @@ int move_machine(const RunArguments& arguments) {
         supervision.emplace(*target, *signals, program_outputs.get(), motion_arguments.state);
     }
     Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed, machine, input.gcode() != nullptr);
-    Motion<S> motion(motion_arguments, machine, *limits, input, path_limits, outputs,
+    if (arguments.target == "sim" && arguments.motion.enforce && !arguments.motion.quiet && machine.has_drives()) {
+        tell("splinefeed: note: this is a simulation; to move the drives of {}, add --target modbus\n",
+             printable(machine.file));
+    }
+    Motion<S> motion(motion_arguments, machine, limits, input, path_limits, outputs,
                      supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();

@@ -18,8 +18,8 @@ std::unique_ptr<RunTarget> make(const std::string& target, const MachineDescript
     return make_gpio_target(parse_gpio_address(target), machine, options);
 }
 
-std::string report(const std::string& target, const MachineDescription& machine, bool /*any_machine*/, double seconds) {
-    return gpio_report(parse_gpio_address(target), machine, seconds);
+LinkReport report(const std::string& target, const MachineDescription& machine, bool /*any_machine*/, double seconds) {
+    return {gpio_report(parse_gpio_address(target), machine, seconds), {}};
 }
 
 } // namespace

@@ -32,7 +32,7 @@ std::unique_ptr<RunTarget> make_modbus_target(const std::string& target, const M
     return std::make_unique<SetpointTarget>(std::move(table), machine, options.home);
 }
 
-std::string report(const std::string& target, const MachineDescription& machine, bool any_machine, double seconds) {
+LinkReport report(const std::string& target, const MachineDescription& machine, bool any_machine, double seconds) {
     return modbus_report(target, machine, any_machine, seconds);
 }
 

@@ -23,8 +23,8 @@ std::unique_ptr<RunTarget> make(const std::string& /*target*/, const MachineDesc
     refuse();
 }
 
-std::string report(const std::string& /*target*/, const MachineDescription& /*machine*/, bool /*any_machine*/,
-                   double /*seconds*/) {
+LinkReport report(const std::string& /*target*/, const MachineDescription& /*machine*/, bool /*any_machine*/,
+                  double /*seconds*/) {
     refuse();
 }
 

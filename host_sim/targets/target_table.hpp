@@ -4,6 +4,7 @@
 #pragma once
 
 #include "host_sim/config/machine_description.hpp"
+#include "host_sim/diagnose/link_report.hpp"
 #include "host_sim/target/run_target.hpp"
 
 #include <memory>
@@ -22,9 +23,9 @@ struct TargetKind {
     /// Connects to the drives. `machine` must outlive the target. Throws UsageError, InputError, TargetError.
     std::unique_ptr<RunTarget> (*make)(const std::string& target, const MachineDescription& machine,
                                        const RunOptions& options);
-    /// The text that `splinefeed link` prints. @param any_machine  the user named no machine. Throws like make().
-    std::string (*report)(const std::string& target, const MachineDescription& machine, bool any_machine,
-                          double seconds);
+    /// What `splinefeed link` says. @param any_machine  the user named no machine. Throws like make().
+    LinkReport (*report)(const std::string& target, const MachineDescription& machine, bool any_machine,
+                         double seconds);
 };
 
 /// What --help says of all kinds.

@@ -75,34 +75,3 @@ TEST_CASE("A tolerance goes with polylines") {
         CHECK(refusal(arguments).find("--tolerance") == 0);
     }
 }
-
-TEST_CASE("A wrong curve option is refused in one line") {
-    const auto g2 = [](auto set) {
-        CurveArguments arguments;
-        set(arguments);
-        return refusal(arguments);
-    };
-    using A = CurveArguments;
-    const auto contains = [](const std::string& text, const char* part) {
-        return text.find(part) != std::string::npos;
-    };
-    CHECK(contains(g2([](A& a) { a.method = "spline"; }), "g2, g2-bezier, catmull-rom"));
-    CHECK(contains(g2([](A& a) { a.method = "bezier"; }), "curve file"));
-    CHECK(contains(g2([](A& a) { a.tension = "1"; }), "--curve g2 has no option --tension"));
-    CHECK(contains(g2([](A& a) { a.method = "polyline", a.corner_angle = "1"; }), "has no option"));
-    CHECK(contains(g2([](A& a) { a.method = "polyline", a.parameterization = "uniform"; }), "has no option"));
-    CHECK(contains(g2([](A& a) { a.method = "catmull-rom", a.end_tangent = "1,0"; }), "has no option"));
-    CHECK(contains(g2([](A& a) { a.method = "catmull-rom", a.tension = "-1"; }), "between 0 and 10"));
-    CHECK(contains(g2([](A& a) { a.method = "catmull-rom", a.tension = "x"; }), "not a number"));
-    CHECK(contains(g2([](A& a) { a.parameterization = "chord"; }), "uniform, chordal, centripetal"));
-    CHECK(contains(g2([](A& a) { a.corner_angle = "181"; }), "between 0 and 180"));
-    CHECK(contains(g2([](A& a) { a.corner_angle = "nan"; }), "not finite"));
-    CHECK(contains(g2([](A& a) { a.start_tangent = "0,0"; }), "no direction"));
-    CHECK(contains(g2([](A& a) { a.start_tangent = "1,"; }), "not a number"));
-    CHECK(contains(g2([](A& a) { a.start_tangent = "1,101"; }), "between -100 and 100"));
-    CHECK(contains(g2([](A& a) { a.start_tangent = "1,1,1,1,1,1,1"; }), "more than 6"));
-    CHECK(contains(g2([](A& a) { a.end_tangent = "1,0", a.closed = true; }), "exclude"));
-    CHECK(contains(g2([](A& a) { a.method = "ferguson", a.lambda = "0.06"; }), "between 0.0625 and 16"));
-    CHECK(contains(g2([](A& a) { a.method = "ferguson", a.lambda = "16.1"; }), "between 0.0625 and 16"));
-    CHECK(contains(g2([](A& a) { a.method = "ferguson", a.mu = "65537"; }), "between -65536 and 65536"));
-}

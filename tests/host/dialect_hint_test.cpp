@@ -17,6 +17,13 @@ TEST_CASE("A word of another dialect is told with the dialect that has it") {
     CHECK(dialect_hint("$X", Error::character_invalid, Dialect::linuxcnc).find("--dialect grbl") < 60);
 }
 
+TEST_CASE("A decimal comma and prose are told as such") {
+    CHECK(dialect_hint(",5 F600", Error::character_invalid, Dialect::linuxcnc) == "a number has a point, not a comma");
+    CHECK(dialect_hint(", 5", Error::character_invalid, Dialect::linuxcnc).empty());
+    CHECK(dialect_hint("ello world", Error::function_unknown, Dialect::grbl).find("the letter before it") == 0);
+    CHECK(dialect_hint("SINE [1]", Error::function_unknown, Dialect::linuxcnc).empty());
+}
+
 TEST_CASE("What no dialect has gets no hint") {
     for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl, Dialect::marlin}) {
         CHECK(dialect_hint("M123", Error::user_code_unsupported, dialect).empty());

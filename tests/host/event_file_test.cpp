@@ -17,10 +17,6 @@ std::vector<OperatorEvent> read(const std::string& text) {
     return read_event_file(file);
 }
 
-std::string refusal(const std::string& text) {
-    return splinefeed_test::refusal_of([&] { static_cast<void>(read(text)); });
-}
-
 } // namespace
 
 TEST_CASE("events in order of time", "[host][events]") {
@@ -31,15 +27,4 @@ TEST_CASE("events in order of time", "[host][events]") {
     CHECK(events[2].value == 0.25);
     CHECK(events[3].operation == Operation::abort);
     CHECK(read("").empty());
-}
-
-TEST_CASE("bad events are told with their line", "[host][events]") {
-    const std::string at = std::string(file) + ":2: ";
-    CHECK(refusal("1,hold\n0.5,resume\n").find(at + "0.5 s is before") == 0);
-    CHECK(refusal("1,hold\n2,resmue\n") == at + "there is no event 'resmue'; did you mean 'resume'?");
-    for (const char* row : {"2", "x,hold", "-1,hold", "2,override", "2,override,2.01", "2,override,-0.1",
-                            "2,override,nan", "2,hold,1", "2,override,1,1", "1e9,hold"}) {
-        CAPTURE(row);
-        CHECK(refusal(std::string("1,hold\n") + row + "\n").find(at) == 0);
-    }
 }

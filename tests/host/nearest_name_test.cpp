@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 
 #include <array>
+#include <vector>
 
 using namespace splinefeed::host;
 
@@ -20,6 +21,20 @@ TEST_CASE("The nearest name is the one with the fewest edits") {
     CHECK(nearest_name(std::string(1000, 'f'), known).empty());
     CHECK(suggestion("colour", known) == "; known are x, feed, corner, max_feed_mm_s");
     CHECK(suggestion("corners", known) == "; did you mean 'corner'?");
+}
+
+TEST_CASE("A name from another program is near to what means the same, if one alone does") {
+    constexpr std::array<std::string_view, 4> known{"max_velocity_mm_s", "max_acceleration_mm_s2", "vfd-delta",
+                                                    "vfd-yl620"};
+    for (const char* name : {"max_velocity", "velocity", "speed", "seek", "vel", "MaxSpeed_mm_min"}) {
+        CAPTURE(name);
+        CHECK(meant_name(name, known) == (name[0] == 'M' ? "" : "max_velocity_mm_s"));
+    }
+    CHECK(meant_name("max_accel", known) == "max_acceleration_mm_s2");
+    CHECK(meant_name("max_mm_s", known).empty());
+    CHECK(meant_name("vfd", known).empty());
+    const std::vector<std::string_view> many(13, "name");
+    CHECK(suggestion("colour", many, "docs/page.md") == "; docs/page.md lists what is known");
 }
 
 TEST_CASE("A message stays on one line of the terminal") {

@@ -2,7 +2,6 @@
 #include "host_sim/config/program_lines_section.hpp"
 
 #include "host_sim/config/machine_file.hpp"
-#include "refusal.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::host;
@@ -16,10 +15,6 @@ std::string with(const std::string& lines) {
 
 ProgramLines lines_of(const std::string& lines) {
     return parse_machine(with(lines), "m.toml").lines;
-}
-
-std::string refusal(const std::string& lines) {
-    return splinefeed_test::refusal_of([&] { static_cast<void>(lines_of(lines)); });
 }
 
 } // namespace
@@ -49,26 +44,6 @@ TEST_CASE("Lines of coolant and outputs are grouped by chip, with the levels at 
     CHECK(lines.output(1) == nullptr);
 }
 
-TEST_CASE("What is wrong with a line of the machine file is said with its line") {
-    CHECK(refusal("[coolant]\nmist = { line = 'MIST' }") ==
-          "m.toml:4: line of [coolant.mist] names no chip; write it as { chip = \"/dev/gpiochip0\", name = ... }, or "
-          "name "
-          "the chip of all lines, chip = \"/dev/gpiochip0\" in [lines]");
-    CHECK(refusal("[lines]\nchip = 'gpiochip0'") ==
-          "m.toml:4: chip is 'gpiochip0'; it must be its whole path, like \"/dev/gpiochip1\"");
-    CHECK(refusal("[coolant]\nfloood = { line = 1 }") ==
-          "m.toml:4: unknown key 'floood' in [coolant]; did you mean 'flood'?");
-    const std::string chip = "[lines]\nchip = '/dev/gpiochip0'\n";
-    CHECK(refusal(chip + "[coolant]\nmist = { line = 1 }\nflood = { line = 1 }")
-              .rfind("m.toml:7: line of [coolant.flood] is line 1", 0) == 0);
-    CHECK(refusal(chip + "[[output]]\nnumber = 64\nline = 1").rfind("m.toml:6: number", 0) == 0);
-    CHECK(refusal(chip + "[[output]]\nnumber = 1\nline = 1\n[[output]]\nnumber = 1\nline = 2") ==
-          "m.toml:9: this is the second output 1; give each a number of its own");
-    CHECK_FALSE(refusal(chip + "[[output]]\nline = 1").empty());
-    CHECK_FALSE(refusal(chip + "[[output]]\nnumber = 1").empty());
-    CHECK_FALSE(refusal(chip + "[[output]]\nnumber = 1\nline = 1\nsafe = 'off '").empty());
-}
-
 TEST_CASE("Coils and inputs are bits of the modules that the machine file names") {
     const ProgramLines lines =
         lines_of("[[module]]\nname = 'io'\naddress = 'modbus-tcp://10.0.0.7?unit=3'\nresponse_timeout_ms = 40\n"
@@ -94,34 +69,4 @@ TEST_CASE("Coils and inputs are bits of the modules that the machine file names"
     const SensedBit coil = std::get<SensedBit>(lines.input(1)->line);
     CHECK((coil.table == BitTable::coils && coil.active_level));
     CHECK(lines.input(2) == nullptr);
-}
-
-TEST_CASE("What is wrong with a module, or a bit of one, is said with its line") {
-    const std::string io = "[[module]]\nname = 'io'\naddress = 'modbus-tcp://10.0.0.7'\n"; // lines 3 to 5
-    CHECK(refusal("[[output]]\nnumber = 1\nmodule = 'io'\ncoil = 0") ==
-          "m.toml:5: output 1 names module 'io', and there is no [[module]] with name = \"io\"; add it");
-    CHECK(refusal(io + "[[output]]\nnumber = 1\nmodule = 'io'\ncoil = 0\nline = 4")
-              .find("output 1 names a line and a module; leave one out") != std::string::npos);
-    CHECK(refusal(io + "[[output]]\nnumber = 1\nmodule = 'io'\ncoil = 65536").rfind("m.toml:9: coil", 0) == 0);
-    CHECK_FALSE(refusal(io + "[[output]]\nnumber = 1\nmodule = 'io'").empty());
-    CHECK_FALSE(refusal(io + "[[output]]\nnumber = 1\ncoil = 2").empty());
-    CHECK(
-        refusal(io +
-                "[coolant]\nmist = { module = 'io', coil = 3 }\n[[output]]\nnumber = 1\nmodule = 'io'\ncoil = 3") ==
-        "m.toml:11: output 1 is coil 3 of module 'io', which is [coolant.mist] already; each needs a coil of its own");
-    CHECK(refusal(io + "[[input]]\nnumber = 1\nmodule = 'io'\ncoil = 3\ninput = 3")
-              .find("input 1 names an input and a coil; leave one out") != std::string::npos);
-    CHECK(refusal(io +
-                  "[[input]]\nnumber = 1\nmodule = 'io'\ninput = 3\n[[input]]\nnumber = 1\nmodule = 'io'\ninput = 4") ==
-          "m.toml:11: this is the second input 1; give each a number of its own");
-    CHECK(refusal(io + "[[input]]\nnumber = 64\nmodule = 'io'\ninput = 3").rfind("m.toml:7: number", 0) == 0);
-    CHECK(refusal(io + io).find("this is the second module 'io'; give each a name of its own") != std::string::npos);
-    CHECK(refusal(io + "[[module]]\nname = 'b'\naddress = 'modbus-tcp://10.0.0.7'")
-              .find("module 'b' has the address of module 'io'") != std::string::npos);
-    CHECK(refusal("[[module]]\nname = 'a'\naddress = 'modbus-rtu:///dev/ttyS1?unit=1'\n"
-                  "[[module]]\nname = 'b'\naddress = 'modbus-rtu:///dev/ttyS1?unit=2&baud=9600'")
-              .find("with another baud, parity or stop") != std::string::npos);
-    CHECK(refusal("[[module]]\nname = 'a'\naddress = 'tcp://10.0.0.7'").rfind("m.toml:5: address: ", 0) == 0);
-    CHECK_FALSE(refusal("[[module]]\naddress = 'modbus-tcp://10.0.0.7'").empty());
-    CHECK_FALSE(refusal(io + "response_timeout_ms = 5").empty());
 }

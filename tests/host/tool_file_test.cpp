@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/tool_file.hpp"
 
-#include "refusal.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 
@@ -16,10 +15,6 @@ public:
     explicit Table(const std::string& text) { std::ofstream(path_) << text; }
 
     [[nodiscard]] ToolRows rows() const { return read_tool_file(path_); }
-    /// Without the name of the file.
-    [[nodiscard]] std::string refusal() const {
-        return refusal_of<InputError>([&] { static_cast<void>(rows()); }).substr(path_.size());
-    }
 
 private:
     TemporaryFolder folder_;
@@ -43,15 +38,4 @@ TEST_CASE("A table of tools is read as LinuxCNC writes it") {
     CHECK(found.offset[0] == Decimal{-500'000'000});
     CHECK(found.offset[2] == Decimal{10'000'000'000});
     CHECK_FALSE(tools.find(2, found));
-}
-
-TEST_CASE("What is no tool is refused with its line") {
-    CHECK(Table("T1 Z1\nP2 Z3\n").refusal() == ":2: there is no T; a line is like T1 P1 Z12.5 D6 ;remark");
-    CHECK(Table("T1.5\n").refusal() == ":1: T1.5 is no tool; its number is 0 to 99999");
-    CHECK(Table("T-1\n").refusal() == ":1: T-1 is no tool; its number is 0 to 99999");
-    CHECK(Table("T1 Z\n").refusal() == ":1: a number of at most 1000000 must follow Z");
-    CHECK(Table("T1 Z1e300\n").refusal() == ":1: 'E' is no letter of a tool; a line is like T1 P1 Z12.5 D6 ;remark");
-    CHECK(Table("T1 Z1\nT2\nT1 Z2\n").refusal() == ":3: tool 1 stands in the file twice; leave one of its lines out");
-    CHECK(Table("T1 Z9999999\n").refusal() == ":1: a number of at most 1000000 must follow Z");
-    CHECK_THROWS_AS(read_tool_file("/nowhere/tool.tbl"), InputError);
 }

@@ -30,10 +30,6 @@ std::string refusal(const std::string& text, const std::vector<std::string>& axe
     return splinefeed_test::refusal_of([&] { static_cast<void>(read(text, axes)); });
 }
 
-bool starts_with(const std::string& text, const std::string& start) {
-    return text.compare(0, start.size(), start) == 0;
-}
-
 /// Delivers one character at a time, as a slow pipe does, and counts them.
 class Drip final : public std::streambuf {
 public:
@@ -131,63 +127,11 @@ TEST_CASE("A row is there as soon as its line has ended") {
     CHECK_FALSE(reader.next(row));
 }
 
-TEST_CASE("Every malformed waypoint file is refused in one line that names the place") {
-    const std::string long_line(5000, '1');
-    struct Case {
-        std::string text;
-        std::string start;
-        std::string part;
-    };
-    const std::vector<Case> cases{
-        {"", "w.csv: ", "no waypoint"},
-        {"# nothing\n\n", "w.csv: ", "no waypoint"},
-        {"x,y\n", "w.csv: ", "no waypoint"},
-        {"1,2\n", "w.csv:1: ", "single waypoint"},
-        {"1,2\n3\n", "w.csv:2: ", "values: 1; there must be 2"},
-        {"1,2\n3,4,5\n", "w.csv:2: ", "values: 3; there must be 2"},
-        {"1,2\n3,\n", "w.csv:2: ", "y is empty"},
-        {"1\n2\n", "w.csv:1: ", "2 to 3"},
-        {"1 2 3\n4 5 6\n", "w.csv:1: ", "commas"},
-        {"1;2\n", "w.csv:1: ", "commas"},
-        {"1,2,3,4\n", "w.csv:1: ", "4 columns and no header"},
-        {"1,2\n3,4x\n", "w.csv:2: ", "'4x' is not a number"},
-        {"1,2\n3,0x10\n", "w.csv:2: ", "not a number"},
-        {"1,2\n3,+-4\n", "w.csv:2: ", "not a number"},
-        {"1,2\n3,1e\n", "w.csv:2: ", "not a number"},
-        {"1,2\nnan,1\n", "w.csv:2: ", "not finite"},
-        {"nan,1\n", "w.csv:1: ", "not finite"},
-        {"1,2\n3,-inf\n", "w.csv:2: ", "not finite"},
-        {"1,2\n3,1e999\n", "w.csv:2: ", "out of the range"},
-        {"1,2\n1048577,2\n", "w.csv:2: ", "+-1048576"},
-        {"1,2\n1,70000\n", "w.csv:2: ", "65536"},
-        {"x,y,q\n1,2,3\n", "w.csv:1: ", "unknown column 'q'"},
-        {"x,y,fed\n1,2,3\n", "w.csv:1: ", "did you mean 'feed'"},
-        {"x,y,a\n1,2,3\n", "w.csv:1: ", "no such axis"},
-        {"x,y,X\n1,2,3\n", "w.csv:1: ", "two columns x"},
-        {"x,,y\n1,2,3\n", "w.csv:1: ", "unknown column ''"},
-        {"feed\n1\n", "w.csv:1: ", "no column of an axis"},
-        {"x,y,feed\n1,2,0\n", "w.csv:2: ", "feed '0' is out of range"},
-        {"x,y,feed\n1,2,-1\n", "w.csv:2: ", "between 0.001 and 10000"},
-        {"x,y,feed\n1,2,10001\n", "w.csv:2: ", "between 0.001 and 10000"},
-        {"x,y,max_feed\n1,2,0\n",
-         "w.csv:2: ", "max_feed '0' is out of range; it must lie between 0.001 and 10000 mm/s"},
-        {"x,y,max_feed\n1,2,fast\n", "w.csv:2: ", "max_feed 'fast'"},
-        {"x,y,maxfeed\n1,2,3\n", "w.csv:1: ", "did you mean 'max_feed'"},
-        {"x,y,corner\n1,2,2\n", "w.csv:2: ", "corner is '2'"},
-        {"x,y,corner\n1,2,yes\n", "w.csv:2: ", "corner is 'yes'"},
-        {"x,y\n1,2\nx,y\n3,4\n", "w.csv:3: ", "only the first row"},
-        {"1,2\n" + long_line + "\n", "w.csv:2: ", "longer than 4096"},
-        {"1,2\n#" + long_line, "w.csv:2: ", "longer than 4096"},
-        {std::string("1,2\n3,\0004\n", 9), "w.csv:2: ", "NUL"},
-        {"1,2\n3,4\033[31m\n", "w.csv:2: ", "\\x1b"},
-    };
-    for (const Case& c : cases) {
-        const std::string told = refusal(c.text);
-        CAPTURE(c.text, told);
-        CHECK(starts_with(told, c.start));
-        CHECK(told.find(c.part) != std::string::npos);
-        CHECK(told.find('\n') == std::string::npos);
-    }
+TEST_CASE("Lines that are too long, and bytes that are no text, are refused with their line") {
+    CHECK(refusal("1,2\n" + std::string(5000, '1') + "\n").find("w.csv:2: ") == 0);
+    CHECK(refusal("1,2\n#" + std::string(5000, '1')).find("longer than 4096") != std::string::npos);
+    CHECK(refusal(std::string("1,2\n3,\0004\n", 9)).find("NUL") != std::string::npos);
+    CHECK(refusal("1,2\n3,4\033[31m\n").find("\\x1b") != std::string::npos);
     CHECK(refusal("1,2,3\n", {"x", "y", "a"}).find("no axis z") != std::string::npos);
 }
 

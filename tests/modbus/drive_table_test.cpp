@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/config/drive_table.hpp"
 
-#include "host_sim/base/input_error.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed::host;
@@ -12,6 +11,7 @@ using Axes = std::vector<int>;
 
 MachineDescription machine(const std::vector<std::string>& drives) {
     MachineDescription out;
+    out.file = "m.toml";
     out.settings.axes = static_cast<int>(drives.size());
     constexpr const char* names[] = {"x", "y", "z", "a", "b", "c"};
     for (std::size_t k = 0; k < drives.size(); ++k) {
@@ -19,22 +19,6 @@ MachineDescription machine(const std::vector<std::string>& drives) {
         out.drive[k] = drives[k];
     }
     return out;
-}
-
-std::string refusal(const std::string& target, const std::vector<std::string>& drives) {
-    try {
-        static_cast<void>(drive_table(target, machine(drives)));
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "it was taken";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    INFO(text);
-    CHECK(text.find(part) != std::string::npos);
-    CHECK(text.find('\n') == std::string::npos);
-    return text.find(part) != std::string::npos;
 }
 
 } // namespace
@@ -67,31 +51,13 @@ TEST_CASE("Drive table: an axis of a drive that no axis of the machine has is no
     CHECK(table.drives[0].machine_axis == Axes{1, -1, 0});
 }
 
-TEST_CASE("Drive table: what is missing or twofold is told with the name of the axis") {
-    CHECK(contains(refusal("modbus", {"modbus-tcp://a", "", "modbus-tcp://b"}), "axis y has no drive; add drive ="));
-    CHECK(contains(refusal("modbus", {"modbus-tcp://a", "modbus-tcp://b", "modbus-tcp://a"}),
-                   "the drive of axis z is that of another axis, too; name another address, unit or &axis="));
-    CHECK(contains(refusal("modbus", {"modbus-tcp://a?axis=1", "modbus-tcp://a?axis=1"}), "the drive of axis y"));
-    CHECK(contains(refusal("modbus", {"modbus-rtu:///dev/x?unit=1", "modbus-rtu:///dev/x?unit=2&baud=9600"}),
-                   "the drive of axis y is on /dev/x with another baud rate, parity or number of stop bits"));
-    CHECK(contains(refusal("modbus", {"modbus-rtu:///dev/x?unit=1", "modbus-rtu:///dev/x?unit=2&stop=2"}),
-                   "another baud rate, parity or number of stop bits"));
+TEST_CASE("Drive table: what goes together") {
     CHECK(drive_table("modbus", machine({"modbus-rtu:///dev/x?unit=1", "modbus-rtu:///dev/x?unit=2"})).drives.size() ==
           2);
-    CHECK(contains(refusal("modbus", {"modbus-tpc://a"}), "write modbus-tcp://HOST:PORT"));
-    CHECK(contains(refusal("modbus-tcp://a?unit=300", {""}), "unit is '300'"));
-    CHECK(contains(refusal("modbus-tcp://a?profile=kinco", {""}), "there is no profile 'kinco'"));
-    CHECK(contains(refusal("modbus", {"modbus-tcp://a", "modbus-tcp://b?profile=leadshine-pr"}),
-                   "splinefeed-pvt and leadshine-pr do not go together"));
-    CHECK(contains(refusal("modbus-tcp://a?profile=leadshine-pr", {"", ""}), "each axis needs a drive of its own"));
-    CHECK(contains(refusal("modbus-tcp://a?profile=lexium32m", {""}), "say with &ramp= what the drive's is set to"));
-    CHECK(contains(refusal("modbus-tcp://a?profile=cia402-index&ramp=1e6", {""}), "needs no ramp; leave it out"));
     CHECK(drive_table("modbus-tcp://a?profile=leadshine-pr&ramp=1e6", machine({""})).drives.size() == 1);
 }
 
-TEST_CASE("Drive table: a wire that a profile's drives do not have is refused; one on rtu may be behind a gateway") {
-    CHECK(contains(refusal("modbus-rtu:///dev/x?profile=lexium32m&ramp=1e6", {""}),
-                   "the profile lexium32m is of drives on tcp alone"));
+TEST_CASE("Drive table: a drive on rtu may be behind a gateway") {
     CHECK(drive_table("modbus-tcp://gateway?profile=leadshine-pr", machine({""})).drives.size() == 1);
 }
 
@@ -115,14 +81,9 @@ TEST_CASE("Drive table: the window of the following error is the drive's own unl
     CHECK_FALSE(window("modbus-tcp://a").has_value());
     CHECK(window("modbus-tcp://a?following_window=0") == 0);
     CHECK(window("modbus-tcp://a?following_window=500") == 500);
-    CHECK(contains(refusal("modbus-tcp://a?profile=leadshine-pr&following_window=5", {""}),
-                   "has no register for following_window"));
     const DriveTable shared =
         drive_table("modbus", machine({"modbus-tcp://a?axis=0", "modbus-tcp://a?axis=1&following_window=7"}));
     CHECK(shared.drives[0].profile.following_error_window_counts == 7);
-    CHECK(contains(
-        refusal("modbus", {"modbus-tcp://a?axis=0&following_window=8", "modbus-tcp://a?axis=1&following_window=7"}),
-        "are one drive; give both the same profile"));
 }
 
 TEST_CASE("Drive table: what an address leaves open is as the profile has it") {

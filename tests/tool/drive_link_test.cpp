@@ -38,36 +38,6 @@ void check_refusal(const Call& call, int status, const std::string& told) {
 
 } // namespace
 
-TEST_CASE("link and --target: bad usage is one line, exit status 2") {
-    const Tool tool;
-    tool.write("line.csv", line);
-    tool.write("two.toml", "[path]\nmax_feed_mm_s = 100\n"
-                           "[[axis]]\nname = 'x'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n"
-                           "drive = 'modbus-tcp://127.0.0.1:1'\n"
-                           "[[axis]]\nname = 'y'\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n");
-    for (const auto& [arguments, told] : std::vector<std::pair<std::string, std::string>>{
-             {"link", "name the drives with --target"},
-             {"link --target sim", "there is nothing to test"},
-             {"link --target modbus", "axis x has no drive"},
-             {"link --target modbus -m two.toml", "axis y has no drive"},
-             {"link --target modbus -m none.toml", "none.toml"},
-             {"link --target modbus-tcp://h?untt=1", "did you mean 'unit'?"},
-             {"link --target modbus-tcp://h --seconds 0", "a number from 0.1 to 3600"},
-             {"link --target modbus-tcp://h --secs 1", "has no option '--secs'"},
-             {"link --target modbus-tcp://h more", "'more'"},
-             {"run line.csv --target gpio", "there is no such target"},
-             {"run line.csv --target modbus-udp://h", "write modbus-tcp://HOST:PORT"},
-             {"run line.csv --target modbus-tcp://h:0", "from 1 to 65535"},
-             {"run line.csv --target 'modbus-rtu:///dev/x?baud=100'", "must be"},
-             {"run line.csv --target modbus-tcp://h?profile=other", "profile"},
-             {"run line.csv --target modbus", "axis x has no drive"},
-         }) {
-        CAPTURE(arguments);
-        check_refusal(tool(arguments), 2, told);
-    }
-    CHECK(tool.holds_only("line.csv two.toml"));
-}
-
 TEST_CASE("link and --target: a drive that cannot be used is one line, exit status 1, and nothing is written") {
     const Tool tool;
     tool.write("line.csv", line);
@@ -93,7 +63,8 @@ TEST_CASE("link: who answers, how fast, and what that means") {
     CHECK(call.error.empty());
     for (const char* part :
          {"drive 1: modbus-tcp://127.0.0.1:", "splinefeed-pvt version 1, 3 axes, ring of 100 segments",
-          "word order: high word first", "round trip of a status read: half below", "lost: 0 of ",
+          "word order: high word first", "state: disabled, no fault\n  axis x: at 0 counts\n",
+          "round trip of a status read: half below", "lost: 0 of ",
           "clock against ours:", "what that means:", "the machine file asks for 1.00 ms"}) {
         CAPTURE(part);
         CHECK(contains(call.output, part));
@@ -103,6 +74,27 @@ TEST_CASE("link: who answers, how fast, and what that means") {
     CAPTURE(lost.output);
     CHECK(lost.status == 0);
     CHECK(contains(lost.output, "% of the requests were lost"));
+}
+
+TEST_CASE("link: a drive in fault is told with its code, its axis and the way out, exit status 1") {
+    const Tool tool;
+    tool.write("line.csv", "0,0\n2,0\n");
+    const DriveProcess drive(tool, "--listen tcp://127.0.0.1:0 --axes 2 --max-velocity 32000,1000");
+    const auto axis = [&](const std::string& name, int place) {
+        return "[[axis]]\nname = '" + name + "'\nmax_velocity_mm_s = 50\nmax_acceleration_mm_s2 = 1000\n" +
+               "steps_per_mm = 320\ndrive = '" + address(drive) + "?axis=" + std::to_string(place) + "'\n";
+    };
+    tool.write("m.toml", "[path]\nmax_feed_mm_s = 50\n" + axis("x", 1) + axis("y", 0));
+    const std::string fault = "code 3 on axis x: a limit of velocity, acceleration or travel";
+    const Call run = tool("run line.csv -m m.toml --target modbus --quiet");
+    CAPTURE(run.error);
+    CHECK(run.status == 1);
+    CHECK(contains(run.error, "m.toml:14: drive of y and x (" + address(drive) + "?axis=1): it is in fault, " + fault));
+    const Call call = tool("link --seconds 0.2 -m m.toml --target modbus");
+    CAPTURE(call.output, call.error);
+    CHECK(call.status == 1);
+    CHECK(contains(call.output, "  state: in fault, " + fault + "\n  axis y: at "));
+    CHECK(contains(call.error, "it is in fault, " + fault + "; mend the cause, then run with --reset\n"));
 }
 
 TEST_CASE("run: a line on two drives, and what their shafts did") {

@@ -141,25 +141,6 @@ TEST_CASE("Boehm's method by both its names; a cusp is told") {
         CHECK(contains(call.output, "\"curve\": \"bspline\""));
         CHECK(contains(call.output, "C2+singular"));
     }
-    const auto refused = [&](const std::string& input, const std::string& what) {
-        tool.write("bad.json", "{\"method\": \"boehm\", \"input\": {" + input + "}}");
-        const Call call = tool("curve bad.json");
-        CAPTURE(input, call.error);
-        CHECK(call.status == 2);
-        CHECK(lines(call.error) == 1);
-        CHECK(contains(call.error, "bad.json"));
-        CHECK(contains(call.error, what));
-    };
-    refused("\"degree\": 4, \"vertices\": [[0], [1], [2], [3], [4]]",
-            "\"degree\" is 4; it must be a whole number from 2 to 3");
-    refused("\"degree\": 3, \"vertices\": [[0], [1], [2]]", "at least 4 points");
-    refused("\"degree\": 2, \"vertices\": [[0], [1]]", "at least 3 points");
-    refused("\"degree\": 3, \"closed\": true, \"vertices\": [[0, 0], [1, 1]]", "at least 3 points");
-    refused("\"degree\": 3, \"closed\": true, \"vertices\": [[0, 0], [1, 1], [0, 0]]", "2 different points");
-    refused("\"degree\": 3, \"vertices\": [[0, 0], [1, 1], [0], [3, 3]]", "point 3 has 1 numbers");
-    refused("\"degree\": 3, \"vertices\": [[0, 0], [1, \"nan\"], [0, 1], [3, 3]]", "point 2");
-    refused("\"degree\": 3, \"vertices\": []", "at least 4 points");
-    refused("\"degree\": 3", "\"vertices\" is missing");
 }
 
 TEST_CASE("What curve prints can be run") {
@@ -189,67 +170,6 @@ TEST_CASE("Help and version are answers") {
         CHECK(contains(call.output, "splinefeed"));
     }
     CHECK(contains(tool("run --help").output, "Example"));
-}
-
-TEST_CASE("Every wrong command line gets one line and status 2, and nothing is written") {
-    const Tool tool;
-    tool.write("p.csv", square);
-    tool.write("c.json", R"({"segments": [{"control_points": [[0, 0], [10, 5]]}]})");
-    struct Case {
-        std::string arguments;
-        std::string part;
-    };
-    const std::vector<Case> cases{
-        {"", "run, plan, check, curve"},
-        {"rnu p.csv", "did you mean 'run'"},
-        {"--quite", "--help"},
-        {"run", "no input"},
-        {"run ''", "no name"},
-        {"run p.csv q.csv", "one word too many"},
-        {"run p.csv --tarce t.csv", "did you mean '--trace'"},
-        {"run p.csv -q", "no option '-q'"},
-        {"run p.csv --trace", "needs a value"},
-        {"run p.csv --trace ''", "needs the name"},
-        {"run p.csv --trace a --trace b", "once"},
-        {"run p.csv --trace - --segments -", "both go to standard output"},
-        {"run p.csv --trace a --curve-out a", "both go to 'a'"},
-        {"run p.csv --trace - --summary json", "both go to standard output"},
-        {"run p.csv --summary yaml", "text, json"},
-        {"run p.csv --scalar half", "fixed, float, double"},
-        {"run p.csv --format ngc", "csv, json, gcode"},
-        {"run p.xyz", ".csv or .json or .gcode"},
-        {"run p", ".csv or .json"},
-        {"run p.csv --target gpio:///dev/gpiochip0", "map=lines.toml"},
-        {"run p.csv --target gpioo://x", "available are sim"},
-        {"run p.csv --probe", "name yours with --target"},
-        {"plan p.csv --target sim", "no option"},
-        {"run p.csv --window 9", "10 to 1000000"},
-        {"run p.csv --window many", "10 to 1000000"},
-        {"run p.csv --curve spline", "g2, g2-bezier, catmull-rom"},
-        {"run p.csv --tension 1", "no option --tension"},
-        {"run p.csv --closed=2", "no value"},
-        {"run p.csv --start-tangent 1,0,0,0", "axes"},
-        {"run c.json --curve g2", "leave the option out"},
-        {"run p.csv -m nothing.toml", "nothing.toml: cannot be opened"},
-        {"run p.csv -m p.csv", "p.csv:1: "},
-        {"run nothing.csv", "nothing.csv: cannot be opened"},
-        {"run . --format csv", "cannot be read"},
-        {"run p.csv --trace nowhere/t.csv", "nowhere/t.csv"},
-        {"curve p.csv --trace t.csv", "no option"},
-        {"drvie", "did you mean 'drive'"},
-        {"drive --axes 7", "it must lie between 1 and 6"},
-        {"link", "there is nothing to test"},
-        {"run p.csv --target modbus-tcp://h?unit=0", "from 1 to 247, or 255"},
-    };
-    for (const Case& c : cases) {
-        const Call call = tool(c.arguments);
-        CAPTURE(c.arguments, call.error);
-        CHECK(call.status == 2);
-        CHECK(call.output.empty());
-        CHECK(lines(call.error) == 1);
-        CHECK(contains(call.error, c.part));
-        CHECK(tool.holds_only("p.csv c.json"));
-    }
 }
 
 TEST_CASE("Bad input gets one line and status 2, and nothing is written") {

@@ -9,7 +9,8 @@ on PATH. A block fails if a command in it does. A comment on the line before a b
     <!-- exit status N -->     its one command ends with N
     <!-- output -->            (before ```text) what the block before printed; ... stands for any text, also of several lines
 
-The ports 1502 to 1505 of a page become free ones. A block that starts a drive is over when the drive answers."""
+The ports 1502 to 1505 of a page become free ones. A block that starts a drive ends with `sleep N`, since whoever pastes a page goes on at
+once; here it is over when the drive answers, too. A page for users names the tool where ./run puts it, build/tool."""
 import concurrent.futures
 import os
 import pathlib
@@ -68,6 +69,19 @@ def blocks_of(text):
     return found
 
 
+def pasted(page, text, blocks):
+    """What goes wrong where a user pastes the page: a drive that does not listen yet, a tool that ./run puts elsewhere."""
+    for block in blocks:
+        if block.language == "sh" and "--listen" in block.text and "&\n" in block.text and not re.search(r"^ *(sleep|until) ", block.text, re.MULTILINE):
+            yield f"{page}:{block.line}: the next block comes before the drive listens; end this one with `sleep 1`"
+    for_users = page == "README.md" or page.startswith(("docs/tutorial", "docs/how-to"))
+    for number, line in enumerate(text.split("\n"), 1):
+        if re.search(r"cmake --install build\b(?!/)", line):
+            yield f"{page}:{number}: ./run builds in build/tool"
+        if for_users and re.search(r"build/release/bin/splinefeed", line) and "cmake --preset release" not in text:
+            yield f"{page}:{number}: ./run puts the tool into build/tool/bin"
+
+
 def scratch(folder, build):
     """A folder like the repository's root, with the tool where ./run and the preset release put it."""
     for entry in ROOT.iterdir():
@@ -75,9 +89,9 @@ def scratch(folder, build):
             shutil.copytree(entry, folder / entry.name)
         elif entry.name not in ("build", ".git"):
             (folder / entry.name).symlink_to(entry)
+    (folder / "build").mkdir()
     for name in ("release", "tool"):
-        (folder / "build" / name).mkdir(parents=True)
-        (folder / "build" / name / "bin").symlink_to(build / "bin")
+        (folder / "build" / name).symlink_to(build)
 
 
 def free_ports(count):
@@ -128,10 +142,13 @@ def pattern_of(shown, ports):
 
 def run(page, build):
     """(complaints, blocks that ran, reasons of those that did not)"""
+    text = (ROOT / page).read_text()
     try:
-        blocks = blocks_of((ROOT / page).read_text())
+        blocks = blocks_of(text)
     except ValueError as problem:
         return [f"{page}: {problem}"], 0, []
+    if problems := list(pasted(page, text, blocks)):
+        return problems, 0, []
     shell = [b for b in blocks if b.language == "sh"]
     reasons = [b.not_run for b in shell if b.not_run]
     if len(reasons) == len(shell):

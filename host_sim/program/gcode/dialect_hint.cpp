@@ -20,6 +20,12 @@ bool is_printer_word(std::string_view text) {
     return info.group == CodeGroup::printer && info.refusal == Error::none;
 }
 
+/// Whether text begins like a call of a function: a name and a bracket.
+bool is_call(std::string_view text) {
+    const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ \t");
+    return end != std::string_view::npos && text[end] == '[';
+}
+
 } // namespace
 
 std::string_view dialect_hint(std::string_view text, Error error, Dialect dialect) {
@@ -34,7 +40,12 @@ std::string_view dialect_hint(std::string_view text, Error error, Dialect dialec
         return dialect != Dialect::marlin && first == 'e'
                    ? "E is the filament of a printer; --dialect marlin has it, and --ignore E leaves it out"
                    : "";
+    case Error::function_unknown:
+        return is_call(text) ? "" : "the letter before it has no number; a word is a letter and a number, like X10";
     case Error::character_invalid:
+        if (first == ',' && text.size() > 1 && text[1] >= '0' && text[1] <= '9') {
+            return "a number has a point, not a comma";
+        }
         if (first == '$' && dialect != Dialect::grbl) {
             return "$ begins a command of grbl; --dialect grbl has $H";
         }

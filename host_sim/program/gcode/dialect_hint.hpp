@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// dialect_hint: a word that another dialect has.
+// dialect_hint: what a line means that is not as the dialect has it.
 #pragma once
 
 #include "splinefeed/base/status.hpp"
@@ -9,7 +9,8 @@
 
 namespace splinefeed::host {
 
-/// What would be right where a line was refused because it is another control's. Empty: describe(error) says it.
+/// What would be right where a line was refused because it is another control's, has a decimal comma, or is no G-code.
+/// Empty: describe(error) says it.
 /// @param text  of the line, from what is wrong on
 [[nodiscard]] std::string_view dialect_hint(std::string_view text, Error error, Dialect dialect);
 

@@ -27,7 +27,7 @@ protected:
     [[nodiscard]] std::vector<StoppedDrive> stopped() const {
         std::vector<StoppedDrive> drives;
         for (std::size_t i = 0; i < port_.drives(); ++i) {
-            drives.push_back({table_.drives[i].address.text, port_.stop_report(i)});
+            drives.push_back({table_.drives[i].name, port_.stop_report(i)});
         }
         return drives;
     }

@@ -75,9 +75,12 @@ bool PvtTarget::resamples() const noexcept {
 
 std::string drive_sentence(const DriveTable& table, const ModbusPort& port, const DriveFailure& failure) {
     const DriveReport report = port.report(failure.drive);
-    std::string text = fmt::format("{}: {}", table.drives[failure.drive].address.text, describe(failure.problem));
+    const DriveTable::Drive& drive = table.drives[failure.drive];
+    std::string text = fmt::format("{}{}: {}", drive.place, drive.name, describe(failure.problem));
     if (failure.problem == DriveProblem::fault) {
-        text += fmt::format(", code {} on its axis {}: {}", report.status.fault, report.status.fault_axis,
+        const std::size_t axis = report.status.fault_axis;
+        text += fmt::format(", code {} on {}: {}", report.status.fault,
+                            axis < drive.axis_names.size() ? drive.axis_names[axis] : fmt::format("its axis {}", axis),
                             fault_name(report.status.fault));
     } else if (failure.problem == DriveProblem::unknown_state || failure.problem == DriveProblem::not_standing) {
         text += fmt::format("; its state is {}", static_cast<unsigned>(report.status.state));

@@ -139,7 +139,8 @@ std::size_t SetpointTarget::axis_of(std::size_t drive) const noexcept {
 }
 
 std::string SetpointTarget::sentence(const std::string& trouble) const {
-    return fmt::format("{}: {}", table_.drives[port_.trouble_with()].address.text, trouble);
+    const DriveTable::Drive& drive = table_.drives[port_.trouble_with()];
+    return fmt::format("{}{}: {}", drive.place, drive.name, trouble);
 }
 
 std::string SetpointTarget::note() const {
