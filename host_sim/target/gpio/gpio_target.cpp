@@ -25,7 +25,6 @@ constexpr int calls = 500;            // to measure one by
 constexpr double share_of_time = 0.5; // that calls may take
 constexpr std::uint32_t ns_per_us = 1000;
 constexpr double most_reserve_ms = 50.0; // of a slow-down that takes twice as long: a hold waits for what is buffered
-constexpr std::uint32_t supply_ms = 30;  // that the planner may be late
 
 /// Half of the longest time in which an axis brakes from the speed that it may have.
 std::uint32_t reserve_ms(const MachineDescription& machine) {
