@@ -58,10 +58,10 @@ const TargetKind& target_kind(const std::string& target) {
         names += kind->names;
     }
     const std::string meant = meant_target(target);
-    throw UsageError(meant.empty()
-                         ? fmt::format("--target {}: there is no such target; available are {}", in_quotes(target), names)
-                         : fmt::format("--target {}: it does not say what is there; did you mean {}?", in_quotes(target),
-                                       meant));
+    throw UsageError(
+        meant.empty()
+            ? fmt::format("--target {}: there is no such target; available are {}", in_quotes(target), names)
+            : fmt::format("--target {}: it does not say what is there; did you mean {}?", in_quotes(target), meant));
 }
 
 void check_target(const std::string& target) {
