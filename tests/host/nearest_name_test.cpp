@@ -34,7 +34,7 @@ TEST_CASE("A name from another program is near to what means the same, if one al
     CHECK(meant_name("max_mm_s", known).empty());
     CHECK(meant_name("vfd", known).empty());
     const std::vector<std::string_view> many(13, "name");
-    CHECK(suggestion("colour", many, "docs/page.md") == "; docs/page.md lists what is known");
+    CHECK(suggestion("colour", many, "docs/reference/files.md") == "; docs/reference/files.md lists what is known");
 }
 
 TEST_CASE("A message stays on one line of the terminal") {
