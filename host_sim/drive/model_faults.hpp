@@ -9,12 +9,12 @@
 namespace splinefeed::host {
 
 struct ModelFaults {
-    bool refuses_stops = false;         ///< quick stop, halt and hold; of a spindle: stop
-    bool stuck_state = false;           ///< its state is told as it was
-    bool stuck_place = false;           ///< its position and progress are told as they were
-    bool no_room = false;               ///< its ring is told to be full
-    std::optional<std::uint16_t> state; ///< told instead of its state
-    int dither_counts = 0;              ///< its position is told up to so far off, another way each time
+    bool refuses_stops = false;           ///< quick stop, halt and hold; of a spindle: stop
+    bool stuck_state = false;             ///< its state is told as it was
+    bool stuck_place = false;             ///< its position and progress are told as they were
+    bool no_room = false;                 ///< its ring is told to be full
+    std::optional<std::uint16_t> state{}; ///< told instead of its state
+    int dither_counts = 0;                ///< its position is told up to so far off, another way each time
 
     [[nodiscard]] bool operator==(const ModelFaults&) const = default;
 };

@@ -24,7 +24,9 @@ struct Bench {
         if (profile.stream == StreamWay::speed) {
             inner = std::make_unique<VfdDrive>(profile, VfdDriveParameters{});
         } else {
-            inner = make_drive(profile, {.axis = {.start_counts = 1000.0}});
+            ProfileDriveParameters parameters;
+            parameters.axis.start_counts = 1000.0;
+            inner = make_drive(profile, parameters);
         }
         drive = std::make_unique<FaultyDrive>(std::move(inner), profile);
         drive->advance(0);
@@ -117,7 +119,9 @@ TEST_CASE("faulty drive: a second master stops it", "[drive][faults]") {
 }
 
 TEST_CASE("PVT drive: it tells another state, a full ring and an old place, and refuses stops", "[drive][faults]") {
-    PvtBench bench(1, {.axes = {PvtAxisParameters{.start_counts = 500.0}}});
+    PvtDriveParameters parameters;
+    parameters.axes.front().start_counts = 500.0;
+    PvtBench bench(1, parameters);
     bench.wait_us(1);
     bench.begin();
     bench.drive.set_faults({.refuses_stops = true, .stuck_place = true, .no_room = true, .state = 6});

@@ -131,14 +131,14 @@ TEST_CASE("Link: on a serial line no reading gets the answer of an earlier one, 
     CAPTURE(seed);
     std::minstd_rand random(seed);
     std::atomic<int> asked{0};
-    std::atomic<bool> too_late{false}; // this host is so busy that the peer was
+    std::atomic<std::uint64_t> sent_us{0}; // the request, or somewhat later than this
+    std::atomic<bool> too_late{false};     // this host is so busy that the peer was
     ScriptedPeer peer(ScriptedPeer::Wire::pty, [&](const Bytes&) {
-        const std::uint64_t began_us = splinefeed::hal::system_clock().now_us();
         const auto number = static_cast<std::uint8_t>(++asked);
         if (random() % 3 == 0) {
             usleep((50U + 1U + static_cast<unsigned>(random() % 250)) * us_per_ms);
         }
-        too_late = too_late || splinefeed::hal::system_clock().now_us() > began_us + 340 * us_per_ms;
+        too_late = too_late || splinefeed::hal::system_clock().now_us() > sent_us + 345 * us_per_ms;
         return ScriptedPeer::Reply{.bytes = with_crc({1, 3, 4, 0, number, 0, 0})};
     });
     ModbusLink link(peer.address(), brief);
@@ -146,6 +146,7 @@ TEST_CASE("Link: on a serial line no reading gets the answer of an earlier one, 
     int good = 0;
     for (int i = 0; i < readings && !too_late; ++i) {
         std::array<std::uint16_t, 2> in{};
+        sent_us = std::max(link.clock().now_us(), link.read_from_us(1));
         if (link.read(1, 0, in).ok() && !too_late) {
             REQUIRE(int{in[0]} == asked);
             ++good;

@@ -69,7 +69,7 @@ struct ModbusLink::Context {
     int timeouts = 0;    // in a row
     bool dirty = false;  // late input is possible
     bool behind = false; // whole answers may be outstanding
-    OpenAnswers open;    // of a serial line
+    OpenAnswers open{};  // of a serial line
 
     [[nodiscard]] bool lost() const noexcept { return address.wire == Wire::rtu && failures >= lost_failures; }
     [[nodiscard]] std::uint64_t next_us() const noexcept {
