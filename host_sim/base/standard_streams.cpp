@@ -13,8 +13,8 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr int nothing = -1;
-std::atomic<int> drawn{nothing}; // where there is a drawn line
+constexpr int none_drawn = -1;
+std::atomic<int> drawn{none_drawn}; // where there is a drawn line
 
 } // namespace
 
@@ -30,14 +30,14 @@ void keep_standard_streams() noexcept {
 }
 
 void draw_line(int descriptor, std::string_view text) noexcept {
-    drawn.store(text.empty() ? nothing : descriptor);
+    drawn.store(text.empty() ? none_drawn : descriptor);
     std::array<char, 256> line{};
     const auto end = fmt::format_to_n(line.data(), line.size(), "\r{}\x1b[K", text);
     [[maybe_unused]] const ssize_t written = write(descriptor, line.data(), std::min(end.size, line.size()));
 }
 
 void erase_drawn_line() noexcept {
-    if (const int descriptor = drawn.load(); descriptor != nothing) {
+    if (const int descriptor = drawn.load(); descriptor != none_drawn) {
         draw_line(descriptor, {});
     }
 }

@@ -42,7 +42,7 @@ process_test(modbus_three_drives_rtu three_drives.py ${path61} --wire rtu --tole
 process_test(modbus_profile_away profile_run.py ${path61} lexium32m --tolerance-mm 12.4 ${slow} ${away})
 process_test(modbus_profile_leadshine_pr profile_run.py ${path61} leadshine-pr --wire rtu --tolerance-mm ${leadshine_mm} ${slow} ${ramp})
 if(SPLINEFEED_FUZZERS) # under sanitizers one of each kind
-    process_test(modbus_faulted_runs faulted_runs.py --runs 8 --long-runs 20 --later 1.5)
+    process_test(modbus_faulted_runs faulted_runs.py --kind pvt --wire tcp --runs 8 --long-runs 20 --later 1.5)
     return()
 endif()
 process_test(modbus_three_drives_tcp three_drives.py ${path61} --wire tcp --tolerance-mm 0.0004)
@@ -73,11 +73,16 @@ process_test(modbus_pymodbus_three_drives pymodbus_drives.py ${path61} --drives 
 process_test(modbus_spindle spindle_runs.py)
 process_test(modbus_inputs input_runs.py)
 process_test(modbus_pauses pause_runs.py)
-process_test(modbus_faulted_runs faulted_runs.py --runs 30 --long-runs 200)
+process_test(modbus_faulted_runs faulted_runs.py --kind pvt --wire tcp --runs 30 --long-runs 200)
+process_test(modbus_faulted_profile_runs faulted_runs.py --kind block --wire tcp --runs 16 --long-runs 200)
 process_test(modbus_paused_input paused_input.py)
 # Stops at random times, by signals, with inputs that stall, outputs that nobody reads and drives that are lost.
 process_test(modbus_stopped_runs stopped_runs.py --runs 30 --long-runs 300 --jobs 4)
-set_tests_properties(modbus_faulted_runs PROPERTIES PROCESSORS 2) # they have a pool of their own
+foreach(name faulted_runs faulted_profile_runs) # they have a pool of their own
+    if(TEST modbus_${name})
+        set_tests_properties(modbus_${name} PROPERTIES PROCESSORS 2)
+    endif()
+endforeach()
 # What a drive without a buffer of motion, a serial line or a bound of micrometres cannot bear is a machine whose processors are
 # all busy. These come first, by their cost, and so beside one another only.
 foreach(name three_drives_rtu profile_away profile_leadshine_pr profile_cia402_index profile_oriental_az profile_cia402_kinco
