@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/abandon.hpp"
 
+#include "host_sim/base/durable_file.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/base/standard_streams.hpp"
@@ -39,6 +40,7 @@ void abandon(std::string_view sentence, int status) noexcept {
     while (abandoned.exchange(true)) {
         pause();
     }
+    end_replacing();
     OutputFile::discard_all();
     say(sentence);
     _exit(status);

@@ -4,11 +4,13 @@
 #include "host_sim/base/output_file.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <mutex>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <system_error>
@@ -75,10 +77,18 @@ AsideFile make_aside(const std::string& path) {
     fail(path, errno);
 }
 
+std::timed_mutex replacing;
+
 } // namespace
+
+void end_replacing() noexcept {
+    constexpr std::chrono::seconds most{2}; // a disk that hangs must not keep the process
+    static_cast<void>(replacing.try_lock_for(most));
+}
 
 // A symbolic link stays one, and the file keeps its permissions.
 void replace_durably(const std::string& name, std::string_view text) {
+    const std::lock_guard lock(replacing);
     const std::string path = file_of(name);
     struct stat old {};
     const bool exists = ::stat(path.c_str(), &old) == 0;

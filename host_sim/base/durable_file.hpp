@@ -11,4 +11,8 @@ namespace splinefeed::host {
 /// other file is touched. Throws OutputError; the old file is then unchanged. Cost: two waits for the disk.
 void replace_durably(const std::string& name, std::string_view text);
 
+/// For a process that is about to end while other threads run: waits a while for one that replaces a file, so that it
+/// leaves nothing beside it. From then on a call of replace_durably() waits for the end of the process.
+void end_replacing() noexcept;
+
 } // namespace splinefeed::host

@@ -178,7 +178,7 @@ void Motion<S>::obey_target() {
         trajectory_.hold();
         if (steering == UserSteering::suspend) {
             suspend_.ask();
-        } else if (steering == UserSteering::held) {
+        } else if (steering == UserSteering::held && !SignalWatch::interrupted()) {
             UserSuspend::tell_held();
         }
         break;

@@ -48,6 +48,9 @@ bool Supervision::submit(const FeedSegment& segment, std::uint64_t line, std::ui
     if (over()) {
         return false;
     }
+    if (!thread_.joinable()) {
+        signals_->supervise(); // from here on a signal is obeyed by the one end
+    }
     if (!thread_.joinable() && state_ != nullptr) {
         state_->moves();
     }
@@ -220,7 +223,6 @@ void Supervision::hand_over() {
 
 // Returns why the run ends before its first motion; empty: it begins.
 std::string Supervision::begin() {
-    signals_->supervise();
     if (SignalWatch::interrupted()) {
         return "interrupted before anything was moved; the drives were not enabled";
     }

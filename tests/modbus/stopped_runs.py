@@ -8,12 +8,15 @@ Each run has a target, signals and a situation by its seed. It is judged by what
 - every axis that answers stands within STANDSTILL_S of the signal, and no shaft moves after the program's exit;
 - the exit status is 1, or 0 where the program had ended before; the sentence says what was asked and where the machine
   stands, names a drive that does not answer, and claims that all were held on the path only where they are there;
-- the program ends within EXIT_S, whatever is blocked.
+- the program ends within EXIT_S, whatever is blocked;
+- the state file has the places where the shafts stand, or says that it does not know them;
+- a spindle that turned is told to stop, and stands.
 
 It prints a table: target, situation, worst time to standstill by the signals, most counts that a shaft moved after the exit.
 GPIO lines have such a test on a virtual clock: gpio_tests "[stopping]"."""
 import argparse
 import concurrent.futures
+import json
 import math
 import os
 import random
@@ -21,9 +24,12 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 
+from case_runs import pymodbus_missing
 from drive_processes import Drive, folder_with_cables, machine_text, missing_for
+from spindle_runs import Vfd
 from real_time import ATTEMPTS, HostWatch, OffTime
 
 STEPS = 320.0
@@ -38,8 +44,20 @@ TARGETS = {
     "lexium32m, tcp": ("lexium32m&ramp=1e6", "tcp", {"once": 0.25, "twice": 0.05}, 0.3),
     "leadshine-pr, rtu": ("leadshine-pr", "rtu", {"once": 0.4, "twice": 0.1}, 0.3),
 }
-SIGNALS = ["SIGINT", "SIGTERM", "SIGHUP", "SIGINT, twice"]
-SITUATIONS = ["plain", "stalled input", "full pipe", "frozen drive", "dead drive"]
+# What is sent, and what asks for a stop: the last one. One that only steers is on its way first.
+SIGNALS = {
+    "SIGINT": ["SIGINT"],
+    "SIGTERM": ["SIGTERM"],
+    "SIGHUP": ["SIGHUP"],
+    "SIGQUIT": ["SIGQUIT"],
+    "SIGINT, twice": ["SIGINT", "SIGINT"],
+    "SIGTSTP first": ["SIGTSTP", "SIGTERM"],
+    "SIGUSR1 first": ["SIGUSR1", "SIGTERM"],
+    "SIGPIPE first": ["SIGPIPE", "SIGTERM"],
+}
+STEERING = ("SIGTSTP", "SIGUSR1", "SIGPIPE")
+SITUATIONS = ["plain", "slow machine file", "spindle", "stalled input", "full pipe", "frozen drive", "dead drive"]
+SPINDLE = "[spindle]\nmax_rpm = 24000\nat_speed_timeout_s = 10\nvfd = \"{vfd}?profile=vfd-delta-ms300\"\n"
 EXIT_S = 12.0
 MEASURED_S = 0.004  # the record has a row a millisecond, and an exit is looked for as often
 
@@ -50,7 +68,7 @@ class Run:
         self.seed = seed
         self.rng = random.Random(seed)
         self.target = self.rng.choice(list(TARGETS))
-        self.signals = self.rng.choice(SIGNALS)
+        self.signals = self.rng.choice(list(SIGNALS))
         self.situation = self.rng.choice(SITUATIONS)
         self.at_s = self.rng.uniform(0.0, 3.0) if self.rng.random() < 0.8 else self.rng.uniform(0.0, 0.4)
         self.gap_s = self.rng.choice([0.0, self.rng.uniform(0.0, 0.3)])
@@ -75,14 +93,26 @@ class Run:
 
     def start(self, folder, addresses):
         points = self.program()
+        spindle = self.situation == "spindle"
         rows = ["x,y,z\n"] + ["%.6f,%.6f,%.6f\n" % point for point in points]
-        with open(os.path.join(folder, "program.csv"), "w", encoding="ascii") as file:
+        if spindle:
+            rows = ["G61 S12000 M3\n"] + ["G1 F4800 X%.6f Y%.6f Z%.6f\n" % point for point in points] + ["M2\n"]
+        program = "program.ngc" if spindle else "program.csv"
+        with open(os.path.join(folder, program), "w", encoding="ascii") as file:
             file.writelines(rows)
-        with open(os.path.join(folder, "machine.toml"), "w", encoding="ascii") as file:
-            file.write(machine_text([(name, KEYS) for name in "xyz"], addresses, HEAD))
+        machine = machine_text([(name, KEYS) for name in "xyz"], addresses, HEAD)
+        if spindle:
+            machine += SPINDLE.format(vfd=self.vfd.address)
+        machine_file = os.path.join(folder, "machine.toml")
+        if self.situation == "slow machine file":
+            os.mkfifo(machine_file)
+            threading.Thread(target=write_slowly, args=[machine_file, machine], daemon=True).start()
+        else:
+            with open(machine_file, "w", encoding="ascii") as file:
+                file.write(machine)
         stalled = self.situation == "stalled input"
-        command = [self.tool, "run", "-" if stalled else "program.csv", "-m", "machine.toml", "--target", "modbus",
-                   "--curve", "polyline", "--quiet"]
+        command = [self.tool, "run", "-" if stalled else program, "-m", "machine.toml", "--target", "modbus",
+                   "--quiet", "--state", "state.json", *([] if spindle else ["--curve", "polyline"])]
         command += ["--trace", "-"] if self.situation == "full pipe" else ["--segments", "plan.csv"]
         errors = open(os.path.join(folder, "errors"), "w", encoding="utf-8")
         with errors:
@@ -101,6 +131,7 @@ class Run:
             keys = f"profile={profile}" if profile else "unit=1"
             addresses = [f"modbus-rtu://{ours}{query}&{keys}" for ours, _ in cables] or \
                         [drive.tcp_address().split("?")[0] + "?" + keys for drive in drives]
+            self.vfd = Vfd(folder, 2000.0) if self.situation == "spindle" else None
             run, points = self.start(folder, addresses)
             lost = self.rng.randrange(3) if "drive" in self.situation else None
             try:
@@ -110,6 +141,10 @@ class Run:
                 run.kill()
                 run.stdin.close()
                 run.stdout.close()
+                if self.vfd:
+                    self.turned = self.vfd.rows()
+                    self.vfd.process.kill()
+                    self.vfd.process.wait()
                 if lost is not None:
                     drives[lost].process.send_signal(signal.SIGCONT)
                 answering = [k for k in range(3) if not (lost == k and self.situation == "dead drive")]
@@ -117,6 +152,8 @@ class Run:
                     self.problems += drives[k].stop()
             with open(os.path.join(folder, "errors"), encoding="utf-8") as file:
                 sentence = file.read().strip()
+            if self.signals == "SIGTSTP first":
+                sentence = sentence.split("\n")[-1]  # the hold was told before
             self.told = f"{self.target}, {self.signals}, {self.situation}: exit {run.returncode} {sentence}"
             if ended is not None:
                 self.judge(folder, run.returncode, sentence, drives, lost, points, asked, ended,
@@ -130,7 +167,16 @@ class Run:
             self.loss = time.monotonic()
             time.sleep(self.before_s)
         self.early = run.poll() is not None
-        run.send_signal(getattr(signal, self.signals.split(",")[0]))
+        *first, last = SIGNALS[self.signals]
+        if first and first[0] in STEERING:
+            run.send_signal(getattr(signal, first[0]))
+            time.sleep(self.gap_s)
+            self.early = self.early or run.poll() is not None
+            run.send_signal(getattr(signal, last))
+            if first[0] == "SIGTSTP":
+                run.send_signal(signal.SIGCONT)
+        else:
+            run.send_signal(getattr(signal, last))
         asked = time.monotonic()
         if self.signals.endswith("twice"):
             time.sleep(self.gap_s)
@@ -161,6 +207,9 @@ class Run:
             ends[k] = rows[-1][1] / STEPS
         self.check(self.after == 0, f"a shaft moved by {self.after} counts after the exit")
         still = all(place == 0.0 for place in ends.values())
+        self.judge_state(folder, ends, still)
+        if self.vfd and self.turned:
+            self.check(self.turned[-1][2] == 0 and self.turned[-1][1] == 0, f"the spindle is left as {self.turned[-1]}")
         if self.early and status == 1:
             self.standstill_s = None  # a host that is busy may keep a run from starting; nobody stopped it
             return
@@ -194,6 +243,17 @@ class Run:
             off = min(distance(place, a, b) for a, b in zip(points, points[1:]))
             self.check(off <= off_mm, f"held {off:.3f} mm off the path")
 
+    def judge_state(self, folder, ends, still):
+        path = os.path.join(folder, "state.json")
+        if not os.path.exists(path):
+            self.check(still, "something was moved, and there is no state")
+            return
+        with open(path, encoding="utf-8") as file:
+            kept = json.load(file)["position_mm"]
+        for k, place in ends.items():
+            self.check(kept[k] is None or abs(kept[k] - place) <= 2.0 / STEPS + 1e-4,
+                       f"{'xyz'[k]} stands at {place:.4f}, and the state says {kept[k]}")
+
     def where(self, sentence, ends):
         stated = re.findall(r" ([xyz])=(-?[0-9.]+)( \(when)?", sentence)
         self.check(len(stated) == 3, "it does not say where the machine stands")
@@ -202,6 +262,18 @@ class Run:
             if k in ends and not old:
                 self.check(abs(float(value) - ends[k]) <= 2.0 / STEPS + 1e-4,
                            f"{name} stands at {ends[k]:.4f}, not {value}")
+
+
+def write_slowly(path, text):
+    """A machine file whose first byte comes late, and its second half later."""
+    try:
+        with open(path, "w", encoding="ascii") as file:
+            for part in (text[:1], text[1:len(text) // 2], text[len(text) // 2:]):
+                time.sleep(0.15)
+                file.write(part)
+                file.flush()
+    except OSError:
+        pass  # the program has gone
 
 
 def distance(place, a, b):
@@ -261,6 +333,9 @@ def main():
     if why := missing_for("rtu"):
         print(why)
         TARGETS.pop("leadshine-pr, rtu")
+    if why := pymodbus_missing():
+        print(why)
+        SITUATIONS.remove("spindle")
     if options.long_runs > 0 and os.environ.get("SPLINEFEED_LONG") == "1":
         options.runs = options.long_runs
     seed = options.seed if options.seed is not None else random.SystemRandom().randrange(10**9)
