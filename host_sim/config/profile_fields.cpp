@@ -145,8 +145,8 @@ void read_name(const TomlChecker& check, const toml::table& table, const DrivePr
     const toml::node* const role = table.get("role");
     const toml::node* const name = table.get("name");
     if ((role == nullptr) == (name == nullptr)) {
-        check.fail(table, fmt::format("[[field]] must have a role or, where none fits, a name; roles are {}",
-                                      listed(std::span(role_names).subspan(1))));
+        check.fail(table, "[[field]] must have a role, of those in docs/reference/profiles.md, or, where none fits, a "
+                          "name");
     }
     const toml::node& node = role != nullptr ? *role : *name;
     if (role != nullptr) {
