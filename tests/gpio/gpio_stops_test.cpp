@@ -230,6 +230,26 @@ TEST_CASE("every stop stops, at any time, whether the planner delivers or is blo
     }
 }
 
+TEST_CASE("an axis that is asked to stop has no place before it stands", "[stopping]") {
+    Bench bench;
+    StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);
+    FeedSegment segment;
+    REQUIRE(motion.next(segment));
+    RunTarget& target = *bench.target;
+    REQUIRE(target.prepare(segment) == "");
+    while (bench.now_ms() < 500.0) {
+        while (target.port().room() > 0 && target.port().submit(segment)) {
+            REQUIRE(motion.next(segment));
+        }
+        bench.clock.sleep_us(1000);
+    }
+    CHECK(target.places()[0].known()); // as far as it has come
+    target.quick_stop();
+    CHECK_FALSE(target.places()[0].known());
+    bench.clock.sleep_us(110'000);
+    CHECK(target.places()[0].known());
+}
+
 TEST_CASE("an axis that did not find its reference has no place, the others do", "[stopping]") {
     Bench bench({.home = true});
     StraightMotion motion(bench.machine, {0.0, 0.0}, {to_x_mm, to_y_mm}, 100.0);

@@ -334,10 +334,13 @@ std::optional<double> GpioTarget::place(int axis) const {
     return mover_.referenced(axis) ? std::optional(mover_.position(axis)) : std::nullopt;
 }
 
+// An axis that is asked to stop is at its place once it stands.
 std::vector<RunTarget::AxisPlace> GpioTarget::places() const {
     std::vector<AxisPlace> out;
     for (int k = 0; began_ && k < machine_->settings.axes; ++k) {
-        out.push_back({static_cast<unsigned>(k), port_.position_known() ? place(k) : std::nullopt});
+        out.push_back({.axis = static_cast<unsigned>(k),
+                       .mm = port_.position_known() ? place(k) : std::nullopt,
+                       .online = holds_.empty() || port_.at_standstill()});
     }
     return out;
 }
@@ -346,11 +349,11 @@ std::string GpioTarget::where() const {
     if (!began_) {
         return "; nothing was moved";
     }
-    PlaceText text(port_.position_known() ? "; the machine stands at"
-                   : port_.may_be_on() ? "; drives may still be on, since a line cannot be set, and where the machine "
-                                         "stands is not known (find the references again); the last steps were those to"
-                                       : "; drives are off, and where the machine stands is not known (find the "
-                                         "references again); the last steps were those to");
+    constexpr const char* unknown = "where the machine stands is not known (find the references again); the last steps "
+                                    "were those to";
+    PlaceText text(port_.position_known() ? std::string("; the machine stands at")
+                   : port_.may_be_on()    ? std::string("; drives may still be on, and ") + unknown
+                                          : std::string("; drives are off, and ") + unknown);
     for (int k = 0; k < machine_->settings.axes; ++k) {
         text.add(machine_->axis_name[static_cast<unsigned>(k)], place(k));
     }
