@@ -23,6 +23,11 @@ constexpr std::uint64_t give_up_us = 15 * us_per_s; // and then nobody waits for
 constexpr int looks_a_second = 100;
 constexpr int not_finished = 1;
 
+// No sentence is a run that ended well.
+std::string or_unsaid(std::string why) {
+    return why.empty() ? "the motion was stopped, and nothing says why" : why;
+}
+
 } // namespace
 
 Supervision::~Supervision() {
@@ -256,10 +261,10 @@ std::string Supervision::supervise() {
         const std::uint64_t now_us = system_clock().now_us();
         if (phase == hal::PortPhase::fault) {
             end_outputs();
-            return target_->fault();
+            return or_unsaid(target_->fault());
         }
         if (phase == hal::PortPhase::halted) {
-            return target_->halted(obeyed_ > 1);
+            return or_unsaid(target_->halted(obeyed_ > 1));
         }
         if (phase == hal::PortPhase::idle && completed_) {
             return target_->achieved() ? std::string() : target_->holds();

@@ -249,6 +249,13 @@ void SetpointPort::follow_bounds(std::uint64_t now_us) noexcept {
     }
     const char* const late = phases_.overdue(now_us);
     if (late != nullptr && phase == Phase::ending) {
+        if (trouble_.what.empty()) { // a fault without a sentence would be a run that ended well
+            std::size_t moving = 0;
+            while (moving + 1 < facts_.size() && stop_.report(moving).state == StopState::confirmed) {
+                ++moving;
+            }
+            trouble_ = {late, moving};
+        }
         static_cast<void>(phases_.take(Event::fails, now_us));
     } else if (late != nullptr) {
         fail({late, awaited_});
