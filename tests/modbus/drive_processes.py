@@ -11,6 +11,7 @@ import time
 
 UNITS = 3 << 30  # of a feed segment, in a count
 TICKS_PER_S = 8e6
+FIRST_SEQUENCE = 1  # of a run; 0: positions are not the machine's yet
 
 
 class DriveProcess:
@@ -103,7 +104,7 @@ def sequence_problems(executed, plan, axes, done, who):
     """What a drive executed against the plan's segments (rows of --segments): by number, each once, as planned.
 
     axes: which of the machine's axes the drive has."""
-    if [int(row[0]) for row in executed] != list(range(len(executed))):
+    if [int(row[0]) for row in executed] != list(range(FIRST_SEQUENCE, FIRST_SEQUENCE + len(executed))):
         return [f"{who}: sequence numbers are missing, twice or out of order"]
     if len(executed) > len(plan) or (done and len(executed) < len(plan)):
         return [f"{who} executed {len(executed)} of {len(plan)}"]

@@ -53,12 +53,13 @@ public:
     void make(splinefeed::hal::modbus::ModbusPortSettings settings = {}) {
         settings.make_line = make_line();
         settings.clock = &clock;
+        first_sequence = settings.first_sequence;
         port.emplace(wirings, settings);
     }
-    /// Every segment from 0 on, in order, each once; how many, or nothing where that is not so.
+    /// Every segment from the first one on, in order, each once; how many, or nothing where that is not so.
     [[nodiscard]] std::optional<std::size_t> executed_once(std::size_t drive) const {
         for (std::size_t i = 0; i < executed[drive].size(); ++i) {
-            if (executed[drive][i] != i) {
+            if (executed[drive][i] != first_sequence + i) {
                 return std::nullopt;
             }
         }
@@ -69,6 +70,7 @@ public:
     std::vector<LyingDrive*> liars;                   ///< the same drives
     std::vector<std::vector<std::uint32_t>> executed; ///< of each drive
     std::vector<splinefeed::hal::modbus::DriveWiring> wirings;
+    std::uint32_t first_sequence = 0;
     std::uint64_t began_us = 0;                              ///< the run, behind prepare()
     std::size_t next = 0;                                    ///< of the segments that were not submitted yet
     std::optional<splinefeed::hal::modbus::ModbusPort> port; // goes first

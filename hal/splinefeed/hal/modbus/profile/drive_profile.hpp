@@ -227,6 +227,12 @@ struct DriveProfile {
         }
         return no_field;
     }
+    /// Whether `homed` is a state that the drive keeps. The bit 12 of CiA 402 is no such: its meaning is that of the
+    /// mode.
+    [[nodiscard]] bool keeps_homed() const noexcept {
+        constexpr std::uint32_t of_mode = 0x1000;
+        return homed && !(cia402 && homed->mask == of_mode);
+    }
     /// The same field, or nullptr.
     [[nodiscard]] const RegisterField* field_of(FieldRole role) const noexcept {
         const FieldIndex index = index_of(role);

@@ -72,6 +72,7 @@ const char* describe(DriveProblem problem) noexcept {
     case DriveProblem::range:
         return "the program exceeds the range of its map: 2^31 counts of position, 2^23 counts a segment; lower "
                "steps_per_mm, and the drive's counts with it";
+    case DriveProblem::moves: return "it moves already; end the program that moves it, or wait until it stands";
     case DriveProblem::not_homed:
         return "its homing was not completed within five minutes; check its switches and its settings";
     case DriveProblem::interrupted: return "its homing was interrupted, so its position is not known";

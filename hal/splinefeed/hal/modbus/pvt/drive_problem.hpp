@@ -31,6 +31,7 @@ enum class DriveProblem : std::uint8_t {
     frozen,        ///< it is to run, but executes no segments
     unfinished,    ///< it executed all segments, but does not report that it stands
     not_standing,  ///< it does not come to a standstill
+    moves,         ///< it moves before this run has sent anything
     not_homed,     ///< its homing was not completed within its time
     interrupted,   ///< its homing was interrupted by the user
     ring,          ///< its ring is shorter than the map requires

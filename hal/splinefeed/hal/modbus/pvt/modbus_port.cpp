@@ -9,6 +9,7 @@
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/pvt/bus_rate.hpp"
 #include "splinefeed/hal/modbus/pvt/pvt_setup.hpp"
+#include "splinefeed/hal/rt/wait_until.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::uint64_t settle_us = 40'000; // from a start until the drive's state reflects it
 constexpr std::uint64_t poll_interval_us = 1000;
+constexpr std::uint32_t unplaced = 0; // first sequence number while positions are not the machine's
 constexpr double ticks_per_us = 8.0;
 constexpr std::uint64_t stop_exchanges = 8;      // lost in a row before a hold becomes a quick stop
 constexpr std::uint64_t braking_us = 60'000'000; // of the slowest ramp that a quick stop is waited for
@@ -149,15 +151,44 @@ std::optional<DriveFailure> ModbusPort::prepare(const FeedSegment& first) {
 
 std::optional<DriveFailure> ModbusPort::make_ready() {
     PvtSetup setup(drives_, times_, *settings_.clock);
+    bool stay_placed = !settings_.home;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        stay_placed = stay_placed && placed(i);
+    }
     auto failure = setup.enable(settings_.reset);
-    failure = failure ? failure : setup.command(PvtCommand::begin, settings_.first_sequence);
+    failure = failure ? failure : setup.command(PvtCommand::begin, stay_placed ? settings_.first_sequence : unplaced);
     if (!failure && settings_.home) {
         moves_ = true;
         failure = setup.home(settings_.interrupted);
     }
     failure = failure ? failure : setup.command(PvtCommand::preset_position);
+    if (!failure && !stay_placed) { // now they are
+        failure = setup.command(PvtCommand::begin, settings_.first_sequence);
+    }
     referenced_ = !failure;
     return failure;
+}
+
+std::optional<DriveFailure> ModbusPort::await_standstill() {
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+        PvtClient& client = drives_[i].client();
+        DriveProblem problem = DriveProblem::silent;
+        const auto stands = [&] {
+            if (!client.probe().ok()) {
+                problem = DriveProblem::silent;
+                return false;
+            }
+            problem = drives_[i].moves() ? DriveProblem::moves : DriveProblem::none;
+            return problem == DriveProblem::none;
+        };
+        if (wait_until(*settings_.clock, stands, settings_.away_us, "") != nullptr) {
+            return DriveFailure{i, problem};
+        }
+        if (client.report().status.state == PvtState::fault && !settings_.reset) {
+            return DriveFailure{i, DriveProblem::fault};
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<std::int32_t> ModbusPort::known_position(std::size_t drive, std::size_t axis) const noexcept {

@@ -21,7 +21,7 @@ struct ModbusPortSettings {
     bool home = false;                   ///< prepare() homes the drives first
     bool (*interrupted)() = nullptr;     ///< polled during homing; true: quick stop
     LinkTiming timing{};
-    std::uint32_t first_sequence = 0; ///< sequence number of the first segment
+    std::uint32_t first_sequence = 1; ///< sequence number of the first segment; 0 leaves no mark: placed()
     MakeLine make_line = make_link;
     Clock* clock = &system_clock(); ///< must outlive the port
 };
@@ -41,6 +41,13 @@ public:
     [[nodiscard]] double least_segment_us();
     /// Reads a drive's status once. Call between open() and prepare().
     LinkAnswer probe(std::size_t drive) noexcept { return drives_[drive].client().probe(); }
+    /// Waits until no drive moves, so that report() has where it stands. Sends no command, so nothing changes. Returns
+    /// the first drive that goes on moving, does not answer, or is in a fault that prepare() will not reset. Call
+    /// between open() and prepare().
+    [[nodiscard]] std::optional<DriveFailure> await_standstill();
+    /// Whether the positions that a drive reports are those of a machine: since its power-up a run has set them.
+    /// Otherwise they count from anywhere. Before prepare().
+    [[nodiscard]] bool placed(std::size_t drive) const noexcept { return report(drive).status.executed != 0; }
     /// Enables all drives, homes them if set, and presets their positions to first.start, where the motion begins.
     [[nodiscard]] std::optional<DriveFailure> prepare(const FeedSegment& first);
     /// Every axis stops as hard as it can and leaves the path; takes precedence over other commands. Ends like halt(),

@@ -85,7 +85,7 @@ DriveProblem PortDrive::unready(const PortTimes& times) const noexcept {
 }
 
 bool PortDrive::at_joint() const noexcept {
-    if (status().executed == 0) {
+    if (status().executed == client_->first()) {
         return status().state == PvtState::standing;
     }
     const PvtSegment& before = client_->segment(status().executed - 1);
@@ -96,6 +96,11 @@ bool PortDrive::at_joint() const noexcept {
         }
     }
     return true;
+}
+
+bool PortDrive::moves() const noexcept {
+    const PvtState state = client_->report().status.state;
+    return state == PvtState::running || state == PvtState::stopping || state == PvtState::homing;
 }
 
 bool PortDrive::at_standstill() const noexcept {

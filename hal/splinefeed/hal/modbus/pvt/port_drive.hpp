@@ -45,6 +45,8 @@ public:
     [[nodiscard]] DriveProblem unready(const PortTimes& times) const noexcept;
     /// Whether it stands where its next segment starts.
     [[nodiscard]] bool at_joint() const noexcept;
+    /// Whether its client's report says that it moves.
+    [[nodiscard]] bool moves() const noexcept;
     /// Whether it reports standstill.
     [[nodiscard]] bool at_standstill() const noexcept;
     /// The same; for a drive that is offline or whose report is not valid, whether its segments and its stop must have

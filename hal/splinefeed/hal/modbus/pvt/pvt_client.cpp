@@ -140,7 +140,9 @@ void PvtClient::command(PvtCommand command, std::uint32_t argument, const PvtSeg
         head_.store(argument);
         tail_.store(argument);
         sent_ = argument;
+        first_ = argument;
         executed_ = 0;
+        began_ = false; // statuses that are under way have the numbers of before
     }
     pending_ = {command, argument, preset};
     report_.command_pending = true;

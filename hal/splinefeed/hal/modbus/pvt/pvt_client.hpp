@@ -44,6 +44,8 @@ public:
     [[nodiscard]] std::size_t room() const noexcept;
     /// Returns false, and takes nothing, if there is no room.
     [[nodiscard]] bool push(const PvtSegment& segment) noexcept;
+    /// Sequence number of the first segment of the session.
+    [[nodiscard]] std::uint32_t first() const noexcept { return first_; }
     [[nodiscard]] std::uint32_t pushed() const noexcept { return tail_.load(std::memory_order_relaxed); }
     /// A pushed segment. @pre it is the last executed one or a later one
     [[nodiscard]] const PvtSegment& segment(std::uint32_t sequence) const noexcept {
@@ -102,7 +104,8 @@ private:
     std::uint64_t executed_ = 0; // executed in this session
     std::uint64_t last_exchange_us_ = 0;
     std::uint64_t last_connect_us_ = 0;
-    std::uint32_t sent_ = 0; // one more than the last number sent
+    std::uint32_t first_ = 0; // sequence number of the session
+    std::uint32_t sent_ = 0;  // one more than the last number sent
     std::uint16_t nonce_ = 0;
     std::uint16_t session_ = 0;
     std::uint16_t counter_ = 0;

@@ -5,6 +5,7 @@
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_setup.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_standby.hpp"
+#include "splinefeed/hal/rt/wait_until.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,31 @@ DriveTrouble SetpointGroup::open() {
     }
     for (const auto& bus : buses_) {
         period_us_ = std::max(period_us_, bus->shortest_period_us());
+    }
+    return {};
+}
+
+DriveTrouble SetpointGroup::await_standstill() const {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        Standstill still(std::llround(tolerance_counts(i) * (1 << physical_bits)));
+        std::string why;
+        const auto stands = [&] {
+            const bool read = drive(i).read_status();
+            why = read ? "it moves already; end the program that moves it, or wait until it stands"
+                       : silence(drive(i).last_answer(), &drive(i).link());
+            if (read) {
+                still.update(settings_->clock->now_us(), drive(i).reading().position_q16);
+            } else if (!drive(i).link().connected()) {
+                static_cast<void>(drive(i).link().connect());
+            }
+            return read && still.still_us() >= standstill_us;
+        };
+        if (wait_until(*settings_->clock, stands, settings_->away_us, "") != nullptr) {
+            return {why, i};
+        }
+        if (drive(i).reading().state == DriveState::fault && !settings_->reset) {
+            return {unready_sentence(drive(i).reading()), i};
+        }
     }
     return {};
 }

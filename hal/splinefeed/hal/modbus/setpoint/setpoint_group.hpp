@@ -35,6 +35,11 @@ public:
 
     /// Connects to all drives and checks them against their profiles. Nothing moves.
     [[nodiscard]] DriveTrouble open();
+    /// SetpointPort::await_standstill(), placed(). @pre open, not started
+    [[nodiscard]] DriveTrouble await_standstill() const;
+    [[nodiscard]] bool placed(std::size_t i) const noexcept {
+        return slots_[i].wiring.profile->keeps_homed() && drive(i).reading().homed;
+    }
     /// Enables all drives, homes them if set, and maps their positions to the start of the first segment. Blocks.
     /// @pre open, not started
     [[nodiscard]] DriveTrouble make_ready(const FeedSegment& first);

@@ -35,6 +35,11 @@ std::string SetpointPort::open() {
     return trouble_.what;
 }
 
+std::string SetpointPort::await_standstill() {
+    trouble_ = group_.await_standstill();
+    return trouble_.what;
+}
+
 LinkAnswer SetpointPort::probe(std::size_t drive) noexcept {
     static_cast<void>(group_.drive(drive).read_next());
     return group_.drive(drive).last_answer();

@@ -24,6 +24,13 @@ public:
     [[nodiscard]] std::uint32_t period_us() const noexcept { return group_.period_us(); }
     /// Reads the next status frame of a drive. Call between open() and prepare().
     LinkAnswer probe(std::size_t drive) noexcept;
+    /// Waits until no drive moves, so that standing_counts() has where it stands. Sends no command, so nothing changes.
+    /// Returns what is wrong with drive trouble_with(): it goes on moving, does not answer, or is in a fault that
+    /// prepare() will not reset; empty: nothing. Call between open() and prepare().
+    [[nodiscard]] std::string await_standstill();
+    /// Whether the drive says that it has its reference: then its counts are those of the machine's axis. Before
+    /// prepare().
+    [[nodiscard]] bool placed(std::size_t drive) const noexcept { return group_.placed(drive); }
     /// Enables all drives and maps their positions to the start of the first segment. Returns what is wrong; empty:
     /// nothing. If something is wrong all drives were stopped by then: a drive that was homing by a quick stop, the
     /// others by a hold; or it is known that they did not confirm it: stop_report().
