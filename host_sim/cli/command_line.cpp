@@ -133,6 +133,29 @@ void take_scalar(Job& job, const std::string& scalar) {
     }
 }
 
+void take_start(Job& job, const std::optional<std::string>& start) {
+    if (!start) {
+        return;
+    }
+    if (*start == "check") {
+        job.run.options.start = StartWay::check;
+    } else if (*start == "move") {
+        job.run.options.start = StartWay::move;
+    } else if (*start == "here") {
+        job.run.options.start = StartWay::here;
+    } else {
+        refuse_value("--start", *start, {"check", "move", "here"});
+    }
+    if (job.run.target == "sim") {
+        throw UsageError("--start is for machines that stand somewhere, and the simulated one stands where its program "
+                         "begins; name your machine with --target");
+    }
+    if (job.run.options.home && job.run.options.start == StartWay::here) {
+        throw UsageError("--start here and --home contradict each other: behind --home the machine goes to where its "
+                         "program begins; leave one of them out");
+    }
+}
+
 void take_window(Job& job, const std::string& text) {
     const auto cells = read_whole<std::size_t>(text, 10, 1000000);
     if (!cells) {
@@ -322,10 +345,15 @@ std::variant<Job, Answer> parse_command_line(int argc, const char* const* argv) 
         throw UsageError("--home is for machines with switches or drives, and the simulated one has none: of G-code "
                          "--position says where it stands; name your machine with --target");
     }
+    if (job.run.options.reset && job.run.target.rfind("modbus", 0) != 0) {
+        throw UsageError(
+            "--reset is for drives on Modbus; reset others by their own means, or name yours with --target");
+    }
     if (job.run.target == "sim" && job.run.options.probe) {
         throw UsageError("--probe is for machines with switches, and the simulated one has none; name yours with "
                          "--target");
     }
+    take_start(job, typed.start);
     take_format(job, typed.format);
     take_scalar(job, typed.scalar.value_or("fixed"));
     take_window(job, typed.window);

@@ -92,6 +92,11 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
     if (executes) {
         app.add_option("--target", job.run.target,
                        "sim: the simulated machine in this process (default); " + target_help());
+        app.add_option("--start", typed.start,
+                       "check, move or here: what to do when the machine stands elsewhere than its program begins: "
+                       "refuse (default), move there in a straight line, or begin where it stands; not of sim");
+        app.add_flag("--reset", job.run.options.reset, "reset faults of the drives first (modbus)")
+            ->disable_flag_override();
         app.add_flag("--home", job.run.options.home,
                      "find the references of the axes before the program begins; not of sim")
             ->disable_flag_override();

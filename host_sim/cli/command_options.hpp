@@ -16,6 +16,7 @@ struct Typed {
     std::optional<std::string> scalar;
     std::string format;
     std::string summary;
+    std::optional<std::string> start;
     std::string window = "1024";
     bool json = false; ///< of check
 };

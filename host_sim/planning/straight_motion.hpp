@@ -20,8 +20,11 @@ public:
 
     /// Writes the next segment. false: the move is over, or it stands because it was held.
     [[nodiscard]] bool next(FeedSegment& segment);
-    /// Brakes as hard as the limits allow, and ends the move.
+    /// Brakes as hard as the limits allow, and ends the move unless it is resumed.
     void hold() noexcept { planner_.trajectory().hold(); }
+    void resume() noexcept { planner_.trajectory().resume(); }
+    /// The next segment while it is held and stands. false: it does not.
+    [[nodiscard]] bool stand(FeedSegment& segment) { return planner_.trajectory().stand(segment); }
 
 private:
     MotionLimits<double> limits_;

@@ -193,7 +193,7 @@ void PathInput::begin_at(const MachineState& state) {
     if (gcode_) {
         gcode_->offsets = state.offsets;
         for (unsigned k = 0; k < axes_.size(); ++k) {
-            gcode_->start[k] = position_from_mm(state.position_mm[k].value());
+            gcode_->start[k] = position_from_mm(state.position_mm[k].value_or(0.0));
         }
     }
 }

@@ -85,7 +85,9 @@ int check_with(const RunArguments& arguments) {
     }
     input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
     input.use_outputs(of.machine.spindle, of.machine.lines);
-    input.begin_at(of.state(arguments.state, arguments.position));
+    MachineState begins = of.state(arguments.state, arguments.position);
+    of.settle_places(begins, arguments.state);
+    input.begin_at(begins);
     const auto text = arguments.summary == SummaryKind::json ? check_json : check_text;
     Survey survey(of.machine, input.name());
     survey.read(input);

@@ -24,17 +24,18 @@ Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& de
                   const MotionLimits<S>& limits, PathInput& input, const PathLimits& path_limits, Outputs& outputs,
                   Supervision* target)
     : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), limits_(&limits),
-      input_(&input), outputs_(&outputs), state_(arguments.state), report_(arguments.report), target_(target),
-      deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>), exact_stop_(description.settings),
-      optimum_(description.settings, to_double(limits.refinement.direction_jump)), share_(description.settings),
-      steps_(limits, !arguments.quiet, target, arguments.terminal), program_(outputs.elements(), arguments.report),
-      feeder_(input), tee_(feeder_, input.name(),
-                           {.limits = &path_limits,
-                            .writer = outputs.curve(),
-                            .error = &error_,
-                            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
-                            .optimum = &optimum_,
-                            .share = &share_}),
+      input_(&input), outputs_(&outputs), state_(arguments.state), start_(arguments.start), report_(arguments.report),
+      target_(target), deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>),
+      exact_stop_(description.settings), optimum_(description.settings, to_double(limits.refinement.direction_jump)),
+      share_(description.settings), steps_(limits, !arguments.quiet, target, arguments.terminal),
+      program_(outputs.elements(), arguments.report), feeder_(input),
+      tee_(feeder_, input.name(),
+           {.limits = &path_limits,
+            .writer = outputs.curve(),
+            .error = &error_,
+            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
+            .optimum = &optimum_,
+            .share = &share_}),
       planner_(tee_, limits, arguments.window_cells), trajectory_(planner_.trajectory()),
       machine_(description, limits.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
       events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {}
@@ -57,7 +58,7 @@ void Motion<S>::execute_all() {
         }
         if (dwells) {
             come_to(steps_.line());
-            if (!execute(segment)) {
+            if (!execute_first(segment)) {
                 break;
             }
             if (report_ != nullptr) {
@@ -67,7 +68,7 @@ void Motion<S>::execute_all() {
         } else if (pull(segment)) {
             steps_.begin(segment, machine_.cycle_time_s());
             pass(segment.waypoint);
-            if (!execute(segment)) {
+            if (!execute_first(segment)) {
                 break;
             }
             if (report_ != nullptr) {
@@ -268,6 +269,49 @@ void Motion<S>::read() {
         read_all_ = true; // the curve ends with the waypoints before
         keep_failure(std::current_exception());
     }
+}
+
+// Executes a segment; before the first one the machine comes to where it begins.
+template <Scalar S>
+bool Motion<S>::execute_first(FeedSegment& segment) {
+    if (segments_ > 0 || start_ == nullptr) {
+        return execute(segment);
+    }
+    PerAxis<double> to{};
+    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        to[k] = static_cast<double>(segment.start[k]) / static_cast<double>(units_per_count) /
+                description_->settings.axis[k].steps_per_mm;
+    }
+    const auto from = start_->move_from(to);
+    return (!from || move_to(segment, *from, to)) && execute(segment);
+}
+
+// A straight line at the machine's limits, before the path. False: it was held, or the run is over.
+template <Scalar S>
+bool Motion<S>::move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to) {
+    way_.emplace(*description_, from, to, description_->settings.max_feed_mm_s);
+    FeedSegment segment;
+    for (;;) {
+        obey_target();
+        if (held_by_target_ || held_by_user_) {
+            way_->hold();
+        } else {
+            way_->resume();
+        }
+        if (!way_->next(segment) && (held_by_target_ || !held_by_user_ || !way_->stand(segment))) {
+            break;
+        }
+        if (!execute(segment)) {
+            return false;
+        }
+    }
+    if (held_by_target_) {
+        return false;
+    }
+    way_.reset();
+    first.start = segments_ > 0 ? segment.end : first.start; // to the last digit
+    rests_ = 0;                                              // those of the path count
+    return true;
 }
 
 template <Scalar S>

@@ -8,10 +8,12 @@
 #include "host_sim/output/progress.hpp"
 #include "host_sim/output/summary.hpp"
 #include "host_sim/planning/planned_trajectory.hpp"
+#include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/program/event_file.hpp"
 #include "host_sim/run/path_tee.hpp"
 #include "host_sim/run/program_observer.hpp"
 #include "host_sim/run/program_steps.hpp"
+#include "host_sim/run/run_start.hpp"
 #include "host_sim/run/supervision.hpp"
 #include "host_sim/run/user_suspend.hpp"
 
@@ -34,6 +36,7 @@ struct MotionArguments {
     int terminal = -1;               ///< of a user who is asked to go on; -1: none
     MachineState begins;             ///< as the run begins
     StateKeeper* state = nullptr;    ///< of offsets and position; null: nothing keeps them
+    const RunStart* start = nullptr; ///< of a machine that stands somewhere; null: it stands where the path begins
     ProgramReport* report = nullptr; ///< gets the moves of a program and their times; null: nobody does
 };
 
@@ -83,6 +86,8 @@ private:
     [[nodiscard]] bool come_to_rest(const std::string& broken);
     void require_end();
     [[noreturn]] void fail() const;
+    [[nodiscard]] bool execute_first(FeedSegment& segment);
+    [[nodiscard]] bool move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to);
     void keep_failure(const std::exception_ptr& failure);
     void measure(const typename CurveFeeder<S>::Pushed& pushed);
     void pass(std::uint32_t row);
@@ -99,7 +104,9 @@ private:
     const MotionLimits<S>* limits_;
     PathInput* input_;
     Outputs* outputs_;
-    StateKeeper* state_; // null: nothing is kept
+    StateKeeper* state_;                // null: nothing is kept
+    const RunStart* start_;             // null: there is nothing to move to
+    std::optional<StraightMotion> way_; // to where the path begins, while the machine is on it
     ProgramReport* report_;
     Supervision* target_; // null: only the simulated machine
     WaypointError error_;

@@ -52,13 +52,17 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
 template <Scalar S>
 bool Motion<S>::come_to_rest(const std::string& broken) {
     const bool held = failure_ != nullptr && broken.empty() && moves_;
-    if (held) {
+    const auto next = [this](FeedSegment& out) {
+        return way_ ? way_->next(out) : trajectory_.next(out, UnderrunPolicy::drain) == Pull::item;
+    };
+    if (held && way_) {
+        way_->hold();
+    } else if (held) {
         trajectory_.hold();
     }
     FeedSegment segment;
-    while (held && moves_ && trajectory_.next(segment, UnderrunPolicy::drain) == Pull::item &&
-           machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault &&
-           target_->submit(segment, line_, passed_)) {
+    while (held && moves_ && next(segment) && machine_.submit(segment) &&
+           machine_.poll().phase != hal::PortPhase::fault && target_->submit(segment, line_, passed_)) {
         ++segments_;
         moves_ = std::ranges::any_of(segment.end_velocity, [](std::int64_t v) { return v != 0; });
     }

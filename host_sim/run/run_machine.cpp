@@ -44,14 +44,15 @@ RunMachine::RunMachine(const std::string& file, const InputFormat& format)
     }
 }
 
-void RunMachine::require_places(const MachineState& state, const std::string& file) const {
+void RunMachine::settle_places(MachineState& state, const std::string& file) const {
     std::vector<std::string> unknown;
     for (std::size_t k = 0; k < axes.size(); ++k) {
         if (!state.position_mm[k]) {
             unknown.push_back(axes[k]);
+            state.position_mm[k] = 0.0;
         }
     }
-    if (!unknown.empty()) {
+    if (!unknown.empty() && !state.unknown_why.empty()) {
         throw InputError(
             file, 0,
             fmt::format("where {} {} is not known: {}; let the machine find its references with --home, or "
@@ -63,12 +64,11 @@ void RunMachine::require_places(const MachineState& state, const std::string& fi
 MachineState RunMachine::state(const std::string& state, const std::string& position, bool homed) const {
     const std::optional<MachineState> kept = state.empty() ? std::nullopt : read_state_file(state, axes);
     MachineState out = kept.value_or(MachineState{});
-    if (homed || !kept || !position.empty()) {
+    if (homed || !position.empty()) {
         out.position_mm.fill(0.0);
         out.unknown_why.clear();
     }
     if (position.empty()) {
-        require_places(out, state);
         return out;
     }
     std::string_view rest = position;

@@ -18,20 +18,20 @@ struct RunMachine {
     /// @param file  empty: the default machine
     RunMachine(const std::string& file, const InputFormat& format);
 
-    /// Where the machine stands, and its offsets. Throws UsageError, and InputError where a state says that the place
-    /// of an axis is not known and nothing else says it.
+    /// Where the machine stands as far as it is told, and its offsets. Throws InputError and UsageError.
     /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says
     /// @param homed  it finds its references first: then it stands at 0, whatever the state says
     [[nodiscard]] MachineState state(const std::string& state, const std::string& position, bool homed = false) const;
+    /// An axis of which nobody told anything stands at 0. Throws InputError where the state says that its place is not
+    /// known.
+    /// @param file  of the state, for messages
+    void settle_places(MachineState& state, const std::string& file) const;
 
     MachineDescription machine;
     double max_feed_mm_s = 0.0;    ///< as the file states it
     std::uint32_t rotary_axes = 0; ///< bit k: axis k is rotary
     std::vector<std::string> axes;
     PathTolerances tolerances;
-
-private:
-    void require_places(const MachineState& state, const std::string& file) const;
 };
 
 } // namespace splinefeed::host

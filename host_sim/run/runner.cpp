@@ -13,6 +13,7 @@
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/path_tee.hpp"
 #include "host_sim/run/run_machine.hpp"
+#include "host_sim/run/run_start.hpp"
 #include "host_sim/run/supervision.hpp"
 #include "host_sim/target/run_target.hpp"
 #include "host_sim/targets/output_table.hpp"
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <optional>
 #include <span>
@@ -141,6 +143,28 @@ MotionLimits<S> fitted(MachineDescription& machine, const RunTarget& target, boo
     return limits;
 }
 
+/// Where the machine stands. A program in G-code that nobody told it begins there.
+template <Scalar S>
+RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarget& target, PathInput& input,
+                    MachineState& begins, const PathLimits& limits) {
+    RunStart start(of.machine, arguments.options, target.standing());
+    const auto told = begins.position_mm;
+    start.settle(begins.position_mm);
+    if (input.gcode() != nullptr) { // others say themselves where they begin
+        of.settle_places(begins, arguments.state);
+        if (begins.position_mm != told) {
+            input.begin_at(begins);
+            if (input.repeatable()) { // it may leave the travel from there
+                static_cast<void>(pass<S>(input, {.limits = &limits}));
+            }
+        }
+    }
+    if (const std::string note = start.note(); !note.empty() && !arguments.motion.quiet) {
+        tell("splinefeed: note: {}\n", printable(note));
+    }
+    return start;
+}
+
 template <Scalar S>
 int move_machine(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.
@@ -158,6 +182,9 @@ int move_machine(const RunArguments& arguments) {
     motion_arguments.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
     motion_arguments.begins = of.state(arguments.state, arguments.position, arguments.options.home);
     input.begin_at(motion_arguments.begins);
+    if (!signals) {
+        of.settle_places(motion_arguments.begins, arguments.state);
+    }
     warn(input, arguments.motion.quiet);
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;
@@ -168,10 +195,13 @@ int move_machine(const RunArguments& arguments) {
     std::unique_ptr<ProgramOutputs, DeleteInTime> program_outputs;
     std::optional<StateKeeper> state;
     std::optional<Supervision> supervision;
+    std::optional<RunStart> start;
     if (signals) {
         target.reset(target_kind(arguments.target).make(arguments.target, machine, arguments.options).release());
         limits = fitted<S>(machine, *target, arguments.motion.quiet);
         target->check(machine, limits.segment_ticks / static_cast<double>(ticks_per_us));
+        start = find_start<S>(arguments, of, *target, input, motion_arguments.begins, path_limits);
+        motion_arguments.start = &*start;
         program_outputs.reset(input.gcode() != nullptr ? make_outputs(machine, arguments.target).release() : nullptr);
     }
     if (arguments.motion.enforce && !arguments.state.empty()) { // plan changes nothing

@@ -20,10 +20,19 @@ struct TargetError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// What a run does when the machine stands elsewhere than its program begins.
+enum class StartWay : std::uint8_t {
+    check, ///< it is refused
+    move,  ///< the machine moves there in a straight line
+    here,  ///< where it stands is where the program begins
+};
+
 /// What a run needs from its target in addition to motion.
 struct RunOptions {
+    bool reset = false; ///< faults of the drives are reset first
     bool home = false;  ///< the axes find their references before the run moves
     bool probe = false; ///< the run ends, held on the path, when the probe touches
+    StartWay start = StartWay::check;
 };
 
 /// The interface that Supervision uses. From the first segment on, only its thread calls the functions that are not
@@ -90,6 +99,10 @@ public:
     /// Of every axis that the target moves. Empty: no axis has moved, nor been told to, since the target was made; what
     /// was known of its place before is still true.
     [[nodiscard]] virtual std::vector<AxisPlace> places() const { return {}; }
+    /// Where every axis will stand behind prepare(), if its first segment begins there. Waits until the drives stand,
+    /// and sends them no command. Empty: prepare() moves the axes to the first segment by itself. Call before
+    /// prepare(). Throws TargetError.
+    [[nodiscard]] virtual std::vector<AxisPlace> standing() { return {}; }
     /// "; the machine stands at x=1.0000 y=2.0000 mm": the same as a text.
     [[nodiscard]] virtual std::string where() const = 0;
     /// Adds its data about the run.

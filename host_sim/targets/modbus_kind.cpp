@@ -27,9 +27,9 @@ std::unique_ptr<RunTarget> make_modbus_target(const std::string& target, const M
     }
     DriveTable table = drive_table(target, machine);
     if (table.interpolate) {
-        return std::make_unique<PvtTarget>(std::move(table), machine, options.home);
+        return std::make_unique<PvtTarget>(std::move(table), machine, options);
     }
-    return std::make_unique<SetpointTarget>(std::move(table), machine, options.home);
+    return std::make_unique<SetpointTarget>(std::move(table), machine, options);
 }
 
 LinkReport report(const std::string& target, const MachineDescription& machine, bool any_machine, double seconds) {

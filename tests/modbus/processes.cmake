@@ -52,6 +52,7 @@ process_test(modbus_profile_cia402_index profile_run.py ${path61} cia402-index -
 process_test(modbus_profile_oriental_az profile_run.py ${path61} oriental-az --wire rtu --tolerance-mm 0.15 ${ramp})
 process_test(modbus_profile_cia402_kinco profile_run.py ${path61} cia402-kinco --wire rtu --baud 57600 --tolerance-mm 0.36 ${ramp})
 process_test(modbus_home home_run.py)
+process_test(modbus_start start_runs.py)
 process_test(modbus_state state_run.py)
 process_test(modbus_run_ends run_ends.py)
 process_test(modbus_suspended_run suspended_run.py)

@@ -18,7 +18,6 @@ struct SetpointPlantParameters {
     bool one_wire = false;
     double acceleration_counts_s2 = 2e6; ///< of the first axis, as planned
     double fastest_counts_s = 60'000.0;  ///< of the first axis
-    double start_counts = 0.0;           ///< where each drive stands
     std::uint64_t seed = 1;
     double start_counts = 0.0;
     splinefeed::host::ModelFaults faults{}; ///< of each drive
@@ -43,7 +42,6 @@ public:
             const double share = std::fabs(way_share[static_cast<std::size_t>(i)]);
             splinefeed::host::ProfileDriveParameters parameters_of_drive;
             parameters_of_drive.period_us = profile.period_us;
-            parameters_of_drive.axis.start_counts = parameters.start_counts;
             parameters_of_drive.acceleration_counts_s2 = 4.0 * share * parameters.acceleration_counts_s2;
             parameters_of_drive.axis.stop_counts_s2 = share * parameters.quick_stop_counts_s2;
             parameters_of_drive.axis.start_counts = parameters.start_counts;

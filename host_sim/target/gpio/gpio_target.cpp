@@ -334,6 +334,15 @@ std::optional<double> GpioTarget::place(int axis) const {
     return mover_.referenced(axis) ? std::optional(mover_.position(axis)) : std::nullopt;
 }
 
+// Nothing on step lines knows it; behind homing they are moved.
+std::vector<RunTarget::AxisPlace> GpioTarget::standing() {
+    std::vector<AxisPlace> out;
+    for (int k = 0; !options_.home && k < machine_->settings.axes; ++k) {
+        out.push_back({static_cast<unsigned>(k), std::nullopt});
+    }
+    return out;
+}
+
 // An axis that is asked to stop is at its place once it stands.
 std::vector<RunTarget::AxisPlace> GpioTarget::places() const {
     std::vector<AxisPlace> out;

@@ -22,6 +22,7 @@ public:
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
     [[nodiscard]] bool resamples() const noexcept override { return false; }
     [[nodiscard]] std::string note() const override;
+    [[nodiscard]] std::vector<AxisPlace> standing() override;
     [[nodiscard]] std::vector<AxisPlace> places() const override;
     [[nodiscard]] std::string where() const override;
     void describe(Summary& summary) const override;

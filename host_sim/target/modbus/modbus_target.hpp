@@ -20,9 +20,10 @@ class ModbusTarget : public RunTarget {
 protected:
     /// @param wiring_of  converts the drives of a table to the form of the port
     template <class WiringOf>
-    ModbusTarget(DriveTable table, const MachineDescription& machine, bool home, WiringOf wiring_of)
-        : machine_(&machine), table_(std::move(table)), home_(home),
-          port_(wiring_of(table_, machine), {.home = home, .interrupted = &SignalWatch::interrupted}) {}
+    ModbusTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options, WiringOf wiring_of)
+        : machine_(&machine), table_(std::move(table)), home_(options.home),
+          port_(wiring_of(table_, machine),
+                {.home = options.home, .reset = options.reset, .interrupted = &SignalWatch::interrupted}) {}
 
     [[nodiscard]] std::vector<StoppedDrive> stopped() const {
         std::vector<StoppedDrive> drives;
@@ -39,11 +40,17 @@ protected:
         const double mm = counts / machine_->settings.axis[axis].steps_per_mm;
         return {axis, referenced_ ? std::optional(mm) : std::nullopt, online};
     }
+    /// The same before prepare(): where it will stand behind it.
+    /// @param placed  the counts are those of the machine
+    [[nodiscard]] AxisPlace standing_place(unsigned axis, double counts, bool placed) const {
+        const double mm = home_ ? 0.0 : counts / machine_->settings.axis[axis].steps_per_mm;
+        return {axis, home_ || placed ? std::optional(mm) : std::nullopt};
+    }
     [[nodiscard]] bool may_have_moved() const noexcept { return may_have_moved_; }
 
     const MachineDescription* machine_;
     DriveTable table_;
-    bool home_;
+    bool home_; // prepare() finds the references: the axes then stand at 0
     Port port_;
 
 private:

@@ -60,8 +60,8 @@ void check_pvt_range(const MachineDescription& machine, double segment_us) {
     }
 }
 
-PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, bool home)
-    : ModbusTarget(std::move(table), machine, home, pvt_wiring) {
+PvtTarget::PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options)
+    : ModbusTarget(std::move(table), machine, options, pvt_wiring) {
     if (const auto failure = port_.open()) {
         throw TargetError(drive_sentence(table_, port_, *failure));
     }
@@ -79,7 +79,7 @@ std::string drive_sentence(const DriveTable& table, const ModbusPort& port, cons
     std::string text = fmt::format("{}{}: {}", drive.place, drive.name, describe(failure.problem));
     if (failure.problem == DriveProblem::fault) {
         const std::size_t axis = report.status.fault_axis;
-        text += fmt::format(", code {} on {}: {}", report.status.fault,
+        text += fmt::format(", code {} on {}: {}; remove its cause, and run with --reset", report.status.fault,
                             axis < drive.axis_names.size() ? drive.axis_names[axis] : fmt::format("its axis {}", axis),
                             fault_name(report.status.fault));
     } else if (failure.problem == DriveProblem::unknown_state || failure.problem == DriveProblem::not_standing) {
@@ -96,6 +96,29 @@ std::string PvtTarget::fault() const {
     return drive_sentence(table_, port_, *port_.failure()) + unconfirmed_drives(stopped());
 }
 
+std::vector<RunTarget::AxisPlace> PvtTarget::standing() {
+    if (const auto failure = port_.await_standstill()) {
+        throw TargetError(drive_sentence(table_, port_, *failure));
+    }
+    std::vector<AxisPlace> out;
+    for (std::size_t i = 0; i < port_.drives(); ++i) {
+        const DriveWiring& wiring = port_.wiring(i);
+        for (std::size_t k = 0; k < wiring.axes.size(); ++k) {
+            if (wiring.axes[k].machine_axis >= 0) {
+                const auto axis = static_cast<unsigned>(wiring.axes[k].machine_axis);
+                out.push_back(standing_place(axis, counts_of(i, k), port_.placed(i)));
+            }
+        }
+    }
+    return out;
+}
+
+// As its drive reports it, in the axis's direction.
+int PvtTarget::counts_of(std::size_t drive, std::size_t drive_axis) const {
+    const int counts = port_.report(drive).status.position[drive_axis];
+    return port_.wiring(drive).axes[drive_axis].inverted ? -counts : counts;
+}
+
 std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
     std::vector<AxisPlace> out;
     for (std::size_t i = 0; may_have_moved() && i < port_.drives(); ++i) {
@@ -104,10 +127,9 @@ std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
         for (std::size_t k = 0; k < wiring.axes.size(); ++k) {
             if (wiring.axes[k].machine_axis >= 0) {
                 const auto axis = static_cast<unsigned>(wiring.axes[k].machine_axis);
-                const int counts = wiring.axes[k].inverted ? -report.status.position[k] : report.status.position[k];
                 // One that is away went on to where all were to stop.
                 const bool online = hal::system_clock().now_us() - report.answered_us < stale_us;
-                AxisPlace& at = out.emplace_back(place(axis, counts, online));
+                AxisPlace& at = out.emplace_back(place(axis, counts_of(i, k), online));
                 at.mm = port_.known_position(i, k) ? at.mm : std::nullopt;
             }
         }

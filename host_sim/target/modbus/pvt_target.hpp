@@ -24,19 +24,22 @@ void check_pvt_range(const MachineDescription& machine, double segment_us);
 class PvtTarget final : public ModbusTarget<hal::modbus::ModbusPort> {
 public:
     /// Connects to the drives. Throws TargetError. @pre they interpolate
-    PvtTarget(DriveTable table, const MachineDescription& machine, bool home);
+    PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options);
 
     [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
     [[nodiscard]] bool resamples() const noexcept override;
     void check(const MachineDescription& machine, double segment_us) const override {
         check_pvt_range(machine, segment_us);
     }
+    [[nodiscard]] std::vector<AxisPlace> standing() override;
     [[nodiscard]] std::vector<AxisPlace> places() const override;
     void describe(Summary& summary) const override;
 
 private:
     [[nodiscard]] std::string prepare_port(const FeedSegment& first) override;
     [[nodiscard]] std::string fault() const override;
+
+    [[nodiscard]] int counts_of(std::size_t drive, std::size_t drive_axis) const;
 
     double least_segment_us_ = 0.0;
 };

@@ -103,8 +103,8 @@ void check_register_ranges(const DriveTable& table, const MachineDescription& ma
     }
 }
 
-SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machine, bool home)
-    : ModbusTarget(std::move(table), machine, home, target_wiring) {
+SetpointTarget::SetpointTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options)
+    : ModbusTarget(std::move(table), machine, options, target_wiring) {
     if (const std::string what = port_.open(); !what.empty()) {
         throw TargetError(sentence(what));
     }
@@ -157,6 +157,19 @@ std::string SetpointTarget::note() const {
 
 std::string SetpointTarget::fault() const {
     return sentence(port_.trouble()) + unconfirmed_drives(stopped());
+}
+
+std::vector<RunTarget::AxisPlace> SetpointTarget::standing() {
+    if (const std::string what = port_.await_standstill(); !what.empty()) {
+        throw TargetError(sentence(what));
+    }
+    std::vector<AxisPlace> out;
+    for (std::size_t i = 0; i < table_.drives.size(); ++i) {
+        const auto axis = static_cast<unsigned>(axis_of(i));
+        const double counts = machine_->inverted[axis] ? -port_.standing_counts(i) : port_.standing_counts(i);
+        out.push_back(standing_place(axis, counts, port_.placed(i)));
+    }
+    return out;
 }
 
 std::vector<RunTarget::AxisPlace> SetpointTarget::places() const {

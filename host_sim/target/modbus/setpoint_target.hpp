@@ -26,7 +26,7 @@ class SetpointTarget final : public ModbusTarget<hal::modbus::SetpointPort> {
 public:
     /// Connects to the drives. Throws TargetError, and UsageError if the lines are too slow. @pre they do not
     /// interpolate
-    SetpointTarget(DriveTable table, const MachineDescription& machine, bool home);
+    SetpointTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options);
 
     // Targets are computed from the path at any instant, so segments may be as short as wanted.
     [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
@@ -36,6 +36,7 @@ public:
         check_register_ranges(table_, machine, port_.period_us());
     }
     [[nodiscard]] std::string note() const override;
+    [[nodiscard]] std::vector<AxisPlace> standing() override;
     [[nodiscard]] std::vector<AxisPlace> places() const override;
     void describe(Summary& summary) const override;
 

@@ -17,8 +17,8 @@ struct ModbusPortSettings {
     std::uint32_t stop_reserve_ms = 100; ///< PvtConfiguration; the same for all drives of a run
     std::uint32_t silent_us = 100'000;   ///< a drive without an answer for this long is offline: the others stop
     std::uint32_t away_us = 5'000'000;   ///< offline for this long: the port goes to fault
-    bool reset = false;                  ///< prepare() resets the faults of drives
     bool home = false;                   ///< prepare() homes the drives first
+    bool reset = false;                  ///< prepare() resets the faults of drives
     bool (*interrupted)() = nullptr;     ///< polled during homing; true: quick stop
     LinkTiming timing{};
     std::uint32_t first_sequence = 1; ///< sequence number of the first segment; 0 leaves no mark: placed()

@@ -59,6 +59,10 @@ public:
     [[nodiscard]] const DriveReading& reading(std::size_t drive) const noexcept {
         return group_.drive(drive).reading();
     }
+    /// Position that the drive reports, in its own counts. Before prepare().
+    [[nodiscard]] double standing_counts(std::size_t drive) const noexcept {
+        return static_cast<double>(group_.drive(drive).reading().position_q16) / (1 << physical_bits);
+    }
     [[nodiscard]] const LinkCounts& counts(std::size_t drive) const noexcept { return group_.drive(drive).counts(); }
     /// Reported position of a drive, in counts of the machine's axis; empty: it is not known which position of the axis
     /// that is, since prepare() has not come so far. After prepare().
