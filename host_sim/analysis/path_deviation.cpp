@@ -11,11 +11,8 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double arc_error = 9e-8; // of a quintic of 0.4 rad, as a part of the radius
-// Of the same where the radius grows: as a part of the growth for each radian, and of all of it, for the handles of all
-// pieces are those of the mean radius.
-constexpr double spiral_error = 0.1;
-constexpr double mean_radius_error = 0.01;
+constexpr double arc_error = 9e-8;         // of a quintic of 0.4 rad, as a part of the radius
+constexpr double spiral_error = 0.1;       // of the same, as a part of the growth of the radius for each radian
 constexpr double left_out_below_mm = 2e-4; // on every axis: waypoints merge within half of it, and ends add up
 constexpr int parts_of_line = 4;
 constexpr int parts_a_move = 4; // of a segment through several
@@ -72,9 +69,8 @@ void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
                .tolerance = move.tolerance_mm,
                .line = line};
     if (const auto& arc = added.strand.arc()) {
-        const double growth = std::fabs(arc->radius_to() - arc->radius_from());
-        added.rounding = arc_error * added.strand.radius() + spiral_error * growth / std::fabs(arc->angle()) +
-                         mean_radius_error * growth;
+        added.rounding = arc_error * added.strand.radius() +
+                         spiral_error * std::fabs((arc->radius_to() - arc->radius_from()) / arc->angle());
     }
     double largest = 0.0;
     double farthest = 0.0;

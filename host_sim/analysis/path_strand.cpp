@@ -15,11 +15,8 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double part_of_arc = 0.1; // [rad]
 constexpr int most_parts = 4096;
 constexpr int parts_of_bezier = 24;
-constexpr std::size_t block = 12;     // places
-constexpr int steps = 200;            // of Gauss and Newton: most feet take three, some far beside a sharp bend many
-constexpr double least_change = 1e-9; // of t
-constexpr int most_halvings = 30;     // of a step that overshoots, as beside a cusp
-constexpr double near_enough_sq = 1e-7 * 1e-7; // a point on the strand: no other part of it can matter
+constexpr std::size_t block = 12; // places
+constexpr int steps = 6;          // of Gauss and Newton, each squares the error
 
 } // namespace
 
@@ -59,7 +56,6 @@ void PathStrand::prepare() {
     if (!straight()) {
         for (int i = 0; i <= parts_; ++i) {
             places_.push_back(at(i / static_cast<double>(parts_)));
-            lengths_.push_back(length_bound((i + 0.5) / parts_, 0.5 / parts_));
         }
         for (std::size_t first = 0; first < places_.size(); first += block) {
             Box& box = blocks_.emplace_back(Box{places_[first], places_[first]});
@@ -131,20 +127,6 @@ PerAxis<double> PathStrand::slope(double t) const noexcept {
     return out;
 }
 
-// The length of a part is no more, to the bend of its speed: of ends and middle the largest speed, and a half.
-double PathStrand::length_bound(double middle, double half) const noexcept {
-    double speed_sq = 0.0;
-    for (const double t : {middle - half, middle, middle + half}) {
-        const PerAxis<double> along = slope(t);
-        double sum = 0.0;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
-            sum += along[k] * along[k];
-        }
-        speed_sq = std::fmax(speed_sq, sum);
-    }
-    return 1.5 * std::sqrt(speed_sq) * 2.0 * half;
-}
-
 double PathStrand::distance_sq(const PerAxis<double>& point, const AxisSet& set, double t) const noexcept {
     const PerAxis<double> place = at(t);
     double sum = 0.0;
@@ -207,25 +189,14 @@ PathStrand::Foot PathStrand::guess(const PerAxis<double>& point, const AxisSet& 
     return {static_cast<double>(nearest) / static_cast<double>(parts_), best_sq};
 }
 
-// The nearest of its ends and of the places in the direction of the point, in the turns about which its radius, its
-// height and the other axes are. Each counts by its square, as in the distance: a rise of rounding says nothing.
+// The nearest of its ends and of the places in the direction of the point, in the turns that have about its height or
+// its radius.
 PathStrand::Foot PathStrand::guess_on_arc(const PerAxis<double>& point, const AxisSet& set) const noexcept {
-    const ProgrammedArc::Cylindrical polar = arc_->polar({point[0], point[1], point[2]});
-    const double growth = arc_->radius_to() - arc_->radius_from();
-    double sum = growth * polar.growth + arc_->rise() * polar.rise;
-    double all_sq = growth * growth + arc_->rise() * arc_->rise();
-    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
-        const unsigned k = set.axis[n];
-        if (k >= 3) {
-            const double way = control_[k][static_cast<unsigned>(degree_)] - control_[k][0];
-            sum += way * (point[k] - control_[k][0]);
-            all_sq += way * way;
-        }
-    }
-    const double share = all_sq > 0.0 ? std::clamp(sum / all_sq, 0.0, 1.0) : 0.0;
+    const Vector3 place{point[0], point[1], point[2]};
+    const ProgrammedArc::Cylindrical polar = arc_->polar(place);
     const double turn = two_pi / std::fabs(arc_->angle());
     const double first = std::fmod(std::fmod(polar.angle / arc_->angle(), turn) + turn, turn); // of the first turn
-    const double turns = std::clamp(std::round((share - first) / turn), 0.0, std::floor(1.0 / turn));
+    const double turns = std::clamp(std::round((polar.share - first) / turn), 0.0, std::floor(1.0 / turn));
     Foot best{0.0, distance_sq(point, set, 0.0)};
     for (const double t : {1.0, first + (turns - 1.0) * turn, first + turns * turn, first + (turns + 1.0) * turn}) {
         if (t >= 0.0 && t <= 1.0) {
@@ -236,9 +207,12 @@ PathStrand::Foot PathStrand::guess_on_arc(const PerAxis<double>& point, const Ax
     return best;
 }
 
-// From a place downhill to the foot of the point. A step that does not come nearer is halved: it goes in the direction
-// in which the distance falls.
-PathStrand::Foot PathStrand::descend(Foot foot, const PerAxis<double>& point, const AxisSet& set) const noexcept {
+double PathStrand::distance(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+    const bool turns = arc_ && set.axis[0] < 3;
+    if (!turns && (degree_ == 1 || arc_)) {
+        return from_line(point, set);
+    }
+    Foot foot = turns ? guess_on_arc(point, set) : guess(point, set);
     for (int step = 0; step < steps; ++step) {
         const PerAxis<double> place = at(foot.t);
         const PerAxis<double> along = slope(foot.t);
@@ -250,59 +224,16 @@ PathStrand::Foot PathStrand::descend(Foot foot, const PerAxis<double>& point, co
             speed_sq += along[k] * along[k];
         }
         if (!(speed_sq > 0.0)) {
-            return foot;
+            break;
         }
-        double change = std::clamp(foot.t + way / speed_sq, 0.0, 1.0) - foot.t;
-        double there = distance_sq(point, set, foot.t + change);
-        for (int halving = 0; !(there < foot.distance_sq) && halving < most_halvings; ++halving) {
-            change *= 0.5;
-            there = distance_sq(point, set, foot.t + change);
-        }
+        const double t = std::clamp(foot.t + way / speed_sq, 0.0, 1.0);
+        const double there = distance_sq(point, set, t);
         if (!(there < foot.distance_sq)) {
-            return foot;
+            break;
         }
-        const bool last = std::fabs(change) < least_change;
-        foot = {foot.t + change, there};
-        if (last) {
-            return foot;
-        }
+        foot = {t, there};
     }
-    return foot;
-}
-
-// In every part that may come nearer: beside a cusp, and where the strand comes back, the nearest place need not lead
-// to the foot. A part cannot where its ends are too far for its length.
-PathStrand::Foot PathStrand::best_of_parts(Foot best, const PerAxis<double>& point, const AxisSet& set) const noexcept {
-    constexpr int finer = 8;
-    const auto place_distance = [&](std::size_t i) {
-        double sum = 0.0;
-        for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
-            const double way = places_[i][set.axis[n]] - point[set.axis[n]];
-            sum += way * way;
-        }
-        return std::sqrt(sum);
-    };
-    double from = place_distance(0);
-    for (std::size_t i = 0; i + 1 < places_.size() && best.distance_sq > near_enough_sq; ++i) {
-        const double to = place_distance(i + 1);
-        const bool far = from + to - lengths_[i] > 2.0 * std::sqrt(best.distance_sq);
-        from = to;
-        for (int n = 0; n <= finer && !far; ++n) {
-            const double t = (static_cast<double>(i) + n / static_cast<double>(finer)) / parts_;
-            const Foot foot = descend({t, distance_sq(point, set, t)}, point, set);
-            best = foot.distance_sq < best.distance_sq ? foot : best;
-        }
-    }
-    return best;
-}
-
-double PathStrand::distance(const PerAxis<double>& point, const AxisSet& set) const noexcept {
-    const bool turns = arc_ && set.axis[0] < 3;
-    if (!turns && (degree_ == 1 || arc_)) {
-        return from_line(point, set);
-    }
-    const Foot foot = descend(turns ? guess_on_arc(point, set) : guess(point, set), point, set);
-    return std::sqrt(turns ? foot.distance_sq : best_of_parts(foot, point, set).distance_sq);
+    return std::sqrt(foot.distance_sq);
 }
 
 template PathStrand::PathStrand(const CurveSegment<double>&, int);

@@ -56,11 +56,8 @@ private:
 
     void prepare();
     [[nodiscard]] PerAxis<double> slope(double t) const noexcept;
-    [[nodiscard]] double length_bound(double middle, double half) const noexcept;
     [[nodiscard]] double distance_sq(const PerAxis<double>& point, const AxisSet& set, double t) const noexcept;
     [[nodiscard]] Foot guess(const PerAxis<double>& point, const AxisSet& set) const noexcept;
-    [[nodiscard]] Foot descend(Foot foot, const PerAxis<double>& point, const AxisSet& set) const noexcept;
-    [[nodiscard]] Foot best_of_parts(Foot best, const PerAxis<double>& point, const AxisSet& set) const noexcept;
     [[nodiscard]] Foot guess_on_arc(const PerAxis<double>& point, const AxisSet& set) const noexcept;
     [[nodiscard]] double from_line(const PerAxis<double>& point, const AxisSet& set) const noexcept;
 
@@ -71,7 +68,6 @@ private:
     std::optional<ProgrammedArc> arc_;
     std::vector<PerAxis<double>> places_; // at i / parts_
     std::vector<Box> blocks_;             // of so many places each: most need no look
-    std::vector<double> lengths_;         // of the strand from each place to the next, at most
     Box box_;
 };
 
