@@ -4,7 +4,10 @@
 #include "ports/pvt_plant.hpp"
 #include "ports/run_plant.hpp"
 #include "support/catch.hpp"
+#include "support/places.hpp"
 
+#include <cstdio>
+#include <fstream>
 #include <set>
 
 using namespace splinefeed::hal;
@@ -82,13 +85,26 @@ const std::vector<Lie> lies{
     {"no hold", {}, PvtCommand::hold, {}},
 };
 
+/// How often each event came in each phase, in several runs.
+struct Visits {
+    std::array<std::array<std::uint64_t, ModbusPhases::events>, ModbusPhases::phases> counts{};
+
+    void add(const ModbusPhases& phases) {
+        for (std::size_t i = 0; i < ModbusPhases::phases; ++i) {
+            for (std::size_t j = 0; j < ModbusPhases::events; ++j) {
+                counts[i][j] += phases.visits(static_cast<ModbusPhase>(i), static_cast<ModbusEvent>(j));
+            }
+        }
+    }
+};
+
 struct Told {
     PortPhase phase = PortPhase::running;
     std::optional<DriveFailure> failure;
     std::uint64_t took_us = 0;
 };
 
-Told run_with(const Lie& lie, std::uint64_t from_us, const Asked& asked, ModbusPhases* phases = nullptr) {
+Told run_with(const Lie& lie, std::uint64_t from_us, const Asked& asked, Visits& visits) {
     PvtPlant plant({});
     plant.make();
     plant.sample_positions();
@@ -105,14 +121,11 @@ Told run_with(const Lie& lie, std::uint64_t from_us, const Asked& asked, ModbusP
     }
     const PortPhase phase = run(plant, motion, asked);
     Told told{phase, plant.port->failure(), plant.clock.now_us() - plant.began_us};
-    if (phases != nullptr) {
-        *phases = plant.port->phases();
-    }
+    plant.port->power_off(); // whatever its end
+    visits.add(plant.port->phases());
     plant.events.clear();
-    for (std::size_t i = 0; i < 3; ++i) { // who tells the truth stands
-        CHECK((i == 1 || plant.port->stop_report(i).request == StopRequest::none ||
-               plant.port->stop_report(i).state == StopState::confirmed));
-    }
+    // Who tells the truth stands, and has no power; the first one may be away just then.
+    CHECK(plant.port->stop_report(2).state == StopState::confirmed);
     plant.port.reset();
     return told;
 }
@@ -121,9 +134,10 @@ Told run_with(const Lie& lie, std::uint64_t from_us, const Asked& asked, ModbusP
 
 TEST_CASE("PVT port, virtual: whatever a drive reports or leaves undone, the run ends, and says it of that drive",
           "[ports]") {
+    Visits visits;
     for (const Lie& lie : lies) {
         for (const std::uint64_t from_us : {0U, 300'000U}) {
-            const Told told = run_with(lie, from_us, {});
+            const Told told = run_with(lie, from_us, {}, visits);
             INFO(lie.what << " from " << from_us
                           << " us on: " << (told.failure ? describe(told.failure->problem) : "no failure"));
             CHECK(told.phase != PortPhase::running);
@@ -134,5 +148,84 @@ TEST_CASE("PVT port, virtual: whatever a drive reports or leaves undone, the run
                 CHECK(lie.says.count(told.failure->problem) == 1);
             }
         }
+    }
+    const Lie nothing{"nothing", {}, {}, {}};
+    for (const std::uint64_t hold_us : {0U, 60'000U, 200'000U, 350'000U, 500'000U, 800'000U}) {
+        const std::uint64_t quick_us = hold_us + 10'000;
+        CHECK(run_with(nothing, 1'000'000, {.hold_us = hold_us, .quick_us = quick_us}, visits).phase ==
+              PortPhase::halted);
+    }
+    struct Never {
+        ModbusPhase phase;
+        ModbusEvent event;
+        const char* why;
+    };
+    const std::vector<Never> never{
+        {ModbusPhase::halting, ModbusEvent::overdue, "a StopSequence ends before: it has bounds of its own"},
+        {ModbusPhase::filling, ModbusEvent::executed, "motions without segments are not run"},
+        {ModbusPhase::starting, ModbusEvent::stop, "it lasts for some ms: pvt_stop_test.cpp asks for holds then"},
+        {ModbusPhase::stopping, ModbusEvent::stop, "no run of this test asks for a stop just then"},
+        {ModbusPhase::waiting, ModbusEvent::stop, "the same"},
+        {ModbusPhase::waiting, ModbusEvent::executed, "no run of this test stops at its last segment"},
+        {ModbusPhase::starting, ModbusEvent::broken, "of a segment out of range: pvt_counters_test.cpp"},
+        {ModbusPhase::running, ModbusEvent::broken, "the same"},
+        {ModbusPhase::stopping, ModbusEvent::broken, "the same"},
+        {ModbusPhase::done, ModbusEvent::broken, "the same, behind complete(): an error of the caller"},
+    };
+    for (std::size_t i = 0; i < ModbusPhases::phases; ++i) {
+        for (std::size_t j = 0; j < ModbusPhases::events; ++j) {
+            const auto phase = static_cast<ModbusPhase>(i);
+            const auto event = static_cast<ModbusEvent>(j);
+            const bool changes = modbus_phase_table()[i][j] != phase;
+            const bool excused = std::any_of(never.begin(), never.end(), [&](const Never& cell) {
+                return cell.phase == phase && cell.event == event;
+            });
+            INFO(name(phase) << ", " << name(event) << ": " << visits.counts[i][j]);
+            CHECK((visits.counts[i][j] > 0 || !changes || excused));
+        }
+    }
+}
+
+TEST_CASE("PVT port: the page of the phases is the table, and a phase that awaits has a bound and a sentence",
+          "[ports]") {
+    std::ifstream page(splinefeed::test::source_folder() + "/docs/reference/port_states.md");
+    const std::string whole{std::istreambuf_iterator<char>(page), {}};
+    const std::string text = whole.substr(std::min(whole.size(), whole.find("(`ModbusPort`)")));
+    const ModbusPhases::Bounds bounds = modbus_phase_bounds({.port = {.segment_us = 1000.0,
+                                                                      .reserve_us = 100'000.0,
+                                                                      .silent_us = 100'000,
+                                                                      .away_us = 5'000'000,
+                                                                      .settling_us = 40'000},
+                                                             .ring_us = 512'000,
+                                                             .command_us = 460'000,
+                                                             .start_us = 200'000,
+                                                             .stop_us = 62'430'000});
+    for (std::size_t i = 0; i < ModbusPhases::phases; ++i) {
+        const auto phase = static_cast<ModbusPhase>(i);
+        std::string events;
+        for (std::size_t j = 0; j < ModbusPhases::events; ++j) {
+            const ModbusPhase next = modbus_phase_table()[i][j];
+            const std::string cell = std::string("`") + name(static_cast<ModbusEvent>(j)) + "` " + name(next);
+            events += next == phase ? "" : (events.empty() ? "" : ", ") + cell;
+        }
+        std::array<char, 16> longest{"-"};
+        if (bounds[i].most_us != PhaseBound::final_us) {
+            std::snprintf(longest.data(), longest.size(), "%.1f s", static_cast<double>(bounds[i].most_us) * 1e-6);
+        }
+        const std::string ends = " | " + events + " | " + longest.data() + " |\n";
+        INFO(name(phase) << ends);
+        const std::size_t row = text.find(std::string("\n| `") + name(phase) + "` | ");
+        REQUIRE(row != std::string::npos);
+        const std::string line = text.substr(row + 1, text.find('\n', row + 1) - row);
+        CHECK(line.size() > ends.size());
+        CHECK(line.substr(line.size() - std::min(line.size(), ends.size())) == ends);
+        const bool over = phase >= ModbusPhase::halted;
+        CHECK((bounds[i].most_us == PhaseBound::final_us) == over);
+        CHECK((bounds[i].sentence[0] == '\0') == over);
+        // Whatever is awaited, a stop ends it.
+        CHECK(modbus_phase_table()[i][static_cast<std::size_t>(ModbusEvent::stop)] == ModbusPhase::halting);
+    }
+    for (std::size_t j = 0; j < ModbusPhases::events; ++j) {
+        CHECK(text.find(std::string("\n| `") + name(static_cast<ModbusEvent>(j)) + "` | ") != std::string::npos);
     }
 }

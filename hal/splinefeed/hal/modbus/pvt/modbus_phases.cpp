@@ -15,12 +15,12 @@ constexpr ModbusPhases::Table phases_of_port() noexcept {
     return {{
     //               ready     started   disturbed stands    executed  broken    overdue   stop      settled   failed
     /* filling  */ {{starting, filling,  filling,  filling,  done,     halting,  halting,  halting,  filling,  filling}},
-    /* starting */ {{starting, running,  stopping, starting, starting, halting,  stopping, halting,  starting, starting}},
+    /* starting */ {{starting, running,  starting, starting, starting, halting,  stopping, halting,  starting, starting}},
     /* running  */ {{running,  running,  stopping, running,  done,     halting,  halting,  halting,  running,  running}},
     /* stopping */ {{stopping, stopping, stopping, waiting,  stopping, halting,  halting,  halting,  stopping, stopping}},
     /* waiting  */ {{starting, waiting,  waiting,  waiting,  done,     halting,  halting,  halting,  waiting,  waiting}},
     /* halting  */ {{halting,  halting,  halting,  halting,  halting,  halting,  fault,    halting,  halted,   fault}},
-    /* halted   */ {{halted,   halted,   halted,   halted,   halted,   halted,   halted,   halting,  halted,   fault}},
+    /* halted   */ {{halted,   halted,   halted,   halted,   halted,   halted,   halted,   halting,  halted,   halted}},
     /* done     */ {{done,     done,     done,     done,     done,     halting,  done,     halting,  done,     done}},
     /* fault    */ {{fault,    fault,    fault,    fault,    fault,    fault,    fault,    halting,  fault,    fault}},
     }};
