@@ -35,10 +35,12 @@ protected:
 
     /// As prepare().
     [[nodiscard]] virtual std::string prepare_port(const FeedSegment& first) = 0;
-    /// Of an axis that stands at this position in the machine's own direction, once it has its reference.
-    [[nodiscard]] AxisPlace place(unsigned axis, double counts, bool online) const {
+    /// Of an axis that stands at this position in the machine's own direction, once it has its reference. A drive that
+    /// answers and did not confirm its stop may still move.
+    [[nodiscard]] AxisPlace place(std::size_t drive, unsigned axis, double counts, bool online) const {
         const double mm = counts / machine_->settings.axis[axis].steps_per_mm;
-        return {axis, referenced_ ? std::optional(mm) : std::nullopt, online};
+        const bool moves = online && port_.stop_report(drive).state == hal::StopState::unconfirmed;
+        return {axis, referenced_ && !moves ? std::optional(mm) : std::nullopt, online};
     }
     /// The same before prepare(): where it will stand behind it.
     /// @param placed  the counts are those of the machine

@@ -129,7 +129,7 @@ std::vector<RunTarget::AxisPlace> PvtTarget::places() const {
                 const auto axis = static_cast<unsigned>(wiring.axes[k].machine_axis);
                 // One that is away went on to where all were to stop.
                 const bool online = hal::system_clock().now_us() - report.answered_us < stale_us;
-                AxisPlace& at = out.emplace_back(place(axis, counts_of(i, k), online));
+                AxisPlace& at = out.emplace_back(place(i, axis, counts_of(i, k), online));
                 at.mm = port_.known_position(i, k) ? at.mm : std::nullopt;
             }
         }

@@ -178,7 +178,7 @@ std::vector<RunTarget::AxisPlace> SetpointTarget::places() const {
         const auto axis = static_cast<unsigned>(axis_of(i));
         const std::optional<double> counts = port_.position_counts(i);
         const bool online = port_.online(i);
-        out.push_back(counts ? place(axis, *counts, online) : AxisPlace{axis, std::nullopt, online});
+        out.push_back(counts ? place(i, axis, *counts, online) : AxisPlace{axis, std::nullopt, online});
     }
     return out;
 }
