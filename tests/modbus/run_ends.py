@@ -16,6 +16,7 @@ import time
 
 from drive_processes import Drive, machine_text
 
+STILL_COUNTS = 0.5  # the shaft of a simulated drive comes to its target ever more slowly
 STEPS = 320
 LIMIT = 500.0
 AXIS = f"max_velocity_mm_s = 80\nmax_acceleration_mm_s2 = {LIMIT:.0f}\nsteps_per_mm = {STEPS}\n"
@@ -118,8 +119,9 @@ def one(tool, name, profile):
             problems += drive.stop()
             rows = drive.shaft_rows()
             at_exit = min(range(len(rows)), key=lambda i: abs(drive.start_s() + rows[i][0] - ended - 0.004))
-            if what != "kill" and rows[-1][1] != rows[at_exit][1]:
-                problems.append(f"a shaft moved by {rows[-1][1] - rows[at_exit][1]} counts after the exit")
+            moved = rows[-1][1] - rows[at_exit][1]
+            if what != "kill" and abs(moved) >= STILL_COUNTS:
+                problems.append(f"a shaft moved by {moved} counts after the exit")
             most = hardest(rows, 50 if profile else 8)
             if "--home" not in options and what != "kill" and most > 1.5 * LIMIT:
                 problems.append(f"a shaft was accelerated by {most:.0f} mm/s^2 of {LIMIT:.0f}")
