@@ -59,7 +59,8 @@ class Drive:
         begun = time.monotonic()
         try:
             address = f"modbus-rtu://{line.path}?parity=N&stop=1&profile={self.profile}"
-            run = subprocess.run([self.tool, "run", path, "-m", self.machine, "--target", address, "--summary", "json"],
+            run = subprocess.run([self.tool, "run", path, "-m", self.machine, "--target", address, "--start", "here", "--summary",
+                                  "json"],
                                  capture_output=True, text=True, timeout=RUN_S, check=False)
         finally:
             line.close()

@@ -109,7 +109,9 @@ def called(command, folder, stall_s=0.0):
             time.sleep(1.7)
             process.send_signal(signal.SIGSTOP)
             time.sleep(stall_s)
-            process.send_signal(signal.SIGCONT)
+            process.send_signal(signal.SIGCONT)  # which holds the machine,
+            time.sleep(0.1)
+            process.send_signal(signal.SIGUSR2)  # until its user resumes it
         try:
             output, errors = process.communicate(timeout=600)
         except subprocess.TimeoutExpired:
