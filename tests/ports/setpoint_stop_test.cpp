@@ -159,3 +159,31 @@ TEST_CASE("Set-point port, virtual: one drive stops for itself, and all stop", "
         check_stands_since(plant, plant.clock.now_us());
     }
 }
+
+TEST_CASE("Set-point port, virtual: after a long pause of the host a stop still sends what is due", "[ports]") {
+    for (const char* const profile : {"cia402-index", "lexium32m"}) {
+        INFO(profile);
+        SetpointPlant plant({.profile = profile});
+        plant.make();
+        REQUIRE(plant.port->open() == "");
+        REQUIRE(plant.port->prepare(motion.segments.front()) == "");
+        plant.began_us = plant.clock.now_us();
+        const std::uint64_t pause_us = plant.port->longest_stop_us() + 5'000'000;
+        plant.stations[1]->mute.push_back({plant.began_us + 190'000, plant.began_us + 200'000 + pause_us});
+        while (plant.clock.now_us() < plant.began_us + 200'000) {
+            while (plant.next < motion.segments.size() && plant.port->room() > 0 &&
+                   plant.port->submit(motion.segments[plant.next])) {
+                ++plant.next;
+            }
+            static_cast<void>(plant.port->poll());
+            plant.clock.sleep_us(1000);
+        }
+        plant.port->halt();
+        plant.clock.sleep_us(pause_us); // nobody polls
+        while (plant.port->poll().phase == PortPhase::running) {
+            plant.clock.sleep_us(1000);
+        }
+        CHECK(plant.port->stop_report(1).request >= StopRequest::quick_stop);
+        CHECK(plant.port->stop_report(1).state == StopState::confirmed);
+    }
+}

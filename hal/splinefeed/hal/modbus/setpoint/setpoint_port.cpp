@@ -21,8 +21,7 @@ constexpr std::uint64_t settle_us = 50'000;       // settling time of the shafts
 constexpr std::uint64_t least_way_us = 1'000'000; // The motion must advance by this much
 constexpr std::uint64_t steady_us = 30'000'000;   // within this time, however often all drives stop.
 constexpr std::uint64_t poll_interval_us = 1000;
-constexpr std::uint64_t late_us = 1'000'000; // that a stop may end behind its time: the host is late
-constexpr unsigned stop_turns = 10;          // periods of a bus until a command and its status have passed
+constexpr unsigned stop_turns = 10; // periods of a bus until a command and its status have passed
 
 } // namespace
 
@@ -152,6 +151,8 @@ void SetpointPort::fail(DriveTrouble&& trouble) noexcept {
     begin_stop(StopRequest::hold, Event::trouble);
 }
 
+// The sequence decides when the stop is over. A host that paused may be late for each of its requests, so the phase's
+// bound counts from the last one.
 void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
     bool together = true;
     for (std::size_t i = 0; i < group_.size(); ++i) {
@@ -162,7 +163,18 @@ void SetpointPort::follow_stop(std::uint64_t now_us) noexcept {
     for (StopFacts& facts : facts_) {
         facts.on_path = together;
     }
+    const auto requests = [this] {
+        std::size_t sum = 0;
+        for (std::size_t i = 0; i < group_.size(); ++i) {
+            sum += static_cast<std::size_t>(stop_.report(i).request);
+        }
+        return sum;
+    };
+    const std::size_t before = requests();
     stop_.update(now_us, facts_);
+    if (requests() != before) {
+        phases_.progress(now_us);
+    }
     for (std::size_t i = 0; i < group_.size(); ++i) {
         if (const StopRequest request = stop_.to_send(i); request > StopRequest::hold) {
             group_.stop_drive(i, request);
@@ -309,9 +321,12 @@ void SetpointPort::power_off() noexcept {
 void SetpointPort::await_stop() noexcept {
     const auto over = [this] {
         follow_stop(settings_.clock->now_us());
-        return phases_.phase() != Phase::ending;
+        return phases_.phase() != Phase::ending || phases_.overdue(settings_.clock->now_us()) != nullptr;
     };
-    if (wait_until(*settings_.clock, over, longest_stop_us() + late_us, "", poll_interval_us) != nullptr) {
+    // The phase's bound ends the wait: it counts anew from each request.
+    constexpr std::uint64_t any_us = std::uint64_t{1} << 62U;
+    static_cast<void>(wait_until(*settings_.clock, over, any_us, "", poll_interval_us));
+    if (phases_.phase() == Phase::ending) {
         static_cast<void>(phases_.take(Event::fails, settings_.clock->now_us()));
     }
 }
