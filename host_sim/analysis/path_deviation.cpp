@@ -11,8 +11,9 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double arc_error = 9e-8;         // of a quintic of 0.4 rad, as a part of the radius
-constexpr double spiral_error = 0.1;       // of the same, as a part of the growth of the radius for each radian
+constexpr double arc_error = 9e-8;    // of a quintic of 0.4 rad, as a part of the radius
+constexpr double most_of_piece = 0.4; // [rad]
+constexpr double any_distance = 1e150;
 constexpr double left_out_below_mm = 2e-4; // on every axis: waypoints merge within half of it, and ends add up
 constexpr int parts_of_line = 4;
 constexpr int parts_a_move = 4; // of a segment through several
@@ -45,6 +46,29 @@ double argument_of_largest(double low, double high, const Value& value) {
     return 0.5 * (low + high);
 }
 
+// How far the quintics of an arc leave a spiral. They meet it in places, but their directions there are those of
+// circles, and their handles are all as long as at the mean radius. Beside those of the spiral, the derivatives of a
+// piece that turns by a and grows by p are wrong by
+//     -p  outwards and  a d  along   at its ends, where the mean radius is d larger,
+// and the second ones by -2 a^2 d and -2 a p. A quintic is linear in them: with its parameter t, Hermite's basis gives
+//     p (t - smooth(t)) + 6 a^2 d t^3 (1 - t)^3   outwards,  smooth(t) = 10 t^3 - 15 t^4 + 6 t^5,
+//     a d (t - smooth(t)) + 6 a p t^3 (1 - t)^3   along,     |t - smooth(t)| <= 0.147, t^3 (1 - t)^3 <= 1/64,
+// and up to a tenth more, for a is not small and d differs by p at the ends. What is along counts as far as the path
+// rises, grows or moves other axes meanwhile. With n turns, p is the growth by 0.4/(2 pi n) at most, d half of it.
+double spiral_error(const ProgrammedArc& arc, double others_sq) noexcept {
+    constexpr double wave = 0.16;
+    constexpr double bulge = 3.0 / 32.0;
+    constexpr double unequal = 0.25; // bulge, and the largest value of Hermite's basis
+    const double growth = std::fabs(arc.radius_to() - arc.radius_from());
+    const double turned = std::fabs(arc.angle());
+    const double piece = std::fmin(turned, most_of_piece);
+    const double piece_growth = growth * piece / turned;
+    const double outwards = wave * piece_growth + bulge * piece * piece * 0.5 * growth;
+    const double along = piece * (wave * 0.5 * growth + unequal * piece_growth);
+    const double across = std::sqrt(growth * growth + arc.rise() * arc.rise() + others_sq);
+    return outwards + along * across / std::hypot(across, turned * std::fmin(arc.radius_from(), arc.radius_to()));
+}
+
 } // namespace
 
 PathDeviation::PathDeviation(const MachineSettings& settings, double joint_mm, double rounding)
@@ -69,8 +93,12 @@ void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
                .tolerance = move.tolerance_mm,
                .line = line};
     if (const auto& arc = added.strand.arc()) {
-        added.rounding = arc_error * added.strand.radius() +
-                         spiral_error * std::fabs((arc->radius_to() - arc->radius_from()) / arc->angle());
+        double others_sq = 0.0;
+        for (unsigned k = 3; k < static_cast<unsigned>(axes_); ++k) {
+            const double way = to_mm(Position{move.to[k].raw - here_[k].raw});
+            others_sq += way * way;
+        }
+        added.rounding = arc_error * added.strand.radius() + spiral_error(*arc, others_sq);
     }
     double largest = 0.0;
     double farthest = 0.0;
@@ -132,9 +160,16 @@ double PathDeviation::allowed(std::uint64_t index) const noexcept {
     return std::fmax(move.start_joint, move.end_joint) + slack_mm + move.rounding;
 }
 
-// @param hint  a move that is probably near
+// With a search for a nearer place only where the quick look says that the path is too far.
 PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among,
                                                std::uint64_t hint) const {
+    const Found quick = from_moves(point, set, among, hint, Look::quick);
+    return quick.distance <= quick.allowed ? quick : from_moves(point, set, among, quick.move, Look::thorough);
+}
+
+// @param hint  a move that is probably near
+PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among,
+                                               std::uint64_t hint, Look look) const {
     Found best;
     double least_excess = 1e150;
     const auto look_at = [&](std::uint64_t i) {
@@ -144,7 +179,7 @@ PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, con
         if (worth <= 0.0 || strand.at_least_sq(point, set) >= worth * worth) {
             return;
         }
-        const double distance = strand.distance(point, set);
+        const double distance = strand.distance(point, set, look == Look::quick ? any_distance : permitted);
         if (distance < best.distance) {
             best.distance = distance;
             best.move = i;
@@ -161,14 +196,19 @@ PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, con
 
 // Where no segment follows the move, the path stands.
 double PathDeviation::from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const {
-    constexpr double none = 1e150;
-    double best = none;
-    for (const Segment& segment : segments_) {
-        if (segment.first <= move && move <= segment.last && segment.strand.at_least_sq(point, set) < best * best) {
-            best = std::fmin(best, segment.strand.distance(point, set));
+    const auto nearest = [&](double best, double enough) {
+        for (const Segment& segment : segments_) {
+            if (segment.first <= move && move <= segment.last && segment.strand.at_least_sq(point, set) < best * best) {
+                best = std::fmin(best, segment.strand.distance(point, set, enough));
+            }
         }
+        return best;
+    };
+    double best = nearest(any_distance, any_distance);
+    if (best > allowed(move)) {
+        best = nearest(best, allowed(move));
     }
-    if (best < none) {
+    if (best < any_distance) {
         return best;
     }
     double sum = 0.0;

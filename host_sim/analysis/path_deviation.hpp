@@ -84,8 +84,12 @@ private:
     [[nodiscard]] double allowed(std::uint64_t index) const noexcept;
     void leave_out(Move& move, double apart);
     void join(Move& move);
+    enum class Look : std::uint8_t { quick, thorough };
+
     [[nodiscard]] Found from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among,
                                    std::uint64_t hint) const;
+    [[nodiscard]] Found from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among,
+                                   std::uint64_t hint, Look look) const;
     [[nodiscard]] double from_segments(const PerAxis<double>& point, const AxisSet& set, std::uint64_t move) const;
     void accept(std::size_t kept, std::uint64_t last);
     void measure_segment(const Segment& segment);

@@ -15,8 +15,12 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double part_of_arc = 0.1; // [rad]
 constexpr int most_parts = 4096;
 constexpr int parts_of_bezier = 24;
-constexpr std::size_t block = 12; // places
-constexpr int steps = 6;          // of Gauss and Newton, each squares the error
+constexpr std::size_t block = 12;               // places
+constexpr int most_looks = 40;                  // of a descent: most take four
+constexpr double near_enough_sq = 1e-20;        // 0.1 pm: no nearer place can matter
+constexpr double least_gain = 1e-10;            // of the square of the distance
+constexpr double least_share_of_newton = 0.125; // of what Gauss and Newton divide by
+constexpr int finer = 16;                       // parts for each one, where a few do not lead to the foot
 
 } // namespace
 
@@ -104,24 +108,29 @@ PerAxis<double> PathStrand::at(double t) const noexcept {
     return out;
 }
 
-PerAxis<double> PathStrand::slope(double t) const noexcept {
-    PerAxis<double> out{};
+// Of an axis by De Casteljau's rows: the derivatives are in the last two before the point.
+PathStrand::State PathStrand::state(double t) const noexcept {
+    State out;
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
-        PerDegree<double> row{};
-        for (unsigned i = 0; i < static_cast<unsigned>(degree_); ++i) {
-            row[i] = degree_ * (control_[k][i + 1] - control_[k][i]);
-        }
-        for (int last = degree_ - 1; last > 0; --last) {
+        PerDegree<double> row = control_[k];
+        for (int last = degree_; last > 0; --last) {
+            if (last == 2) {
+                out.second[k] = degree_ * (degree_ - 1) * (row[2] - 2.0 * row[1] + row[0]);
+            } else if (last == 1) {
+                out.first[k] = degree_ * (row[1] - row[0]);
+            }
             for (unsigned i = 0; i < static_cast<unsigned>(last); ++i) {
                 row[i] += t * (row[i + 1] - row[i]);
             }
         }
-        out[k] = row[0];
+        out.point[k] = row[0];
     }
     if (arc_) {
-        const CurveState state = arc_->at(t);
+        const CurveState turned = arc_->at(t);
         for (unsigned k = 0; k < 3 && k < static_cast<unsigned>(axes_); ++k) {
-            out[k] = state.first[k];
+            out.point[k] = turned.point[k];
+            out.first[k] = turned.first[k];
+            out.second[k] = turned.second[k];
         }
     }
     return out;
@@ -189,14 +198,25 @@ PathStrand::Foot PathStrand::guess(const PerAxis<double>& point, const AxisSet& 
     return {static_cast<double>(nearest) / static_cast<double>(parts_), best_sq};
 }
 
-// The nearest of its ends and of the places in the direction of the point, in the turns that have about its height or
-// its radius.
+// The nearest of its ends and of the places in the direction of the point, in the turns that radius, height and the
+// other axes tell. Each counts by its square, as in the distance: a rise of rounding says nothing beside another one.
 PathStrand::Foot PathStrand::guess_on_arc(const PerAxis<double>& point, const AxisSet& set) const noexcept {
-    const Vector3 place{point[0], point[1], point[2]};
-    const ProgrammedArc::Cylindrical polar = arc_->polar(place);
+    const ProgrammedArc::Cylindrical polar = arc_->polar({point[0], point[1], point[2]});
+    const double growth = arc_->radius_to() - arc_->radius_from();
+    double along = growth * polar.growth + arc_->rise() * polar.rise;
+    double way_sq = growth * growth + arc_->rise() * arc_->rise();
+    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+        const unsigned k = set.axis[n];
+        if (k >= 3) {
+            const double way = control_[k][static_cast<unsigned>(degree_)] - control_[k][0];
+            along += way * (point[k] - control_[k][0]);
+            way_sq += way * way;
+        }
+    }
+    const double share = way_sq > 0.0 ? std::clamp(along / way_sq, 0.0, 1.0) : 0.0;
     const double turn = two_pi / std::fabs(arc_->angle());
     const double first = std::fmod(std::fmod(polar.angle / arc_->angle(), turn) + turn, turn); // of the first turn
-    const double turns = std::clamp(std::round((polar.share - first) / turn), 0.0, std::floor(1.0 / turn));
+    const double turns = std::clamp(std::round((share - first) / turn), 0.0, std::floor(1.0 / turn));
     Foot best{0.0, distance_sq(point, set, 0.0)};
     for (const double t : {1.0, first + (turns - 1.0) * turn, first + turns * turn, first + (turns + 1.0) * turn}) {
         if (t >= 0.0 && t <= 1.0) {
@@ -207,31 +227,70 @@ PathStrand::Foot PathStrand::guess_on_arc(const PerAxis<double>& point, const Ax
     return best;
 }
 
-double PathStrand::distance(const PerAxis<double>& point, const AxisSet& set) const noexcept {
+// From a place downhill: by Newton's step where the distance is convex, else by that of Gauss and Newton. A step that
+// does not come nearer is halved, so the cost is bounded and no step leads away.
+PathStrand::Foot PathStrand::descend(Foot foot, const PerAxis<double>& point, const AxisSet& set) const noexcept {
+    double change = 0.0;
+    double t = foot.t;
+    for (int look = 0; look < most_looks; ++look) {
+        const State there = state(t);
+        double apart_sq = 0.0;
+        double way = 0.0;
+        double speed_sq = 0.0;
+        double bend = 0.0;
+        for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+            const unsigned k = set.axis[n];
+            const double apart = point[k] - there.point[k];
+            apart_sq += apart * apart;
+            way += apart * there.first[k];
+            speed_sq += there.first[k] * there.first[k];
+            bend += apart * there.second[k];
+        }
+        if (look > 0 && !(apart_sq < foot.distance_sq)) {
+            change *= 0.5;
+        } else {
+            foot = {t, apart_sq};
+            const double newton = speed_sq - bend;
+            const double divisor = newton > least_share_of_newton * speed_sq ? newton : speed_sq;
+            if (apart_sq <= near_enough_sq || !(way * way > least_gain * apart_sq * divisor)) {
+                return foot;
+            }
+            change = std::clamp(t + way / divisor, 0.0, 1.0) - t;
+        }
+        t = foot.t + change;
+        if (t == foot.t) {
+            return foot;
+        }
+    }
+    return foot;
+}
+
+// From each of many places that is nearer than those beside it: where the strand has a cusp or comes back, the nearest
+// of a few need not lead to the foot.
+PathStrand::Foot PathStrand::search(Foot best, const PerAxis<double>& point, const AxisSet& set) const noexcept {
+    const int count = parts_ * finer;
+    double before = 1e300;
+    double here = distance_sq(point, set, 0.0);
+    for (int i = 0; i <= count; ++i) {
+        const double next = i < count ? distance_sq(point, set, (i + 1) / static_cast<double>(count)) : 1e300;
+        if (here <= before && here <= next) {
+            const Foot foot = descend({i / static_cast<double>(count), here}, point, set);
+            best = foot.distance_sq < best.distance_sq ? foot : best;
+        }
+        before = here;
+        here = next;
+    }
+    return best;
+}
+
+double PathStrand::distance(const PerAxis<double>& point, const AxisSet& set, double enough) const noexcept {
     const bool turns = arc_ && set.axis[0] < 3;
     if (!turns && (degree_ == 1 || arc_)) {
         return from_line(point, set);
     }
-    Foot foot = turns ? guess_on_arc(point, set) : guess(point, set);
-    for (int step = 0; step < steps; ++step) {
-        const PerAxis<double> place = at(foot.t);
-        const PerAxis<double> along = slope(foot.t);
-        double way = 0.0;
-        double speed_sq = 0.0;
-        for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
-            const unsigned k = set.axis[n];
-            way += (point[k] - place[k]) * along[k];
-            speed_sq += along[k] * along[k];
-        }
-        if (!(speed_sq > 0.0)) {
-            break;
-        }
-        const double t = std::clamp(foot.t + way / speed_sq, 0.0, 1.0);
-        const double there = distance_sq(point, set, t);
-        if (!(there < foot.distance_sq)) {
-            break;
-        }
-        foot = {t, there};
+    Foot foot = descend(turns ? guess_on_arc(point, set) : guess(point, set), point, set);
+    if (!turns && foot.distance_sq > std::fmax(enough * enough, near_enough_sq)) {
+        foot = search(foot, point, set);
     }
     return std::sqrt(foot.distance_sq);
 }

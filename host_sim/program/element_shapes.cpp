@@ -132,14 +132,8 @@ double ProgrammedArc::least_radius(double others_sq) const noexcept {
 ProgrammedArc::Cylindrical ProgrammedArc::polar(const Vector3& point) const noexcept {
     double height = 0.0;
     const Vector3 arm = arm_of(point, centre_, axis_, height);
-    const double growth = radius_to_ - radius_from_;
-    Cylindrical out{std::atan2(scalar_product(arm, y_), scalar_product(arm, x_)), 0.0};
-    if (std::fabs(rise_) > std::fabs(growth)) {
-        out.share = (height - height_) / rise_;
-    } else if (growth != 0.0) {
-        out.share = (std::sqrt(scalar_product(arm, arm)) - radius_from_) / growth;
-    }
-    return out;
+    return {std::atan2(scalar_product(arm, y_), scalar_product(arm, x_)),
+            std::sqrt(scalar_product(arm, arm)) - radius_from_, height - height_};
 }
 
 CurveState ProgrammedArc::at(double w) const noexcept {

@@ -20,6 +20,8 @@ public:
 
     [[nodiscard]] double radius_from() const noexcept { return radius_from_; }
     [[nodiscard]] double radius_to() const noexcept { return radius_to_; }
+    /// Along the axis, from `from` to `to`. [mm]
+    [[nodiscard]] double rise() const noexcept { return rise_; }
     /// The angle that leads to the end.
     [[nodiscard]] double angle() const noexcept { return angle_; }
     /// Between the end that the stated angle leads to and the end. [mm]
@@ -42,8 +44,9 @@ public:
 
     /// Where a point is about the axis.
     struct Cylindrical {
-        double angle = 0.0; ///< from the direction of the start [rad], -pi to pi, positive: right-hand rule
-        double share = 0.0; ///< of the arc, at its height or, if the arc is flat, its radius; 0: the arc has neither
+        double angle = 0.0;  ///< from the direction of the start [rad], -pi to pi, positive: right-hand rule
+        double growth = 0.0; ///< of the radius since the start [mm]
+        double rise = 0.0;   ///< along the axis since the start [mm]
     };
     [[nodiscard]] Cylindrical polar(const Vector3& point) const noexcept;
 

@@ -6,6 +6,7 @@
 #include "host_sim/program/input_format.hpp"
 #include "random_elements.hpp"
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "support/bezier_paths.hpp"
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 
@@ -284,6 +285,65 @@ TEST_CASE("chains keep their own tolerance, and corners beside them that of thei
     const Off none = off(0.02, 0.0);
     CHECK(none.chains == 0);
     CHECK(none.corner == Approx(0.02).epsilon(0.01));
+}
+
+TEST_CASE("cusps, and turns that only another axis tells apart, keep their tolerances in every scalar") {
+    const auto keep = [](const char* elements, int axes) {
+        const std::vector<std::string> names(every_axis.begin(), every_axis.begin() + axes);
+        const nlohmann::json document{{"elements", nlohmann::json::parse(elements)}};
+        const ElementProgram program = read_elements(document, "e.json", names, {});
+        require_kept<double>(program, axes, 0.0);
+        require_kept<Fixed>(program, axes, 0.0);
+        require_kept<float>(program, axes, 0.0);
+    };
+    keep(R"([{"type": "bezier", "mode": "exact_path", "from": [4.0222, -11.7126, 0], "to": [3.696, -11.812, 0],
+              "control_points": [[4.0222, -11.7126, 0], [3.9126, -11.7561, 0], [3.5385, -11.852, 0],
+                                 [3.696, -11.812, 0]]}])",
+         3);
+    keep(R"([{"type": "bezier", "tolerance_mm": 0.05, "from": [0, 0, 0], "to": [-0.762, -0.939, 0],
+              "control_points": [[0, 0, 0], [-1.02, -2.216, 0], [6.673, 0.638, 0], [-0.762, -0.939, 0]]},
+             {"type": "line", "tolerance_mm": 0.05, "from": [-0.762, -0.939, 0], "to": [2.608, 17.58, 0]}])",
+         3);
+    keep(R"([{"type": "arc", "tolerance_mm": 0.01, "from": [0.2, 0, 0, 22.45], "to": [-0.2, 0, 1e-12, 22.12],
+              "centre": [0, 0, 0], "axis": [0, 0, 1], "angle": 21.991148575}])",
+         4);
+}
+
+TEST_CASE("arcs whose radius grows leave their spirals by what their quintics explain") {
+    constexpr std::uint64_t seed = 3504;
+    double most = 0.0; // of the growth
+    for (int round = 0; round < splinefeed_test::rounds(200); ++round) {
+        splinefeed_test::Random random(seed + static_cast<std::uint64_t>(round));
+        CAPTURE(seed, round);
+        const double radius = random.decades(0.1, 100.0);
+        const double growth = radius * random.decades(1e-5, 0.06) * (random.chance(0.5) ? 1.0 : -1.0);
+        const double rise = random.chance(0.5) ? 0.0 : radius * random.decades(0.01, 30.0);
+        const double angle = random.decades(0.05, 200.0) * (random.chance(0.5) ? 1.0 : -1.0);
+        PathElement<double> arc;
+        arc.mode = PathMode::exact_path;
+        arc.shape = MoveShape::arc;
+        arc.arc.normal = {0.0, 0.0, 1.0};
+        arc.arc.sweep_rad = angle;
+        arc.to = {position_from_mm((radius + growth) * std::cos(angle)),
+                  position_from_mm((radius + growth) * std::sin(angle)), position_from_mm(rise)};
+        const PerAxis<Position> start{position_from_mm(radius)};
+        TolerancePath<double> path(3, 0.0);
+        PathDeviation deviation(machine_of(3, 3), 0.0, 0.0);
+        REQUIRE(path.start(start).ok());
+        deviation.start(start);
+        REQUIRE(path.push(arc).ok());
+        deviation.move(arc, 0);
+        REQUIRE(path.finish().ok());
+        CurveSegment<double> segment;
+        while (path.next(segment) == Pull::item) {
+            deviation.segment(segment);
+        }
+        deviation.finish();
+        CAPTURE(radius, growth, rise, angle, deviation.linear().distance);
+        CHECK_FALSE(deviation.excess());
+        most = std::fmax(most, deviation.linear().distance / std::fabs(growth));
+    }
+    CHECK(most < 0.2);
 }
 
 TEST_CASE("random programs keep their tolerances in every scalar") {
