@@ -64,7 +64,7 @@ def judge(options, summary, plan, steps, drives):
     # What a drive calls its position where the motion begins is where the plan begins.
     moved = [start / per_mm - begin for start, per_mm, begin in zip(START_COUNTS, steps, path[0])]
     rows = [[row[0]] + [place - off for place, off in zip(row[1:], moved)] for row in shafts_together(drives, steps)]
-    worst, at = furthest(rows, path, 400, 800)
+    worst, left = furthest(rows, path, 400, 800)
     end = max(abs(row - planned) * per_mm for row, planned, per_mm in zip(rows[-1][1:], path[-1], steps))
     link = summary["link"]
     took = rows[next(i for i in reversed(range(len(rows))) if math.dist(rows[i][1:], rows[-1][1:]) > 1e-4)][0] - \
@@ -77,7 +77,7 @@ def judge(options, summary, plan, steps, drives):
         problems.append(OffTime.off_path(worst, options.tolerance_mm, SPEED_MM_S))
     if link["resumes"] > (1 if options.faults else 0) and not options.slow:
         problems.append(OffTime(f"all stopped and went on {link['resumes']} times"))
-    if at < len(path) - 20:  # where they stood for long, the place that is looked for is lost
+    if left > 20:
         lost = "they do not come to the end of the path"
         problems.append(OffTime(lost) if link["resumes"] > 0 and end <= 1e-2 else lost)
     if end > 1e-2:

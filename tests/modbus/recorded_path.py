@@ -59,7 +59,7 @@ def shafts_together(drives, steps):
 
 
 def furthest(rows, path, behind=40, ahead=400):
-    """How far the rows are from the path at most, and the piece that the last one is nearest to; the path is followed in
+    """How far the rows are from the path at most, and how many pieces lie behind the last one; the path is followed in
     order: the nearest piece is so many behind or ahead of the last one at most. Where it stands there is no piece."""
     path = [path[0], *(b for a, b in zip(path, path[1:]) if a != b)]
     worst = 0.0
@@ -73,7 +73,7 @@ def furthest(rows, path, behind=40, ahead=400):
         best = min(range(len(distances)), key=distances.__getitem__)
         at = near[best]
         worst = max(worst, distances[best])
-    return worst, at
+    return worst, len(path) - at
 
 
 def durations(rows, path, plan, steps):
