@@ -11,8 +11,7 @@ struct CyclicSettings {
     int axis = 0;                   ///< index in the feed segments
     std::uint32_t period_us = 2000; ///< in which the drive moves to a target
     std::uint32_t interval_us = 0;  ///< between two frames, at most the period; 0: the period
-    double acceleration = 1e6;      ///< for the return to the path after missed targets [counts/s^2]
-    double fastest = 0.0;           ///< the axis's [counts/s]; 0: the drive is not limited
+    double acceleration = 1e6;      ///< for the return to the path after a time-out [counts/s^2]
 };
 
 /// A drive that gets a target at t reaches it at t + P, the drive's period. The target extrapolates the path over an
@@ -22,9 +21,7 @@ struct CyclicSettings {
 ///
 /// Deviation from the path with one frame per interval: line_deviation_counts of the interval, since the drive moves
 /// straight between frames, plus half a unit of its register, times P / I if frames overlap. If a frame is late by more
-/// than P - I, the drive stops and waits for it. Where the drive is follows from the targets that it has acknowledged.
-/// If the path is too far from there, the drive is away(): it gets its last target until the path stands, and then
-/// returns to it within the axis's limits. So no target makes it faster than 1.25 times the fastest.
+/// than P - I, the drive stops and waits for it.
 class CyclicStream {
 public:
     /// The profile must outlive the stream. @pre the profile streams cyclic
@@ -38,37 +35,27 @@ public:
                                                        std::uint64_t arrival_us) noexcept {
         return frame(track, {arrival_us, arrival_us, arrival_us + settings_.interval_us});
     }
-    /// Where the drive stands at the start. Call before the first frame.
-    void begin(std::int64_t position_q16) noexcept;
-    /// Reports when the last frame arrived [us]; UINT64_MAX: it is not known whether it did.
-    void on_arrival(std::uint64_t arrival_us) noexcept;
-    /// Whether the drive has left the path since it missed targets. The path has to come to rest.
-    [[nodiscard]] bool away() const noexcept { return away_; }
+    /// Call when frames were missing for longer than the period: the drive stands at its last target. From the next
+    /// frame on it returns to the path smoothly.
+    void on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
     /// Whether a target exceeded the range of its register and was clamped.
     [[nodiscard]] bool clamped() const noexcept { return clamped_; }
     /// Whether the drive has got the end of the motion as its target at that motion time.
     [[nodiscard]] bool end_sent(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
-        return !away_ && motion_us + settings_.interval_us >= track.end_us() &&
+        return fading_us_ == 0.0 && motion_us + settings_.interval_us >= track.end_us() &&
                (settings_.interval_us == settings_.period_us || motion_us >= track.end_us());
     }
     [[nodiscard]] SetpointFrames& frames() noexcept { return frames_; }
 
 private:
-    [[nodiscard]] std::int64_t where_q16(std::uint64_t now_us) const noexcept;
-    [[nodiscard]] bool reaches(std::int64_t path_q16, std::uint64_t now_us) const noexcept;
-    void begin_return(std::int64_t path_q16) noexcept;
     [[nodiscard]] double offset_q16(double elapsed_us) const noexcept;
 
     CyclicSettings settings_;
     SetpointFrames frames_;
-    std::int64_t target_q16_ = 0;       // the last one that was made
-    std::int64_t acknowledged_q16_ = 0; // the last one that is known to have arrived,
-    std::uint64_t arrival_us_ = 0;      // when,
-    std::int64_t from_q16_ = 0;         // and where the drive was then
-    double offset_q16_ = 0.0;           // distance from the path at the beginning of the return
-    double fading_us_ = 0.0;            // duration of the return; 0: none
-    double elapsed_us_ = 0.0;           // of the return, by frames that arrived
-    bool away_ = false;
+    std::int64_t target_q16_ = 0; // the last target
+    double offset_q16_ = 0.0;     // distance from the path at the beginning of the return
+    double fading_us_ = 0.0;      // duration of the return; 0: none
+    double elapsed_us_ = 0.0;     // of the return
     bool clamped_ = false;
 };
 

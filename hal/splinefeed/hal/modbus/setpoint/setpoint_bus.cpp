@@ -106,6 +106,10 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
             slot.end_sent_us = 0;
             slot.drive.on_arrival(UINT64_MAX); // the last block may be lost
         }
+        if (slot.setpoint_us != 0 &&
+            arrives_us > slot.setpoint_us + std::max(period_us, slot.drive.profile().period_us)) {
+            slot.drive.on_setpoint_timeout(motion.trajectory, instant);
+        }
         const bool path_stands = motion.clock.at_standstill(arrives_us) || slot.end_sent_us != 0;
         slot.path_rest_us = !path_stands || !slot.drive.at_rest() ? 0
                             : slot.path_rest_us == 0              ? arrives_us
@@ -114,9 +118,6 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
             slot.drive.resync_position();
         }
         slot.drive.prepare_frames(motion.trajectory, instant);
-        if (slot.drive.away() && !motion.clock.stopping() && instant.motion_us < motion.trajectory.end_us()) {
-            motion.clock.stop(arrives_us); // it returns to a path that stands
-        }
         end_sent = motion.complete && slot.drive.end_sent(motion.trajectory, instant.motion_us);
     }
     const bool sent = slot.drive.send();
@@ -129,12 +130,9 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
 // all have stopped by themselves: the clock then stops from the last target on, and the path waits there.
 void SetpointBus::check_lateness(const Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
                                  std::uint32_t period_us) noexcept {
-    const bool any = slot.setpoint_us != 0;
-    if (motion.clock.stopping() || slot.end_sent_us != 0 || (!any && motion.clock.time(now_us) == 0)) {
-        return;
-    }
-    const std::uint64_t due_us = (any ? slot.setpoint_us : motion.clock.instant(0)) + period_us;
-    if (now_us > due_us + period_us + allowed_late_us) {
+    const std::uint64_t due_us = slot.setpoint_us + period_us;
+    if (slot.setpoint_us != 0 && slot.end_sent_us == 0 && now_us > due_us + period_us + allowed_late_us &&
+        !motion.clock.stopping()) {
         motion.clock.stop(std::clamp(motion.last_setpoint_us, due_us, now_us));
     }
 }
@@ -158,7 +156,6 @@ void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::ui
     const std::lock_guard lock(mutex_);
     slot.report.setpoint_us = slot.setpoint_us;
     slot.report.end_sent = end_sent;
-    slot.report.away = slot.drive.away();
     slot.report.late_us = std::max(slot.report.late_us, late_us);
 }
 

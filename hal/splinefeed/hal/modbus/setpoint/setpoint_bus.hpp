@@ -47,7 +47,6 @@ struct SetpointReport {
     LinkAnswer last;           ///< of the last exchange
     bool clamped = false;
     bool end_sent = false;
-    bool away = false;     ///< it has left the path; always false for drives with blocks
     bool at_target = true; ///< it stands at its target; always true for cyclic drives
 };
 

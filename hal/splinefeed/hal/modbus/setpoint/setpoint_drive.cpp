@@ -158,13 +158,12 @@ void SetpointDrive::configure(const SetpointSettings& settings) {
                                                 .fastest = settings.fastest_counts_s});
     } else {
         cyclic_.emplace(*profile_, CyclicSettings{settings.axis, profile_->period_us, settings.period_us,
-                                                  settings.acceleration_counts_s2, settings.fastest_counts_s});
+                                                  settings.acceleration_counts_s2});
     }
 }
 
 bool SetpointDrive::prime() {
     if (!block_) {
-        cyclic_->begin(reading_.position_q16);
         return true;
     }
     block_->begin(static_cast<double>(reading_.position_q16) / (1 << physical_bits));
@@ -202,6 +201,12 @@ bool SetpointDrive::at_target() const noexcept {
     return !block_ || std::fabs(reported_counts - block_->target_counts()) <= window_counts;
 }
 
+void SetpointDrive::on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
+    if (cyclic_) {
+        cyclic_->on_setpoint_timeout(track, instant);
+    }
+}
+
 void SetpointDrive::resync_position() noexcept {
     constexpr double rounding_counts = 1.5; // of the report and of the model
     const double reported_counts = static_cast<double>(reading_.position_q16) / (1 << physical_bits);
@@ -214,8 +219,6 @@ void SetpointDrive::resync_position() noexcept {
 void SetpointDrive::on_arrival(std::uint64_t arrival_us) noexcept {
     if (block_ && !prepared_.empty()) {
         block_->on_arrival(arrival_us);
-    } else if (cyclic_) {
-        cyclic_->on_arrival(arrival_us);
     }
 }
 

@@ -42,8 +42,7 @@ public:
     [[nodiscard]] bool write_initial();
     /// Writes a value; true also if the drive has no such register. Returns false on failure.
     [[nodiscard]] bool write_role(FieldRole role, std::int64_t physical_q16);
-    /// The motion starts at the present position; a drive with blocks gets it as its first target. Returns false on
-    /// failure.
+    /// Sends a drive with blocks its present position as the first target. Returns false on failure.
     [[nodiscard]] bool prime();
     /// Repeats a failed exchange as often as the profile says; connects again after the connection was lost.
     template <class Try>
@@ -64,8 +63,8 @@ public:
     /// Writes the frames. Returns false if they were not answered or were refused. The next frames are then written
     /// twice, because the last state of a toggle is unknown.
     bool send() noexcept;
-    /// Whether a cyclic drive has left the path, CyclicStream::away(); false for drives with blocks.
-    [[nodiscard]] bool away() const noexcept { return cyclic_ && cyclic_->away(); }
+    /// Call when no target was sent for so long that the drive stands.
+    void on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
     /// Whether a drive with blocks stands, by the model of its blocks; false for cyclic drives.
     [[nodiscard]] bool at_rest() const noexcept { return block_ && block_->at_rest(); }
     /// Call when the drive has stood for some time by the model of its blocks. If it reports another position, because
