@@ -32,7 +32,7 @@ STOP_RESERVE_S = 0.1
 WATCHDOG_S = 1.0
 TOLERATED = 1.005  # of a limit: recorded shafts are differences of rounded positions
 BEHIND_PATH = 1.5  # of the feed: how fast a drive without segments may come back to the path
-ENDS_S = 60.0
+ENDS_S = 400.0  # a port ends a motion that advances by less than 1 s in 30 s; these take 10 s at most
 EXIT_SEEN_S = 0.004  # the record has a row a millisecond
 
 # By kind and wire: the profile and, of a machine file's address, its keys. No cyclic profile that ships has a serial line: that
