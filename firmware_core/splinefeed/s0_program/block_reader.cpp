@@ -99,7 +99,7 @@ Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control
             return status;
         }
         if (out.code(CodeGroup::printer) == 117) {
-            out.set_comment(CommentKind::none, text.place(text.at(), text.find(';', text.at())));
+            out.set_comment(CommentKind::none, TextCursor::place(text.at(), text.find(';', text.at())));
             return {};
         }
     }
@@ -217,7 +217,7 @@ Status BlockReader::read_comment(TextCursor& text, Block& out) noexcept {
         kind = CommentKind::debug;
     }
     if (kind != CommentKind::none) { // as in LinuxCNC, the last one of a line counts
-        out.set_comment(kind, text.place(begin + inside.at(), end));
+        out.set_comment(kind, TextCursor::place(begin + inside.at(), end));
     }
     text.go_to(end + 1);
     return {};
