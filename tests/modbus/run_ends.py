@@ -15,6 +15,7 @@ import tempfile
 import time
 
 from drive_processes import Drive, machine_text
+from real_time import HostWatch
 
 STILL_COUNTS = 0.5  # the shaft of a simulated drive comes to its target ever more slowly
 STEPS = 320
@@ -131,10 +132,21 @@ def one(tool, name, profile):
     return [f"{name}, {profile or 'splinefeed-pvt'}: {problem}" for problem in problems]
 
 
+def judged(tool, name, profile):
+    """Once more, twice at most, where this host kept nobody's time: it stood still, or the signal came before the first motion."""
+    for left in (2, 1, 0):
+        with HostWatch() as watch:
+            problems = one(tool, name, profile)
+        early = any("before anything was moved" in problem for problem in problems)
+        if not problems or left == 0 or not (early or watch.longest_s > 0.01):
+            return problems
+    return problems
+
+
 def main():
     tool = os.path.abspath(sys.argv[1])
     chosen = sys.argv[2:] or list(CASES)
-    problems = [problem for name in chosen for profile in CASES[name][0] for problem in one(tool, name, profile)]
+    problems = [problem for name in chosen for profile in CASES[name][0] for problem in judged(tool, name, profile)]
     for problem in problems:
         print(problem)
     return 1 if problems else 0
