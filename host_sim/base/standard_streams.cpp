@@ -31,9 +31,12 @@ void keep_standard_streams() noexcept {
 
 void draw_line(int descriptor, std::string_view text) noexcept {
     drawn.store(text.empty() ? none_drawn : descriptor);
-    std::array<char, 256> line{};
-    const auto end = fmt::format_to_n(line.data(), line.size(), "\r{}\x1b[K", text);
-    [[maybe_unused]] const ssize_t written = write(descriptor, line.data(), std::min(end.size, line.size()));
+    constexpr std::string_view erase_rest = "\x1b[K"; // of the line
+    std::array<char, 256> line{'\r'};
+    const std::string_view shown = text.substr(0, std::min(text.size(), line.size() - 1 - erase_rest.size()));
+    char* const end = std::copy(erase_rest.begin(), erase_rest.end(), std::copy(shown.begin(), shown.end(), &line[1]));
+    [[maybe_unused]] const ssize_t written =
+        write(descriptor, line.data(), static_cast<std::size_t>(end - line.data()));
 }
 
 void erase_drawn_line() noexcept {
