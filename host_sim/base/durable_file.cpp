@@ -77,6 +77,15 @@ AsideFile make_aside(const std::string& path) {
     fail(path, errno);
 }
 
+std::string refusal_of(const struct stat& status) {
+    return S_ISREG(status.st_mode) ? std::string()
+                                   : fmt::format("is a {}, which cannot be replaced; name a file, or one that is not "
+                                                 "there yet",
+                                                 S_ISDIR(status.st_mode)    ? "directory"
+                                                 : S_ISFIFO(status.st_mode) ? "pipe"
+                                                                            : "device");
+}
+
 std::timed_mutex replacing;
 
 } // namespace
@@ -86,12 +95,29 @@ void end_replacing() noexcept {
     static_cast<void>(replacing.try_lock_for(most));
 }
 
+std::string why_irreplaceable(const std::string& name) {
+    struct stat status {};
+    return ::stat(name.c_str(), &status) == 0 ? refusal_of(status) : std::string();
+}
+
+void remove_replaced(const std::string& name) {
+    const std::lock_guard lock(replacing);
+    const std::string path = file_of(name);
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::unlink(path.c_str()) != 0) {
+        fail(path, errno);
+    }
+}
+
 // A symbolic link stays one, and the file keeps its permissions.
 void replace_durably(const std::string& name, std::string_view text) {
     const std::lock_guard lock(replacing);
     const std::string path = file_of(name);
     struct stat old {};
     const bool exists = ::stat(path.c_str(), &old) == 0;
+    if (exists && !S_ISREG(old.st_mode)) { // the new name would take its place, also that of /dev/null
+        throw OutputError(fmt::format("{}: {}", path, refusal_of(old)));
+    }
     const auto [aside, file] = make_aside(path);
     if (exists) {
         static_cast<void>(::fchmod(file, old.st_mode & 07777)); // best effort

@@ -127,6 +127,9 @@ bool is_there(const std::string& path) {
     if (!std::filesystem::exists(status) && !folder.empty() && !std::filesystem::is_directory(folder, error)) {
         throw InputError(path, 0, "there is no such folder; name a file in a folder that exists");
     }
+    if (const std::string why = why_irreplaceable(path); !why.empty()) {
+        throw InputError(path, 0, why);
+    }
     return std::filesystem::exists(status);
 }
 

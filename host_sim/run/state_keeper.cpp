@@ -5,7 +5,6 @@
 #include "host_sim/base/text_file.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 namespace splinefeed::host {
 
@@ -63,8 +62,7 @@ void StateKeeper::ends(std::span<const RunTarget::AxisPlace> places) {
     } else if (moves_ && before_) {
         replace_durably(file_, *before_);
     } else if (moves_ && !file_.empty()) {
-        std::error_code ignored;
-        std::filesystem::remove(file_, ignored);
+        remove_replaced(file_);
     }
 }
 

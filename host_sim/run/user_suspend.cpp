@@ -24,10 +24,11 @@ void UserSuspend::follow(bool moves, std::uint64_t submitted, std::uint64_t exec
     }
     if (stands_after_ && executed >= *stands_after_) {
         forget();
-        tell(
-            "splinefeed: the machine is held, and the process stops{}; fg or kill -CONT {} continues it, and then kill "
-            "-USR2 {} the motion\n",
-            spindle_stands ? "" : ", while the spindle turns on and nobody watches it", getpid(), getpid());
+        tell("splinefeed: the machine is held, and the process stops: until it continues nobody watches {}; fg or kill "
+             "-CONT {} continues it, and then kill -USR2 {} the motion\n",
+             spindle_stands ? "e-stop lines, switches and drives"
+                            : "e-stop lines, switches, drives and the spindle, which turns on",
+             getpid(), getpid());
         SignalWatch::suspend_now();
     } else if (steady_clock::now() > *since_ + most) {
         forget();

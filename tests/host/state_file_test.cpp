@@ -2,6 +2,7 @@
 #include "host_sim/config/state_file.hpp"
 
 #include "host_sim/base/durable_file.hpp"
+#include "host_sim/run/state_keeper.hpp"
 #include "refusal.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
@@ -10,6 +11,8 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+
+#include <sys/stat.h>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
@@ -103,7 +106,8 @@ TEST_CASE("A state that may be there and cannot be read is an error, and no stat
           std::string::npos);
     const std::string long_name = folder.file(std::string(300, 's'));
     CHECK(refusal(long_name).rfind(long_name + ": cannot be read: ", 0) == 0);
-    CHECK(refusal(folder.file("")).find(": cannot be read") != std::string::npos);
+    CHECK(refusal(folder.file("")) ==
+          folder.file("") + ": is a directory, which cannot be replaced; name a file, or one that is not there yet");
     CHECK(refusal("state_of_nobody.json") == "accepted");
 }
 
@@ -132,4 +136,33 @@ TEST_CASE("A file that cannot be replaced stays as it is") {
     CHECK(refusal_of<std::runtime_error>([] {
               replace_durably("/no/such/folder/state.json", "{}");
           }).find("/no/such/folder/state.json: cannot be written: ") == 0);
+}
+
+TEST_CASE("What is no regular file is never replaced by a state, and is refused before anything moves") {
+    const TemporaryFolder folder;
+    const std::string pipe = folder.file("pipe");
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    std::filesystem::create_symlink("pipe", folder.file("link"));
+    const std::string why = pipe + ": is a pipe, which cannot be replaced; name a file, or one that is not there yet";
+    CHECK(refusal_of([&] { static_cast<void>(read_state_file(pipe, xyz)); }) == why);
+    for (const char* const name : {"pipe", "link"}) {
+        CHECK(refusal_of<std::runtime_error>([&] { write_state_file(folder.file(name), xyz, {}); }) == why);
+        CHECK_THROWS(StateKeeper(folder.file(name), xyz, {}).moves());
+    }
+    CHECK(std::filesystem::is_fifo(pipe));
+    CHECK(std::filesystem::is_symlink(folder.file("link")));
+    CHECK(folder.entries().size() == 2);
+}
+
+TEST_CASE("A run that moves nothing leaves the name of its state as it was, also a link to no file") {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("kept.json", folder.file("link"));
+    for (const char* const name : {"link", "none"}) {
+        StateKeeper state(folder.file(name), xyz, {});
+        state.moves();
+        CHECK(read_state_file(folder.file(name), xyz).has_value());
+        state.ends({});
+        CHECK(folder.entries() == std::vector<std::string>{"link"});
+    }
+    CHECK(std::filesystem::is_symlink(folder.file("link")));
 }
