@@ -16,7 +16,7 @@ void PlaceText::add(std::string_view axis, std::optional<double> mm, bool online
 }
 
 std::string PlaceText::text() const {
-    const std::string known = known_ > 0 ? text_ + " mm" : std::string();
+    std::string known = known_ > 0 ? text_ + " mm" : std::string();
     if (unknown_.empty()) {
         return known;
     }

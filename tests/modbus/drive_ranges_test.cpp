@@ -105,7 +105,7 @@ TEST_CASE("Wiring: an inverted axis is turned on its way to the drive, and keys 
     described.inverted[1] = true;
     const auto pvt = pvt_wiring(drive_table("modbus-tcp://a?following_window=9", described), described);
     REQUIRE(pvt.size() == 1);
-    CHECK(pvt[0].axes == std::vector<hal::modbus::PvtAxis>{{0, false}, {1, true}});
+    CHECK(pvt[0].axes == std::vector<hal::modbus::PvtAxis>{{0, false, 3}, {1, true, 3}}); // 0.01 mm
     CHECK(pvt[0].following_window == 9);
     CHECK(pvt[0].watchdog_ms == 1000);
     CHECK(pvt[0].both_in_one);

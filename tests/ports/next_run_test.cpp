@@ -57,9 +57,11 @@ bool failed(const Failure& failure) {
 template <class Plant, class Settings>
 void first_run(Plant& plant, Settings settings, Ending ending) {
     settings.home = ending == Ending::homing_interrupted;
-    settings.interrupted = [] {
-        return true;
-    };
+    if (settings.home) {
+        settings.interrupted = [] {
+            return true;
+        };
+    }
     plant.make(settings);
     plant.sample_positions();
     REQUIRE_FALSE(failed(plant.port->open()));
