@@ -24,8 +24,8 @@ constexpr int looks_a_second = 100;
 constexpr int not_finished = 1;
 
 // No sentence is a run that ended well.
-std::string or_unsaid(std::string why) {
-    return why.empty() ? "the motion was stopped, and nothing says why" : why;
+std::string or_unsaid(const std::string& why) {
+    return why.empty() ? std::string("the motion was stopped, and nothing says why") : why;
 }
 
 } // namespace
