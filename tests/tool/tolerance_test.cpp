@@ -37,6 +37,19 @@ json summary_of(const Call& call) {
 
 } // namespace
 
+TEST_CASE("The summary counts each joint at which the machine stands, and no window that it does not know") {
+    const Tool tool;
+    tool.write("kinks.ngc", "G21 G61 F600\nG0 X0 Y0\nG1 X10\nG1 X20 Y0.5\nG1 X30\nG1 X40 Y0.50001\nM2\n");
+    const std::string run = "run kinks.ngc --quiet --summary json";
+    const json stands = summary_of(tool(run)); // at its last kink, too, of a millionth
+    CHECK(stands["stops"] == 3);
+    CHECK(stands["tolerance"]["stopped"] == 4); // and at its end
+    CHECK(stands["tolerance"]["through"] == 0);
+    CHECK(stands["window_limited"] == 0);
+    const std::string machine = " -m '" + splinefeed::test::source_folder() + "/examples/jerk_limited.toml'";
+    CHECK(summary_of(tool(run + machine))["window_limited"].is_null());
+}
+
 TEST_CASE("A polyline within a tolerance goes round its corners") {
     const Tool tool;
     const json exact = summary_of(tool(square));
