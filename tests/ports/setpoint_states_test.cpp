@@ -173,3 +173,20 @@ TEST_CASE("Set-point port, virtual: a motion that ends while it moves is slowed 
         check_stands_since(plant, plant.clock.now_us());
     }
 }
+
+TEST_CASE("Set-point port, virtual: no shaft jumps to a target after a gap of its line", "[ports]") {
+    for (const std::uint64_t gap_us : {15'000U, 60'000U, 200'000U, 700'000U}) {
+        for (const bool mute : {false, true}) {
+            for (const std::uint64_t from_us : {0U, 60'000U, 150'000U, 350'000U}) {
+                INFO("a gap of " << gap_us << " us at " << from_us << ", mute " << mute);
+                SetpointPlant plant({.profile = "cia402-index", .fastest_counts_s = motion.fastest_counts_s});
+                plant.sample_positions();
+                REQUIRE(prepare(plant) == "");
+                const Span gap{plant.began_us + from_us, plant.began_us + from_us + gap_us};
+                (mute ? plant.stations[1]->mute : plant.wires[1]->unplugged).push_back(gap);
+                CHECK(run(plant, motion, {}) == PortPhase::idle);
+                CHECK(plant.most_step_counts < 1.3 * motion.fastest_counts_s * 1e-3);
+            }
+        }
+    }
+}

@@ -130,9 +130,12 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
 // all have stopped by themselves: the clock then stops from the last target on, and the path waits there.
 void SetpointBus::check_lateness(const Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
                                  std::uint32_t period_us) noexcept {
-    const std::uint64_t due_us = slot.setpoint_us + period_us;
-    if (slot.setpoint_us != 0 && slot.end_sent_us == 0 && now_us > due_us + period_us + allowed_late_us &&
-        !motion.clock.stopping()) {
+    const bool any = slot.setpoint_us != 0; // else the first one is awaited since the start of the motion
+    if (motion.clock.stopping() || slot.end_sent_us != 0 || (!any && motion.clock.time(now_us) == 0)) {
+        return;
+    }
+    const std::uint64_t due_us = (any ? slot.setpoint_us : motion.clock.instant(0)) + period_us;
+    if (now_us > due_us + period_us + allowed_late_us) {
         motion.clock.stop(std::clamp(motion.last_setpoint_us, due_us, now_us));
     }
 }
@@ -156,6 +159,7 @@ void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::ui
     const std::lock_guard lock(mutex_);
     slot.report.setpoint_us = slot.setpoint_us;
     slot.report.end_sent = end_sent;
+    slot.report.behind = slot.drive.behind();
     slot.report.late_us = std::max(slot.report.late_us, late_us);
 }
 

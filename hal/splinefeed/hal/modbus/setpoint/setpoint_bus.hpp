@@ -47,6 +47,7 @@ struct SetpointReport {
     LinkAnswer last;           ///< of the last exchange
     bool clamped = false;
     bool end_sent = false;
+    bool behind = false;   ///< it comes back to the path; always false for drives with blocks
     bool at_target = true; ///< it stands at its target; always true for cyclic drives
 };
 

@@ -158,12 +158,13 @@ void SetpointDrive::configure(const SetpointSettings& settings) {
                                                 .fastest = settings.fastest_counts_s});
     } else {
         cyclic_.emplace(*profile_, CyclicSettings{settings.axis, profile_->period_us, settings.period_us,
-                                                  settings.acceleration_counts_s2});
+                                                  settings.acceleration_counts_s2, settings.fastest_counts_s});
     }
 }
 
 bool SetpointDrive::prime() {
     if (!block_) {
+        cyclic_->begin(reading_.position_q16);
         return true;
     }
     block_->begin(static_cast<double>(reading_.position_q16) / (1 << physical_bits));
@@ -219,6 +220,8 @@ void SetpointDrive::resync_position() noexcept {
 void SetpointDrive::on_arrival(std::uint64_t arrival_us) noexcept {
     if (block_ && !prepared_.empty()) {
         block_->on_arrival(arrival_us);
+    } else if (cyclic_) {
+        cyclic_->on_arrival(arrival_us);
     }
 }
 

@@ -21,7 +21,7 @@ struct SetpointSettings {
     std::uint32_t period_us = 10'000;    ///< between two targets
     double acceleration_counts_s2 = 1e6; ///< planned acceleration of the axis
     double ramp_counts_s2 = 4e6;         ///< BlockSettings::acceleration
-    double fastest_counts_s = 0.0;       ///< BlockSettings::fastest
+    double fastest_counts_s = 0.0;       ///< BlockSettings::fastest, CyclicSettings::fastest
     double standstill_counts = 2.0;      ///< SetpointWiring
 };
 
@@ -42,7 +42,8 @@ public:
     [[nodiscard]] bool write_initial();
     /// Writes a value; true also if the drive has no such register. Returns false on failure.
     [[nodiscard]] bool write_role(FieldRole role, std::int64_t physical_q16);
-    /// Sends a drive with blocks its present position as the first target. Returns false on failure.
+    /// The motion starts at the present position; a drive with blocks gets it as its first target. Returns false on
+    /// failure.
     [[nodiscard]] bool prime();
     /// Repeats a failed exchange as often as the profile says; connects again after the connection was lost.
     template <class Try>
@@ -65,6 +66,8 @@ public:
     bool send() noexcept;
     /// Call when no target was sent for so long that the drive stands.
     void on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
+    /// Whether a cyclic drive comes back to the path; false for drives with blocks.
+    [[nodiscard]] bool behind() const noexcept { return cyclic_ && cyclic_->behind(); }
     /// Whether a drive with blocks stands, by the model of its blocks; false for cyclic drives.
     [[nodiscard]] bool at_rest() const noexcept { return block_ && block_->at_rest(); }
     /// Call when the drive has stood for some time by the model of its blocks. If it reports another position, because

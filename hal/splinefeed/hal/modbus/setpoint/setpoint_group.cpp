@@ -182,7 +182,7 @@ std::optional<std::size_t> SetpointGroup::not_ready() const noexcept {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         const bool returns =
             slots_[i].wiring.profile->stream == StreamWay::blocks && report(i).still_us < standstill_us;
-        if (!online(i) || returns) {
+        if (!online(i) || returns || report(i).behind) {
             return i;
         }
     }

@@ -16,7 +16,7 @@ struct SetpointWiring {
     /// For a drive with blocks: acceleration of its ramps, written if its profile has registers for it.
     /// BlockSettings::acceleration
     double ramp_counts_s2 = 4e6;
-    double fastest_counts_s = 0.0;  ///< of a drive that catches up, BlockSettings::fastest
+    double fastest_counts_s = 0.0;  ///< of a drive that catches up, BlockSettings::fastest, CyclicSettings::fastest
     bool inverted = false;          ///< the drive counts in the opposite direction
     double standstill_counts = 2.0; ///< how far apart positions of a shaft that stands may lie
 };
