@@ -202,12 +202,13 @@ TEST_CASE("Set-point port, virtual: silent for 0.15 s from any request of the se
             plant.make({.home = true});
             plant.sample_positions();
             plant.wires[0]->silences.emplace_back(at, 150'000);
-            if (plant.port->open() != "") {
-                continue; // nothing was begun
-            }
-            const bool ready = plant.port->prepare(motion.segments.front()).empty();
+            const bool opened = plant.port->open().empty();
+            const bool ready = opened && plant.port->prepare(motion.segments.front()).empty();
             const std::uint64_t ended_us = plant.clock.now_us();
             requests = std::max(requests, plant.wires[0]->requests);
+            if (!opened) {
+                continue; // nothing was begun
+            }
             for (std::size_t i = 0; i < 3; ++i) {
                 CHECK((ready || plant.port->stop_report(i).state == StopState::confirmed));
             }
