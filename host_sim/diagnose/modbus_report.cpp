@@ -198,7 +198,7 @@ LinkReport target_report(const DriveTable& table, const MachineDescription& mach
         text += fmt::format("drive {}: {}\n  {}: {}; it says what its profile expects\n  state: {}{}\n", i + 1,
                             drive.address.text, profile.name, profile.drive,
                             profile_states[static_cast<std::size_t>(reading.state)], faulty ? ", " + fault : "");
-        text += standing(drive, 0, static_cast<double>(reading.position_q16) / (1 << physical_bits), machine, in_mm);
+        text += standing(drive, 0, port.standing_counts(i), machine, in_mm);
         if (faulty && out.trouble.empty()) {
             out.trouble = fault_trouble(drive, fault);
         }

@@ -55,14 +55,15 @@ public:
     [[nodiscard]] std::size_t trouble_with() const noexcept { return trouble_.drive; }
     [[nodiscard]] std::size_t drives() const noexcept { return group_.size(); }
     [[nodiscard]] SetpointReport report(std::size_t drive) const noexcept { return group_.report(drive); }
-    /// What the drive reports, in its own counts, and statistics of its exchanges. Before prepare().
+    /// What the drive reports, in its own counts. Before prepare().
     [[nodiscard]] const DriveReading& reading(std::size_t drive) const noexcept {
         return group_.drive(drive).reading();
     }
     /// Position that the drive reports, in its own counts. Before prepare().
     [[nodiscard]] double standing_counts(std::size_t drive) const noexcept {
-        return static_cast<double>(group_.drive(drive).reading().position_q16) / (1 << physical_bits);
+        return static_cast<double>(reading(drive).position_q16) / (1 << physical_bits);
     }
+    /// Statistics of its exchanges. Before prepare().
     [[nodiscard]] const LinkCounts& counts(std::size_t drive) const noexcept { return group_.drive(drive).counts(); }
     /// Reported position of a drive, in counts of the machine's axis; empty: it is not known which position of the axis
     /// that is, since prepare() has not come so far. After prepare().
