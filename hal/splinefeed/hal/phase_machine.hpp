@@ -10,14 +10,15 @@ namespace splinefeed::hal {
 
 /// How long a phase may last without progress, and the sentence for a phase that lasts longer.
 struct PhaseBound {
-    static constexpr std::uint64_t final_us = UINT64_MAX; ///< nothing is awaited in it
+    static constexpr std::uint64_t final_us = UINT64_MAX; ///< nothing is awaited in it, but perhaps the caller
 
     std::uint64_t most_us = 0;
     const char* sentence = "";
 };
 
-/// A port changes its phase by take() alone, so its table of phase x event is what it does. No phase can wait for ever:
-/// each one has a bound, or is final. Has no clock; all instants are of one clock [us].
+/// A port changes its phase by take() alone, so its table of phase x event is what it does. No phase waits for a
+/// machine for ever: each one has a bound, is final, or waits for the caller alone. Has no clock; all instants are of
+/// one clock [us].
 /// @tparam Phase, Event  enumerations from 0 to their last value `count`, which is none of them
 template <class Phase, class Event>
 class PhaseMachine {

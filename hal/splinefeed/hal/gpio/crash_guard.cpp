@@ -7,7 +7,7 @@ namespace splinefeed::hal::gpio {
 
 namespace {
 
-/// All whose default is to end the program, but SIGKILL.
+/// All whose default is to end the program, but SIGKILL and the real-time signals.
 constexpr std::array crashes{SIGSEGV, SIGBUS,  SIGFPE,  SIGILL,  SIGABRT, SIGQUIT,  SIGXCPU, SIGXFSZ,
                              SIGSYS,  SIGTRAP, SIGPIPE, SIGALRM, SIGTERM, SIGINT,   SIGHUP,  SIGVTALRM,
                              SIGPROF, SIGPOLL, SIGPWR,  SIGUSR1, SIGUSR2, SIGSTKFLT};
