@@ -196,6 +196,7 @@ TEST_CASE("Set-point port, virtual: silent for 0.15 s from any request of the se
           "[ports]") {
     for (const char* const profile : {"cia402-index", "leadshine-pr"}) {
         std::uint64_t requests = 1;
+        bool begun = false;
         for (std::uint64_t at = 1; at <= requests; at += 1 + requests / 40) {
             INFO(profile << ", silent from request " << at << " of " << requests);
             SetpointPlant plant({.profile = profile, .one_wire = true, .start_counts = 8'000.0});
@@ -209,6 +210,7 @@ TEST_CASE("Set-point port, virtual: silent for 0.15 s from any request of the se
             if (!opened) {
                 continue; // nothing was begun
             }
+            begun = true;
             for (std::size_t i = 0; i < 3; ++i) {
                 CHECK((ready || plant.port->stop_report(i).state == StopState::confirmed));
             }
@@ -218,5 +220,6 @@ TEST_CASE("Set-point port, virtual: silent for 0.15 s from any request of the se
                 CHECK(moved_us <= ended_us);
             }
         }
+        CHECK(begun);
     }
 }
