@@ -153,7 +153,7 @@ TEST_CASE("PVT port, virtual: the next run, however the one before ended", "[por
 }
 
 TEST_CASE("Set-point port, virtual: the next run, however the one before ended", "[ports]") {
-    for (const char* const profile : {"cia402-index", "cia402-kinco", "leadshine-pr", "oriental-az", "lexium32m"}) {
+    for (const char* const profile : setpoint_profiles) {
         for (const Ending ending : endings) {
             CAPTURE(profile, static_cast<int>(ending));
             SetpointPlant plant({.profile = profile, .start_counts = 6030.0});

@@ -112,12 +112,8 @@ TEST_CASE("PVT port, virtual: command counters and nonces wrap on the way", "[po
 
 TEST_CASE("PVT port, virtual: what a segment cannot carry stops all on the path before it", "[ports]") {
     PvtPlant plant({});
-    plant.make();
-    plant.sample_positions();
+    plant.begin(motion);
     ModbusPort& port = *plant.port;
-    REQUIRE_FALSE(port.open());
-    REQUIRE_FALSE(port.prepare(motion.segments.front()));
-    plant.began_us = plant.clock.now_us();
     std::size_t next = 0;
     PortPhase phase = PortPhase::running;
     bool refused = false;

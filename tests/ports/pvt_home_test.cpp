@@ -157,11 +157,7 @@ TEST_CASE("PVT port, virtual: a drive that another program uses is refused at on
 
 TEST_CASE("PVT port, virtual: a position is not known behind a power cycle", "[ports]") {
     PvtPlant plant({});
-    plant.make();
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
-    REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
-    plant.began_us = plant.clock.now_us();
+    plant.begin(motion);
     plant.events.emplace_back(plant.began_us + 300'000, [&] { plant.drives[1]->power_cycle(); });
     CHECK(run(plant, motion, {}) == PortPhase::fault);
     CHECK(plant.port->failure()->problem == DriveProblem::power_cycled);
@@ -173,11 +169,7 @@ TEST_CASE("PVT port, virtual: a position is not known behind a power cycle", "[p
 
 TEST_CASE("PVT port, virtual: a shaft that dithers beyond its window stands by its drive's word", "[ports]") {
     PvtPlant plant({});
-    plant.make();
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
-    REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
-    plant.began_us = plant.clock.now_us();
+    plant.begin(motion);
     plant.liars[1]->lie = [](PvtStatus& status) {
         status.position[0] += status.nonce % 2 == 0 ? 3 : -3;
     };
@@ -193,12 +185,8 @@ TEST_CASE("PVT port, virtual: a serial line that is quicker than its rate carrie
         INFO("frames take " << pace << " of their time");
         PvtPlant plant({.axes = {1}, .wire = Wire::rtu});
         plant.wires[0]->pace = pace;
-        plant.make();
-        plant.sample_positions();
-        REQUIRE_FALSE(plant.port->open());
         const SmoothMotion slow = smooth_motion(20000.0, 1, 60, 10'000);
-        REQUIRE_FALSE(plant.port->prepare(slow.segments.front()));
-        plant.began_us = plant.clock.now_us();
+        plant.begin(slow);
         CHECK(run(plant, slow, {}) == PortPhase::idle);
         CHECK(plant.executed_once(0) == slow.segments.size());
         plant.port.reset();

@@ -106,11 +106,7 @@ struct Told {
 
 Told run_with(const Lie& lie, std::uint64_t from_us, const Asked& asked, Visits& visits) {
     PvtPlant plant({});
-    plant.make();
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
-    REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
-    plant.began_us = plant.clock.now_us();
+    plant.begin(motion);
     plant.events.emplace_back(plant.began_us + from_us, [&] {
         LyingDrive& liar = *plant.liars[1];
         liar.ignores = lie.ignores;

@@ -5,6 +5,7 @@
 #include "ports/lying_drive.hpp"
 #include "ports/plant.hpp"
 #include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
+#include "support/catch.hpp"
 
 #include <optional>
 
@@ -55,6 +56,14 @@ public:
         settings.clock = &clock;
         first_sequence = settings.first_sequence;
         port.emplace(wirings, settings);
+    }
+    /// Makes the port, and makes it ready for the motion.
+    void begin(const SmoothMotion& motion, const splinefeed::hal::modbus::ModbusPortSettings& settings = {}) {
+        make(settings);
+        sample_positions();
+        REQUIRE_FALSE(port->open());
+        REQUIRE_FALSE(port->prepare(motion.segments.front()));
+        began_us = clock.now_us();
     }
     /// Every segment from the first one on, in order, each once; how many, or nothing where that is not so.
     [[nodiscard]] std::optional<std::size_t> executed_once(std::size_t drive) const {

@@ -18,13 +18,9 @@ TEST_CASE("PVT port, virtual: rings beyond its queue and segments of 0.1 ms: a g
             PvtPlant plant(parameters);
             ModbusPortSettings settings;
             settings.buffer_us = 900'000; // more than the queue holds
-            plant.make(settings);
-            plant.sample_positions();
             const SmoothMotion motion = smooth_motion(20000.0, 1, static_cast<int>(2'000'000 / segment_us), segment_us);
-            REQUIRE_FALSE(plant.port->open());
-            REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
+            plant.begin(motion, settings);
             plant.most_step_counts = 0.0; // the position was preset
-            plant.began_us = plant.clock.now_us();
             plant.wires[0]->unplugged.push_back({plant.began_us + 1'500'000, plant.began_us + 1'850'000});
             CHECK(run(plant, motion, {}) == PortPhase::idle);
             CHECK(plant.executed_once(0) == motion.segments.size());

@@ -13,19 +13,11 @@ namespace {
 
 const SmoothMotion motion = smooth_motion(20000.0, 2, 150, 2000);
 
-void prepare(PvtPlant& plant) {
-    plant.make();
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
-    REQUIRE_FALSE(plant.port->prepare(motion.segments.front()));
-    plant.began_us = plant.clock.now_us();
-}
-
 } // namespace
 
 TEST_CASE("PVT port, virtual: a whole motion, every segment once, on the path", "[ports]") {
     PvtPlant plant({.clock_ppm = {150.0, -150.0, 0.0}});
-    prepare(plant);
+    plant.begin(motion);
     CHECK(run(plant, motion, {}) == PortPhase::idle);
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(plant.executed_once(i) == motion.segments.size());
@@ -43,7 +35,7 @@ TEST_CASE("PVT port, virtual: a whole motion, every segment once, on the path", 
 TEST_CASE("PVT port, virtual: segments that are sent again are counted, of the drive that did not get them",
           "[ports]") {
     PvtPlant plant({});
-    prepare(plant);
+    plant.begin(motion);
     plant.wires[1]->faults.lost_request = 0.2;
     CHECK(run(plant, motion, {}) == PortPhase::idle);
     CHECK(plant.port->report(0).counts.resent == 0);
@@ -58,11 +50,7 @@ TEST_CASE("PVT port, virtual: drives whose clocks differ stay in step for as lon
     // to some 50 ppm in the first seconds, and then a segment is corrected by up to 250 ppm: 0.42 ms, most of it early
     const SmoothMotion longer = smooth_motion(20000.0, 4, 1250, 2000);
     PvtPlant plant({.clock_ppm = {100.0, -100.0, 0.0}});
-    plant.make();
-    plant.sample_positions();
-    REQUIRE_FALSE(plant.port->open());
-    REQUIRE_FALSE(plant.port->prepare(longer.segments.front()));
-    plant.began_us = plant.clock.now_us();
+    plant.begin(longer);
     CHECK(run(plant, longer, {}) == PortPhase::idle);
     CHECK(plant.port->resumes() == 0);
     INFO(1e6 * plant.off_path_counts / longer.fastest_counts_s << " us of the largest speed");
@@ -73,7 +61,7 @@ TEST_CASE("PVT port, virtual: drives whose clocks differ stay in step for as lon
 TEST_CASE("PVT port, virtual: a hold at any time about the start is a hold: nothing moves behind it", "[ports]") {
     for (std::uint64_t hold_us = 0; hold_us < 250'000; hold_us += 2300) {
         PvtPlant plant({});
-        prepare(plant);
+        plant.begin(motion);
         INFO("hold at " << hold_us << " us");
         CHECK(run(plant, motion, {.hold_us = hold_us}) == PortPhase::halted);
         const std::uint64_t halted_us = plant.clock.now_us();
@@ -95,7 +83,7 @@ TEST_CASE("PVT port, virtual: a shaft that a load pushes while its stop is confi
         for (const std::uint64_t hold_us : {0U, 200'000U}) { // before the start, and in motion
             for (std::uint64_t push_us = 0; push_us < 60'000; push_us += splinefeed_test::sanitized ? 1500 : 500) {
                 PvtPlant plant({});
-                prepare(plant);
+                plant.begin(motion);
                 const std::uint64_t from_us = plant.began_us + hold_us + (hold_us > 0 ? 250'000 : 0) + push_us;
                 constexpr std::uint64_t long_us = 3000;
                 auto& machine = plant.drives[1]->machine();
@@ -125,7 +113,7 @@ TEST_CASE("PVT port, virtual: a quick stop at any time, alone or behind a hold, 
     for (std::uint64_t quick_us = 0; quick_us < 400'000; quick_us += 7900) {
         for (const std::uint64_t hold_us : {UINT64_MAX, quick_us, quick_us > 30'000 ? quick_us - 30'000 : 0}) {
             PvtPlant plant({});
-            prepare(plant);
+            plant.begin(motion);
             INFO("hold at " << hold_us << ", quick stop at " << quick_us << " us");
             CHECK(run(plant, motion, {.hold_us = hold_us, .quick_us = quick_us}) == PortPhase::halted);
             const std::uint64_t halted_us = plant.clock.now_us();
@@ -144,7 +132,7 @@ TEST_CASE("PVT port, virtual: a quick stop at any time, alone or behind a hold, 
 TEST_CASE("PVT port, virtual: a drive that does not answer any more is unconfirmed, in bounded time", "[ports]") {
     for (const std::uint64_t hold_us : {20'000U, 70'000U, 200'000U}) {
         PvtPlant plant({});
-        prepare(plant);
+        plant.begin(motion);
         plant.stations[1]->mute.push_back({plant.began_us + hold_us, UINT64_MAX});
         CHECK(run(plant, motion, {.hold_us = hold_us}) == PortPhase::halted);
         const std::uint64_t halted_us = plant.clock.now_us();
@@ -158,7 +146,7 @@ TEST_CASE("PVT port, virtual: a drive that does not answer any more is unconfirm
 
 TEST_CASE("PVT port, virtual: a drive that is away for a moment confirms, but not that it is on the path", "[ports]") {
     PvtPlant plant({});
-    prepare(plant);
+    plant.begin(motion);
     plant.wires[1]->unplugged.push_back({plant.began_us + 190'000, plant.began_us + 500'000});
     CHECK(run(plant, motion, {.hold_us = 200'000}) == PortPhase::halted);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -174,7 +162,7 @@ TEST_CASE("PVT port, virtual: drives are switched off at the end, and one that d
     for (const bool deaf : {false, true}) {
         for (const std::uint64_t hold_us : {std::uint64_t{200'000}, UINT64_MAX}) {
             PvtPlant plant({});
-            prepare(plant);
+            plant.begin(motion);
             CHECK(run(plant, motion, {.hold_us = hold_us}) != PortPhase::fault);
             CHECK(plant.drives[1]->machine().state() != PvtState::disabled);
             const std::uint64_t asked_us = plant.clock.now_us();
@@ -195,7 +183,7 @@ TEST_CASE("PVT port, virtual: drives are switched off at the end, and one that d
 
 TEST_CASE("PVT port, virtual: a port that goes while its drives run holds them first", "[ports]") {
     PvtPlant plant({});
-    prepare(plant);
+    plant.begin(motion);
     for (int i = 0; i < 200; ++i) {
         while (plant.port->room() > 0 && plant.port->submit(motion.segments[plant.next])) {
             ++plant.next;

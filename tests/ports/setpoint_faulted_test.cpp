@@ -14,7 +14,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr std::array profiles{"cia402-index", "lexium32m", "leadshine-pr", "oriental-az", "cia402-kinco"};
 constexpr std::uint64_t away_us = 1'500'000;
 constexpr double way_counts = 8000.0; // of the first axis, there and back
 // Of the first axis: each axis stands within 2 counts of the path and what its registers round, up to 3; that of the
@@ -34,7 +33,7 @@ struct Scenario {
     bool outage = false; ///< a drive does not answer for a while, or not the truth
 
     explicit Scenario(std::uint64_t seed) : random(seed) {
-        parameters.profile = profiles[dice(profiles.size())];
+        parameters.profile = setpoint_profiles[dice(setpoint_profiles.size())];
         parameters.drives = 1 + static_cast<int>(dice(3));
         parameters.one_wire = dice(2) == 0;
         parameters.seed = seed;

@@ -7,10 +7,15 @@
 #include "host_sim/drive/profile_drive.hpp"
 #include "ports/plant.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
+#include "support/catch.hpp"
 
 #include <optional>
 
 namespace splinefeed_test {
+
+/// All that are shipped for drives which follow target positions.
+inline constexpr std::array setpoint_profiles{"cia402-index", "lexium32m", "leadshine-pr", "oriental-az",
+                                              "cia402-kinco"};
 
 struct SetpointPlantParameters {
     std::string profile = "cia402-index";
@@ -72,6 +77,17 @@ public:
         settings.make_line = make_line();
         settings.clock = &clock;
         port.emplace(wirings, settings);
+    }
+
+    /// Makes the port, and makes it ready for a motion. Returns what is wrong; empty: nothing.
+    [[nodiscard]] std::string begin(const SmoothMotion& motion,
+                                    const splinefeed::hal::modbus::SetpointPortSettings& settings = {}) {
+        make(settings);
+        REQUIRE(port->open() == "");
+        std::string what = port->prepare(motion.segments.front());
+        began_us = clock.now_us();
+        next = 0;
+        return what;
     }
 
     splinefeed::hal::modbus::DriveProfile profile;

@@ -11,17 +11,6 @@ using namespace splinefeed_test;
 namespace {
 
 const SmoothMotion motion = smooth_motion(8000.0, 2, 100, 4000);
-constexpr std::array profiles{"cia402-index", "lexium32m", "leadshine-pr", "oriental-az", "cia402-kinco"};
-
-std::string prepare(SetpointPlant& plant, const SetpointPortSettings& settings = {},
-                    const SmoothMotion& first = motion) {
-    plant.make(settings);
-    REQUIRE(plant.port->open() == "");
-    std::string what = plant.port->prepare(first.segments.front());
-    plant.began_us = plant.clock.now_us();
-    plant.next = 0;
-    return what;
-}
 
 /// What an earlier run leaves a drive in.
 struct Left {
@@ -68,22 +57,22 @@ const std::array<Left, 6> earlier_runs{{
 
 TEST_CASE("Set-point port, virtual: a later run works whatever an earlier one has left, or says what to do",
           "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         for (const Left& left : earlier_runs) {
             INFO(profile << ", after " << left.name);
             SetpointPlant plant({.profile = profile});
             plant.sample_positions();
-            REQUIRE(prepare(plant) == "");
+            REQUIRE(plant.begin(motion) == "");
             left.leave(plant);
             plant.port.reset();
             plant.clock.sleep_us(300'000);
-            std::string what = prepare(plant);
+            std::string what = plant.begin(motion);
             CHECK((what.find("run again with --reset") != std::string::npos) == left.needs_reset);
             if (left.needs_reset) {
                 CHECK(what.find("it is in fault, code ") == 0);
                 CHECK(plant.port->trouble_with() == 1);
                 plant.port.reset();
-                what = prepare(plant, {.reset = true});
+                what = plant.begin(motion, {.reset = true});
             }
             REQUIRE(what == "");
             CHECK(run(plant, motion, {}) == PortPhase::idle);
@@ -97,7 +86,7 @@ TEST_CASE("Set-point port, virtual: a shaft that dithers holds, goes on after a 
         double window_counts;
         bool held; ///< its positions say that it is on the path
     };
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         const bool blocks = splinefeed::host::find_profile(profile).stream == StreamWay::blocks;
         for (const Dither& dither : {Dither{3, 3.2, true}, Dither{12, 25.0, true}, Dither{12, 2.0, false}}) {
             if (!blocks && !dither.held) {
@@ -107,11 +96,11 @@ TEST_CASE("Set-point port, virtual: a shaft that dithers holds, goes on after a 
             SetpointPlantParameters parameters{.profile = profile, .standstill_counts = dither.window_counts};
             parameters.faults.dither_counts = dither.counts;
             SetpointPlant plant(parameters);
-            REQUIRE(prepare(plant) == "");
+            REQUIRE(plant.begin(motion) == "");
             CHECK(run(plant, motion, {.starved_from_us = 100'000, .starved_to_us = 900'000}) == PortPhase::idle);
             CHECK(plant.port->resumes() == 1);
             plant.port.reset();
-            REQUIRE(prepare(plant) == "");
+            REQUIRE(plant.begin(motion) == "");
             CHECK(run(plant, motion, {.hold_us = 250'000}) == PortPhase::halted);
             for (std::size_t i = 0; i < 3; ++i) {
                 CHECK(plant.port->stop_report(i).request == StopRequest::hold);
@@ -137,7 +126,7 @@ TEST_CASE("Set-point port, virtual: segments of any duration fit the buffer", "[
                                  }});
             const auto a_leg = static_cast<int>(300'000 / segments.segment_us);
             const SmoothMotion brief = smooth_motion(800.0, 2, a_leg, segments.segment_us);
-            REQUIRE(prepare(plant, {}, brief) == "");
+            REQUIRE(plant.begin(brief) == "");
             CHECK(run(plant, brief, {}) == PortPhase::idle);
             CHECK(plant.port->poll().executed == brief.segments.size());
         }
@@ -145,13 +134,13 @@ TEST_CASE("Set-point port, virtual: segments of any duration fit the buffer", "[
 }
 
 TEST_CASE("Set-point port, virtual: a motion that ends while it moves is slowed down on its path", "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         INFO(profile);
         std::vector<double> places; // every 20 ms
         SetpointPlant plant({.profile = profile});
         plant.sample_positions();
         SmoothMotion cut = smooth_motion(8000.0, 1, 250, 4000);
-        REQUIRE(prepare(plant, {}, cut) == "");
+        REQUIRE(plant.begin(cut) == "");
         plant.each_ms = [&, next_us = plant.began_us]() mutable {
             if (plant.clock.now_us() >= next_us) {
                 next_us += 20'000;

@@ -11,20 +11,16 @@ using namespace splinefeed_test;
 namespace {
 
 const SmoothMotion motion = smooth_motion(8000.0, 2, 100, 4000);
-constexpr std::array profiles{"cia402-index", "lexium32m", "leadshine-pr", "oriental-az", "cia402-kinco"};
 
 void prepare(SetpointPlant& plant) {
-    plant.make();
     plant.sample_positions();
-    REQUIRE(plant.port->open() == "");
-    REQUIRE(plant.port->prepare(motion.segments.front()) == "");
-    plant.began_us = plant.clock.now_us();
+    REQUIRE(plant.begin(motion) == "");
 }
 
 } // namespace
 
 TEST_CASE("Set-point port, virtual: a whole motion near the path, with every profile", "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         INFO(profile);
         SetpointPlant plant({.profile = profile});
         prepare(plant);
@@ -42,16 +38,14 @@ TEST_CASE("Set-point port, virtual: a whole motion near the path, with every pro
 TEST_CASE("Set-point port, virtual: the longest stop has room for four answers that do not come", "[ports]") {
     const auto longest_us = [](std::uint32_t answer_us) {
         SetpointPlant plant({});
-        plant.make({.timing = {.answer_us = answer_us}});
-        REQUIRE(plant.port->open() == "");
-        REQUIRE(plant.port->prepare(motion.segments.front()) == "");
+        REQUIRE(plant.begin(motion, {.timing = {.answer_us = answer_us}}) == "");
         return plant.port->longest_stop_us();
     };
     CHECK(longest_us(900'000) - longest_us(800'000) == 4 * 100'000); // slower than any drive of a profile
 }
 
 TEST_CASE("Set-point port, virtual: a hold at any time is confirmed, and nothing moves behind it", "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         for (std::uint64_t hold_us = 0; hold_us < 700'000; hold_us += 47'000) {
             INFO(profile << ", hold at " << hold_us << " us");
             SetpointPlant plant({.profile = profile});
@@ -68,7 +62,7 @@ TEST_CASE("Set-point port, virtual: a hold at any time is confirmed, and nothing
 }
 
 TEST_CASE("Set-point port, virtual: a quick stop reaches every drive, on one wire as on several", "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         for (const bool one_wire : {false, true}) {
             for (std::uint64_t quick_us = 20'000; quick_us < 700'000; quick_us += 83'000) {
                 INFO(profile << ", quick stop at " << quick_us << " us, one wire " << one_wire);
@@ -87,7 +81,7 @@ TEST_CASE("Set-point port, virtual: a quick stop reaches every drive, on one wir
 }
 
 TEST_CASE("Set-point port, virtual: a quick stop is sent again where the line is away", "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         INFO(profile);
         SetpointPlant plant({.profile = profile, .one_wire = true});
         prepare(plant);
@@ -101,7 +95,7 @@ TEST_CASE("Set-point port, virtual: a quick stop is sent again where the line is
 }
 
 TEST_CASE("Set-point port, virtual: a dead drive is unconfirmed, the others stop; in bounded time", "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         for (const bool quick : {false, true}) {
             INFO(profile << ", quick " << quick);
             SetpointPlant plant({.profile = profile, .one_wire = true});
@@ -120,7 +114,7 @@ TEST_CASE("Set-point port, virtual: a dead drive is unconfirmed, the others stop
 
 TEST_CASE("Set-point port, virtual: drives are switched off at the end, and one that does not confirm it is told",
           "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         for (const bool deaf : {false, true}) {
             INFO(profile << ", deaf " << deaf);
             SetpointPlant plant({.profile = profile});
@@ -143,7 +137,7 @@ TEST_CASE("Set-point port, virtual: drives are switched off at the end, and one 
 }
 
 TEST_CASE("Set-point port, virtual: one drive stops for itself, and all stop", "[ports]") {
-    for (const char* const profile : profiles) {
+    for (const char* const profile : setpoint_profiles) {
         INFO(profile);
         SetpointPlant plant({.profile = profile});
         prepare(plant);
@@ -164,10 +158,7 @@ TEST_CASE("Set-point port, virtual: after a long pause of the host a stop still 
     for (const char* const profile : {"cia402-index", "lexium32m"}) {
         INFO(profile);
         SetpointPlant plant({.profile = profile});
-        plant.make();
-        REQUIRE(plant.port->open() == "");
-        REQUIRE(plant.port->prepare(motion.segments.front()) == "");
-        plant.began_us = plant.clock.now_us();
+        REQUIRE(plant.begin(motion) == "");
         const std::uint64_t pause_us = plant.port->longest_stop_us() + 5'000'000;
         plant.stations[1]->mute.push_back({plant.began_us + 190'000, plant.began_us + 200'000 + pause_us});
         while (plant.clock.now_us() < plant.began_us + 200'000) {
