@@ -43,7 +43,8 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
         keep_state();
         return stopped_.empty() ? stopped_ : stopped_ + (target_ != nullptr ? target_->where() : where());
     }
-    return target_->ending();
+    stopped_ = target_->ending();
+    return stopped_;
 }
 
 // The drives come to rest on the path, whatever ended the run: by the plan where it is sound, without outputs and
