@@ -22,14 +22,12 @@ StateKeeper::StateKeeper(std::string file, std::vector<std::string> axes, Machin
     : file_(std::move(file)), axes_(std::move(axes)), kept_(std::move(begins)) {}
 
 void StateKeeper::write() {
-    if (!file_.empty()) {
-        write_state_file(file_, axes_, kept_);
-    }
+    write_state_file(file_, axes_, kept_);
 }
 
 void StateKeeper::moves() {
     const std::lock_guard lock(mutex_);
-    if (!file_.empty() && is_regular_file(file_)) {
+    if (is_regular_file(file_)) {
         before_ = read_text_file(file_, largest_state);
     }
     moves_ = true;
@@ -59,9 +57,9 @@ void StateKeeper::ends(std::span<const RunTarget::AxisPlace> places) {
         }
         kept_.unknown_why = end_without_place;
         write();
-    } else if (moves_ && before_) {
+    } else if (before_) {
         replace_durably(file_, *before_);
-    } else if (moves_ && !file_.empty()) {
+    } else if (moves_) {
         remove_replaced(file_);
     }
 }

@@ -18,7 +18,6 @@ namespace splinefeed::host {
 /// constructor may wait for the disk and throws OutputError.
 class StateKeeper {
 public:
-    /// @param file  empty: nothing is kept
     /// @param begins  offsets and places as the run begins
     StateKeeper(std::string file, std::vector<std::string> axes, MachineState begins);
 

@@ -53,10 +53,11 @@ bool Supervision::submit(const FeedSegment& segment, std::uint64_t line, std::ui
     if (over()) {
         return false;
     }
-    if (!thread_.joinable()) {
+    const bool first = !thread_.joinable();
+    if (first) {
         signals_->supervise(); // from here on a signal is obeyed by the one end
     }
-    if (!thread_.joinable() && state_ != nullptr) {
+    if (first && state_ != nullptr) {
         state_->moves();
     }
     begin_line(line, moves);
@@ -64,7 +65,7 @@ bool Supervision::submit(const FeedSegment& segment, std::uint64_t line, std::ui
     ++pushed_;
     at_rest_ = std::ranges::all_of(segment.end_velocity, [](std::int64_t v) { return v == 0; });
     ring_.push(segment);
-    if (!thread_.joinable()) {
+    if (first) {
         thread_ = std::thread([this] { work(); });
     }
     return true;
