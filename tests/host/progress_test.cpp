@@ -52,6 +52,14 @@ private:
     int slave_ = -1;
 };
 
+/// Says that a test is left out where it was not.
+bool opened(const Terminal& terminal) {
+    if (terminal.descriptor() < 0) {
+        WARN("SKIPPED: no pseudo terminal can be opened");
+    }
+    return terminal.descriptor() >= 0;
+}
+
 const std::string erase = "\r\x1b[K";
 
 void work(Progress& progress, std::chrono::milliseconds time) {
@@ -67,8 +75,7 @@ void work(Progress& progress, std::chrono::milliseconds time) {
 
 TEST_CASE("on a terminal the line is redrawn at most ten times a second and erased at the end") {
     const Terminal terminal;
-    if (terminal.descriptor() < 0) {
-        WARN("SKIPPED: no pseudo terminal can be opened");
+    if (!opened(terminal)) {
         return;
     }
     std::string shown;
@@ -87,8 +94,7 @@ TEST_CASE("on a terminal the line is redrawn at most ten times a second and eras
 
 TEST_CASE("a run too short to draw leaves no trace") {
     const Terminal terminal;
-    if (terminal.descriptor() < 0) {
-        WARN("SKIPPED: no pseudo terminal can be opened");
+    if (!opened(terminal)) {
         return;
     }
     {
@@ -102,8 +108,7 @@ TEST_CASE("a run too short to draw leaves no trace") {
 
 TEST_CASE("after finish nothing is drawn") {
     const Terminal terminal;
-    if (terminal.descriptor() < 0) {
-        WARN("SKIPPED: no pseudo terminal can be opened");
+    if (!opened(terminal)) {
         return;
     }
     Progress progress({.descriptor = terminal.descriptor()});
@@ -139,8 +144,7 @@ TEST_CASE("what is no terminal gets nothing") {
 
 TEST_CASE("a message does not stand behind the line") {
     const Terminal terminal;
-    if (terminal.descriptor() < 0) {
-        WARN("SKIPPED: no pseudo terminal can be opened");
+    if (!opened(terminal)) {
         return;
     }
     Progress progress({.descriptor = terminal.descriptor()});
