@@ -25,8 +25,8 @@ class DriveProcess:
             self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, text=True, cwd=folder)
         self.line = self.process.stdout.readline()
 
-    def tcp_address(self):
-        return "modbus-" + self.line.split("listening on ")[1].split(",")[0] + "?unit=1"
+    def tcp_address(self, keys="unit=1"):
+        return "modbus-" + self.line.split("listening on ")[1].split(",")[0] + "?" + keys
 
     def stop(self):
         """Nothing, or what it said when its exit status is not 0."""

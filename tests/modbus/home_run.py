@@ -20,8 +20,8 @@ AXIS = f"max_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\nsteps_per_mm = 
 
 def run(tool, folder, profile):
     drives = [Drive(tool, folder, k, 1, profile=profile, position=START[k]) for k in range(2)]
-    keys = f"?profile={profile}" if profile else "?unit=1"
-    addresses = [drive.tcp_address().split("?")[0] + keys for drive in drives]
+    keys = f"profile={profile}" if profile else "unit=1"
+    addresses = [drive.tcp_address(keys) for drive in drives]
     with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
         file.write(machine_text([("x", AXIS), ("y", AXIS + "invert = true\n")], addresses, "[path]\nmax_feed_mm_s = 100\n"))
     with open(os.path.join(folder, "way.csv"), "w", encoding="utf-8") as file:

@@ -46,7 +46,7 @@ def run(options):
         drives = [Drive(options.tool, folder, k, 1, listen=listen[k], faults=options.faults if k == 1 else "",
                         profile=options.profile, position=START_COUNTS[k]) for k in range(3)]
         addresses = [f"modbus-rtu://{ours}{query}&{keys}" for ours, _ in cables] or \
-                    [drive.tcp_address().split("?")[0] + "?" + keys for drive in drives]
+                    [drive.tcp_address(keys) for drive in drives]
         machine, steps = machine_file(options.machine, folder, addresses)
         try:
             call = called([options.tool, "run", options.program, "-m", machine, "--target", "modbus", "--segments", "plan.csv",

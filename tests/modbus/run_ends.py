@@ -41,8 +41,8 @@ CASES = {
 
 
 def start(tool, folder, name, drives, profile, options, text):
-    keys = f"?profile={profile}" if profile else "?unit=1"
-    addresses = [drive.tcp_address().split("?")[0] + keys for drive in drives]
+    keys = f"profile={profile}" if profile else "unit=1"
+    addresses = [drive.tcp_address(keys) for drive in drives]
     with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
         file.write(machine_text([("x", AXIS), ("y", AXIS)], addresses, "[path]\nmax_feed_mm_s = 80\n"))
     program = "part.csv" if name == "waypoints" else "part.ngc"

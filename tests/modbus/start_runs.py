@@ -39,8 +39,8 @@ class Machine:
 
     def describe(self, axis):
         ramp = "" if self.profile == "cia402-index" else "&ramp=1.28e6"
-        keys = f"?profile={self.profile}{ramp}" if self.profile else "?unit=1"
-        addresses = [drive.tcp_address().split("?")[0] + keys for drive in self.drives]
+        keys = f"profile={self.profile}{ramp}" if self.profile else "unit=1"
+        addresses = [drive.tcp_address(keys) for drive in self.drives]
         self.write("machine.toml", machine_text([("x", axis), ("y", axis)], addresses, HEAD))
 
     def write(self, name, text):

@@ -23,8 +23,8 @@ STOP_AFTER_S = 5.0
 
 def run(tool, folder, profile):
     drives = [Drive(tool, folder, k, 1, profile=profile) for k in range(2)]
-    keys = f"?profile={profile}" if profile else "?unit=1"
-    addresses = [drive.tcp_address().split("?")[0] + keys for drive in drives]
+    keys = f"profile={profile}" if profile else "unit=1"
+    addresses = [drive.tcp_address(keys) for drive in drives]
     with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
         file.write(machine_text([("x", AXIS), ("y", AXIS)], addresses, "[path]\nmax_feed_mm_s = 100\n"))
     with open(os.path.join(folder, "part.ngc"), "w", encoding="utf-8") as file:

@@ -130,7 +130,7 @@ class Run:
             drives = [Drive(self.tool, folder, k, 1, listen=listen[k], profile=profile.split("&")[0]) for k in range(3)]
             keys = f"profile={profile}" if profile else "unit=1"
             addresses = [f"modbus-rtu://{ours}{query}&{keys}" for ours, _ in cables] or \
-                        [drive.tcp_address().split("?")[0] + "?" + keys for drive in drives]
+                        [drive.tcp_address(keys) for drive in drives]
             self.vfd = Vfd(folder, 2000.0) if self.situation == "spindle" else None
             run, points = self.start(folder, addresses)
             lost = self.rng.randrange(3) if "drive" in self.situation else None

@@ -33,8 +33,8 @@ def one(tool, folder, profile, resumes):
     """resumes: it goes on; otherwise it is ended while it is stopped."""
     problems = []
     drives = [Drive(tool, folder, k, 1, profile=profile.split("&")[0]) for k in range(2)]
-    keys = f"?profile={profile}" if profile else "?unit=1"
-    addresses = [drive.tcp_address().split("?")[0] + keys for drive in drives]
+    keys = f"profile={profile}" if profile else "unit=1"
+    addresses = [drive.tcp_address(keys) for drive in drives]
     with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
         file.write(machine_text([("x", AXIS), ("y", AXIS)], addresses, "[path]\nmax_feed_mm_s = 80\n"))
     with open(os.path.join(folder, "part.ngc"), "w", encoding="utf-8") as file:
