@@ -83,8 +83,7 @@ STOP = ((1.5, signal.SIGINT),)
 STOP_TWICE = ((1.5, signal.SIGINT), (0.02, signal.SIGTERM))
 
 
-def stopped_pvt(tool, folder):
-    machine = Machine(tool, folder)
+def stopped_pvt(machine):
     machine.points("part.csv", 0, 10, 20, 30, 40)
     machine.points("rest.csv", 20, 30, 40)
     for signals in (STOP, STOP_TWICE):
@@ -97,11 +96,9 @@ def stopped_pvt(tool, folder):
     machine.run("part.csv --start here")
     machine.expect(40.0, "--start here")
     machine.run("rest.csv --start move", ((0.7, signal.SIGINT),), 1, "held on the path; the machine stands at x=[23]")
-    return machine.stop()
 
 
-def gcode(tool, folder):
-    machine = Machine(tool, folder)
+def gcode(machine):
     machine.write("to20.ngc", "G0 X20\nM2\n")
     machine.write("back.ngc", "G0 X5\nM2\n")
     machine.points("on.csv", 20, 40)
@@ -113,11 +110,9 @@ def gcode(tool, folder):
     machine.run("to20.ngc --position 7,0", status=2, says="the machine stands at x=5.0000 y=10.0000 mm, and the program begins at x=7.0000")
     machine.run("to20.ngc --position 7,0 --start here")
     machine.expect(20.0, "G0 behind --position and --start here")
-    return machine.stop()
 
 
-def powered_anew(tool, folder):
-    machine = Machine(tool, folder, position=40000000)
+def powered_anew(machine):
     machine.points("part.csv", 0, 10)
     for _ in range(2):
         machine.run("part.csv", says="nobody knows where x, y stands: the run begins as if it stood where the program does")
@@ -126,50 +121,52 @@ def powered_anew(tool, folder):
     machine.run("part.csv --start move", status=2, says="--start move: nobody knows where x, y stands; add --home")
     machine.run("part.csv --home", ((3.0, signal.SIGINT),), 1, "homing")
     machine.run("part.csv --start move", status=2, says="nobody knows where x, y stands")
-    return machine.stop()
 
 
-def homed(tool, folder, profile):
-    machine = Machine(tool, folder, profile=profile, position=2000)
+def homed(machine):
     machine.points("part.csv", 5, 10)
     machine.run("part.csv --home")
-    if profile and profile not in KEEPS_HOMED:
+    if machine.profile and machine.profile not in KEEPS_HOMED:
         machine.run("part.csv", says="nobody knows where x, y stands")
     else:
         machine.expect(10.0, "--home goes to where the program begins")
         machine.run("part.csv", status=2, says="x=10.0000 y=2.5000 mm, and the program begins at x=5.0000 y=1.2500")
         machine.run("part.csv --start move")
         machine.expect(10.0, "--start move")
-    return machine.stop()
 
 
-def guide(tool, folder):
+def guide(machine):
     """The blocks of the guide, in order, behind a run that a drive's fault ended."""
-    machine = Machine(tool, folder, extra=("--max-velocity", str(60 * STEPS)))
     machine.write("fast.csv", "x,y,feed\n0,0,90\n40,0,90\n")
     machine.run("fast.csv", status=1, says="it is in fault, code 3 on axis x: .*--reset")
     machine.describe(AXIS.replace("= 100", "= 50"))  # the cause is removed
     with open(GUIDE, encoding="utf-8") as file:
         blocks = re.findall(r"```sh\n(.*?)```", file.read(), re.S)
-    os.symlink(tool, os.path.join(folder, "splinefeed"))
-    environment = {**os.environ, "PATH": folder + ":" + os.environ["PATH"]}
+    os.symlink(machine.tool, os.path.join(machine.folder, "splinefeed"))
+    environment = {**os.environ, "PATH": machine.folder + ":" + os.environ["PATH"]}
     for block in blocks:
         if "--start move" in block:
             machine.run("part.csv --start move", STOP, 1, "held on the path")
         if "--reset" in block:
             machine.run("rest.csv", status=1, says="it is in fault, code 3 on axis x: .*--reset")
-        done = subprocess.run(["sh", "-e", "-c", block], cwd=folder, env=environment, capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run(["sh", "-e", "-c", block], cwd=machine.folder, env=environment, capture_output=True, text=True, timeout=60,
+                              check=False)
         if done.returncode != 0:
             machine.problems.append(f"{block}: {done.stderr}")
     machine.expect(40.0, "the guide's last run")
     if len(blocks) != 3:
         machine.problems.append("the guide has other blocks than this test knows")
-    return machine.stop()
 
 
-CASES = {"stopped_pvt": stopped_pvt, "gcode": gcode, "powered_anew": powered_anew, "guide": guide}
+# name: what is done, and options of the Machine
+CASES = {
+    "stopped_pvt": (stopped_pvt, {}),
+    "gcode": (gcode, {}),
+    "powered_anew": (powered_anew, {"position": 40000000}),
+    "guide": (guide, {"extra": ("--max-velocity", str(60 * STEPS))}),
+}
 for NAME in ("", "cia402-index", "cia402-kinco", "leadshine-pr", "oriental-az"):
-    CASES[f"homed {NAME or 'splinefeed-pvt'}"] = lambda tool, folder, name=NAME: homed(tool, folder, name)
+    CASES[f"homed {NAME or 'splinefeed-pvt'}"] = (homed, {"profile": NAME, "position": 2000})
 
 
 def main():
@@ -177,7 +174,10 @@ def main():
     problems = []
     for name in sys.argv[2:] or CASES:
         with tempfile.TemporaryDirectory(prefix="splinefeed-start-") as folder:
-            problems += [f"{name}: {problem}" for problem in CASES[name](tool, folder)]
+            act, options = CASES[name]
+            machine = Machine(tool, folder, **options)
+            act(machine)
+            problems += [f"{name}: {problem}" for problem in machine.stop()]
     for problem in problems:
         print(problem)
     return 1 if problems else 0
