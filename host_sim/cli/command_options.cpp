@@ -82,7 +82,8 @@ void add_gcode_options(CLI::App& app, Job& job) {
                    "S.json: work offsets, stored positions and where the machine stands, from run to run")
         ->group(group);
     app.add_option("--position", job.run.position,
-                   "X,Y,Z: where the machine stands, in its own coordinates (default: as --state says, else 0)")
+                   "X,Y,Z: where the machine stands, in its own coordinates (default: with --home 0, else as --state "
+                   "says, else where the drives say, else 0)")
         ->group(group);
     app.add_flag("--optional-stop", gcode.optional_stop, "pause at M1")->group(group)->disable_flag_override();
 }
