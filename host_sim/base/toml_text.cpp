@@ -3,6 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/number_text.hpp"
+#include "host_sim/base/trimmed_text.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -45,13 +46,6 @@ bool assigns(std::string_view line) {
         }
     }
     return line.find_first_not_of(blanks, equals + 1) == std::string_view::npos;
-}
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    const std::size_t first = text.find_first_not_of(blanks);
-    return first == std::string_view::npos ? std::string_view{}
-                                           : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 bool blank_of_toml(char c) {

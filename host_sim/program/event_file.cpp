@@ -5,6 +5,7 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/base/trimmed_text.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -18,13 +19,6 @@ constexpr double longest_s = 86400.0;
 constexpr std::array<std::string_view, 4> words{"hold", "resume", "abort", "override"};
 constexpr std::array<Operation, 4> operations{Operation::hold, Operation::resume, Operation::abort,
                                               Operation::override_feed};
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    const std::size_t first = text.find_first_not_of(blanks);
-    return first == std::string_view::npos ? std::string_view{}
-                                           : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::vector<std::string_view> fields_of(std::string_view line) {
     std::vector<std::string_view> fields;

@@ -5,6 +5,7 @@
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
 #include "host_sim/base/plain_text.hpp"
+#include "host_sim/base/trimmed_text.hpp"
 
 #include "host_sim/config/path_tolerances.hpp"
 
@@ -22,20 +23,6 @@ constexpr std::string_view all_axes = "xyzabc";
 constexpr double longest_move_mm = 65536.0;
 constexpr double slowest_feed = 0.001;
 constexpr double fastest_feed = 10000.0;
-
-bool blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && blank(text.front())) {
-        text.remove_prefix(1);
-    }
-    while (!text.empty() && blank(text.back())) {
-        text.remove_suffix(1);
-    }
-    return text;
-}
 
 std::string lower(std::string_view text) {
     std::string out(text);
