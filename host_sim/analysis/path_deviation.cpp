@@ -171,7 +171,7 @@ PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, con
 PathDeviation::Found PathDeviation::from_moves(const PerAxis<double>& point, const AxisSet& set, const Segment& among,
                                                std::uint64_t hint, Look look) const {
     Found best;
-    double least_excess = 1e150;
+    double least_excess = any_distance;
     const auto look_at = [&](std::uint64_t i) {
         const PathStrand& strand = of(i).strand;
         const double permitted = allowed(i);

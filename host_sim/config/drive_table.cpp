@@ -109,8 +109,7 @@ private:
             if (link.same_wire(address.link) && (link.baud != address.link.baud || link.parity != address.link.parity ||
                                                  link.stops() != address.link.stops())) {
                 refuse("{} has another baud rate, parity or number of stop bits for a drive before it; all on one line "
-                       "have "
-                       "the same",
+                       "have the same",
                        address.link.host);
             }
         }

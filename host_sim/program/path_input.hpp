@@ -62,8 +62,8 @@ public:
     /// Of a program in G-code: the largest feed of its moves that are no rapids. @param rotary_axes  bit k: axis k
     /// of the machine is rotary
     void limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noexcept;
-    /// Of a program in G-code: where the machine stands, and its offsets. @pre all places are known
-    void begin_at(const MachineState& state); // a place that is not known: 0
+    /// Of a program in G-code: where the machine stands, and its offsets. A place that is not known is taken for 0.
+    void begin_at(const MachineState& state);
     /// Of a program in G-code: the machine's spindle and lines, which must outlive this. Call it before anything is
     /// read.
     void use_outputs(const std::optional<SpindleDescription>& spindle, const ProgramLines& lines) noexcept;
