@@ -170,7 +170,7 @@ TEST_CASE("Set-point port, virtual: no shaft jumps to a target after a gap of it
                 INFO("a gap of " << gap_us << " us at " << from_us << ", mute " << mute);
                 SetpointPlant plant({.profile = "cia402-index", .fastest_counts_s = motion.fastest_counts_s});
                 plant.sample_positions();
-                REQUIRE(prepare(plant) == "");
+                REQUIRE(plant.begin(motion) == "");
                 const Span gap{plant.began_us + from_us, plant.began_us + from_us + gap_us};
                 (mute ? plant.stations[1]->mute : plant.wires[1]->unplugged).push_back(gap);
                 CHECK(run(plant, motion, {}) == PortPhase::idle);
