@@ -63,7 +63,7 @@ kill -STOP $run
 usleep 200000
 kill -CONT $run
 ends
-# Where the map tolerates it the run goes on. Meanwhile an input moves more often than the kernel keeps (16 times a line).
+# Where the map tolerates it the run goes on when its user resumes it. Meanwhile an input moves more often than the kernel keeps (16 times a line).
 sed 's/^\[thread\]/[thread]\nstall_ms = 1000/' lines.toml >patient.toml
 target="gpio://$chip?map=patient.toml"
 begin stands_still there.csv
@@ -75,7 +75,9 @@ for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
 done
 pull PROBE up
 usleep 200000
-kill -CONT $run
+kill -CONT $run # holds the motion
+usleep 100000
+kill -USR2 $run
 ends
 target="gpio://$chip?map=lines.toml"
 pull PROBE down
