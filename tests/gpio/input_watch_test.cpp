@@ -91,7 +91,7 @@ struct Bench {
 TEST_CASE("an input acts since its first edge, however it bounces, and tells where the axes stood then") {
     Bench bench({{.bit = 3, .active_level = true, .debounce_us = 2000}});
     const std::uint64_t t = hal::system_clock().now_ns() - 10'000'000; // no edge has an instant that is to come
-    for (unsigned i = 0; i < 100; ++i) { // a step each 10 us, from there on
+    for (unsigned i = 0; i < 100; ++i) {                               // a step each 10 us, from there on
         bench.log.add(t + 10'000 * i, 0, true);
     }
     REQUIRE(bench.watch.start());
