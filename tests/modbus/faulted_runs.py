@@ -161,6 +161,7 @@ class Run:
                 addresses = [address.replace("unit=1", "unit=255") for address in addresses]
             with open(os.path.join(folder, "machine.toml"), "w", encoding="ascii") as file:
                 file.write(self.machine(addresses))
+            began_s = time.monotonic()
             try:
                 run = subprocess.run([*self.under, self.tool, "run", "program.csv", "-m", "machine.toml", "--target", "modbus",
                                       "--segments", "plan.csv", "--summary", "json", "--quiet"], cwd=folder, capture_output=True,
@@ -175,7 +176,7 @@ class Run:
                 for drive in drives:
                     self.problems += drive.stop()
             self.told = (f"{self.kind}, {self.wire}, {count} x {axes} axes, drive {faulted}: {faults}: exit {run.returncode} "
-                         f"{run.stderr.strip()}")
+                         f"after {ended_s - began_s:.1f} s {run.stderr.strip()}")
             self.judge(folder, run, drives, axes, names, ended_s)
 
     def judge(self, folder, run, drives, axes, names, ended_s):

@@ -3,6 +3,7 @@
 // seed alone.
 #include "ports/pvt_plant.hpp"
 #include "ports/run_plant.hpp"
+#include "ports/visited_cells.hpp"
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 
@@ -120,8 +121,16 @@ struct Scenario {
     }
 };
 
+using Cells = VisitedCells<ModbusPhase, ModbusEvent>;
+using Phase = ModbusPhase;
+using Event = ModbusEvent;
+
+// Cells that no run can visit.
+const std::vector<Cells::Never> never_visited{};
+
 struct Tally {
     std::map<std::string, int> endings;
+    Cells cells;             ///< of the port's table
     double most_off_s = 0.0; ///< off the path where it was held, by the largest speed
 };
 
@@ -141,6 +150,7 @@ void judge(PvtPlant& plant, const Scenario& scenario, const SmoothMotion& motion
             CHECK(plant.executed_once(i) == motion.segments.size());
         }
         CHECK(plant.now_off_counts < 0.5);
+        tally.cells.add(port.phases());
         return;
     }
     bool all_held = true;
@@ -163,6 +173,7 @@ void judge(PvtPlant& plant, const Scenario& scenario, const SmoothMotion& motion
         CHECK(off_s < 0.001);
         tally.most_off_s = std::max(tally.most_off_s, off_s);
     }
+    tally.cells.add(port.phases());
     plant.port.reset();
     plant.events.clear();
     plant.clock.sleep_us(800'000);
@@ -205,7 +216,9 @@ TEST_CASE("PVT port, virtual: random faulted runs lose nothing, and say of a sto
     for (const auto& [ending, count] : tally.endings) {
         text += ending + " " + std::to_string(count) + ", ";
     }
+    text += "cells not visited:" + tally.cells.missed(never_visited) + "; ";
     WARN(runs << " runs from seed " << first << ": " << text << "off the path when held " << 1e6 * tally.most_off_s
               << " us of the largest speed");
     CHECK((only != nullptr || tally.endings.size() == 4));
+    tally.cells.require_unvisited(never_visited);
 }

@@ -3,6 +3,7 @@
 // one of its seed alone.
 #include "ports/run_plant.hpp"
 #include "ports/setpoint_plant.hpp"
+#include "ports/visited_cells.hpp"
 #include "support/catch.hpp"
 #include "support/rounds.hpp"
 
@@ -118,9 +119,9 @@ struct Scenario {
         constexpr std::array names{"unplugged", "mute", "frozen", "dead", "stops by itself"};
         text += " drive " + std::to_string(i) + " " + names[kind] + " at " + std::to_string(from_us - plant.began_us) +
                 " for " + std::to_string(long_us);
-        outage = kind < 4;
+        outage = outage || kind < 4;
         const std::uint64_t watchdog_us = 1000ULL * plant.profile.watchdog_timeout_ms;
-        fatal = kind >= 3 || long_us > (watchdog_us > 0 ? std::min(away_us, watchdog_us) : away_us) / 2;
+        fatal = fatal || kind >= 3 || long_us > (watchdog_us > 0 ? std::min(away_us, watchdog_us) : away_us) / 2;
         switch (kind) {
         case 0: plant.wires[plant.wires.size() == 1 ? 0 : i]->unplugged.push_back(span); break;
         case 1: plant.stations[i]->mute.push_back(span); break;
@@ -131,20 +132,13 @@ struct Scenario {
     }
 };
 
-using Visits = std::array<std::array<std::uint64_t, SetpointPhases::events>, SetpointPhases::phases>;
-
-/// Cells that no run can visit, and why.
-struct Never {
-    SetpointPhase phase;
-    std::vector<SetpointEvent> events;
-    const char* why;
-};
-
+using Cells = VisitedCells<SetpointPhase, SetpointEvent>;
 using Phase = SetpointPhase;
 using Event = SetpointEvent;
 constexpr auto unasked = "no stop was requested";
 
-const std::array<Never, 16> never_visited{{
+// Cells that no run can visit.
+const std::vector<Cells::Never> never_visited{
     {Phase::filling,
      {Event::slows, Event::stands, Event::ready, Event::ran_out, Event::arrived},
      "the clock was not started"},
@@ -165,28 +159,11 @@ const std::array<Never, 16> never_visited{{
      {Event::slows, Event::stands, Event::ready, Event::trouble, Event::settles, Event::fails},
      "the drives have arrived, and no stop was requested"},
     {Phase::fault, {Event::trouble, Event::settles}, "it has its trouble"},
-}};
-
-/// The other cells that were not visited: rare ones, such as a stop while the drives arrive.
-std::string unvisited(const Visits& visits) {
-    std::string text;
-    for (std::size_t i = 0; i < SetpointPhases::phases; ++i) {
-        for (std::size_t j = 0; j < SetpointPhases::events; ++j) {
-            const bool never = std::any_of(never_visited.begin(), never_visited.end(), [&](const Never& cell) {
-                return cell.phase == static_cast<Phase>(i) &&
-                       std::find(cell.events.begin(), cell.events.end(), static_cast<Event>(j)) != cell.events.end();
-            });
-            text += visits[i][j] != 0 || never
-                        ? std::string()
-                        : std::string(" ") + name(static_cast<Phase>(i)) + "/" + name(static_cast<Event>(j));
-        }
-    }
-    return text;
-}
+};
 
 struct Tally {
     std::map<std::string, int> endings;
-    Visits visits{};              ///< of the cells of the port's table
+    Cells cells;                  ///< of the port's table
     double most_off_counts = 0.0; ///< off the path where it was held
 };
 
@@ -196,11 +173,7 @@ void finish(SetpointPort& port, Scenario& scenario, Tally& tally) {
         port.power_off();
         CHECK(port.poll().phase != PortPhase::running);
     }
-    for (std::size_t i = 0; i < SetpointPhases::phases; ++i) {
-        for (std::size_t j = 0; j < SetpointPhases::events; ++j) {
-            tally.visits[i][j] += port.phases().visits(static_cast<SetpointPhase>(i), static_cast<SetpointEvent>(j));
-        }
-    }
+    tally.cells.add(port.phases());
 }
 
 void judge(SetpointPlant& plant, Scenario& scenario, const SmoothMotion& motion, PortPhase phase, Tally& tally) {
@@ -290,14 +263,9 @@ TEST_CASE("Set-point port, virtual: random faulted runs end at the end or stop, 
     for (const auto& [ending, count] : tally.endings) {
         text += ending + " " + std::to_string(count) + ", ";
     }
-    text += "cells not visited:" + unvisited(tally.visits) + "; ";
+    text += "cells not visited:" + tally.cells.missed(never_visited) + "; ";
     WARN(runs << " runs from seed " << first << ": " << text << "off the path when held " << tally.most_off_counts
               << " counts");
     CHECK((only != nullptr || tally.endings.size() >= 4));
-    for (const Never& cell : never_visited) {
-        for (const SetpointEvent event : cell.events) {
-            INFO(name(cell.phase) << " " << name(event) << ": " << cell.why);
-            CHECK(tally.visits[static_cast<std::size_t>(cell.phase)][static_cast<std::size_t>(event)] == 0);
-        }
-    }
+    tally.cells.require_unvisited(never_visited);
 }
