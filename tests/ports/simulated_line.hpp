@@ -101,7 +101,11 @@ public:
     LinkAnswer write(int unit, int address, std::span<const std::uint16_t> values) noexcept override;
     LinkAnswer exchange(int unit, int write_address, std::span<const std::uint16_t> values, int read_address,
                         std::span<std::uint16_t> out) noexcept override;
-    void resynchronise() noexcept override { behind_ = address_.wire == splinefeed::hal::modbus::Wire::rtu; }
+    void resynchronise() noexcept override {
+        if (address_.wire == splinefeed::hal::modbus::Wire::rtu) { // what was on its way then is discarded
+            dirty_ = behind_ = true;
+        }
+    }
     [[nodiscard]] std::uint64_t next_us() const noexcept override;
     [[nodiscard]] std::uint64_t read_from_us(int unit) const noexcept override {
         return open_.until_us(unit, RequestKind::reading, 0);
