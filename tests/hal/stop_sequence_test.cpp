@@ -152,6 +152,24 @@ TEST_CASE("Stop: what was confirmed and moves again is no longer confirmed") {
 
 // An axis of random manners, judged by what it really did: never confirmed before it stood for the settling time, for
 // good; and always an answer within the sum of the bounds.
+TEST_CASE("Stop: an axis that brakes gets the longer time as long as it is heard") {
+    StopTimes slow = times;
+    slow.braking_us = 20'000;
+    StopSequence stop(1, slow);
+    stop.request(StopRequest::hold, 100);
+    StopFacts facts = moves(150, StopRequest::hold, 110);
+    facts.braking = true;
+    for (std::uint64_t now_us = 200; now_us <= 5000; now_us += 100) {
+        facts.status_us = now_us - 50;
+        stop.update(now_us, {&facts, 1});
+        REQUIRE(stop.report(0).request == StopRequest::hold);
+    }
+    stop.update(facts.status_us + times.hold_us, {&facts, 1}); // nothing was heard since
+    CHECK(stop.report(0).request == StopRequest::hold);
+    stop.update(facts.status_us + times.hold_us + 1, {&facts, 1});
+    CHECK(stop.report(0).request == StopRequest::quick_stop);
+}
+
 TEST_CASE("Stop: whatever an axis does, confirmed means that it stands, and there is an answer in time") {
     const int runs = rounds(2000);
     int confirmed = 0;

@@ -60,7 +60,8 @@ void StopSequence::assess(Axis& axis, const StopFacts& facts) const noexcept {
 // An axis that was confirmed and moves again has used up its time: it escalates at once.
 void StopSequence::escalate(Axis& axis, const StopFacts& facts, std::uint64_t now_us) const noexcept {
     const std::uint64_t most_us = bound_us(axis.report.request);
-    const bool brakes = axis.executed && facts.braking;
+    // Who has not been heard for the whole bound is not known to brake any more.
+    const bool brakes = axis.executed && facts.braking && now_us <= facts.status_us + most_us;
     if (now_us <= axis.since_us + (brakes ? std::max(most_us, times_.braking_us) : most_us)) {
         return;
     }
