@@ -157,6 +157,52 @@ TEST_CASE("PVT port, virtual: a drive that is away for a moment confirms, but no
     check_stands_since(plant, plant.clock.now_us());
 }
 
+TEST_CASE("PVT port, virtual: drives that ran before they could be told to cancel their start are not held on the path",
+          "[ports]") {
+    // Out of reach they begin at their start, run to the ends of their rings, and stand there. The `begin` that was to
+    // cancel the start is accepted there, and makes `executed` what it was before.
+    int ran = 0;
+    for (const bool all : {false, true}) {
+        for (std::uint64_t hold_us = 10'000; hold_us < 260'000; hold_us += 5000) {
+            PvtPlant plant({.one_wire = all});
+            plant.begin(motion);
+            const Span away{plant.began_us + hold_us - 8000, plant.began_us + hold_us + 600'000};
+            if (all) {
+                plant.wires[0]->unplugged.push_back(away);
+            } else {
+                plant.stations[1]->frozen.push_back(away);
+            }
+            INFO("hold at " << hold_us << " us, all drives away: " << all);
+            CHECK(run(plant, motion, {.hold_us = hold_us}) == PortPhase::halted);
+            const double off_s = plant.now_off_counts / motion.fastest_counts_s;
+            bool held = true;
+            for (std::size_t i = 0; i < 3; ++i) {
+                CHECK(plant.port->stop_report(i).state == StopState::confirmed);
+                held = held && plant.port->stop_report(i).held();
+            }
+            CHECK((!held || off_s < 0.0004));
+            ran += off_s > 0.0004 ? 1 : 0;
+        }
+    }
+    CHECK(ran > 20);
+}
+
+TEST_CASE("PVT port, virtual: a drive that is not heard while it slows down is not waited for as one that brakes",
+          "[ports]") {
+    int braked = 0; // by its last word
+    for (std::uint64_t after_us = 60'000; after_us < 300'000; after_us += 10'000) {
+        PvtPlant plant({});
+        plant.begin(motion);
+        constexpr std::uint64_t hold_us = 350'000;
+        plant.stations[1]->mute.push_back({plant.began_us + hold_us + after_us, UINT64_MAX});
+        INFO("mute " << after_us << " us behind the hold");
+        CHECK(run(plant, motion, {.hold_us = hold_us}) == PortPhase::halted);
+        CHECK(plant.clock.now_us() - plant.began_us < hold_us + plant.port->longest_stop_us() + after_us + 100'000);
+        braked += plant.port->report(1).status.state == PvtState::stopping ? 1 : 0;
+    }
+    CHECK(braked > 3);
+}
+
 TEST_CASE("PVT port, virtual: drives are switched off at the end, and one that does not confirm it is told",
           "[ports]") {
     for (const bool deaf : {false, true}) {

@@ -24,6 +24,7 @@ DriveProblem PortDrive::prepare(const FeedSegment& first, std::uint16_t stop_res
         return DriveProblem::range;
     }
     last_.rest = false;
+    preset_ = last_.end;
     return client_->configure({stop_reserve_ms, wiring_.watchdog_ms, wiring_.following_window});
 }
 
@@ -84,13 +85,16 @@ DriveProblem PortDrive::unready(const PortTimes& times) const noexcept {
                                                     : DriveProblem::none;
 }
 
+// By its positions: `executed` is what the last `begin` said, which a drive that has moved since its last answer
+// accepts, too.
 bool PortDrive::at_joint() const noexcept {
-    if (status().executed == client_->first()) {
-        return status().state == PvtState::standing;
+    const bool first = status().executed == client_->first();
+    if (first && status().state != PvtState::standing) {
+        return false;
     }
-    const PvtSegment& before = client_->segment(status().executed - 1);
+    const PerAxis<std::int64_t>& joint = first ? preset_ : client_->segment(status().executed - 1).end;
     for (std::size_t k = 0; k < wiring_.axes.size(); ++k) {
-        const std::int64_t off = (std::int64_t{status().position[k]} << PvtSegment::position_bits) - before.end[k];
+        const std::int64_t off = (std::int64_t{status().position[k]} << PvtSegment::position_bits) - joint[k];
         if (std::abs(off) > wiring_.axes[k].window_counts << PvtSegment::position_bits) {
             return false;
         }

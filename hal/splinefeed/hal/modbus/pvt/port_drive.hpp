@@ -94,6 +94,7 @@ private:
     DriveWiring wiring_;
     PvtClient* client_;
     PvtSegment last_;
+    PerAxis<std::int64_t> preset_{}; // where its first segment begins [1/65536 count]
     ClockDriftCompensation trim_;
     DriveReport report_;
     std::uint64_t age_us_ = 0;
