@@ -115,6 +115,8 @@ private:
     [[nodiscard]] bool all_at_standstill() const noexcept;
     void begin_stop(StopRequest request) noexcept;
     void await_stop() noexcept;
+    void follow_stop() noexcept;
+    [[nodiscard]] std::size_t unconfirmed() const noexcept;
     [[nodiscard]] std::uint32_t executed() const noexcept;
     [[nodiscard]] bool accepted_more() noexcept;
 

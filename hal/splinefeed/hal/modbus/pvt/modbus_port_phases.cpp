@@ -188,6 +188,15 @@ std::optional<ModbusEvent> ModbusPort::look_at_standstill() noexcept {
     return std::nullopt;
 }
 
+// A host that paused may be late for each of its requests, so the phase's bound counts from the last one.
+void ModbusPort::follow_stop() noexcept {
+    const unsigned before = stop_.requests();
+    stop_.update(now_us_, drives_);
+    if (stop_.requests() != before) {
+        phases_.progress(now_us_);
+    }
+}
+
 std::optional<ModbusEvent> ModbusPort::look() noexcept {
     switch (phase()) {
     case ModbusPhase::filling:
@@ -201,7 +210,7 @@ std::optional<ModbusEvent> ModbusPort::look() noexcept {
     case ModbusPhase::halting:
     case ModbusPhase::halted:
     case ModbusPhase::fault:
-        stop_.update(now_us_, drives_);
+        follow_stop();
         return !stop_.sequence().settled() ? std::nullopt
                                            : std::optional(failure_ ? ModbusEvent::failed : ModbusEvent::settled);
     default: return std::nullopt;

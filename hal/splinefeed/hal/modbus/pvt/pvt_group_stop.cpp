@@ -36,6 +36,14 @@ bool PvtGroupStop::on_path(std::span<const PortDrive> drives) const noexcept {
     return stands && (at_end || (at_rest && most == least) || (in_time && in_step_ && most - least <= 1));
 }
 
+unsigned PvtGroupStop::requests() const noexcept {
+    unsigned sum = 0;
+    for (std::size_t i = 0; i < stops_.size(); ++i) {
+        sum += static_cast<unsigned>(sequence_.report(i).request);
+    }
+    return sum;
+}
+
 void PvtGroupStop::update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept {
     for (std::size_t i = 0; i < drives.size(); ++i) {
         stops_[i].update(drives[i].last_report(), times_);

@@ -24,6 +24,8 @@ public:
     /// Evaluates the drives' last reports and sends the required commands. Call periodically.
     void update(std::uint64_t now_us, std::span<const PortDrive> drives) noexcept;
     [[nodiscard]] const StopSequence& sequence() const noexcept { return sequence_; }
+    /// Grows with each request that a drive gets: the next one of a sequence that escalates, too.
+    [[nodiscard]] unsigned requests() const noexcept;
 
 private:
     [[nodiscard]] bool on_path(std::span<const PortDrive> drives) const noexcept;
