@@ -61,6 +61,30 @@ TEST_CASE("Set-point port, virtual: a hold at any time is confirmed, and nothing
     }
 }
 
+TEST_CASE("Set-point port, virtual: a drive that was away when the path stopped is confirmed when it has come to rest",
+          "[ports]") {
+    // It stands where it was, gets the target of the hold when it is back, and moves there: that it stood before says
+    // nothing of that.
+    int confirmed = 0;
+    for (const char* const profile : setpoint_profiles) {
+        for (std::uint64_t away_us = 100'000; away_us < 1'300'000; away_us += 61'000) {
+            for (const std::uint64_t from_us : {20'000U, 60'000U, 150'000U}) {
+                SetpointPlant plant({.profile = profile, .one_wire = true});
+                prepare(plant);
+                plant.stations[2]->mute.push_back({plant.began_us + from_us, plant.began_us + from_us + away_us});
+                INFO(profile << ", away from " << from_us << " us on for " << away_us << " us");
+                CHECK(run(plant, motion, {.hold_us = 200'000}) != PortPhase::running);
+                const std::uint64_t ended_us = plant.clock.now_us();
+                if (plant.port->stop_report(2).state == StopState::confirmed) {
+                    ++confirmed;
+                    check_stands_since(plant, ended_us);
+                }
+            }
+        }
+    }
+    CHECK(confirmed > 200);
+}
+
 TEST_CASE("Set-point port, virtual: a quick stop reaches every drive, on one wire as on several", "[ports]") {
     for (const char* const profile : setpoint_profiles) {
         for (const bool one_wire : {false, true}) {

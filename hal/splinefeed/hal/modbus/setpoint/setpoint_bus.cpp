@@ -73,9 +73,13 @@ SetpointReport SetpointBus::report(std::size_t drive) const noexcept {
 
 void SetpointBus::publish_report(Slot& slot) noexcept {
     const std::lock_guard lock(mutex_);
+    // By the instants of the positions alone: the state may come in another frame, and would make one position two.
+    if (const std::uint64_t position_us = slot.drive.position_us(); position_us > slot.position_us) {
+        slot.position_us = position_us;
+        slot.standstill.update(position_us, slot.drive.reading().position_q16);
+    }
     if (const std::uint64_t status_us = slot.drive.status_us(); status_us > slot.report.status_us) {
         slot.report.status_us = status_us;
-        slot.standstill.update(status_us, slot.drive.reading().position_q16);
         slot.word_since_us = !slot.drive.says_it_stands() ? 0
                              : slot.word_since_us == 0    ? status_us
                                                           : slot.word_since_us;
@@ -147,17 +151,21 @@ void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::ui
     const std::uint64_t due_us = slot.setpoint_us + period_us;
     const std::uint64_t latest_us = sent ? answer.replied_us : arrived_us;
     const std::uint64_t late_us = slot.setpoint_us != 0 && !end_sent && latest_us > due_us ? latest_us - due_us : 0;
+    bool path_stands = false;
     {
         const std::lock_guard lock(motion.mutex);
         check_lateness(slot, motion, latest_us, period_us);
+        path_stands = motion.clock.stopping() && arrived_us >= motion.clock.standstill_from();
         slot.drive.on_arrival(sent ? arrived_us : UINT64_MAX);
         motion.last_setpoint_us = sent ? std::max(motion.last_setpoint_us, arrived_us) : motion.last_setpoint_us;
     }
     if (sent) {
         slot.setpoint_us = arrived_us;
     }
+    slot.rest_setpoint_us = !path_stands ? 0 : slot.rest_setpoint_us == 0 && sent ? arrived_us : slot.rest_setpoint_us;
     const std::lock_guard lock(mutex_);
     slot.report.setpoint_us = slot.setpoint_us;
+    slot.report.rest_setpoint_us = slot.rest_setpoint_us;
     slot.report.end_sent = end_sent;
     slot.report.behind = slot.drive.behind();
     slot.report.late_us = std::max(slot.report.late_us, late_us);

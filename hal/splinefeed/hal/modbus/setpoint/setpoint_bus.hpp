@@ -38,8 +38,9 @@ struct SetpointReport {
     DriveReading reading;
     std::uint64_t answered_us = 0;
     std::uint64_t status_us = 0;              ///< earliest instant of `reading`; 0: none since start()
-    std::uint64_t still_us = 0;               ///< for how long it had stood by then, by its word or its positions
+    std::uint64_t still_us = 0;               ///< for how long it had stood at last, by its word or its positions
     std::uint64_t setpoint_us = 0;            ///< arrival of the last target; 0: none
+    std::uint64_t rest_setpoint_us = 0;       ///< arrival of the first one since the motion's clock stands; 0: none
     StopRequest executed = StopRequest::none; ///< strongest executed request of stop_drive()
     std::uint64_t executed_us = 0;
     LinkCounts counts;
@@ -94,11 +95,13 @@ private:
         SetpointDrive drive;
         SetpointReport report;
         Standstill standstill;
+        std::uint64_t position_us = 0;   // of the last position in `standstill`
         std::uint64_t word_since_us = 0; // it says that it stands since then; 0: it does not
         std::atomic<StopRequest> stop_request{StopRequest::none};
-        std::uint64_t setpoint_us = 0;  // arrival of the last target; 0: none
-        std::uint64_t end_sent_us = 0;  // when the end was sent; 0: not yet
-        std::uint64_t path_rest_us = 0; // path and model of the drive stand since then; 0: they move
+        std::uint64_t setpoint_us = 0;      // arrival of the last target; 0: none
+        std::uint64_t rest_setpoint_us = 0; // SetpointReport
+        std::uint64_t end_sent_us = 0;      // when the end was sent; 0: not yet
+        std::uint64_t path_rest_us = 0;     // path and model of the drive stand since then; 0: they move
     };
 
     void run(SetpointMotion& motion, std::uint32_t period_us) noexcept;

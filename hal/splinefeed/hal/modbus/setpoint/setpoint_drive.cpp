@@ -193,6 +193,9 @@ bool SetpointDrive::send() noexcept {
         sent = std::all_of(prepared_.begin(), prepared_.end(), write_retried);
     }
     delivery_unknown_ = prepared_.empty() ? delivery_unknown_ : !sent;
+    if (!sent) {
+        frames().forget();
+    }
     return sent;
 }
 

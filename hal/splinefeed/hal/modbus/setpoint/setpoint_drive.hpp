@@ -104,6 +104,8 @@ public:
     [[nodiscard]] std::uint64_t answered_us() const noexcept { return answered_us_; }
     /// Earliest instant of the oldest part of reading(); 0: not all parts were read yet.
     [[nodiscard]] std::uint64_t status_us() const noexcept;
+    /// Earliest instant of the position in reading(); 0: it was not read yet.
+    [[nodiscard]] std::uint64_t position_us() const noexcept { return status_us_[status_.position_read()]; }
     [[nodiscard]] const DriveProfile& profile() const noexcept { return *profile_; }
     [[nodiscard]] int unit() const noexcept { return unit_; }
     [[nodiscard]] ModbusLine& link() noexcept { return *link_; }

@@ -4,6 +4,7 @@
 
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -35,6 +36,8 @@ public:
     /// Records a value that was written by other means (enable, mode), because commands change single bits of it.
     void set_last(FieldIndex field, std::int64_t raw) noexcept { last_[field] = raw; }
     [[nodiscard]] std::int64_t last(FieldIndex field) const noexcept { return last_[field]; }
+    /// Call when frames were lost: what the drive has of their values is unknown, so the next build() has all of them.
+    void forget() noexcept { std::fill(known_.begin(), known_.end(), false); }
     /// Returns the frame that writes one field. For a field of the target group it writes the whole group, without a
     /// start. The value counts as sent.
     [[nodiscard]] RegisterWrite single(FieldIndex field, std::int64_t raw) noexcept;

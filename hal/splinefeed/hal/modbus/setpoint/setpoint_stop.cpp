@@ -26,6 +26,7 @@ StopRequest stopped_itself(DriveState state) noexcept {
 } // namespace
 
 // A hold is executed when a target on the path has arrived after the clock's standstill, or if the motion never began.
+// That target may still move a drive that was away: how long it stood before says nothing.
 StopFacts stop_facts(const SetpointReport& report, SetpointMotion& motion, std::uint64_t began_us) noexcept {
     StopFacts facts{.status_us = report.status_us,
                     .standstill = report.still_us >= standstill_us,
@@ -42,9 +43,13 @@ StopFacts stop_facts(const SetpointReport& report, SetpointMotion& motion, std::
     const std::lock_guard lock(motion.mutex);
     const bool began = motion.clock.stopping();
     const std::uint64_t stands_us = began ? motion.clock.standstill_from() : began_us;
-    if (!began || (report.setpoint_us >= stands_us && !report.behind)) {
+    if (!began) {
         facts.executed = StopRequest::hold;
         facts.executed_us = stands_us;
+    } else if (report.rest_setpoint_us >= stands_us && !report.behind) {
+        facts.executed = StopRequest::hold;
+        facts.executed_us = report.rest_setpoint_us;
+        facts.standstill = facts.standstill && report.status_us >= report.rest_setpoint_us + standstill_us;
     }
     return facts;
 }

@@ -10,19 +10,23 @@ StatusFrames::StatusFrames(const DriveProfile& profile) : profile_(profile), raw
     for (const FieldRole role :
          {FieldRole::status, FieldRole::actual_position, FieldRole::following_error, FieldRole::fault_code}) {
         if (const RegisterField* const field = profile.field_of(role); field != nullptr && field->readable()) {
-            append(static_cast<FieldIndex>(field - profile.fields.data()));
+            const std::size_t read = append(static_cast<FieldIndex>(field - profile.fields.data()));
+            position_read_ = role == FieldRole::actual_position ? read : position_read_;
         }
     }
 }
 
-void StatusFrames::append(FieldIndex index) noexcept {
+// Returns the frame that has the field.
+std::size_t StatusFrames::append(FieldIndex index) noexcept {
     const RegisterField& field = profile_.fields[index];
-    for (const RegisterRead& read : reads()) {
+    for (std::size_t i = 0; i < count_; ++i) {
+        const RegisterRead& read = reads_[i];
         if (field.address >= read.address && field.address + field.registers() <= read.address + read.count) {
-            return;
+            return i;
         }
     }
-    reads_[count_++] = {field.address, field.registers()};
+    reads_[count_] = {field.address, field.registers()};
+    return count_++;
 }
 
 void StatusFrames::take(std::size_t i, std::span<const std::uint16_t> registers) noexcept {

@@ -37,12 +37,14 @@ public:
     /// The frames to read: the status group, and one frame for each of these fields outside of it: status, actual
     /// position, following error, fault code.
     [[nodiscard]] std::span<const RegisterRead> reads() const noexcept { return std::span(reads_).first(count_); }
+    /// Which of reads() has the actual position.
+    [[nodiscard]] std::size_t position_read() const noexcept { return position_read_; }
     /// @pre i < reads().size(), registers.size() == reads()[i].count
     void take(std::size_t i, std::span<const std::uint16_t> registers) noexcept;
     [[nodiscard]] DriveReading reading() const noexcept;
 
 private:
-    void append(FieldIndex index) noexcept;
+    std::size_t append(FieldIndex index) noexcept;
     [[nodiscard]] bool holds_now(const std::optional<FieldTest>& test, bool otherwise) const noexcept;
     [[nodiscard]] DriveState state() const noexcept;
 
@@ -50,6 +52,7 @@ private:
     std::vector<std::int64_t> raw_; // by field
     std::array<RegisterRead, most_reads> reads_{};
     std::size_t count_ = 0;
+    std::size_t position_read_ = 0;
 };
 
 } // namespace splinefeed::hal::modbus
