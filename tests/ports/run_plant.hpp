@@ -6,17 +6,21 @@
 #include "splinefeed/hal/motion_port.hpp"
 #include "support/catch.hpp"
 
+#include <functional>
+
 namespace splinefeed_test {
 
 /// When the user asks for what, after prepare(). [us]
 struct Asked {
     std::uint64_t hold_us = UINT64_MAX;
     std::uint64_t quick_us = UINT64_MAX;
-    std::uint64_t starved_from_us = UINT64_MAX; ///< no segments come from then on
-    std::uint64_t starved_to_us = UINT64_MAX;   ///< until then
+    std::uint64_t starved_from_us = UINT64_MAX;       ///< no segments come from then on
+    std::uint64_t starved_to_us = UINT64_MAX;         ///< until then
+    std::function<void(std::uint64_t now_us)> also{}; ///< called before each poll
+    std::uint64_t paused_us = 0;                      ///< for so long `also` has kept the planner from its work
 };
 
-/// Until the port is done, has stopped or is in fault; running: it came to no end within 30 s.
+/// Until the port is done, has stopped or is in fault; running: it came to no end within 30 s, pauses aside.
 template <class Plant>
 splinefeed::hal::PortPhase run(Plant& plant, const SmoothMotion& motion, const Asked& asked) {
     using splinefeed::hal::PortPhase;
@@ -42,8 +46,11 @@ splinefeed::hal::PortPhase run(Plant& plant, const SmoothMotion& motion, const A
         if (plant.next == motion.segments.size()) {
             port.complete();
         }
+        if (asked.also) {
+            asked.also(now_us);
+        }
         phase = port.poll().phase;
-        if (phase != PortPhase::running || now_us > 30'000'000) {
+        if (phase != PortPhase::running || now_us > 30'000'000 + asked.paused_us) {
             return phase;
         }
         plant.clock.sleep_us(1000);
