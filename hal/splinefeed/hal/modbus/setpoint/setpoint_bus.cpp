@@ -151,18 +151,20 @@ void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::ui
     const std::uint64_t due_us = slot.setpoint_us + period_us;
     const std::uint64_t latest_us = sent ? answer.replied_us : arrived_us;
     const std::uint64_t late_us = slot.setpoint_us != 0 && !end_sent && latest_us > due_us ? latest_us - due_us : 0;
-    bool path_stands = false;
+    std::uint64_t stands_us = UINT64_MAX;
     {
         const std::lock_guard lock(motion.mutex);
         check_lateness(slot, motion, latest_us, period_us);
-        path_stands = motion.clock.stopping() && arrived_us >= motion.clock.standstill_from();
+        stands_us = motion.clock.stopping() ? motion.clock.standstill_from() : stands_us;
         slot.drive.on_arrival(sent ? arrived_us : UINT64_MAX);
         motion.last_setpoint_us = sent ? std::max(motion.last_setpoint_us, arrived_us) : motion.last_setpoint_us;
     }
     if (sent) {
         slot.setpoint_us = arrived_us;
     }
-    slot.rest_setpoint_us = !path_stands ? 0 : slot.rest_setpoint_us == 0 && sent ? arrived_us : slot.rest_setpoint_us;
+    if (sent && arrived_us >= stands_us && slot.rest_setpoint_us < stands_us) {
+        slot.rest_setpoint_us = arrived_us;
+    }
     const std::lock_guard lock(mutex_);
     slot.report.setpoint_us = slot.setpoint_us;
     slot.report.rest_setpoint_us = slot.rest_setpoint_us;

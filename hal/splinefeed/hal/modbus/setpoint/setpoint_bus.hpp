@@ -40,7 +40,7 @@ struct SetpointReport {
     std::uint64_t status_us = 0;              ///< earliest instant of `reading`; 0: none since start()
     std::uint64_t still_us = 0;               ///< for how long it had stood at last, by its word or its positions
     std::uint64_t setpoint_us = 0;            ///< arrival of the last target; 0: none
-    std::uint64_t rest_setpoint_us = 0;       ///< arrival of the first one since the motion's clock stands; 0: none
+    std::uint64_t rest_setpoint_us = 0;       ///< arrival of the first one since the motion's clock stood last; 0: none
     StopRequest executed = StopRequest::none; ///< strongest executed request of stop_drive()
     std::uint64_t executed_us = 0;
     LinkCounts counts;
