@@ -2,8 +2,10 @@
 // What drives on Modbus TCP cost: exchanges one by one, and motion in real time through the port. The simulated drives
 // are processes of their own on the loopback. items_per_second counts segments of the whole machine (three axes).
 #include "host_sim/diagnose/histogram_picture.hpp"
+
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/pvt_drive.hpp"
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/modbus/link/modbus_link.hpp"
 #include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
@@ -51,7 +53,6 @@ using namespace splinefeed::hal::modbus;
 
 constexpr int machine_axes = 3;
 constexpr std::int64_t usual_ring = 512;
-constexpr std::uint64_t ticks_per_us = 8;
 
 volatile std::sig_atomic_t stop = 0;
 

@@ -41,3 +41,31 @@ function(splinefeed_precompiled_options target)
         target_compile_options(${target} PRIVATE -fpch-preprocess)
     endif()
 endfunction()
+
+# splinefeed_unity(target [group=regex...]): its sources at once, in groups that share what takes most of their time: headers of one
+# library, or templates of one stage. A source belongs to the first group whose regex its path from here matches; else to its folder.
+# clang-tidy and the preset dev compile each source alone. No source may name something for itself as a header does: the sources
+# behind it would get the wrong one (tests/tools/hidden_names.py looks).
+function(splinefeed_unity target)
+    if(NOT SPLINEFEED_UNITY_BUILD OR CMAKE_SYSTEM_NAME STREQUAL Generic)
+        return()
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    target_compile_options(${target} PRIVATE -Wno-shadow) # of a name that another source has for itself; alone they are looked at
+    get_target_property(sources ${target} SOURCES)
+    foreach(source IN LISTS sources)
+        get_filename_component(path ${source} ABSOLUTE)
+        file(RELATIVE_PATH path ${CMAKE_CURRENT_SOURCE_DIR} ${path})
+        get_filename_component(group ${path} DIRECTORY)
+        foreach(choice IN LISTS ARGN)
+            string(REGEX MATCH "^([a-z]+)=(.*)$" choice "${choice}")
+            set(name ${CMAKE_MATCH_1})
+            if(path MATCHES "${CMAKE_MATCH_2}")
+                set(group ${name})
+                break()
+            endif()
+        endforeach()
+        string(MAKE_C_IDENTIFIER ${group} group)
+        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endforeach()
+endfunction()

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace splinefeed::host {
 

@@ -2,7 +2,7 @@
 // parse_json: parses a JSON document of limited depth.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/toml_checker.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "host_sim/base/nearest_name.hpp"
 #include "host_sim/base/number_text.hpp"
 
@@ -81,7 +83,6 @@ double TomlChecker::number(const toml::node& node, std::string_view key, const N
 }
 
 std::uint32_t TomlChecker::microseconds(const toml::node& node, std::string_view key, double most_ms) const {
-    constexpr double us_per_ms = 1000.0;
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !(*value >= 0.0 && *value <= most_ms)) {
         fail_type(node, key, fmt::format("a number from 0 to {} ms", most_ms));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, 2> level_names{"low", "high"};
 constexpr std::array<std::string_view, 4> bias_names{"as-is", "disabled", "pull-up", "pull-down"};
-constexpr std::array<std::string_view, 5> role_names{"e-stop", "limit", "home", "drive-fault", "probe"};
+constexpr std::array<std::string_view, 5> input_roles{"e-stop", "limit", "home", "drive-fault", "probe"};
 constexpr std::int64_t default_debounce_us = 1000;
 constexpr double least_speed_mm_s = 0.001;
 
@@ -149,23 +149,23 @@ private:
 
     void input(const toml::table& table) {
         check_.require_known(table, {"role", "axis", "line", "active", "bias", "debounce_us"}, "[[input]]");
-        const toml::node& role = check_.required(table, "role", "[[input]]", listed(role_names));
-        const std::size_t kind = check_.choice(role, "role", role_names);
+        const toml::node& role = check_.required(table, "role", "[[input]]", listed(input_roles));
+        const std::size_t kind = check_.choice(role, "role", input_roles);
         MappedInput input;
         input.role = static_cast<InputRole>(kind);
         const bool has_axis = input.role == InputRole::limit || input.role == InputRole::home;
         if (has_axis) {
             const toml::node& axis =
-                check_.required(table, "axis", fmt::format("an input of role {}", role_names[kind]),
+                check_.required(table, "axis", fmt::format("an input of role {}", input_roles[kind]),
                                 "the axis whose switch it is, like \"x\"");
             input.axis = static_cast<int>(axis_named(axis, check_.text(axis, "axis"), "axis"));
         } else if (const toml::node* axis = table.get("axis")) {
-            check_.fail(*axis, fmt::format("an input of role {} has no axis; leave axis out", role_names[kind]));
+            check_.fail(*axis, fmt::format("an input of role {} has no axis; leave axis out", input_roles[kind]));
         }
         const bool alone = input.role == InputRole::home || input.role == InputRole::probe;
         for (const MappedInput& other : map_.inputs) {
             if (alone && other.role == input.role && other.axis == input.axis) {
-                check_.fail(role, fmt::format("this is the second input of role {}{}; give one", role_names[kind],
+                check_.fail(role, fmt::format("this is the second input of role {}{}; give one", input_roles[kind],
                                               has_axis ? " of this axis" : ""));
             }
         }
@@ -175,7 +175,7 @@ private:
         const toml::node* const bias = table.get("bias");
         input.line =
             lines_.input(check_.required(table, "line", "[[input]]", GpioMapLines::what),
-                         fmt::format("line of the input {}", role_names[kind]),
+                         fmt::format("line of the input {}", input_roles[kind]),
                          bias != nullptr ? static_cast<Bias>(check_.choice(*bias, "bias", bias_names)) : Bias::as_is);
         for (const MappedInput& other : map_.inputs) {
             if (other.line != input.line) {

@@ -14,22 +14,22 @@ using namespace hal::modbus;
 
 namespace {
 
-constexpr std::array<std::string_view, field_roles> role_names{"none",
-                                                               "control",
-                                                               "status",
-                                                               "mode",
-                                                               "mode_display",
-                                                               "target_position",
-                                                               "target_velocity",
-                                                               "profile_velocity",
-                                                               "profile_acceleration",
-                                                               "profile_deceleration",
-                                                               "actual_position",
-                                                               "actual_velocity",
-                                                               "following_error",
-                                                               "following_error_window",
-                                                               "fault_code",
-                                                               "watchdog"};
+constexpr std::array<std::string_view, field_roles> field_role_names{"none",
+                                                                     "control",
+                                                                     "status",
+                                                                     "mode",
+                                                                     "mode_display",
+                                                                     "target_position",
+                                                                     "target_velocity",
+                                                                     "profile_velocity",
+                                                                     "profile_acceleration",
+                                                                     "profile_deceleration",
+                                                                     "actual_position",
+                                                                     "actual_velocity",
+                                                                     "following_error",
+                                                                     "following_error_window",
+                                                                     "fault_code",
+                                                                     "watchdog"};
 constexpr std::array<PhysicalUnit, field_roles> role_units{
     PhysicalUnit::number,        PhysicalUnit::number,        PhysicalUnit::number,       PhysicalUnit::number,
     PhysicalUnit::number,        PhysicalUnit::counts,        PhysicalUnit::counts_per_s, PhysicalUnit::counts_per_s,
@@ -150,13 +150,13 @@ void read_name(const TomlChecker& check, const toml::table& table, const DrivePr
     }
     const toml::node& node = role != nullptr ? *role : *name;
     if (role != nullptr) {
-        const std::size_t index = check.choice(node, "role", std::span(role_names).subspan(1)) + 1;
+        const std::size_t index = check.choice(node, "role", std::span(field_role_names).subspan(1)) + 1;
         field.role = static_cast<FieldRole>(index);
-        field.name = role_names[index];
+        field.name = field_role_names[index];
         field.unit = role_units[index];
     } else {
         field.name = check.text(node, "name");
-        if (std::find(role_names.begin(), role_names.end(), field.name) != role_names.end()) {
+        if (std::find(field_role_names.begin(), field_role_names.end(), field.name) != field_role_names.end()) {
             check.fail(node, fmt::format("{} is a role; write role = \"{}\"", in_quotes(field.name), field.name));
         }
     }

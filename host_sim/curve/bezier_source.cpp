@@ -7,8 +7,6 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double chord_units_per_mm = 4096.0;
-static_assert(chord_unit_log2 == -12, "update chord_units_per_mm");
 constexpr double negligible_mm = 1e-6; // as the core merges waypoints: a direction over less is rounding noise
 
 } // namespace

@@ -20,8 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double longest_mm = 65536.0;
-
 /// Reads one document into one CurveFile.
 class Parser {
 public:
@@ -204,7 +202,7 @@ CurveFile compute_curve(std::string_view method, const json& input, ScalarKind s
     curve.closed = made.closed;
     curve.axes = made.axes;
     curve.intervals = std::move(made.intervals);
-    curve.results = std::move(made.results);
+    curve.results = std::make_shared<const nlohmann::ordered_json>(std::move(made.results));
     curve.warnings = std::move(made.warnings);
     for (const BezierPiece<double>& piece : made.pieces) {
         curve.segments.push_back({curve.numbers.size() / static_cast<std::size_t>(made.axes), piece.degree});

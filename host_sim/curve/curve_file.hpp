@@ -4,9 +4,11 @@
 
 #include "host_sim/base/scalar_kind.hpp"
 
-#include "host_sim/curve/methods/description.hpp"
+#include "host_sim/curve/methods/parameter_interval.hpp"
 
 #include <cstddef>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,12 +27,12 @@ struct CurveFile {
     std::string method = "bezier"; ///< the name of --curve
     bool described = false;        ///< computed from a description
     bool closed = false;
-    int axes = 0;                                    ///< numbers a point, 1 to 6
-    std::vector<double> numbers;                     ///< all control points in order, `axes` numbers each [mm]
-    std::vector<Segment> segments;                   ///< at least one
-    std::vector<DescribedCurve::Interval> intervals; ///< as in DescribedCurve
-    nlohmann::ordered_json results = nlohmann::ordered_json::object();
-    std::vector<std::string> warnings; ///< sentences
+    int axes = 0;                                          ///< numbers a point, 1 to 6
+    std::vector<double> numbers;                           ///< all control points in order, `axes` numbers each [mm]
+    std::vector<Segment> segments;                         ///< at least one
+    std::vector<ParameterInterval> intervals;              ///< as in DescribedCurve
+    std::shared_ptr<const nlohmann::ordered_json> results; ///< of its method, beside the segments; null: none
+    std::vector<std::string> warnings;                     ///< sentences
 
     [[nodiscard]] std::size_t points() const noexcept { return numbers.size() / static_cast<std::size_t>(axes); }
     [[nodiscard]] double at(std::size_t point, std::size_t axis) const noexcept {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/diagnose/gpio_link.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include "host_sim/config/gpio_map.hpp"
@@ -16,9 +18,6 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double usual = 0.5;
-constexpr double nearly_all = 0.99;
-constexpr std::uint64_t ns_per_us = 1000;
 constexpr int calls = 5000;
 
 std::string lines_text(const hal::gpio::LineMap& map) {
@@ -86,10 +85,10 @@ std::string gpio_report(const GpioAddress& address, const MachineDescription& ma
                static_cast<double>(ns_per_us);
     };
     text += fmt::format("a call that sets all lines: half below {:.1f} us, 99 % below {:.1f} us, worst {:.1f} us\n",
-                        at(usual), at(nearly_all), at(1.0));
+                        at(median_share), at(nearly_all), at(1.0));
     text += fmt::format("wake-ups, 1000 a second, {} us of each wait spent spinning: half below {:.0f} us late, 99 % "
                         "below {:.0f} us, worst {} us\n{}",
-                        settings.real_time.spin_ns / ns_per_us, late.below_us(usual), late.below_us(nearly_all),
+                        settings.real_time.spin_ns / ns_per_us, late.below_us(median_share), late.below_us(nearly_all),
                         late.most_ns() / ns_per_us, histogram_picture(late));
     text += "what that means:\n";
     missing = awake.missing() + missing;

@@ -8,6 +8,9 @@
 
 namespace splinefeed::host {
 
+inline constexpr double median_share = 0.5;
+inline constexpr double nearly_all = 0.99;
+
 /// One line with a bar for each bin that is not empty; an empty text if all bins are empty.
 [[nodiscard]] std::string histogram_picture(const hal::TimeHistogram& times);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/diagnose/modbus_report.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "host_sim/config/drive_table.hpp"
 #include "host_sim/diagnose/histogram_picture.hpp"
 #include "host_sim/target/modbus/pvt_target.hpp"
@@ -19,10 +21,6 @@ namespace splinefeed::host {
 namespace {
 
 using namespace hal::modbus;
-
-constexpr double usual = 0.5;
-constexpr double nearly_all = 0.99;
-constexpr std::uint64_t ns_per_us = 1000;
 
 /// What was measured on one drive.
 struct Measured {
@@ -78,7 +76,7 @@ std::string trips(const Measured& measured, const LinkCounts& counts) {
     const hal::TimeHistogram& trips = measured.round_trips;
     std::string text =
         fmt::format("  round trip of a status read: half below {:.0f} us, 99 % below {:.0f} us, worst {} us\n",
-                    trips.below_us(usual), trips.below_us(nearly_all), trips.most_ns() / ns_per_us);
+                    trips.below_us(median_share), trips.below_us(nearly_all), trips.most_ns() / ns_per_us);
     text += histogram_picture(trips);
     text += fmt::format("  lost: {} of {} ({} time-outs, {} broken connections, {} corrupt, {} that did not fit, {} "
                         "exceptions)\n",
@@ -132,8 +130,8 @@ std::string about(const ModbusPort& port, std::size_t drive, const Measured& mea
     return text;
 }
 
-std::string advice(const ModbusPort& port, const std::vector<Measured>& drives, double least_us,
-                   const MachineDescription& machine) {
+std::string advice_on_ring(const ModbusPort& port, const std::vector<Measured>& drives, double least_us,
+                           const MachineDescription& machine) {
     std::string text;
     for (std::size_t i = 0; i < drives.size(); ++i) {
         const DriveReport report = port.report(i);
@@ -173,7 +171,7 @@ LinkReport pvt_report(const DriveTable& table, const MachineDescription& machine
             out.trouble = fault_trouble(drive, fault_text(report.status, drive));
         }
     }
-    out.text += "what that means:\n" + advice(port, drives, port.least_segment_us(), machine);
+    out.text += "what that means:\n" + advice_on_ring(port, drives, port.least_segment_us(), machine);
     return out;
 }
 

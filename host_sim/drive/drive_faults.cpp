@@ -14,7 +14,7 @@ namespace splinefeed::host {
 
 namespace {
 
-using EventKind = DriveFaults::EventKind;
+using Kind = DriveFaults::EventKind;
 using Spells = std::vector<DriveFaults::Spell>;
 
 constexpr double longest_s = 1e6;
@@ -50,41 +50,41 @@ constexpr Form at_once{'@', "S", "2.5 (seconds)", s_range};
 constexpr Form at_for{'@', "S:MS", "2.5:300 (at 2.5 s, for 300 ms)", s_range, ms_range};
 constexpr Form at_state{'@', "S:N", "2.5:99 (at 2.5 s, the state)", s_range, Range{0.0, 65535.0, true}};
 
-struct Fault {
+struct FaultWord {
     std::string_view name;
     const Form* form = nullptr;
     double DriveFaults::*value = nullptr;
     Spells DriveFaults::*spells = nullptr;
-    EventKind event = EventKind::freeze;
+    Kind event = Kind::freeze;
 };
 
-constexpr std::array<Fault, 27> faults{{{"drop", &by_probability, &DriveFaults::drop},
-                                        {"corrupt", &by_probability, &DriveFaults::corrupt},
-                                        {"exception", &by_probability, &DriveFaults::exception},
-                                        {"duplicate", &by_probability, &DriveFaults::duplicate},
-                                        {"stale", &by_probability, &DriveFaults::stale},
-                                        {"short", &by_probability, &DriveFaults::short_reply},
-                                        {"foreign", &by_probability, &DriveFaults::foreign},
-                                        {"echo", &by_probability, &DriveFaults::echo},
-                                        {"delay", &by_spell, nullptr, &DriveFaults::delays},
-                                        {"late", &by_spell, nullptr, &DriveFaults::late},
-                                        {"drip", &by_spell, nullptr, &DriveFaults::drips},
-                                        {"mute", &by_spell, nullptr, &DriveFaults::mutes},
-                                        {"mute-at", &by_request},
-                                        {"dither", &by_counts, &DriveFaults::dither_counts},
-                                        {"clock-skew", &by_ppm, &DriveFaults::clock_skew_ppm},
-                                        {"seed", &by_seed},
-                                        {"disconnect", &at_for, nullptr, nullptr, EventKind::disconnect},
-                                        {"freeze", &at_for, nullptr, nullptr, EventKind::freeze},
-                                        {"flood", &at_for, nullptr, nullptr, EventKind::flood},
-                                        {"refuse-stop", &at_for, nullptr, nullptr, EventKind::refuse_stop},
-                                        {"stuck-state", &at_for, nullptr, nullptr, EventKind::stuck_state},
-                                        {"stuck-place", &at_for, nullptr, nullptr, EventKind::stuck_place},
-                                        {"no-room", &at_for, nullptr, nullptr, EventKind::no_room},
-                                        {"state", &at_state, nullptr, nullptr, EventKind::told_state},
-                                        {"second-master", &at_once, nullptr, nullptr, EventKind::second_master},
-                                        {"power-cycle", &at_once, nullptr, nullptr, EventKind::power_cycle},
-                                        {"swap-words", &at_once, nullptr, nullptr, EventKind::swap_words}}};
+constexpr std::array<FaultWord, 27> faults{{{"drop", &by_probability, &DriveFaults::drop},
+                                            {"corrupt", &by_probability, &DriveFaults::corrupt},
+                                            {"exception", &by_probability, &DriveFaults::exception},
+                                            {"duplicate", &by_probability, &DriveFaults::duplicate},
+                                            {"stale", &by_probability, &DriveFaults::stale},
+                                            {"short", &by_probability, &DriveFaults::short_reply},
+                                            {"foreign", &by_probability, &DriveFaults::foreign},
+                                            {"echo", &by_probability, &DriveFaults::echo},
+                                            {"delay", &by_spell, nullptr, &DriveFaults::delays},
+                                            {"late", &by_spell, nullptr, &DriveFaults::late},
+                                            {"drip", &by_spell, nullptr, &DriveFaults::drips},
+                                            {"mute", &by_spell, nullptr, &DriveFaults::mutes},
+                                            {"mute-at", &by_request},
+                                            {"dither", &by_counts, &DriveFaults::dither_counts},
+                                            {"clock-skew", &by_ppm, &DriveFaults::clock_skew_ppm},
+                                            {"seed", &by_seed},
+                                            {"disconnect", &at_for, nullptr, nullptr, Kind::disconnect},
+                                            {"freeze", &at_for, nullptr, nullptr, Kind::freeze},
+                                            {"flood", &at_for, nullptr, nullptr, Kind::flood},
+                                            {"refuse-stop", &at_for, nullptr, nullptr, Kind::refuse_stop},
+                                            {"stuck-state", &at_for, nullptr, nullptr, Kind::stuck_state},
+                                            {"stuck-place", &at_for, nullptr, nullptr, Kind::stuck_place},
+                                            {"no-room", &at_for, nullptr, nullptr, Kind::no_room},
+                                            {"state", &at_state, nullptr, nullptr, Kind::told_state},
+                                            {"second-master", &at_once, nullptr, nullptr, Kind::second_master},
+                                            {"power-cycle", &at_once, nullptr, nullptr, Kind::power_cycle},
+                                            {"swap-words", &at_once, nullptr, nullptr, Kind::swap_words}}};
 
 constexpr std::array<std::string_view, faults.size()> names = [] {
     std::array<std::string_view, faults.size()> out{};
@@ -94,12 +94,12 @@ constexpr std::array<std::string_view, faults.size()> names = [] {
     return out;
 }();
 
-[[noreturn]] void refuse(std::string_view item, const Fault& fault, std::string_view why) {
+[[noreturn]] void refuse(std::string_view item, const FaultWord& fault, std::string_view why) {
     throw UsageError(fmt::format("--faults {}: {}; write it like {}{}{}", in_quotes(item), why, fault.name,
                                  fault.form->sign, fault.form->example));
 }
 
-double number(std::string_view item, const Fault& fault, std::string_view text, const Range& range) {
+double number(std::string_view item, const FaultWord& fault, std::string_view text, const Range& range) {
     double value = 0.0;
     if (read_number(text, value) != NumberText::number) {
         refuse(item, fault, fmt::format("{} is not a number", in_quotes(text)));
@@ -113,7 +113,7 @@ double number(std::string_view item, const Fault& fault, std::string_view text, 
     return value;
 }
 
-void take_seed(std::string_view item, const Fault& fault, std::string_view text, DriveFaults& out) {
+void take_seed(std::string_view item, const FaultWord& fault, std::string_view text, DriveFaults& out) {
     out.seed = read_whole<std::uint64_t>(text, 0, UINT64_MAX);
     if (!out.seed) {
         refuse(item, fault, "it must be a whole number from 0 on");
@@ -128,7 +128,7 @@ void take_item(std::string_view item, DriveFaults& out) {
         throw UsageError(
             fmt::format("--faults {}: there is no such fault{}", in_quotes(item), suggestion(name, names)));
     }
-    const Fault& fault = faults[static_cast<std::size_t>(found - names.begin())];
+    const FaultWord& fault = faults[static_cast<std::size_t>(found - names.begin())];
     const Form& form = *fault.form;
     if (cut == std::string_view::npos || item[cut] != form.sign) {
         refuse(item, fault, fmt::format("behind the name there must be {}", form.sign));
@@ -158,7 +158,7 @@ void take_item(std::string_view item, DriveFaults& out) {
 } // namespace
 
 bool DriveFaults::random() const noexcept {
-    return std::any_of(faults.begin(), faults.end(), [this](const Fault& fault) {
+    return std::any_of(faults.begin(), faults.end(), [this](const FaultWord& fault) {
         return (fault.form == &by_probability && this->*fault.value > 0.0) ||
                (fault.spells != nullptr && !(this->*fault.spells).empty());
     });
@@ -202,7 +202,7 @@ DriveFaults parse_drive_faults(std::string_view text) {
 
 std::string list_drive_faults() {
     std::string out;
-    for (const Fault& fault : faults) {
+    for (const FaultWord& fault : faults) {
         out += fmt::format("{}{}{}{}", out.empty() ? "" : ", ", fault.name, fault.form->sign, fault.form->letters);
     }
     return out;

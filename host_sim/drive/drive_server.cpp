@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/drive_server.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,7 +39,6 @@ double DriveServer::passed_s(Clock::time_point time) const {
 }
 
 std::uint64_t DriveServer::model_us(Clock::time_point time) const {
-    constexpr double us_per_s = 1e6;
     return static_cast<std::uint64_t>(std::max(us_per_s * passed_s(time) * (1.0 + faults_.clock_skew_ppm * 1e-6), 0.0));
 }
 

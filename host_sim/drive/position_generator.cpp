@@ -7,7 +7,7 @@
 namespace splinefeed::host {
 
 namespace {
-constexpr double nothing_counts = 1e-9; // rounding of positions up to 2^31 counts is 5e-7 of it per step
+constexpr double same_counts = 1e-9; // rounding of positions up to 2^31 counts is 5e-7 of it per step
 }
 
 void PositionGenerator::preset_position(double position_counts) noexcept {
@@ -44,10 +44,10 @@ PositionGenerator::Phase PositionGenerator::move_phase() const noexcept {
     const double a = limits_.acceleration;
     const double d = limits_.deceleration;
     const double braking = speed * speed / (2.0 * d);
-    if (speed < 0.0 || braking > distance + nothing_counts || limits_.velocity <= 0.0) { // away from it, or past it
+    if (speed < 0.0 || braking > distance + same_counts || limits_.velocity <= 0.0) { // away from it, or past it
         return {std::fabs(speed) / d, speed < 0.0 ? sense * d : -sense * d, 0.0, false};
     }
-    if (braking >= distance - nothing_counts) {
+    if (braking >= distance - same_counts) {
         return speed == 0.0 ? Phase{0.0, 0.0, 0.0, true}
                             : Phase{2.0 * distance / speed,
                                     distance == 0.0 ? 0.0 : -sense * speed * speed / (2.0 * distance), 0.0, true};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/profile_drive.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "host_sim/base/input_error.hpp"
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
@@ -15,8 +17,6 @@ using namespace hal::modbus;
 
 namespace {
 
-constexpr double us_per_s = 1e6;
-constexpr double one = 65536.0; // of a physical value
 constexpr std::int64_t positioning_mode = 1;
 constexpr std::int64_t homing_mode = 6;
 constexpr std::int64_t cyclic_mode = 8;
@@ -60,14 +60,15 @@ bool ProfileDrive::written(FieldRole role) const {
 
 double ProfileDrive::physical(FieldRole role, double otherwise) const {
     const FieldIndex index = index_of(role);
-    return index == no_field ? otherwise
-                             : static_cast<double>(physical_of(profile_.fields[index], registers_.raw(index))) / one;
+    return index == no_field
+               ? otherwise
+               : static_cast<double>(physical_of(profile_.fields[index], registers_.raw(index))) / physical_one;
 }
 
 void ProfileDrive::show(FieldRole role, double physical) {
     const FieldIndex index = index_of(role);
     if (index != no_field) {
-        registers_.set(index, raw_of(profile_.fields[index], std::llround(physical * one)).raw);
+        registers_.set(index, raw_of(profile_.fields[index], std::llround(physical * physical_one)).raw);
     }
 }
 
@@ -163,7 +164,7 @@ void ProfileDrive::execute_control() {
     }
     if (mode == cyclic_mode && written(FieldRole::target_position)) {
         target_ = physical(FieldRole::target_position, 0.0);
-        axis_.follow(target_, parameters_.period_us / us_per_s);
+        axis_.follow(target_, us_to_s(parameters_.period_us));
     } else if (mode == homing_mode && orders.start) {
         axis_.home();
     } else if (mode == positioning_mode && (orders.start || follows)) {
@@ -375,7 +376,6 @@ void ProfileDrive::advance(std::uint64_t now_us) {
 
 void ProfileDrive::check_watchdog() {
     const double timeout_ms = physical(FieldRole::watchdog, 0.0);
-    constexpr double us_per_ms = 1000.0;
     if (timeout_ms <= 0.0 || watchdog_fired_ || axis_.power() != AxisPower::on ||
         static_cast<double>(now_us_ - exchange_us_) <= timeout_ms * us_per_ms) {
         return;

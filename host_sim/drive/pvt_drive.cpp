@@ -32,9 +32,9 @@ bool inside(int table, std::size_t size, int address, std::size_t count) noexcep
 }
 
 // Numbers of 32 and 48 bits, by their first register, with the words the other way round.
-void swap_number(std::span<std::uint16_t> registers, std::size_t at, std::size_t words) noexcept {
-    if (at + words <= registers.size()) {
-        std::swap(registers[at], registers[at + words - 1]);
+void swap_number(std::span<std::uint16_t> values, std::size_t at, std::size_t words) noexcept {
+    if (at + words <= values.size()) {
+        std::swap(values[at], values[at + words - 1]);
     }
 }
 
@@ -91,7 +91,7 @@ PvtIdentity PvtDrive::identity() const {
             .version = pvt::version,
             .axes = static_cast<std::uint16_t>(axes()),
             .ring = machine_.ring().capacity(),
-            .ticks_per_s = pvt::ticks_per_s,
+            .ticks_per_s = ticks_per_s,
             .boot = boot_,
             .check_16 = pvt::word_check_16,
             .check_32 = pvt::word_check_32};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/pvt_machine.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "host_sim/drive/command_states.hpp"
 
 #include <algorithm>
@@ -17,7 +19,6 @@ using hal::modbus::PvtState;
 namespace {
 
 constexpr std::uint64_t longest_step_us = 125; // a fraction of the loop's time constant, and of a segment
-constexpr double us_per_s = 1e6;
 
 } // namespace
 

@@ -11,9 +11,8 @@ namespace pvt = hal::modbus::pvt;
 
 namespace {
 
-constexpr double map_units_per_count = std::int64_t{1} << PvtSegment::position_bits;
 constexpr double velocity_units_per_unit = std::int64_t{1} << (PvtSegment::velocity_bits - PvtSegment::position_bits);
-constexpr double map_ticks_per_s = pvt::ticks_per_s;
+constexpr double map_ticks_per_s = ticks_per_s;
 
 bool is_executable(const PvtSegment& segment, int axes) noexcept {
     const auto moves = [](std::int64_t velocity) {

@@ -8,6 +8,8 @@
 
 namespace splinefeed::host {
 
+inline constexpr double map_units_per_count = std::int64_t{1} << hal::modbus::PvtSegment::position_bits;
+
 /// Sequence numbers count modulo 2^32. Positions at the ends of segments are the integers of the map: nothing is
 /// summed.
 class PvtRing {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/pvt_schedule.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <algorithm>
 
 namespace splinefeed::host {
 
-namespace {
-
-constexpr std::uint64_t us_per_ms = 1000;
-
-} // namespace
+namespace {} // namespace
 
 bool PvtSchedule::take(std::optional<std::uint64_t>& event_us, std::uint64_t now_us) noexcept {
     const bool due = event_us && *event_us <= now_us;

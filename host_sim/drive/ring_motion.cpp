@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/ring_motion.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +10,6 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double us_per_s = 1e6;
-constexpr double map_units_per_count = std::int64_t{1} << hal::modbus::PvtSegment::position_bits;
 constexpr double one_place_s = 1e-9; // a hold on the curve to a joint stands at the joint, whatever is rounded
 constexpr double still = 1e-4;       // a rate below is rounding: its square is time of the ring
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/drive/vfd_drive.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <algorithm>
@@ -13,8 +15,6 @@ using namespace hal::modbus;
 
 namespace {
 
-constexpr double us_per_s = 1e6;
-constexpr double one = 1 << physical_bits;
 constexpr double near_hz = 0.01;
 
 /// The raw value with the test true or false.
@@ -31,7 +31,7 @@ VfdDrive::VfdDrive(DriveProfile profile, const VfdDriveParameters& parameters)
 
 double VfdDrive::speed_hz() const {
     const FieldIndex field = profile_.index_of(FieldRole::target_velocity);
-    return static_cast<double>(physical_of(profile_.fields[field], registers_.raw(field))) / one;
+    return static_cast<double>(physical_of(profile_.fields[field], registers_.raw(field))) / physical_one;
 }
 
 void VfdDrive::advance(std::uint64_t now_us) {
@@ -77,7 +77,7 @@ DriveState VfdDrive::state() const {
 
 void VfdDrive::refresh() {
     const FieldIndex output = profile_.index_of(FieldRole::actual_velocity);
-    registers_.set(output, raw_of(profile_.fields[output], std::llround(std::fabs(output_hz_) * one)).raw);
+    registers_.set(output, raw_of(profile_.fields[output], std::llround(std::fabs(output_hz_) * physical_one)).raw);
     const DriveState now = state();
     for (const StateTest& test : profile_.states) {
         registers_.set(test.test.field, put_test(registers_.raw(test.test.field), test.test, test.state == now));

@@ -8,10 +8,11 @@
 
 namespace splinefeed::host {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 constexpr std::string_view axis_letters = "xyzabc";
-constexpr double mm_per_chord_unit = 1.0 / 4096.0;
 
 const char* mode_name(PathMode mode) {
     switch (mode) {
@@ -70,7 +71,7 @@ void ElementWriter::shape(const PathElement<double>& element) {
             const double value = index_[j] < 0 ? 0.0
                                  : i == 0      ? from
                                  : i == last   ? to_mm(element.to[k])
-                                               : from + element.bezier.points[k][i] * mm_per_chord_unit;
+                                               : from + element.bezier.points[k][i] / chord_units_per_mm;
             text += fmt::format("{}{}", j > 0 ? ", " : "", value);
         }
         file_->format("{}[{}]", i > 0 ? ", " : "", text);
@@ -103,20 +104,20 @@ void ElementWriter::dwell(double seconds, std::uint64_t line) {
 }
 
 void ElementWriter::event(const ProgramAction& action, std::uint64_t line) {
-    nlohmann::ordered_json json{{"after_element", elements_}, {"what", action_name(action.kind)}};
+    Json object{{"after_element", elements_}, {"what", action_name(action.kind)}};
     if (action.number != 0) {
-        json["number"] = action.number;
+        object["number"] = action.number;
     }
     if (action.value != 0.0) {
-        json["value"] = action.value;
+        object["value"] = action.value;
     }
     if (!action.text.empty()) {
-        json["text"] = action.text;
+        object["text"] = action.text;
     }
     if (line > 0) {
-        json["line_number"] = line;
+        object["line_number"] = line;
     }
-    events_ += (events_.empty() ? "\n" : ",\n") + json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    events_ += (events_.empty() ? "\n" : ",\n") + object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void ElementWriter::finish() {

@@ -6,19 +6,21 @@
 
 namespace splinefeed::host {
 
-nlohmann::ordered_json to_json(const GpioSummary& gpio) {
-    nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+using Json = nlohmann::ordered_json;
+
+Json to_json(const GpioSummary& gpio) {
+    Json changes = Json::array();
     for (const GpioSummary::Change& change : gpio.changes) {
-        nlohmann::ordered_json json{{"role", change.role}};
+        Json object{{"role", change.role}};
         if (!change.axis.empty()) {
-            json["axis"] = change.axis;
+            object["axis"] = change.axis;
         }
-        json["active"] = change.active;
-        json["time_s"] = change.time_s;
-        json["position_mm"] = change.position_mm ? nlohmann::ordered_json(*change.position_mm) : nullptr;
-        changes.push_back(std::move(json));
+        object["active"] = change.active;
+        object["time_s"] = change.time_s;
+        object["position_mm"] = change.position_mm ? Json(*change.position_mm) : nullptr;
+        changes.push_back(std::move(object));
     }
-    nlohmann::ordered_json late = nlohmann::ordered_json::array();
+    Json late = Json::array();
     for (const GpioSummary::Octave& octave : gpio.late) {
         late.push_back({{"below_s", octave.below_s}, {"edges", octave.edges}});
     }

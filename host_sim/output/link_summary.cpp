@@ -8,6 +8,8 @@
 
 namespace splinefeed::host {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 using hal::modbus::LinkCounts;
@@ -28,28 +30,28 @@ constexpr std::array<Loss, 7> losses{{{"timeouts", "without an answer in time", 
 
 } // namespace
 
-nlohmann::ordered_json to_json(const LinkSummary& link) {
-    nlohmann::ordered_json drives = nlohmann::ordered_json::array();
+Json to_json(const LinkSummary& link) {
+    Json drives = Json::array();
     const bool targets = link.target_period_us > 0;
     for (const LinkSummary::Drive& drive : link.drives) {
-        nlohmann::ordered_json json{{"address", drive.address},
-                                    {"exchanges", drive.counts.exchanges},
-                                    {targets ? "targets" : "segments", drive.counts.segments}};
+        Json object{{"address", drive.address},
+                    {"exchanges", drive.counts.exchanges},
+                    {targets ? "targets" : "segments", drive.counts.segments}};
         for (const Loss& loss : losses) {
-            json[loss.key] = drive.counts.*loss.count;
+            object[loss.key] = drive.counts.*loss.count;
         }
-        drives.push_back(std::move(json));
+        drives.push_back(std::move(object));
     }
-    nlohmann::ordered_json json{{"drives", std::move(drives)},
-                                {"resumes", link.resumes},
-                                {"clocks_known_to_s", link.clocks_s},
-                                {"bus_time_s", link.bus_s}};
+    Json object{{"drives", std::move(drives)},
+                {"resumes", link.resumes},
+                {"clocks_known_to_s", link.clocks_s},
+                {"bus_time_s", link.bus_s}};
     if (targets) {
-        json["target_period_s"] = link.target_period_us * 1e-6;
-        json["between_targets_mm"] = link.between_targets_mm;
-        json["latest_target_s"] = static_cast<double>(link.late_us) * 1e-6;
+        object["target_period_s"] = link.target_period_us * 1e-6;
+        object["between_targets_mm"] = link.between_targets_mm;
+        object["latest_target_s"] = static_cast<double>(link.late_us) * 1e-6;
     }
-    return json;
+    return object;
 }
 
 std::string to_text(const LinkSummary& link) {

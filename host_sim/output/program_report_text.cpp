@@ -8,6 +8,8 @@
 
 namespace splinefeed::host {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 constexpr std::size_t most_slow_lines = 10;
@@ -29,16 +31,16 @@ std::string totals_row(std::string_view name, const MoveTotal& total) {
                        total.moves);
 }
 
-nlohmann::ordered_json totals_json(const MoveTotal& total) {
+Json totals_json(const MoveTotal& total) {
     return {{"length_mm", total.length_mm}, {"time_s", total.seconds}, {"moves", total.moves}};
 }
 
-nlohmann::ordered_json box_json(const AxisBox& box, const MachineDescription& machine) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+Json box_json(const AxisBox& box, const MachineDescription& machine) {
+    Json object = Json::object();
     for (unsigned k = 0; !box.empty && k < static_cast<unsigned>(machine.settings.axes); ++k) {
-        json[machine.axis_name[k]] = {box.low[k], box.high[k]};
+        object[machine.axis_name[k]] = {box.low[k], box.high[k]};
     }
-    return json;
+    return object;
 }
 
 } // namespace
@@ -77,33 +79,32 @@ std::string check_text(const ProgramReport& report, const MachineDescription& ma
 
 std::string check_json(const ProgramReport& report, const MachineDescription& machine,
                        const std::vector<std::string>& problems, double cycle_time_s) {
-    using Json = nlohmann::ordered_json;
-    Json json;
-    json["problems"] = problems;
-    json["feed_box"] = box_json(report.feed_box(), machine);
-    json["rapid_box"] = box_json(report.rapid_box(), machine);
-    json["travel"] = Json::object();
+    Json object;
+    object["problems"] = problems;
+    object["feed_box"] = box_json(report.feed_box(), machine);
+    object["rapid_box"] = box_json(report.rapid_box(), machine);
+    object["travel"] = Json::object();
     for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
         if (machine.travel[k]) {
-            json["travel"][machine.axis_name[k]] = {machine.travel[k]->low, machine.travel[k]->high};
+            object["travel"][machine.axis_name[k]] = {machine.travel[k]->low, machine.travel[k]->high};
         }
     }
     if (problems.empty()) {
-        json["cycle_time_s"] = cycle_time_s;
-        json["feeds"] = totals_json(report.feeds());
-        json["rapids"] = totals_json(report.rapids());
-        json["dwell_s"] = report.dwell_s();
-        json["tools"] = Json::object();
+        object["cycle_time_s"] = cycle_time_s;
+        object["feeds"] = totals_json(report.feeds());
+        object["rapids"] = totals_json(report.rapids());
+        object["dwell_s"] = report.dwell_s();
+        object["tools"] = Json::object();
         for (const auto& [number, total] : report.tools()) {
-            json["tools"][std::to_string(number)] = totals_json(total);
+            object["tools"][std::to_string(number)] = totals_json(total);
         }
-        json["slowest_lines"] = Json::array();
+        object["slowest_lines"] = Json::array();
         for (const ProgramReport::Line& line : report.slowest(most_slow_lines)) {
-            json["slowest_lines"].push_back(
+            object["slowest_lines"].push_back(
                 Json{{"line", line.line}, {"time_s", line.seconds}, {"limit", what_bound(line)}});
         }
     }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace splinefeed::host

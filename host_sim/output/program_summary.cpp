@@ -2,17 +2,19 @@
 #include "host_sim/output/program_summary.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace splinefeed::host {
 
-nlohmann::ordered_json to_json(const ProgramSummary& summary) {
-    using Json = nlohmann::ordered_json;
-    Json json;
-    json["dwells"] = summary.dwells;
-    json["dwell_s"] = summary.dwell_s;
-    json["events"] = summary.events;
-    json["line"] = summary.line > 0 ? Json(summary.line) : Json(nullptr);
-    json["first_events"] = Json::array();
+using Json = nlohmann::ordered_json;
+
+Json to_json(const ProgramSummary& summary) {
+    Json object;
+    object["dwells"] = summary.dwells;
+    object["dwell_s"] = summary.dwell_s;
+    object["events"] = summary.events;
+    object["line"] = summary.line > 0 ? Json(summary.line) : Json(nullptr);
+    object["first_events"] = Json::array();
     for (const ProgramSummary::Event& event : summary.first_events) {
         Json entry{{"t", event.time_s}, {"what", event.what}};
         if (event.line > 0) {
@@ -27,9 +29,9 @@ nlohmann::ordered_json to_json(const ProgramSummary& summary) {
         if (!event.text.empty()) {
             entry["text"] = event.text;
         }
-        json["first_events"].push_back(std::move(entry));
+        object["first_events"].push_back(std::move(entry));
     }
-    return json;
+    return object;
 }
 
 std::string to_text(const ProgramSummary& summary) {

@@ -14,6 +14,8 @@
 
 namespace splinefeed::host {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 // A use above this is worth a sentence: the tolerance of the simulated machine.
@@ -112,33 +114,31 @@ void write_sentences(Lines out, const Summary& summary) {
     }
 }
 
-nlohmann::ordered_json share_json(const Summary& summary) {
-    using Json = nlohmann::ordered_json;
+Json share_json(const Summary& summary) {
     if (!summary.limit_share) {
         return nullptr;
     }
     const LimitShares& shares = *summary.limit_share;
-    Json json;
+    Json object;
     for (const char* limit : {"velocity", "acceleration", "jerk"}) {
-        json[limit] = Json::object();
+        object[limit] = Json::object();
     }
     const std::vector<std::string> names = axis_names(summary);
     for (std::size_t k = 0; k < names.size(); ++k) {
-        json["velocity"][names[k]] = shares.axis[k].velocity;
-        json["acceleration"][names[k]] = shares.axis[k].acceleration;
+        object["velocity"][names[k]] = shares.axis[k].velocity;
+        object["acceleration"][names[k]] = shares.axis[k].acceleration;
         if (shares.axis[k].jerk) {
-            json["jerk"][names[k]] = *shares.axis[k].jerk;
+            object["jerk"][names[k]] = *shares.axis[k].jerk;
         }
     }
-    json["feed"] = shares.feed;
-    json["centripetal"] = shares.centripetal.value_or(0.0);
-    json["chord"] = shares.chord.value_or(0.0);
-    json["none"] = shares.none;
-    return json;
+    object["feed"] = shares.feed;
+    object["centripetal"] = shares.centripetal.value_or(0.0);
+    object["chord"] = shares.chord.value_or(0.0);
+    object["none"] = shares.none;
+    return object;
 }
 
-nlohmann::ordered_json place_json(const ToleranceSummary::Place& place) {
-    using Json = nlohmann::ordered_json;
+Json place_json(const ToleranceSummary::Place& place) {
     return {{"distance", place.distance},
             {"at", place.number > 0 ? Json(place.number) : Json()},
             {"line", place.line > 0 ? Json(place.line) : Json()}};
@@ -156,21 +156,21 @@ std::string less_or_more(double time_s, double of_s) {
                                     : fmt::format("{:.1f} % {}", std::fabs(saved), saved > 0.0 ? "less" : "more");
 }
 
-nlohmann::ordered_json tolerance_json(const ToleranceSummary& tolerance) {
-    nlohmann::ordered_json json;
-    json["kept"] = tolerance.excess.empty();
-    json["deviation_mm"] = place_json(tolerance.deviation);
+Json tolerance_json(const ToleranceSummary& tolerance) {
+    Json object;
+    object["kept"] = tolerance.excess.empty();
+    object["deviation_mm"] = place_json(tolerance.deviation);
     if (tolerance.rotary_deviation) {
-        json["deviation_deg"] = place_json(*tolerance.rotary_deviation);
+        object["deviation_deg"] = place_json(*tolerance.rotary_deviation);
     }
-    json["blended"] = tolerance.blended;
-    json["stopped"] = tolerance.stopped;
-    json["through"] = tolerance.through;
-    json["chains"] = tolerance.chains;
-    json["elements"] = tolerance.elements;
-    json["pieces"] = tolerance.pieces;
-    json["exact_stop_time_s"] = tolerance.exact_stop_s;
-    return json;
+    object["blended"] = tolerance.blended;
+    object["stopped"] = tolerance.stopped;
+    object["through"] = tolerance.through;
+    object["chains"] = tolerance.chains;
+    object["elements"] = tolerance.elements;
+    object["pieces"] = tolerance.pieces;
+    object["exact_stop_time_s"] = tolerance.exact_stop_s;
+    return object;
 }
 
 void write_tolerance(Lines out, const Summary& summary) {
@@ -193,7 +193,6 @@ void write_tolerance(Lines out, const Summary& summary) {
 } // namespace
 
 std::string to_json(const Summary& summary) {
-    using Json = nlohmann::ordered_json;
     Json velocity = Json::object();
     Json acceleration = Json::object();
     Json jerk = Json::object();
@@ -204,47 +203,47 @@ std::string to_json(const Summary& summary) {
             jerk[use.axis] = *use.jerk;
         }
     }
-    Json json;
-    json["cycle_time_s"] = summary.cycle_time_s;
-    json["length_mm"] = summary.length_mm;
-    json["waypoints"] = summary.waypoints;
-    json["curve_segments"] = summary.curve_segments;
-    json["feed_segments"] = summary.feed_segments;
-    json["scalar"] = summary.scalar;
-    json["curve"] = summary.curve;
-    json["max_speed_mm_s"] = summary.max_speed_mm_s;
-    json["limit_use"]["velocity"] = velocity;
-    json["limit_use"]["acceleration"] = acceleration;
-    json["limit_use"]["jerk"] = jerk;
-    json["waypoint_error_mm"] = summary.waypoint_error_mm ? Json(*summary.waypoint_error_mm) : Json(nullptr);
-    json["optimum_time_s"] = summary.optimum_time_s ? Json(*summary.optimum_time_s) : Json(nullptr);
-    json["planning_time_s"] = summary.planning_time_s;
-    json["memory_bytes"]["curve"] = summary.memory_bytes.curve;
-    json["memory_bytes"]["feed_plan"] = summary.memory_bytes.feed_plan;
-    json["memory_bytes"]["stream"] = summary.memory_bytes.stream;
-    json["stopped"] = summary.stopped;
-    json["window_limited"] = summary.window_limited ? Json(*summary.window_limited) : Json(nullptr);
-    json["stops"] = summary.stops;
-    json["smoothing_bound_mm"] = summary.smoothing_bound_mm;
-    json["peak_rss_bytes"] = summary.peak_rss_bytes;
-    json["limit_share"] = share_json(summary);
+    Json object;
+    object["cycle_time_s"] = summary.cycle_time_s;
+    object["length_mm"] = summary.length_mm;
+    object["waypoints"] = summary.waypoints;
+    object["curve_segments"] = summary.curve_segments;
+    object["feed_segments"] = summary.feed_segments;
+    object["scalar"] = summary.scalar;
+    object["curve"] = summary.curve;
+    object["max_speed_mm_s"] = summary.max_speed_mm_s;
+    object["limit_use"]["velocity"] = velocity;
+    object["limit_use"]["acceleration"] = acceleration;
+    object["limit_use"]["jerk"] = jerk;
+    object["waypoint_error_mm"] = summary.waypoint_error_mm ? Json(*summary.waypoint_error_mm) : Json(nullptr);
+    object["optimum_time_s"] = summary.optimum_time_s ? Json(*summary.optimum_time_s) : Json(nullptr);
+    object["planning_time_s"] = summary.planning_time_s;
+    object["memory_bytes"]["curve"] = summary.memory_bytes.curve;
+    object["memory_bytes"]["feed_plan"] = summary.memory_bytes.feed_plan;
+    object["memory_bytes"]["stream"] = summary.memory_bytes.stream;
+    object["stopped"] = summary.stopped;
+    object["window_limited"] = summary.window_limited ? Json(*summary.window_limited) : Json(nullptr);
+    object["stops"] = summary.stops;
+    object["smoothing_bound_mm"] = summary.smoothing_bound_mm;
+    object["peak_rss_bytes"] = summary.peak_rss_bytes;
+    object["limit_share"] = share_json(summary);
     if (summary.events + summary.events_not_reached > 0) {
-        json["events"] = summary.events;
-        json["events_not_reached"] = summary.events_not_reached;
+        object["events"] = summary.events;
+        object["events_not_reached"] = summary.events_not_reached;
     }
     if (summary.tolerance) {
-        json["tolerance"] = tolerance_json(*summary.tolerance);
+        object["tolerance"] = tolerance_json(*summary.tolerance);
     }
     if (!summary.program.empty()) {
-        json["program"] = to_json(summary.program);
+        object["program"] = to_json(summary.program);
     }
     if (summary.link) {
-        json["link"] = to_json(*summary.link);
+        object["link"] = to_json(*summary.link);
     }
     if (summary.gpio) {
-        json["gpio"] = to_json(*summary.gpio);
+        object["gpio"] = to_json(*summary.gpio);
     }
-    return json.dump(2) + "\n";
+    return object.dump(2) + "\n";
 }
 
 std::string to_text(const Summary& summary) {

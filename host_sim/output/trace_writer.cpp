@@ -5,6 +5,8 @@
 // to 2^-53 of itself. The last decimal is therefore the nearest one, but for ties to within 1e-4 of its value.
 #include "host_sim/output/trace_writer.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -65,7 +67,6 @@ char* write_fixed(char* out, double value) {
 
 // In integers: a double would not know whole microseconds after two years.
 char* write_time(char* out, std::uint64_t ticks) {
-    constexpr std::uint64_t us_per_s = 1'000'000;
     constexpr std::uint64_t ns_per_tick = 1000 / ticks_per_us;
     const std::uint64_t us = ticks / ticks_per_us;
     const std::uint64_t rest = ticks % ticks_per_us;

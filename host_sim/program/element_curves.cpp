@@ -14,15 +14,12 @@ namespace splinefeed::host {
 namespace {
 
 constexpr std::array<const char*, 6> letters{"x", "y", "z", "a", "b", "c"};
-constexpr double longest_mm = 65536.0;
 constexpr double still_mm = 1e-9;
 constexpr double arc_mismatch_mm = 0.01; // of a rounded angle; the end of the element is what counts
 constexpr double least_radius_mm = 2e-4;
 constexpr double end_gap_mm = 1e-6;
 constexpr double core_radius_change_mm = 0.002; // of the core's arcs: what rounding to 3 decimals makes
-constexpr double chord_units_per_mm = 4096.0;
-static_assert(chord_unit_log2 == -12, "update chord_units_per_mm");
-constexpr double arc_step = 0.4; // [rad]
+constexpr double arc_step = 0.4;                // [rad]
 
 [[noreturn]] void refuse(const std::string& what) {
     throw DescriptionError(what);

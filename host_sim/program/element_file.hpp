@@ -5,7 +5,7 @@
 #include "host_sim/config/path_tolerances.hpp"
 #include "host_sim/program/element_program.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -19,7 +19,7 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr std::string_view all_axes = "xyzabc";
+constexpr std::string_view axis_letters = "xyzabc";
 constexpr double longest_move_mm = 65536.0;
 constexpr double slowest_feed = 0.001;
 constexpr double fastest_feed = 10000.0;
@@ -204,7 +204,7 @@ void WaypointReader::read_header(std::string_view line) {
                            : name == "tolerance" ? tolerance_column
                                                  : axis_index(name);
         if (column == no_column) {
-            if (name.size() == 1 && all_axes.find(name.front()) != std::string_view::npos) {
+            if (name.size() == 1 && axis_letters.find(name.front()) != std::string_view::npos) {
                 fail(fmt::format("there is a column {}, but the machine has no such axis; it has {}", name,
                                  fmt::join(axes_, ", ")));
             }
@@ -234,7 +234,7 @@ bool WaypointReader::has_tolerances() const noexcept {
 // Without a header the columns are x,y[,z[,a,b,c]].
 void WaypointReader::assume_columns(std::string_view line) {
     const std::size_t count = count_fields(line);
-    const std::size_t most = std::min(axes_.size(), all_axes.size());
+    const std::size_t most = std::min(axes_.size(), axis_letters.size());
     const std::size_t fewest = std::min<std::size_t>(2, most);
     if (count < fewest || count > most) {
         double ignored = 0.0;
@@ -247,12 +247,12 @@ void WaypointReader::assume_columns(std::string_view line) {
                                           count, fewest, most, fmt::join(axes_, ",")));
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const int column = axis_index(all_axes.substr(i, 1));
+        const int column = axis_index(axis_letters.substr(i, 1));
         if (column < 0) {
             fail(fmt::format(
                 "without a header the columns are x,y,z,a,b,c, but the machine has no axis {}; name the columns "
                 "in a header row",
-                all_axes[i]));
+                axis_letters[i]));
         }
         columns_.push_back(column);
     }

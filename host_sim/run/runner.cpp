@@ -74,7 +74,7 @@ int draw_curve(const RunArguments& arguments) {
     if (const CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
         Outputs outputs(arguments.outputs, input.curve_name(), curve->closed);
         outputs.curve()->segments(*curve);
-        outputs.commit(&curve->results);
+        outputs.commit(curve->results.get());
         return 0;
     }
     if (input.repeatable()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/run/supervision.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/output/place_text.hpp"
@@ -17,7 +19,6 @@ using hal::system_clock;
 namespace {
 
 constexpr std::uint64_t poll_every_us = 1000;
-constexpr std::uint64_t us_per_s = 1'000'000;
 constexpr std::uint64_t halt_us = 10 * us_per_s;    // then a hold becomes a quick stop,
 constexpr std::uint64_t give_up_us = 15 * us_per_s; // and then nobody waits for the port any more
 constexpr int looks_a_second = 100;

@@ -13,12 +13,13 @@ void check_gpio(const std::string& target) {
     static_cast<void>(parse_gpio_address(target));
 }
 
-std::unique_ptr<RunTarget> make(const std::string& target, const MachineDescription& machine,
-                                const RunOptions& options) {
+std::unique_ptr<RunTarget> make_gpio(const std::string& target, const MachineDescription& machine,
+                                     const RunOptions& options) {
     return make_gpio_target(parse_gpio_address(target), machine, options);
 }
 
-LinkReport report(const std::string& target, const MachineDescription& machine, bool /*any_machine*/, double seconds) {
+LinkReport gpio_link_report(const std::string& target, const MachineDescription& machine, bool /*any_machine*/,
+                            double seconds) {
     return {gpio_report(parse_gpio_address(target), machine, seconds), {}};
 }
 
@@ -29,8 +30,8 @@ extern const TargetKind gpio_kind{
     .help = gpio_help,
     .is = is_gpio_address,
     .check = check_gpio,
-    .make = make,
-    .report = report,
+    .make = make_gpio,
+    .report = gpio_link_report,
 };
 
 } // namespace splinefeed::host

@@ -32,7 +32,8 @@ std::unique_ptr<RunTarget> make_modbus_target(const std::string& target, const M
     return std::make_unique<SetpointTarget>(std::move(table), machine, options);
 }
 
-LinkReport report(const std::string& target, const MachineDescription& machine, bool any_machine, double seconds) {
+LinkReport modbus_link_report(const std::string& target, const MachineDescription& machine, bool any_machine,
+                              double seconds) {
     return modbus_report(target, machine, any_machine, seconds);
 }
 
@@ -45,7 +46,7 @@ extern const TargetKind modbus_kind{
     .is = is_modbus,
     .check = check_modbus,
     .make = make_modbus_target,
-    .report = report,
+    .report = modbus_link_report,
 };
 
 } // namespace splinefeed::host

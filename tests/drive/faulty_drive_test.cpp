@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/config/shipped_profiles.hpp"
+
 #include "host_sim/drive/faulty_drive.hpp"
 #include "host_sim/drive/profile_drive.hpp"
 #include "host_sim/drive/vfd_drive.hpp"
 #include "pvt_bench.hpp"
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 #include "support/catch.hpp"
 
@@ -14,8 +16,6 @@ using namespace splinefeed::host;
 using splinefeed_test::PvtBench;
 
 namespace {
-
-constexpr std::uint64_t us_per_ms = 1000;
 
 /// A drive of a profile, enabled, and a client of single fields.
 struct Bench {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The brake of an axis that would fall, and what drives on lines are left at, on a virtual clock.
 #include "gpio_bench.hpp"
+
 #include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/target/gpio/gpio_target.hpp"
+#include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"
 #include "support/virtual_clock.hpp"
 
@@ -17,7 +19,6 @@ line = 5
 release_ms = 30
 engage_ms = 80
 )";
-constexpr std::uint64_t ns_per_ms = 1'000'000;
 constexpr std::uint64_t step_lines = 0b101;
 
 struct Bench {

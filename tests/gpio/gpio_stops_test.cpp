@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // How a run on GPIO lines stops, on a virtual clock: whatever asks for it, and whatever the planner does meanwhile.
 #include "gpio_bench.hpp"
+
 #include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/target/gpio/gpio_target.hpp"
+#include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"
 #include "support/random_path.hpp"
 #include "support/rounds.hpp"
@@ -16,7 +18,6 @@ using namespace splinefeed_test;
 
 namespace {
 
-constexpr std::uint64_t ns_per_ms = 1'000'000;
 constexpr double to_x_mm = 200.0;
 constexpr double to_y_mm = 100.0;
 struct Bench {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/rt/time_histogram.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "support/catch.hpp"
 
 #include <algorithm>
@@ -12,7 +14,6 @@ using splinefeed::hal::TimeHistogram;
 
 namespace {
 
-constexpr std::uint64_t ns_per_us = 1000;
 constexpr double bin_ratio = 1.1892071150027210667; // a quarter of an octave
 
 /// The least value that this share of the values stays below or at.

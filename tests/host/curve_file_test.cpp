@@ -42,7 +42,7 @@ TEST_CASE("A description names a method and its points") {
     CHECK(file.axes == 3);
     CHECK(file.at(1, 0) == Approx(10.0 / 12.0));
     CHECK(file.at(3, 0) == 10.0);
-    CHECK(file.results["tangents"][0][0] == 2.5);
+    CHECK(file.results->at("tangents")[0][0] == 2.5);
 }
 
 TEST_CASE("A computed curve must fit a machine before one is sent along it") {

@@ -2,6 +2,8 @@
 // ProgramOutputs under Supervision: when a spindle and switches get their orders, and when they end.
 #include "host_sim/target/program_outputs.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "support/catch.hpp"
 #include "support/virtual_clock.hpp"
 #include "talking_target.hpp"
@@ -348,7 +350,6 @@ TEST_CASE("an output that does not confirm its end is said", "[supervision]") {
 }
 
 TEST_CASE("the end waits for each output as long as that one may take", "[supervision]") {
-    constexpr std::uint64_t us_per_ms = 1000;
     TalkingTarget target;
     VirtualClock clock;
     auto made = std::make_unique<TalkingSpindle>(target);

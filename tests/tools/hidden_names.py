@@ -11,9 +11,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-HEADERS = ("firmware_core", "hal", "host_sim")
-# A target's folder; the sources of its CMakeLists.txt that are compiled alone are known by their list `alone`.
-JOINED = ("host_sim",)
+TREES = ("firmware_core", "hal", "host_sim")  # each includes headers of itself and of those before it
 
 TOKEN = re.compile(r'[A-Za-z_]\w*|::|->|\d[\w.\']*|\S')
 STRING = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\'', re.DOTALL)
@@ -148,16 +146,6 @@ OWN = {"table", "text", "Places", "Helper", "build", "own_template", "before", "
 COMMON = {"Known", "Kind", "plain", "listed", "Fit", "shared"}
 
 
-def joined_sources(folder):
-    alone = set()
-    for listed in re.findall(r'set\(alone ([^)]*)\)', (ROOT / folder / "CMakeLists.txt").read_text()):
-        alone |= {f"{folder}/{name}.cpp" for name in listed.split()}
-    sources = {str(path.relative_to(ROOT)) for path in (ROOT / folder).rglob("*.cpp")}
-    if missing := alone - sources:
-        sys.exit(f"{folder}/CMakeLists.txt: compiled alone, but not there: {', '.join(sorted(missing))}")
-    return sorted(sources - alone)
-
-
 def main():
     if sys.argv[1:2] == ["--names"]:  # what is found in a file, for whoever doubts it
         for name, line, own in names_of(pathlib.Path(sys.argv[2]).read_text()):
@@ -167,20 +155,21 @@ def main():
     if {name for name, _, own in found if own} != OWN or {name for name, _, own in found if not own} != COMMON:
         sys.exit(f"this test misreads its sample: {found}")
     known = {}
-    for tree in HEADERS:
+    for place, tree in enumerate(TREES):
         for header in sorted((ROOT / tree).rglob("*.hpp")):
             for name, line, _ in names_of(header.read_text()):
-                known.setdefault(name, f"{header.relative_to(ROOT)}:{line}")
+                known.setdefault(name, (place, f"{header.relative_to(ROOT)}:{line}"))
     if len(known) < 500:
         sys.exit(f"only {len(known)} names were found in all headers: this test does not read them any more")
     problems = []
     owned = 0
-    for folder in JOINED:
-        for source in joined_sources(folder):
-            for name, line, own in names_of((ROOT / source).read_text()):
+    for place, tree in enumerate(TREES):
+        for path in sorted((ROOT / tree).rglob("*.cpp")):
+            source = path.relative_to(ROOT)
+            for name, line, own in names_of(path.read_text()):
                 owned += own
-                if own and name in known:
-                    problems.append(f"{source}:{line}: its own {name} hides that of {known[name]} in sources joined to it; rename it")
+                if own and known.get(name, (place + 1,))[0] <= place:
+                    problems.append(f"{source}:{line}: its own {name} hides that of {known[name][1]} in sources joined to it; rename it")
     print("\n".join(problems) if problems else f"none of {owned} names of joined sources is one of a header's {len(known)}")
     return 1 if problems or owned < 100 else 0
 

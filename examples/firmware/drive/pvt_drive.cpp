@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "drive/pvt_drive.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "drive/axis_stop.hpp"
 
 #include "splinefeed/s5_pulse_train/step.hpp"
@@ -9,8 +11,6 @@ namespace firmware {
 
 namespace {
 
-constexpr std::uint32_t us_per_ms = 1000;
-constexpr std::uint32_t ticks_per_us = 8;
 constexpr std::uint32_t longest_watchdog_us = 65'535 * us_per_ms;
 
 /// How far an instant lies ahead of another one; both wrap.

@@ -11,6 +11,7 @@ namespace splinefeed {
 struct Decimal {
     static constexpr int digits = 9;
     static constexpr std::int64_t one = 1'000'000'000;
+    static constexpr std::int64_t full_turn = 360 * one;             ///< of an angle in degrees
     static constexpr std::int64_t largest_raw = 9'200'000'000 * one; ///< of what is computed
     std::int64_t raw = 0;
 

@@ -13,7 +13,6 @@ namespace splinefeed {
 namespace {
 
 constexpr std::int64_t one_q62 = std::int64_t{1} << 62;
-constexpr std::int64_t full_turn = 360 * Decimal::one;
 constexpr std::int64_t quarter_turn = 90 * Decimal::one;
 // pi/180 * 1e-9 * 2^62 * 2^28, and the same for the angle in a Decimal.
 constexpr std::uint64_t radian_of_unit = 21606129627797837;         // Q90 per 1e-9 degrees
@@ -128,8 +127,8 @@ Result<Decimal> exponential_q56(std::int64_t x) noexcept {
 } // namespace
 
 SineCosine sine_cosine(Decimal degrees) noexcept {
-    std::int64_t angle = degrees.raw % full_turn;
-    angle += angle < 0 ? full_turn : 0;
+    std::int64_t angle = degrees.raw % Decimal::full_turn;
+    angle += angle < 0 ? Decimal::full_turn : 0;
     const std::int64_t quarter = (angle + quarter_turn / 2) / quarter_turn;
     const std::int64_t rest = angle - quarter * quarter_turn; // -45 to 45 degrees
     const Wide scaled = multiply(detail::magnitude(rest), radian_of_unit);

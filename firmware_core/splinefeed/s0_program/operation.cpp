@@ -35,7 +35,7 @@ Status checked(detail::Checked result, Decimal& out) noexcept {
     return fits ? Status{} : Status(Error::result_out_of_range);
 }
 
-Status divide(Decimal a, Decimal b, Decimal& out) noexcept {
+Status divide_rounded(Decimal a, Decimal b, Decimal& out) noexcept {
     if (b.raw == 0) {
         return Error::division_by_zero;
     }
@@ -83,7 +83,7 @@ Status apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept {
         return checked({result->raw, true}, out);
     }
     case Operator::times: return checked(product_quotient(a.raw, b.raw, static_cast<std::uint64_t>(Decimal::one)), out);
-    case Operator::divided: return divide(a, b, out);
+    case Operator::divided: return divide_rounded(a, b, out);
     case Operator::modulo:
         if (b.raw == 0) {
             return Error::division_by_zero;

@@ -15,7 +15,6 @@ constexpr Decimal free_mismatch{Decimal::one / 200};        // 0.005 mm
 constexpr std::int64_t relative_mismatch = 1000;            // 0.1 % of the radius
 constexpr Decimal least_radius{2 * (Decimal::one / 10000)}; // 0.2 um, above what a move keeps
 constexpr std::int64_t core_mismatch = 32;
-constexpr std::int64_t full_turn = 360 * Decimal::one;
 constexpr std::int64_t least_sweep = 57296; // 1e-6 rad in 1e-9 degrees: less is a whole turn
 constexpr std::int32_t most_turns = 10000;
 
@@ -32,14 +31,14 @@ PlanePoint beside(PlanePoint from, PlanePoint to, Decimal distance, Decimal chor
             {from.second.raw + y.raw / 2 + product_quotient(x.raw, distance.raw, length).raw}};
 }
 
-Decimal distance(PlanePoint a, PlanePoint b) noexcept {
+Decimal center_distance(PlanePoint a, PlanePoint b) noexcept {
     return hypotenuse(b.first - a.first, b.second - a.second);
 }
 
 BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
                              bool clockwise, PlanePoint& out) noexcept {
     const Decimal radius = modal.in_mm(block.value('r'));
-    const Decimal chord = distance(from, to);
+    const Decimal chord = center_distance(from, to);
     if (chord.raw == 0) {
         return block.at(Error::arc_end_is_start, 'r');
     }
@@ -75,8 +74,8 @@ BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, Plane
         out.first += from.first;
         out.second += from.second;
     }
-    const Decimal start = distance(out, from);
-    const Decimal end = distance(out, to);
+    const Decimal start = center_distance(out, from);
+    const Decimal end = center_distance(out, to);
     if (start < least_radius || end < least_radius) {
         return block.at(Error::arc_radius_zero, block.has(i) ? i : j);
     }
@@ -85,7 +84,7 @@ BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, Plane
         (mismatch > free_mismatch && mismatch.raw > (start > end ? start : end).raw / relative_mismatch)) {
         return block.at(Error::arc_radius_mismatch, block.has(i) ? i : j);
     }
-    const Decimal chord = distance(from, to);
+    const Decimal chord = center_distance(from, to);
     if (mismatch.raw > start.raw / core_mismatch && chord.raw > 0) {
         // The way of the centre along the chord's normal: (to - from) x (centre - from) / chord
         const Decimal x = to.first - from.first;
@@ -128,10 +127,10 @@ BlockStatus find_arc(const Block& block, const ModalState& modal, PlanePoint fro
     }
     const Decimal begin = angle_of(from.first - out.centre.first, from.second - out.centre.second);
     const Decimal end = angle_of(to.first - out.centre.first, to.second - out.centre.second);
-    std::int64_t sweep = (clockwise ? begin - end : end - begin).raw % full_turn;
-    sweep += sweep < 0 ? full_turn : 0;
-    sweep += sweep <= least_sweep ? full_turn : 0;
-    sweep += (turns - 1) * full_turn;
+    std::int64_t sweep = (clockwise ? begin - end : end - begin).raw % Decimal::full_turn;
+    sweep += sweep < 0 ? Decimal::full_turn : 0;
+    sweep += sweep <= least_sweep ? Decimal::full_turn : 0;
+    sweep += (turns - 1) * Decimal::full_turn;
     out.sweep_deg.raw = clockwise ? -sweep : sweep;
     return {};
 }

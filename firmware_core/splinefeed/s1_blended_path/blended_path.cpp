@@ -24,7 +24,7 @@ S absorbed(const PathMove<S>& move, S way) noexcept {
 }
 
 template <Scalar S>
-PerAxis<Position> displaced(const PerAxis<Position>& from, const PerAxis<S>& offset, int axes) noexcept {
+PerAxis<Position> offset_by(const PerAxis<Position>& from, const PerAxis<S>& offset, int axes) noexcept {
     PerAxis<Position> place{};
     for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
         place[k] = displaced(from[k], offset[k], chord_unit_log2);
@@ -225,7 +225,7 @@ void BlendedPath<S>::emit_body(CurveSegment<S>& out) noexcept {
         for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
             end[k] = points[k][static_cast<unsigned>(degree)];
         }
-        there = after_ > S{} ? displaced(present.move.from(), end, axes_) : present.move.to();
+        there = after_ > S{} ? offset_by(present.move.from(), end, axes_) : present.move.to();
         place_ends(points, degree, there);
     } else {
         degree = piece_of(present.move, last, points, there);
@@ -254,7 +254,7 @@ int BlendedPath<S>::piece_of(const PathMove<S>& move, bool last, PerAxis<PerDegr
     } else {
         move.piece_end(before_, after_, piece_ - 1, pieces_, to);
     }
-    there = last && !(after_ > S{}) ? move.to() : displaced(last ? move.to() : move.from(), to.offset, axes_);
+    there = last && !(after_ > S{}) ? move.to() : offset_by(last ? move.to() : move.from(), to.offset, axes_);
     for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
         from.offset[k] = S{};
         to.offset[k] = points[k][1] = distance<S>(here_[k], there[k], chord_unit_log2);
@@ -315,7 +315,7 @@ void BlendedPath<S>::emit_blend(CurveSegment<S>& out) noexcept {
         end[k] = points[k][degree];
     }
     out.origin = vertex;
-    here_ = out.end = displaced(vertex, end, axes_);
+    here_ = out.end = offset_by(vertex, end, axes_);
     out.assign(points);
     if (last) {
         leave(out);

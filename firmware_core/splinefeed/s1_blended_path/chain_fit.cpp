@@ -11,8 +11,8 @@ namespace {
 constexpr int places = 8;                             // of a line
 constexpr double bend_factor = 1.15;                  // of the largest curvature of the points
 constexpr double bend_more = 0x1p20 * 0.001 / 4096.0; // and 0.001 / mm
-constexpr double most_turn = 0x1p20 * 8.0; // of a fifth of the way, at an end: beyond it a point lies far off
-constexpr int size_log2 = 16;              // the quintic is computed in a unit in which it is not longer
+constexpr double most_end_turn = 0x1p20 * 8.0; // of a fifth of the way, at an end: beyond it a point lies far off
+constexpr int size_log2 = 16;                  // the quintic is computed in a unit in which it is not longer
 
 } // namespace
 
@@ -154,7 +154,7 @@ bool ChainFit<S>::reaches(std::uint64_t to, S limit) noexcept {
     chain_state(points_, to, end_);
     points_.smoothed(from_, to, end_.offset);
     const S first = literal<S>(0.2) * way_;
-    const S sharpest = quotient_or_max(literal<S>(most_turn), first);
+    const S sharpest = quotient_or_max(literal<S>(most_end_turn), first);
     if (norm(state_.bend.data(), points_.axes()) > sharpest || norm(end_.bend.data(), points_.axes()) > sharpest) {
         return false;
     }

@@ -14,14 +14,14 @@ constexpr std::uint64_t smoothed_points = 16; // that a new point moves, but for
 constexpr std::uint64_t unsettled = 8;        // the last points of a chain that goes on: no quintic ends there
 constexpr std::uint64_t fewest_lines = 3;     // of a chain
 
-constexpr double shortest = 4e-4;    // 0.1 nm: a shorter line is none
-constexpr double longest = 0x1p27;   // 33 m, of a line and of a piece: half of what a move may be
-constexpr double most_turn = 0.684;  // 2 sin(phi / 2) at 40 degrees
-constexpr double most_bow = 12.0;    // h phi in tolerances: a bow of 1.5
-constexpr double most_uneven = 12.0; // longer line over the shorter one, unless h phi is below one tolerance
+constexpr double shortest_line = 4e-4;  // 0.1 nm: a shorter line is none
+constexpr double longest_line = 0x1p27; // 33 m, of a line and of a piece: half of what a move may be
+constexpr double sharpest_turn = 0.684; // 2 sin(phi / 2) at 40 degrees
+constexpr double most_bow = 12.0;       // h phi in tolerances: a bow of 1.5
+constexpr double most_uneven = 12.0;    // longer line over the shorter one, unless h phi is below one tolerance
 
 // Shares of the tolerance. The quintic is measured at places: between them it is at most 1/64 of a bow of 1.5 farther.
-constexpr double whole = 0.96;
+constexpr double whole_share = 0.96;
 constexpr double edge = 0.48;     // at the ends of a chain: the other half is that of the joint
 constexpr double of_joint = 0.03; // behind a quintic that took its whole share
 constexpr double left_out = 0.25; // places nearer than this to the one before, or to the line past them, are left out
@@ -61,7 +61,7 @@ S ChainSmoother<S>::length_to(const PerAxis<Position>& place, PerAxis<S>& direct
         direction[k] = distance<S>(from[k], place[k], chord_unit_log2);
     }
     const S length = norm(direction.data(), points_.axes());
-    if (length > literal<S>(shortest)) {
+    if (length > literal<S>(shortest_line)) {
         for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
             direction[k] = direction[k] / length;
         }
@@ -80,7 +80,7 @@ void ChainSmoother<S>::begin(const PathElement<S>& element, std::uint32_t index,
     PerAxis<S> direction{};
     const S length = length_to(element.to, direction);
     if (element.shape != MoveShape::line || element.mode == PathMode::exact_stop || !(tolerance_ > S{}) ||
-        !(length > literal<S>(shortest) && length < literal<S>(longest))) {
+        !(length > literal<S>(shortest_line) && length < literal<S>(longest_line))) {
         kind_ = Kind::single;
         held_ = {element, index};
         return;
@@ -105,7 +105,7 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
     PerAxis<S> direction{};
     const S length = length_to(element.to, direction);
     if (element.shape != MoveShape::line || !end_.passes_end() || element.tolerance_mm != end_.tolerance_mm ||
-        tolerance_of(element) != tolerance_ || !(length < literal<S>(longest))) {
+        tolerance_of(element) != tolerance_ || !(length < literal<S>(longest_line))) {
         return false;
     }
     const bool same_feed = element.feed_mm_s == end_.feed_mm_s && element.max_feed_mm_s == end_.max_feed_mm_s;
@@ -118,7 +118,7 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
         direction[k] = direction[k] - direction_[k];
     }
     const S turn = norm(direction.data(), points_.axes());
-    if (turn > literal<S>(most_turn)) {
+    if (turn > literal<S>(sharpest_turn)) {
         return false;
     }
     const S per_tolerance = quotient_or_max(longer, tolerance_); // the product of length and turn may leave the range
@@ -247,7 +247,7 @@ std::uint64_t ChainSmoother<S>::farthest() const noexcept {
     for (std::uint64_t i = front_ + 1; i < most; ++i) { // a feed ends where its line does
         const ChainPoint<S>& behind = points_[i + 1];
         way += behind.chord;
-        if (!(way < literal<S>(longest)) || behind.feed_mm_s != first.feed_mm_s ||
+        if (!(way < literal<S>(longest_line)) || behind.feed_mm_s != first.feed_mm_s ||
             behind.max_feed_mm_s != first.max_feed_mm_s) {
             return i;
         }
@@ -268,7 +268,7 @@ bool ChainSmoother<S>::merged(std::uint64_t to) const noexcept {
 template <Scalar S>
 S ChainSmoother<S>::limit_of(std::uint64_t to) const noexcept {
     const bool at_edge = front_ == points_.oldest() || (closed_ && to == points_.last());
-    const S share = at_edge ? literal<S>(edge) : literal<S>(whole);
+    const S share = at_edge ? literal<S>(edge) : literal<S>(whole_share);
     return share * (merged(to) ? literal<S>(rest) * tolerance_ : tolerance_);
 }
 
@@ -306,7 +306,7 @@ std::uint64_t ChainSmoother<S>::longest_piece(PathState<S>& end, BezierShape<S>&
         }
     }
     if (good == front_) {
-        const S share = merged(front_ + 1) ? literal<S>(whole * rest) : literal<S>(whole);
+        const S share = merged(front_ + 1) ? literal<S>(whole_share * rest) : literal<S>(whole_share);
         static_cast<void>(try_to(front_ + 1, share * tolerance_));
     }
     return good;

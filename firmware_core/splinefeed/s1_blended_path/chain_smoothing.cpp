@@ -11,8 +11,8 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double used = 0.9;            // of what is left of the tolerance beside the bow
-constexpr double shortest = 1.0 / 32.0; // chord, in the unit of a difference: with a shorter one it is not used
+constexpr double used = 0.9;                  // of what is left of the tolerance beside the bow
+constexpr double shortest_chord = 1.0 / 32.0; // chord, in the unit of a difference: with a shorter one it is not used
 
 // The third difference of the four points that end at `last`.
 template <Scalar S>
@@ -27,7 +27,7 @@ void measure_difference(ChainPoints<S>& points, std::uint64_t last) noexcept {
     std::array<S, 4> t{};
     for (unsigned m = 1; m < 4; ++m) {
         const S chord = scale2(points[last - 3 + m].chord, -end.exponent);
-        if (!(chord > literal<S>(shortest))) {
+        if (!(chord > literal<S>(shortest_chord))) {
             return;
         }
         t[m] = t[m - 1] + chord;

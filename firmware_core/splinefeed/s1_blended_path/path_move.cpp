@@ -15,8 +15,8 @@ namespace {
 // 0.1 um in units of 2^-40 mm: a shorter move is dropped, as waypoints that coincide are.
 constexpr std::int64_t merge_raw = (std::int64_t{1} << Position::fraction_bits) / 10000;
 constexpr std::int64_t longest_raw = std::int64_t{65536} << Position::fraction_bits;
-constexpr double shortest = 4e-4;  // chord units, 0.1 nm
-constexpr double longest = 0x1p28; // 65 m
+constexpr double shortest_move = 4e-4;  // chord units, 0.1 nm
+constexpr double longest_move = 0x1p28; // 65 m
 constexpr double two_pi = 6.28318530717958647692;
 constexpr double most_of_piece = 0.4; // [rad]
 constexpr std::int32_t most_turns = 10000;
@@ -78,10 +78,10 @@ Status PathMove<S>::set_bezier(const BezierShape<S>& bezier, const PerAxis<S>& t
     }
     bezier_.set(bezier, to, axes_);
     const S length = bezier_.polygon();
-    if (!(length > literal<S>(shortest))) {
+    if (!(length > literal<S>(shortest_move))) {
         return {};
     }
-    if (!(length < literal<S>(longest)) || !bezier_.has_directions()) {
+    if (!(length < literal<S>(longest_move)) || !bezier_.has_directions()) {
         return Error::curve_invalid;
     }
     length_ = length;
@@ -135,7 +135,7 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     radius_end_ = frame_at(to_, arc, end_);
     const S radius = scale2(radius_start_ + radius_end_, -1);
     // 0.1 um at least, and ends on one circle within 1/16 of its radius.
-    if (!(radius > literal<S>(shortest)) || absolute(radius_start_ - radius_end_) > scale2(radius, -4)) {
+    if (!(radius > literal<S>(shortest_move)) || absolute(radius_start_ - radius_end_) > scale2(radius, -4)) {
         return Error::arc_invalid;
     }
     // The ends say where the arc ends, the sweep how many turns it makes.
@@ -150,7 +150,7 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     if (!(sweep_ > S{})) {
         return Error::arc_invalid;
     }
-    if (!(sweep_ < quotient_or_max(literal<S>(longest), radius))) {
+    if (!(sweep_ < quotient_or_max(literal<S>(longest_move), radius))) {
         return Error::move_too_long;
     }
     PerAxis<S> rise{};

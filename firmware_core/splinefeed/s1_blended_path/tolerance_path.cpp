@@ -7,7 +7,7 @@ namespace {
 
 // Distances are peaks of parabolas through measured places, which are up to 2.4e-5 lower than the largest distance.
 template <Scalar S>
-constexpr S within(S tolerance_mm) noexcept {
+constexpr S inside(S tolerance_mm) noexcept {
     return tolerance_mm - scale2(tolerance_mm, -14);
 }
 
@@ -38,8 +38,8 @@ Status TolerancePath<S>::push(const PathElement<S>& element) noexcept {
     moves_ = moves_ || length.value() > S{};
     last_ = element.to;
     PathElement<S> kept = element;
-    kept.tolerance_mm = within(element.tolerance_mm);
-    kept.chain_tolerance_mm = within(element.chain_tolerance_mm);
+    kept.tolerance_mm = inside(element.tolerance_mm);
+    kept.chain_tolerance_mm = inside(element.chain_tolerance_mm);
     chains_.push(kept, static_cast<std::uint32_t>(counts_.moves++));
     while (pass_on()) {
     }

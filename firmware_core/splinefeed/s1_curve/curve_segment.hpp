@@ -12,6 +12,7 @@ namespace splinefeed {
 
 /// Chords and spline offsets are in units of 2^-12 mm: in Fixed a range of 131 m and a resolution of 6e-14 mm.
 inline constexpr int chord_unit_log2 = -12;
+inline constexpr double chord_units_per_mm = 1 << -chord_unit_log2;
 
 /// Lengths below this, in the units of a segment, count as zero, and a shorter tangent as a cusp: 2^-30 of the segment
 /// (float: 2^-14).

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "splinefeed/base/status.hpp"
+#include "splinefeed/base/units.hpp"
 
 #include <cstdint>
 
@@ -80,7 +81,6 @@ struct StepTiming {
 
 constexpr Result<StepTiming> StepTiming::make(const StepSettings& settings) noexcept {
     constexpr double longest_us = 1000.0;
-    constexpr double ticks_in_us = 8.0;
     constexpr auto in_range = [](double us, double least_us) {
         return us >= least_us && us <= longest_us;
     };
@@ -100,7 +100,7 @@ constexpr Result<StepTiming> StepTiming::make(const StepSettings& settings) noex
         timing.grid = 2 * quarters;
     }
     const auto rounded_up = [&timing](double us) {
-        const double grids = us * ticks_in_us / timing.grid;
+        const double grids = us * ticks_per_us / timing.grid;
         const auto whole = static_cast<std::uint32_t>(grids);
         return (whole + (whole < grids ? 1U : 0U)) * timing.grid;
     };

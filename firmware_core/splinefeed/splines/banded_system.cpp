@@ -52,7 +52,7 @@ bool quotient_in_range(S value, S pivot) noexcept {
 
 /// to -= weight * value; false if out of range.
 template <Scalar S>
-bool subtract(Point<S>& to, S weight, const Point<S>& value, unsigned axes) noexcept {
+bool subtract_row(Point<S>& to, S weight, const Point<S>& value, unsigned axes) noexcept {
     if (weight == S{}) {
         return true;
     }
@@ -168,7 +168,7 @@ Status BandedSystem<S>::solve(std::span<Point<S>> values, int axes, std::size_t 
         }
         const std::size_t rows_end = i + band_ < size ? i + band_ + 1U : size;
         for (std::size_t r = i + 1U; r < rows_end; ++r) {
-            if (!subtract(value(r), at(r, i), value(i), axes_u)) {
+            if (!subtract_row(value(r), at(r, i), value(i), axes_u)) {
                 return Error::result_out_of_range;
             }
         }
@@ -177,7 +177,7 @@ Status BandedSystem<S>::solve(std::span<Point<S>> values, int axes, std::size_t 
         Point<S>& here = value(i);
         const std::size_t columns_end = i + reach_ < size ? i + reach_ + 1U : size;
         for (std::size_t c = i + 1U; c < columns_end; ++c) {
-            if (!subtract(here, at(i, c), value(c), axes_u)) {
+            if (!subtract_row(here, at(i, c), value(c), axes_u)) {
                 return Error::result_out_of_range;
             }
         }

@@ -29,9 +29,14 @@ N share(N x, int times, int parts) noexcept {
     }
 }
 
-// As that of scalars, which is exact except for the last bit of Fixed.
-std::int64_t half(std::int64_t x) noexcept {
-    return x / 2;
+// Exact except for the last bit of Fixed and of integers.
+template <BoehmNumber N>
+N half_of(N x) noexcept {
+    if constexpr (std::same_as<N, std::int64_t>) {
+        return x / 2;
+    } else {
+        return half(x);
+    }
 }
 
 template <BoehmNumber N>
@@ -111,11 +116,11 @@ void boehm_cubic(const PerAxis<N>& before, const PerAxis<N>& along, const PerAxi
     for (unsigned k = 0; k < before.size(); ++k) {
         const N first = share(along[k], parts.skipped, parts.along);
         const N second = share(along[k], parts.skipped + 1, parts.along);
-        out[0][k] = parts.before == 0 ? -before[k] : half(first - share(before[k], 1, parts.before));
+        out[0][k] = parts.before == 0 ? -before[k] : half_of(first - share(before[k], 1, parts.before));
         out[1][k] = first;
         out[2][k] = second;
         out[3][k] =
-            parts.after == 0 ? along[k] + after[k] : half(second + (along[k] + share(after[k], 1, parts.after)));
+            parts.after == 0 ? along[k] + after[k] : half_of(second + (along[k] + share(after[k], 1, parts.after)));
     }
 }
 
@@ -123,9 +128,9 @@ template <BoehmNumber N>
 void boehm_quadratic(const PerAxis<N>& before, const PerAxis<N>& after, bool clamped_start, bool clamped_end,
                      BoehmPoints<N>& out) noexcept {
     for (unsigned k = 0; k < before.size(); ++k) {
-        out[0][k] = clamped_start ? -before[k] : -half(before[k]);
+        out[0][k] = clamped_start ? -before[k] : -half_of(before[k]);
         out[1][k] = N{};
-        out[2][k] = clamped_end ? after[k] : half(after[k]);
+        out[2][k] = clamped_end ? after[k] : half_of(after[k]);
     }
 }
 

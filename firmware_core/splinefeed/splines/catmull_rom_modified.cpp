@@ -7,8 +7,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr auto all_axes = static_cast<unsigned>(max_axes);
-
 // 2 u - central: a parabola's mean slope over a chord is the mean of its slopes at both ends.
 template <Scalar S>
 Point<S> mirrored(const Chord<S>& chord, const Point<S>& central) noexcept {

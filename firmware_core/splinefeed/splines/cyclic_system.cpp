@@ -7,8 +7,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr auto all_axes = static_cast<unsigned>(max_axes);
-
 // Largest entry of the eliminated matrix, and of the right side and the unknowns. In Fixed four products of entries and
 // unknowns plus a right side stay below 2^31: 4 * 2^4 * 2^24 + 2^29.
 template <Scalar S>
@@ -73,7 +71,7 @@ bool place(CyclicRow<S>& row, std::size_t i, std::size_t n, std::size_t k) noexc
 
 /// row -= f * pivot with |f| <= 1, and the window moves on by one column. false if a number exceeds its bound.
 template <Scalar S>
-bool subtract(CyclicRow<S>& row, const CyclicRow<S>& pivot) noexcept {
+bool subtract_multiple(CyclicRow<S>& row, const CyclicRow<S>& pivot) noexcept {
     const S f = row.window[0] / pivot.window[0];
     bool fits = true;
     const auto reduce = [&](S& x, S by, S limit) {
@@ -160,7 +158,7 @@ Status eliminate(std::span<CyclicRow<S>> rows, CyclicReport<S>& report) noexcept
         if (!note(carried.window[0], k)) {
             return Error::system_singular;
         }
-        if (!subtract(fresh, carried) || !subtract(closing, carried)) {
+        if (!subtract_multiple(fresh, carried) || !subtract_multiple(closing, carried)) {
             return Error::result_out_of_range;
         }
         rows[k] = carried;
@@ -176,7 +174,7 @@ Status eliminate(std::span<CyclicRow<S>> rows, CyclicReport<S>& report) noexcept
         return Error::system_singular;
     }
     rows[n - 2] = carried;
-    if (!subtract(closing, carried)) {
+    if (!subtract_multiple(closing, carried)) {
         return Error::result_out_of_range;
     }
     if (!note(closing.window[0], n - 1)) {

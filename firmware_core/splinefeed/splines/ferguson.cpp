@@ -7,8 +7,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr auto all_axes = static_cast<unsigned>(max_axes);
-
 template <Scalar S>
 S signed_square(const FergusonJoint<S>& joint) noexcept {
     const S square = joint.lambda * joint.lambda;

@@ -6,8 +6,6 @@ namespace splinefeed {
 
 namespace {
 
-constexpr auto all_axes = static_cast<unsigned>(max_axes);
-
 template <Scalar S>
 S dot(const Point<S>& a, const Point<S>& b) noexcept {
     S sum{};

@@ -48,7 +48,7 @@ S over(S x, S p, S inverse) noexcept {
 /// Eliminates the rows of points 1 to n - 2 (closed: also of point 0), given the result of the point before: t = rho -
 /// g t_next, omega / p of that row and its beta1.
 template <Scalar S, int fixed_axes, bool plain>
-class Elimination {
+class SweepElimination {
 public:
     Equations<S, fixed_axes, plain>& equations;
     Numbers<S, fixed_axes> rho{};
@@ -82,7 +82,7 @@ Status find_last(const G2BezierInput<S>& input, Numbers<S, fixed_axes>& last) no
     const std::size_t n = input.point_count();
     const ChordOf<S, fixed_axes> closing = equations.chord(n - 1);
     ChordOf<S, fixed_axes> a = closing;
-    Elimination<S, fixed_axes, plain> above{equations};
+    SweepElimination<S, fixed_axes, plain> above{equations};
     S s{};                           // weight of t_{n-1} in the row
     Numbers<S, fixed_axes> t0_rho{}; // t_0 = t0_rho - t0_next t_{i+1} - t0_last t_{n-1}
     S t0_next{};
@@ -142,7 +142,7 @@ Status solve(const G2BezierInput<S>& input, S* tangents, S* scratch) noexcept {
     Equations<S, fixed_axes, plain> equations(input);
     const std::size_t axes = equations.axes();
     const std::size_t n = input.point_count();
-    Elimination<S, fixed_axes, plain> above{equations};
+    SweepElimination<S, fixed_axes, plain> above{equations};
     Numbers<S, fixed_axes> last{};
     ChordOf<S, fixed_axes> a;
     std::size_t i = 0; // the next row

@@ -241,18 +241,23 @@ DescribedCurve computed(const Request& request, const Unit<S>& unit, Error& erro
     return curve;
 }
 
-} // namespace
-
 template <Scalar S>
-DescribedCurve describe_bspline_interpolation(const nlohmann::json& input) {
-    const Request request = read_request(input);
+DescribedCurve computed(const Request& request) {
     double largest = request.list.largest();
     for (unsigned k = 0; k < static_cast<unsigned>(request.list.axes); ++k) {
         const double reach = std::max(std::fabs(request.start[k]), std::fabs(request.end[k])) * request.domain;
         largest = std::max(largest, reach);
     }
-    DescribedCurve curve =
-        in_fitting_unit<S>(largest, [&](const Unit<S>& unit, Error& error) { return computed(request, unit, error); });
+    return in_fitting_unit<S>(largest,
+                              [&](const Unit<S>& unit, Error& error) { return computed(request, unit, error); });
+}
+
+} // namespace
+
+template <Scalar S>
+DescribedCurve describe_bspline_interpolation(const nlohmann::json& input) {
+    const Request request = read_request(input);
+    DescribedCurve curve = computed<S>(request);
     if (request.kind.degree >= warned_degree) {
         curve.warnings.push_back(fmt::format("degree {} is high: the condition grows with it, and the curve swings "
                                              "between the points; 3 or 5 is usual",

@@ -3,6 +3,8 @@
 // from it.
 #pragma once
 
+#include "host_sim/curve/methods/parameter_interval.hpp"
+
 #include "splinefeed/splines/bezier_piece.hpp"
 
 #include <initializer_list>
@@ -14,6 +16,8 @@
 
 namespace splinefeed::host {
 
+inline constexpr double longest_mm = 65536.0; ///< of a segment that a file describes
+
 /// What is wrong with a description and what would be right; the code that reads the file adds the file's name.
 struct DescriptionError : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -21,15 +25,10 @@ struct DescriptionError : std::runtime_error {
 
 /// A curve that was computed from a description, in mm.
 struct DescribedCurve {
-    /// The part of the curve's own parameter that a piece covers. Without it each piece has [0, 1].
-    struct Interval {
-        double from = 0.0;
-        double to = 1.0;
-    };
     int axes = 0;
     bool closed = false;
     std::vector<BezierPiece<double>> pieces;
-    std::vector<Interval> intervals;                                   ///< empty, or one per piece
+    std::vector<ParameterInterval> intervals;                          ///< empty: [0, 1] each; or one per piece
     nlohmann::ordered_json results = nlohmann::ordered_json::object(); ///< keys as in docs/reference/files.md
     std::vector<std::string> warnings; ///< sentences about valid input whose curve is probably not what was meant
 };

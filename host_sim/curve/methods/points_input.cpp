@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/curve/methods/points_input.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace splinefeed::host {
 
 using nlohmann::json;

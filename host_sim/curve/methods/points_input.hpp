@@ -4,7 +4,7 @@
 
 #include "host_sim/curve/methods/curve_choice.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 namespace splinefeed::host {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/target/gpio/gpio_target.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/signal_watch.hpp"
 #include "host_sim/config/gpio_map.hpp"
@@ -19,11 +21,8 @@ using hal::gpio::InputRole;
 
 namespace {
 
-constexpr double ns_per_s = 1e9;
-constexpr double us_per_s = 1e6;
-constexpr int calls = 500;            // to measure one by
-constexpr double share_of_time = 0.5; // that calls may take
-constexpr std::uint32_t ns_per_us = 1000;
+constexpr int measured_calls = 500;      // to measure one by
+constexpr double share_of_time = 0.5;    // that calls may take
 constexpr double most_reserve_ms = 50.0; // of a slow-down that takes twice as long: a hold waits for what is buffered
 
 /// Half of the longest time in which an axis brakes from the speed that it may have.
@@ -105,7 +104,7 @@ hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, con
             .timing = checked_step_timing(machine),
             .real_time = {.priority = real ? map.thread.priority : 0,
                           .cpu = map.thread.cpu,
-                          .spin_ns = real ? map.thread.spin_us * ns_per_us : 0},
+                          .spin_ns = real ? static_cast<std::uint32_t>(map.thread.spin_us * ns_per_us) : 0},
             .tolerated_ns = std::uint64_t{map.thread.tolerated_late_us} * ns_per_us,
             .settle_ms = map.enable ? map.enable->settle_ms : 0,
             .brake_release_ms = map.brake ? map.brake->release_ms : 0,
@@ -130,7 +129,7 @@ GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<
         awake_.emplace();
         missing_ = awake_->missing() + lacking(port_settings(machine, *map_).real_time);
     }
-    const std::vector<std::uint64_t> times = chips_->set_times_ns(calls);
+    const std::vector<std::uint64_t> times = chips_->set_times_ns(measured_calls);
     const double mean_ns = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
     if (asked_edges_per_s(machine) > most_edges_per_s(mean_ns)) {
         throw UsageError(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/target/gpio/line_spindle.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
@@ -10,7 +12,6 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr double us_in_s = 1e6;
 constexpr double relay_s = 0.05; // from the direction to the line that turns it on: two relays, one after the other
 constexpr double lost_s = 0.1;   // an input that does not act for so long is no bounce
 
@@ -22,7 +23,7 @@ LineSpindle::LineSpindle(const SpindleLines& spindle, const ProgramLines& lines,
       clock_(&clock), turned_(spindle.reverse ? 0 : 1), changed_us_(clock.now_us()) {}
 
 bool LineSpindle::passed(double s) const noexcept {
-    return static_cast<double>(clock_->now_us() - changed_us_) >= s * us_in_s;
+    return static_cast<double>(clock_->now_us() - changed_us_) >= s * us_per_s;
 }
 
 bool LineSpindle::set(const SwitchedLine& line, bool on) {
@@ -100,7 +101,7 @@ void LineSpindle::watch() {
     const std::uint64_t now_us = clock_->now_us();
     slow_us_ = at_speed_ ? 0 : slow_us_ == 0 ? now_us : slow_us_;
     had_speed_ = had_speed_ || (at_speed_ && passed(spindle_->spin_up_s));
-    if (had_speed_ && slow_us_ != 0 && static_cast<double>(now_us - slow_us_) > lost_s * us_in_s) {
+    if (had_speed_ && slow_us_ != 0 && static_cast<double>(now_us - slow_us_) > lost_s * us_per_s) {
         fail("the spindle has lost its speed: its line at_speed does not act any more");
     } else if (!had_speed_ && passed(spindle_->spin_up_s + at_speed_timeout_s_)) {
         fail(fmt::format("the spindle has not reached its speed in {:g} s: its line at_speed does not act",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/target/modbus/pvt_target.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "host_sim/base/input_error.hpp"
 
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
@@ -44,7 +46,6 @@ std::vector<DriveWiring> pvt_wiring(const DriveTable& table, const MachineDescri
 }
 
 void check_pvt_range(const MachineDescription& machine, double segment_us) {
-    constexpr double us_per_s = 1e6;
     constexpr double margin = 1.001; // of what a plan's arithmetic may be above its limits
     for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
         const AxisSettings& axis = machine.settings.axis[k];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/target/modbus/setpoint_target.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "host_sim/base/input_error.hpp"
 
 #include <algorithm>
@@ -13,7 +15,6 @@ using namespace hal::modbus;
 
 namespace {
 
-constexpr double us_per_s = 1e6;
 constexpr double um_per_mm = 1e3;
 constexpr double ramp_of_path = 4.0; // BlockSettings::acceleration
 constexpr double most_q16 = 9.2e18;  // of 64 bits

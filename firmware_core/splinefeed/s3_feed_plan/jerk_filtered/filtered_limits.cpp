@@ -37,7 +37,7 @@ namespace {
 
 constexpr int steps = 4;
 constexpr int level_steps = 8;           // of a cell's max_steady_sq, which is computed once
-constexpr double within = 1.0 - 0x1p-14; // of the distance to the point where a chord meets the limit, so that rounding
+constexpr double nearly = 1.0 - 0x1p-14; // of the distance to the point where a chord meets the limit, so that rounding
                                          // does not exceed it
 constexpr int most_shrinks = 14;         // by 8, if far too large: v down to 1e-6 of a first guess
 
@@ -62,7 +62,7 @@ S largest_allowed(S low, S high, S close, Excess&& excess, int most_steps = step
     }
     bool rose = false;
     for (int i = 0; i < most_steps && below < -close; ++i) {
-        const S met = low + (high - low) * (-below / (above - below) * literal<S>(within));
+        const S met = low + (high - low) * (-below / (above - below) * literal<S>(nearly));
         const S x = met < high ? met : scale2(low + high, -1); // in Fixed it may be rounded to what is not allowed
         const S e = excess(x);
         if (e > S{}) {

@@ -34,18 +34,18 @@ constexpr double least_expected = 0.05; // of at_most_sq: from a smaller value b
 constexpr double slowest = 1e-4;        // of at_most_sq: away from standstill the motion is not slower
 constexpr double least_last = 1e-2;     // of the largest b next to standstill: with less the last cell would take too
                                         // long
-constexpr double rounding = 1e-7;       // of u, by which a range may be empty
+constexpr double empty_range = 1e-7;    // of u, by which a range may be empty
 
-SpeedState turned(const SpeedState& state) noexcept {
+SpeedState rotated(const SpeedState& state) noexcept {
     return {state.b, -state.slope};
 }
 
 bool possible(const CurvatureRange& range, const SpeedState& state, double length_mm) noexcept {
     const double u = absolute(range.high) + (absolute(state.slope) + state.b / length_mm) / length_mm;
-    return range.low <= range.high + rounding * u;
+    return range.low <= range.high + empty_range * u;
 }
 
-SpeedState mean(const SpeedState& a, const SpeedState& b, double share_of_a) noexcept {
+SpeedState middle_of(const SpeedState& a, const SpeedState& b, double share_of_a) noexcept {
     return {b.b + share_of_a * (a.b - b.b), b.slope + share_of_a * (a.slope - b.slope)};
 }
 
@@ -83,7 +83,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
         StatePolygon turned_states;
         const auto corners = states.corners();
         for (std::size_t i = corners.size(); i-- > 0;) { // reversed, and so is the order of the corners
-            turned_states.append(turned(corners[i]));
+            turned_states.append(rotated(corners[i]));
         }
         if (turned_states.empty()) {
             return false;
@@ -95,12 +95,12 @@ bool JerkLeg::sweep(bool backward) noexcept {
         // Two corners that almost coincide are not a line: its sides would have any direction.
         const double u =
             absolute(range.high) + (absolute(start_->slope) + start_->b / first.length_mm) / first.length_mm;
-        if (!(range.high - range.low > rounding * u)) {
+        if (!(range.high - range.low > empty_range * u)) {
             return false;
         }
         states.clear();
-        states.append(turned(travelled(*start_, range.low, first.length_mm)));
-        states.append(turned(travelled(*start_, range.high, first.length_mm)));
+        states.append(rotated(travelled(*start_, range.low, first.length_mm)));
+        states.append(rotated(travelled(*start_, range.high, first.length_mm)));
     } else {
         const double largest_b = smaller(after.cell->largest_from_rest(backward ? 1 : 0), node(n - 1).at_most_sq);
         const StatePolygon alone = states;
@@ -144,7 +144,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
     }
 
     const auto write = [&](std::size_t i, const SpeedState& state) {
-        (backward ? node(i).late : node(i).early) = backward ? turned(state) : state;
+        (backward ? node(i).late : node(i).early) = backward ? rotated(state) : state;
     };
     SpeedState state{0.0, 0.0};
     std::size_t i = 0;
@@ -164,7 +164,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
             if (along > 0.0) {
                 largest_b = smaller(largest_b, sides[k].limit / along);
             } else if (along < 0.0) {
-                least_b = larger(least_b, (1.0 - rounding) * sides[k].limit / along);
+                least_b = larger(least_b, (1.0 - empty_range) * sides[k].limit / along);
             }
         }
         state = {largest_b, slope * largest_b};
@@ -184,7 +184,7 @@ bool JerkLeg::sweep(bool backward) noexcept {
         state.b = larger(state.b, 0.0);
         write(i + 1, state);
     }
-    write(n, backward && start_ != nullptr ? turned(*start_) : SpeedState{0.0, 0.0});
+    write(n, backward && start_ != nullptr ? rotated(*start_) : SpeedState{0.0, 0.0});
     return true;
 }
 
@@ -215,7 +215,7 @@ double JerkLeg::time(StateAt&& state_at) const noexcept {
 }
 
 double JerkLeg::mean_time(double share) const noexcept {
-    return time([share](const JerkNode& node) { return mean(node.early, node.late, share); });
+    return time([share](const JerkNode& node) { return middle_of(node.early, node.late, share); });
 }
 
 double JerkLeg::seconds() const noexcept {
@@ -244,7 +244,7 @@ bool JerkLeg::plan() noexcept {
         const bool last = !(shortest < (1.0 - least_gain) * best_time);
         best_time = smaller(best_time, shortest);
         for (JerkNode& node : nodes_) {
-            const SpeedState state = mean(node.early, node.late, share);
+            const SpeedState state = middle_of(node.early, node.late, share);
             if (best) {
                 node.state = state;
             }

@@ -18,7 +18,7 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double rounding = 1e-9; // of a length, which would be travelled very slowly
+constexpr double length_rounding = 1e-9; // of a length, which would be travelled very slowly
 
 } // namespace
 
@@ -105,7 +105,7 @@ SCurveProfile SCurveProfile::to_rest(const MoveState& start, const MoveLimits& l
 
 SCurveProfile SCurveProfile::to_length(const MoveState& start, double length_mm, const MoveLimits& limits) noexcept {
     SCurveProfile nearest = to_rest(start, limits);
-    if (!(nearest.length_mm() < length_mm * (1.0 - rounding))) {
+    if (!(nearest.length_mm() < length_mm * (1.0 - length_rounding))) {
         return nearest;
     }
     SCurveProfile move;

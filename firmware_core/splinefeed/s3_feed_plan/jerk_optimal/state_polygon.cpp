@@ -8,7 +8,7 @@ namespace splinefeed {
 
 namespace {
 
-constexpr double negligible = 1e-10; // of the area of the box around a polygon
+constexpr double flat = 1e-10; // of the area of the box around a polygon
 
 double twice_area(const SpeedState& a, const SpeedState& b, const SpeedState& c) noexcept {
     return absolute((b.b - a.b) * (c.slope - a.slope) - (b.slope - a.slope) * (c.b - a.b));
@@ -84,7 +84,7 @@ void StatePolygon::simplify() noexcept {
         most_state = {larger(most_state.b, corner.b), larger(most_state.slope, corner.slope)};
     }
     // Corners that almost coincide would be sides of any direction.
-    const double nothing = negligible * (most_state.b - least_state.b) * (most_state.slope - least_state.slope);
+    const double nothing = flat * (most_state.b - least_state.b) * (most_state.slope - least_state.slope);
     const auto before = [&](std::size_t i) {
         return i > 0 ? i - 1 : size_ - 1;
     };

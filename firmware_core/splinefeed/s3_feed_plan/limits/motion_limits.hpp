@@ -4,6 +4,7 @@
 
 #include "splinefeed/base/capacity.hpp"
 #include "splinefeed/base/status.hpp"
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 #include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
@@ -13,7 +14,6 @@
 namespace splinefeed {
 
 /// One tick of a feed segment's duration is 1/8 us.
-inline constexpr int ticks_per_us = 8;
 
 /// The checked limits. A plain aggregate: for a microcontroller the compiler can build it.
 template <Scalar S>

@@ -3,6 +3,7 @@
 // allocation.
 #pragma once
 
+#include "splinefeed/base/units.hpp"
 #include <cstdint>
 
 namespace splinefeed::hal::gpio {
@@ -55,8 +56,6 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t ns_per_us = 1000;
-
     constexpr bool settle(std::uint64_t now_ns) noexcept {
         if (raw_ == accepted_ || now_ns < raw_since_ns_ || now_ns - raw_since_ns_ < debounce_ns_) {
             return false;

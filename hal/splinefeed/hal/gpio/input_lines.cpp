@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/input_lines.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/gpio/chip_access.hpp"
 #include "splinefeed/hal/gpio/line_lookup.hpp"
 
@@ -48,7 +50,6 @@ std::optional<std::uint64_t> InputLines::levels() noexcept {
 }
 
 int InputLines::wait(std::span<InputEvent> out, std::uint32_t timeout_us) noexcept {
-    constexpr std::uint64_t ns_per_us = 1000;
     if (out.empty()) {
         errno = EINVAL;
         return -1;

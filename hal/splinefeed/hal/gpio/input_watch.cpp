@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/gpio/input_watch.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/rt/real_time.hpp"
 
 #include <algorithm>
@@ -14,7 +16,6 @@ namespace {
 constexpr std::uint32_t level_check_us = 5000;  // between two reads of the levels
 constexpr std::uint64_t behind_ns = 50'000'000; // edges arrive within this time: older steps are not needed
 constexpr std::size_t events_at_once = 256;
-constexpr std::uint64_t ns_per_us = 1000;
 constexpr int lost_edge_checks = 3; // consecutive checks with a level that contradicts the edges
 
 } // namespace

@@ -2,6 +2,8 @@
 // ChipAccess, OutputAccess and InputAccess for libgpiod 1.x (GPIO uAPI v1): one file descriptor for all outputs, and
 // one for each input.
 #include "splinefeed/hal/gpio/chip_access.hpp"
+
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/gpio/line_lookup.hpp"
 
 #include <algorithm>
@@ -81,6 +83,8 @@ Values values_of(std::uint64_t levels) noexcept {
     return values;
 }
 
+} // namespace
+
 // Requested lines, released at the end. The lines belong to the chip and can be requested again.
 struct Bulk {
     Bulk() { gpiod_line_bulk_init(&lines); }
@@ -94,8 +98,6 @@ struct Bulk {
 
     gpiod_line_bulk lines{};
 };
-
-} // namespace
 
 ChipAccess::ChipAccess(const std::string& path) : path_(path), handle_(std::make_unique<Handle>(path)) {}
 
@@ -175,7 +177,6 @@ std::optional<std::uint64_t> InputAccess::levels() noexcept {
 }
 
 int InputAccess::wait(std::span<InputEvent> out, std::uint64_t timeout_ns) noexcept {
-    constexpr std::uint64_t ns_per_s = 1'000'000'000;
     constexpr std::size_t most_events = 16; // that the kernel queues for a line
     const timespec timeout{static_cast<time_t>(timeout_ns / ns_per_s), static_cast<long>(timeout_ns % ns_per_s)};
     gpiod_line_bulk ready = GPIOD_LINE_BULK_INITIALIZER;

@@ -2,6 +2,7 @@
 // StepPort: motion port for step and direction lines. Its own real-time thread turns feed segments into edges.
 #pragma once
 
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/gpio/edge_clock.hpp"
 #include "splinefeed/hal/gpio/next_edges.hpp"
 #include "splinefeed/hal/gpio/step_log.hpp"
@@ -118,9 +119,6 @@ private:
     enum Bit : std::uint8_t { complete_bit = 1, disable_bit = 2, quick_stop_bit = 4, end_bit = 8, silent_bit = 16 };
 
     static constexpr std::int64_t ns_per_tick = 125;
-    static constexpr std::uint64_t ns_per_us = 1000;
-    static constexpr std::uint64_t ns_per_ms = 1'000'000;
-    static constexpr std::uint64_t us_per_ms = 1000;
     static constexpr int stall_error = -1; // these are no errno
     static constexpr int overdue_error = -2;
 

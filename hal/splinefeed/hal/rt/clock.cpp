@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/rt/clock.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <cerrno>
 #include <ctime>
 #include <thread>
@@ -8,8 +10,6 @@
 namespace splinefeed::hal {
 
 namespace {
-
-constexpr std::uint64_t ns_per_s = 1'000'000'000;
 
 std::uint64_t ns_of(clockid_t id) noexcept {
     timespec now{};
@@ -56,7 +56,6 @@ Clock& system_clock() noexcept {
 }
 
 std::uint64_t thread_us() noexcept {
-    constexpr std::uint64_t ns_per_us = 1000;
     return ns_of(CLOCK_THREAD_CPUTIME_ID) / ns_per_us;
 }
 

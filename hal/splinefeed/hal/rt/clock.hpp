@@ -2,6 +2,7 @@
 // Clock: monotonic time for ports, and the threads that wait for it. Tests replace both by virtual time.
 #pragma once
 
+#include "splinefeed/base/units.hpp"
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -39,7 +40,6 @@ public:
     void sleep_us(std::uint64_t duration_us) noexcept { sleep_until_ns(now_ns() + duration_us * ns_per_us); }
 
 private:
-    static constexpr std::uint64_t ns_per_us = 1000;
 };
 
 /// The clock on CLOCK_MONOTONIC and the system's threads.

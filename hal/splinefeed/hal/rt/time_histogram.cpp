@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/rt/time_histogram.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <algorithm>
 #include <bit>
 
@@ -8,7 +10,6 @@ namespace splinefeed::hal {
 
 namespace {
 
-constexpr std::uint64_t ns_per_us = 1000;
 // Powers of 2^(1/4): where the bins of an octave end, as multiples of its beginning.
 constexpr std::array<double, TimeHistogram::bins_an_octave> quarter_end{1.1892071150027210667, 1.4142135623730950488,
                                                                         1.6817928305074290861, 2.0};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/link/modbus_link.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/modbus/link/connection_error.hpp"
 
 #include <arpa/inet.h>
@@ -16,7 +18,6 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t us_per_s = 1'000'000;
 // Wait before discarding input, so that outstanding answers have arrived. Without it the answers would stay one request
 // behind for ever.
 constexpr std::uint64_t settle_us = 5000;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/module/module_bus.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -8,17 +10,16 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t us_per_ms = 1000;
 constexpr std::uint64_t slice_us = 2000; // what is set waits for so long at most, and an exchange
 
-LinkTiming timing_of(const ModuleBusSettings& settings) {
+LinkTiming timing_of_module(const ModuleBusSettings& settings) {
     return {.answer_us = static_cast<std::uint32_t>(us_per_ms) * settings.answer_ms, .retries = settings.retries};
 }
 
 } // namespace
 
 ModuleBus::ModuleBus(const LinkAddress& wire, const ModuleBusSettings& settings, const MakeLine& make, Clock& clock)
-    : settings_(settings), clock_(&clock), wire_(wire), line_(make(wire, timing_of(settings), clock)) {}
+    : settings_(settings), clock_(&clock), wire_(wire), line_(make(wire, timing_of_module(settings), clock)) {}
 
 ModuleBus::~ModuleBus() {
     if (thread_ == nullptr) {

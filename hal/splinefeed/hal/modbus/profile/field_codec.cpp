@@ -35,7 +35,7 @@ std::int64_t nearest(Wide numerator, std::uint64_t denominator, bool negative) n
 }
 
 // value * 2^shift * factor / divisor, where value * factor may have 128 bits; two divisions, rounded once by the last.
-std::int64_t scaled(std::int64_t value, std::int64_t factor, std::int64_t divisor, int shift) noexcept {
+std::int64_t scaled_by_ratio(std::int64_t value, std::int64_t factor, std::int64_t divisor, int shift) noexcept {
     const bool negative = (value < 0) != (factor < 0) && value != 0;
     const Wide product = multiply(magnitude(value), magnitude(factor));
     const std::uint64_t denominator = magnitude(divisor);
@@ -58,7 +58,7 @@ std::int64_t scaled(std::int64_t value, std::int64_t factor, std::int64_t diviso
 RawValue raw_of(const RegisterField& field, std::int64_t physical_q16) noexcept {
     std::int64_t raw = 0;
     if (!field.inverse) {
-        raw = scaled(physical_q16, field.scale_numerator, field.scale_denominator, -physical_bits);
+        raw = scaled_by_ratio(physical_q16, field.scale_numerator, field.scale_denominator, -physical_bits);
     } else if (physical_q16 == 0) {
         raw = field.scale_numerator < 0 ? std::numeric_limits<std::int64_t>::min()
                                         : std::numeric_limits<std::int64_t>::max();
@@ -84,8 +84,8 @@ RawValue raw_of(const RegisterField& field, std::int64_t physical_q16) noexcept 
 std::int64_t physical_of(const RegisterField& field, std::int64_t raw) noexcept {
     if (!field.inverse) {
         const bool flip = field.scale_numerator < 0;
-        return scaled(raw, flip ? -field.scale_denominator : field.scale_denominator,
-                      flip ? -field.scale_numerator : field.scale_numerator, physical_bits);
+        return scaled_by_ratio(raw, flip ? -field.scale_denominator : field.scale_denominator,
+                               flip ? -field.scale_numerator : field.scale_numerator, physical_bits);
     }
     if (raw == 0) {
         return field.scale_numerator < 0 ? std::numeric_limits<std::int64_t>::min()

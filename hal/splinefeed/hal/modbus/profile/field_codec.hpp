@@ -11,6 +11,7 @@ namespace splinefeed::hal::modbus {
 
 /// Physical values are fixed-point numbers with 16 fraction bits: units of 1/65536 count, count/s, ...
 inline constexpr int physical_bits = 16;
+inline constexpr double physical_one = 1 << physical_bits; ///< a physical value of 1
 
 struct RawValue {
     std::int64_t raw = 0;

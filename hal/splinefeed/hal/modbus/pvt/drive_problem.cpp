@@ -23,7 +23,7 @@ DriveProblem identity_problem(const PvtIdentity& identity, int least_axes) noexc
     if (identity.ring < pvt::shortest_ring) {
         return DriveProblem::ring;
     }
-    return identity.ticks_per_s != pvt::ticks_per_s ? DriveProblem::ticks : DriveProblem::none;
+    return identity.ticks_per_s != ticks_per_s ? DriveProblem::ticks : DriveProblem::none;
 }
 
 const char* describe(DriveProblem problem) noexcept {

@@ -6,6 +6,8 @@
 // map, and they stop together, on the path. They drop the segments beyond it, which are sent again.
 #include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/pvt/bus_rate.hpp"
 #include "splinefeed/hal/modbus/pvt/pvt_setup.hpp"
@@ -20,8 +22,7 @@ namespace {
 
 constexpr std::uint64_t settle_us = 40'000; // from a start until the drive's state reflects it
 constexpr std::uint64_t poll_interval_us = 1000;
-constexpr std::uint32_t unplaced = 0; // first sequence number while positions are not the machine's
-constexpr double ticks_per_us = 8.0;
+constexpr std::uint32_t unplaced = 0;            // first sequence number while positions are not the machine's
 constexpr std::uint64_t stop_exchanges = 8;      // lost in a row before a hold becomes a quick stop
 constexpr std::uint64_t braking_us = 60'000'000; // of the slowest ramp that a quick stop is waited for
 // For so long a drive is looked at before it gets anything: another host exchanges data with it every 20 ms at least.
@@ -93,7 +94,7 @@ std::optional<DriveFailure> ModbusPort::find_other_master() {
 }
 
 double ModbusPort::least_segment_us() {
-    double least = pvt::shortest_ticks / ticks_per_us;
+    double least = static_cast<double>(pvt::shortest_ticks) / ticks_per_us;
     for (const auto& bus : buses_) {
         least = std::max(least, splinefeed::hal::modbus::least_segment_us(*bus, settings_.timing));
     }
@@ -101,7 +102,7 @@ double ModbusPort::least_segment_us() {
 }
 
 void ModbusPort::set_times(const FeedSegment& first) noexcept {
-    times_.segment_us = first.duration_ticks / ticks_per_us;
+    times_.segment_us = static_cast<double>(first.duration_ticks) / ticks_per_us;
     double ring_us = std::min<double>(settings_.buffer_us, PvtClient::queue_capacity * times_.segment_us);
     for (const PortDrive& drive : drives_) {
         const double holds_us = drive.client().report().identity.ring * times_.segment_us;

@@ -3,6 +3,7 @@
 // and the behaviour of drives.
 #pragma once
 
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/modbus/link/registers.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
@@ -30,7 +31,6 @@ inline constexpr std::size_t most_block_registers = 121; ///< limit of function 
 inline constexpr std::uint16_t shortest_ring = 16;       // segments
 inline constexpr std::uint32_t shortest_ticks = 800;
 inline constexpr std::uint32_t longest_ticks = 80'000'000;
-inline constexpr std::uint32_t ticks_per_s = 8'000'000;
 inline constexpr std::uint32_t rest_mark = 0x8000'0000; ///< bit in the duration of a segment: PvtSegment::rest
 
 [[nodiscard]] constexpr std::size_t status_registers(int axes) noexcept {

@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t most = units_per_count * 0x7FFFFFFF; // three quarters of 2^63
 constexpr std::int64_t q16_units = units_per_count >> physical_bits;
 
-constexpr bool within(std::int64_t units) noexcept {
+constexpr bool fits_frame(std::int64_t units) noexcept {
     return units >= -most && units <= most;
 }
 
@@ -23,7 +23,7 @@ std::optional<std::int64_t> sum(std::int64_t a, std::int64_t b) noexcept {
 } // namespace
 
 bool AxisFrame::align(std::int64_t stands_q16, std::int64_t start) noexcept {
-    if (stands_q16 > most / q16_units || stands_q16 < -most / q16_units || !within(start)) {
+    if (stands_q16 > most / q16_units || stands_q16 < -most / q16_units || !fits_frame(start)) {
         return false;
     }
     const auto offset = sum(stands_q16 * q16_units, -velocity(start));
@@ -41,11 +41,12 @@ bool AxisFrame::align(std::int64_t stands_q16, std::int64_t start) noexcept {
 }
 
 std::optional<std::int64_t> AxisFrame::position(std::int64_t of_axis) const noexcept {
-    if (!within(of_axis)) {
+    if (!fits_frame(of_axis)) {
         return std::nullopt;
     }
     const auto there = sum(velocity(of_axis), offset_);
-    const bool holds = there && within(*there) && (target_ == nullptr || !raw_of(*target_, *there / q16_units).clamped);
+    const bool holds =
+        there && fits_frame(*there) && (target_ == nullptr || !raw_of(*target_, *there / q16_units).clamped);
     return holds ? there : std::nullopt;
 }
 

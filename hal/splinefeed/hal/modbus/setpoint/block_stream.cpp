@@ -12,6 +12,8 @@
 // An error e of v becomes -e r / (1 - r) with the share r = |c| / (A T) of the ramp in a period: a third at r = 1/4.
 #include "splinefeed/hal/modbus/setpoint/block_stream.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,13 +21,11 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr double us_per_s = 1e6;
-constexpr double one = 65536.0;        // fixed-point one of a physical value
 constexpr double catching_up = 1.1;    // of the largest speed
 constexpr double share_of_path = 0.25; // of the ramp, in the path's acceleration (BlockSettings::acceleration)
 
 std::int64_t q16(double physical) noexcept {
-    return std::llround(physical * one);
+    return std::llround(physical * physical_one);
 }
 
 } // namespace
@@ -37,7 +37,7 @@ BlockStream::BlockStream(const DriveProfile& profile, const BlockSettings& setti
         settings_.reserve_us = settings_.period_us;
     }
     if (const RegisterField* const field = profile.field_of(FieldRole::profile_velocity)) {
-        slowest_ = static_cast<double>(physical_of(*field, 1)) / one;
+        slowest_ = static_cast<double>(physical_of(*field, 1)) / physical_one;
     }
     clamped_ = frames_.set(FieldRole::profile_acceleration, q16(settings.acceleration)).clamped;
     clamped_ = frames_.set(FieldRole::profile_deceleration, q16(settings.acceleration)).clamped || clamped_;
@@ -138,9 +138,9 @@ std::span<const RegisterWrite> BlockStream::block(const TrajectoryBuffer& track,
     arrival_us_ = std::max(instant.arrival_us, previous_arrival_us_);
     model_ = committed_;
     model_.pass(static_cast<double>(arrival_us_ - previous_arrival_us_) / us_per_s, ramp_);
-    const double period_s = settings_.period_us / us_per_s;
-    const double here = static_cast<double>(track.at(settings_.axis, instant.motion_us).position_q16) / one;
-    const double there = static_cast<double>(track.at(settings_.axis, instant.next_us).position_q16) / one;
+    const double period_s = us_to_s(settings_.period_us);
+    const double here = static_cast<double>(track.at(settings_.axis, instant.motion_us).position_q16) / physical_one;
+    const double there = static_cast<double>(track.at(settings_.axis, instant.next_us).position_q16) / physical_one;
     const bool ends = instant.next_us >= track.end_us();
     if (ends && end_sent_) {
         return {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/setpoint/command_sequence.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 namespace splinefeed::hal::modbus {
 
 bool CommandSequence::begin(DriveCommand command) noexcept {
@@ -31,7 +33,6 @@ void CommandSequence::prepare() noexcept {
 }
 
 void CommandSequence::on_sent(std::uint64_t now_us) noexcept {
-    constexpr std::uint64_t us_per_ms = 1000;
     const CommandStep& step = (*steps_)[step_];
     const bool first_of_two = two_frames() && !second_;
     // The duration of a pulse is between its frames; other durations follow the last frame.

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/setpoint/cyclic_stream.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace splinefeed::hal::modbus {
 
-namespace {
-
-constexpr double us_per_s = 1e6;
-
-} // namespace
+namespace {} // namespace
 
 CyclicStream::CyclicStream(const DriveProfile& profile, const CyclicSettings& settings)
     : settings_(settings), frames_(profile) {

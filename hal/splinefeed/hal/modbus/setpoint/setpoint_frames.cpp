@@ -27,13 +27,13 @@ RawValue SetpointFrames::set(FieldRole role, std::int64_t physical_q16) noexcept
 }
 
 double SetpointFrames::rounded(FieldRole role, double physical) const noexcept {
-    constexpr double one = 65536.0;
     const FieldIndex index = by_role_[static_cast<std::size_t>(role)];
     if (index == no_field) {
         return physical;
     }
     const RegisterField& field = profile_.fields[index];
-    return static_cast<double>(physical_of(field, raw_of(field, std::llround(physical * one)).raw)) / one;
+    return static_cast<double>(physical_of(field, raw_of(field, std::llround(physical * physical_one)).raw)) /
+           physical_one;
 }
 
 bool SetpointFrames::in_group(FieldIndex field) const noexcept {

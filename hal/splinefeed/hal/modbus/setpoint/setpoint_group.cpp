@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/setpoint/setpoint_group.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_setup.hpp"
@@ -15,8 +17,6 @@ namespace splinefeed::hal::modbus {
 namespace {
 
 constexpr std::uint64_t online_us = 50'000;
-constexpr double us_per_s = 1e6;
-constexpr double ticks_per_s = 8e6;
 
 } // namespace
 
@@ -234,7 +234,7 @@ double SetpointGroup::deviation_counts(std::size_t i) const noexcept {
 
 double SetpointGroup::deviation_bound_counts(std::size_t i) const noexcept {
     const Slot& slot = slots_[i];
-    const double period_s = period_us_ / us_per_s;
+    const double period_s = us_to_s(period_us_);
     return slot.wiring.acceleration_counts_s2 * period_s * period_s / 8.0 + rounding_counts(slot.wiring, period_us_);
 }
 

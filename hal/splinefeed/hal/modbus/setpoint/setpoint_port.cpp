@@ -5,6 +5,8 @@
 // offline drive stops by itself and leaves the path.
 #include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/rt/wait_until.hpp"
 
 #include <algorithm>
@@ -13,7 +15,6 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t ticks_per_us = 8;
 constexpr std::uint64_t lead_us = 50'000;
 constexpr std::uint64_t retain_us = 100'000;      // of past segments: bus threads may still read them
 constexpr std::uint64_t spare_us = 50'000;        // of the buffer: a poll may be late

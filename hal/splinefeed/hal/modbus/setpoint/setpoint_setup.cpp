@@ -14,7 +14,7 @@ constexpr std::uint64_t state_us = 1'000'000; // for a drive to take another sta
 constexpr std::uint64_t poll_us = 20'000;
 constexpr std::uint64_t homing_begins_us = 200'000;
 constexpr std::uint64_t homing_us = 300'000'000;
-constexpr std::int64_t one = std::int64_t{1} << physical_bits;
+constexpr std::int64_t whole = std::int64_t{1} << physical_bits;
 
 } // namespace
 
@@ -59,7 +59,7 @@ std::string SetpointSetup::failed(const char* what) const {
 }
 
 std::string SetpointSetup::set_mode(const std::optional<std::int64_t>& mode) {
-    return mode && !drive_->write_role(FieldRole::mode, *mode * one) ? failed("its mode cannot be set") : "";
+    return mode && !drive_->write_role(FieldRole::mode, *mode * whole) ? failed("its mode cannot be set") : "";
 }
 
 std::string SetpointSetup::write_settings() {
@@ -71,11 +71,11 @@ std::string SetpointSetup::write_settings() {
         return what;
     }
     if (profile.watchdog_timeout_ms > 0 &&
-        !drive_->write_role(FieldRole::watchdog, profile.watchdog_timeout_ms * one)) {
+        !drive_->write_role(FieldRole::watchdog, profile.watchdog_timeout_ms * whole)) {
         return failed("its watchdog cannot be set");
     }
     if (profile.following_error_window_counts &&
-        !drive_->write_role(FieldRole::following_error_window, *profile.following_error_window_counts * one)) {
+        !drive_->write_role(FieldRole::following_error_window, *profile.following_error_window_counts * whole)) {
         return failed("its following-error window cannot be set");
     }
     return {};

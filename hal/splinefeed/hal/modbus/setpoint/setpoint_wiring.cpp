@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/setpoint/setpoint_wiring.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <algorithm>
@@ -8,11 +10,7 @@
 
 namespace splinefeed::hal::modbus {
 
-namespace {
-
-constexpr double us_per_s = 1e6;
-
-} // namespace
+namespace {} // namespace
 
 std::uint32_t horizon_us(const SetpointWiring& wiring, std::uint32_t period_us) noexcept {
     const DriveProfile& profile = *wiring.profile;
@@ -33,14 +31,14 @@ double rounding_counts(const SetpointWiring& wiring, std::uint32_t period_us) no
 double late_counts(const SetpointWiring& wiring, std::uint32_t period_us, std::uint64_t late_us, double speed_counts_s,
                    std::uint32_t stop_us) noexcept {
     const double late_s = static_cast<double>(late_us) / us_per_s;
-    const double period_s = period_us / us_per_s;
+    const double period_s = us_to_s(period_us);
     // The drive keeps its speed and ramp meanwhile.
     double late = wiring.acceleration_counts_s2 * late_s * (period_s + late_s);
     if (wiring.profile->stream == StreamWay::cyclic) { // beyond its own period the drive stands
-        late += speed_counts_s * std::max(0.0, late_s - (horizon_us(wiring, period_us) / us_per_s - period_s));
+        late += speed_counts_s * std::max(0.0, late_s - (us_to_s(horizon_us(wiring, period_us)) - period_s));
     }
     // All drives then stop: the path advances by this much at most.
-    return std::min(late, speed_counts_s * (2.0 * period_s + stop_us / us_per_s));
+    return std::min(late, speed_counts_s * (2.0 * period_s + us_to_s(stop_us)));
 }
 
 } // namespace splinefeed::hal::modbus

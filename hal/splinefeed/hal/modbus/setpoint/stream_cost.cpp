@@ -7,9 +7,9 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-class Line {
+class BusLine {
 public:
-    Line(const DriveProfile& profile, const LinkAddress& address) : profile_(profile), address_(address) {
+    BusLine(const DriveProfile& profile, const LinkAddress& address) : profile_(profile), address_(address) {
         int nearest = 0;
         for (const LinkSettings::Exchange& exchange : profile.link.exchanges) {
             if (address.wire == Wire::rtu && exchange.baud <= address.baud && exchange.baud > nearest) {
@@ -41,7 +41,7 @@ private:
 } // namespace
 
 StreamCost stream_cost(const DriveProfile& profile, const LinkAddress& address) noexcept {
-    const Line line(profile, address);
+    const BusLine line(profile, address);
     StreamCost cost;
     const FieldGroup* const target = profile.group_for(GroupUse::target);
     const auto within = [](const FieldGroup* group, const RegisterField& field) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/setpoint/trajectory_buffer.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +10,6 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t ticks_per_us = 8;
-constexpr double ticks_per_s = 8e6;
 constexpr std::int64_t units_per_q16 = units_per_count >> physical_bits;
 static_assert(units_per_q16 << physical_bits == units_per_count);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/spindle/vfd_client.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
@@ -12,9 +14,7 @@ namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr double one = 1 << physical_bits;
 constexpr std::size_t most_registers = 4; // of a field
-constexpr std::uint64_t us_per_ms = 1000;
 
 } // namespace
 
@@ -64,11 +64,11 @@ LinkAnswer VfdClient::read_raw(FieldIndex index, std::int64_t& raw) {
 
 double VfdClient::nearest_hz(double hz) const {
     const RegisterField& field = wiring_.profile.fields[speed_];
-    return static_cast<double>(physical_of(field, raw_of(field, std::llround(hz * one)).raw)) / one;
+    return static_cast<double>(physical_of(field, raw_of(field, std::llround(hz * physical_one)).raw)) / physical_one;
 }
 
 LinkAnswer VfdClient::write_speed(double hz) {
-    return write_raw(speed_, raw_of(wiring_.profile.fields[speed_], std::llround(hz * one)).raw);
+    return write_raw(speed_, raw_of(wiring_.profile.fields[speed_], std::llround(hz * physical_one)).raw);
 }
 
 LinkAnswer VfdClient::command(DriveCommand command) {
@@ -110,7 +110,7 @@ LinkAnswer VfdClient::read(VfdReading& out) {
     if (!read_once(output_, raw, answer)) {
         return answer;
     }
-    reading.output_hz = std::fabs(static_cast<double>(physical_of(profile.fields[output_], raw)) / one);
+    reading.output_hz = std::fabs(static_cast<double>(physical_of(profile.fields[output_], raw)) / physical_one);
     if (profile.done) {
         if (!read_once(profile.done->field, raw, answer)) {
             return answer;

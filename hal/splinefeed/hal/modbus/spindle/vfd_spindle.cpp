@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/hal/modbus/spindle/vfd_spindle.hpp"
 
+#include "splinefeed/base/units.hpp"
+
 #include <cmath>
 
 namespace splinefeed::hal::modbus {
 
 namespace {
 
-constexpr std::uint64_t us_per_ms = 1000;
 constexpr std::uint64_t slice_us = 5000; // an order waits for so long at most, and an exchange
 constexpr double still_hz = 0.5;         // the output of a VFD whose spindle stands
 constexpr double near_share = 0.02;      // of the speed: it is reached
