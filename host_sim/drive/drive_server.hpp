@@ -38,7 +38,7 @@ private:
     [[nodiscard]] std::uint64_t model_us(Clock::time_point time) const;
     [[nodiscard]] std::chrono::microseconds line_time(std::size_t bytes) const;
     void fire_events(Clock::time_point now);
-    void advance(Clock::time_point now, DriveRecord* record);
+    void advance(Clock::time_point now);
     void accept(DriveLine::Request request, Clock::time_point now);
     void serve(int channel, Bytes request, Clock::time_point now);
     [[nodiscard]] Bytes reply_to(const Bytes& request, const ExchangeFaults& faults);
@@ -52,6 +52,7 @@ private:
     [[nodiscard]] std::chrono::microseconds until_next(Clock::time_point now) const;
 
     DriveModel* model_;
+    DriveRecord* record_ = nullptr;
     DriveLine line_;
     DriveExchange exchange_;
     DriveFaults faults_;
