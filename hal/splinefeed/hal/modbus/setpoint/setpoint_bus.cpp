@@ -104,7 +104,7 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
         if (!motion.stop_requested && slot.end_sent_us != 0 && !(slot.drive.reading().done && slot.drive.at_target()) &&
             arrives_us > slot.end_sent_us + end_retry_us) {
             slot.end_sent_us = 0;
-            slot.drive.on_arrival(UINT64_MAX); // the last block may be lost
+            slot.drive.on_arrival(UINT64_MAX, UINT64_MAX); // the last block may be lost
         }
         if (slot.setpoint_us != 0 &&
             arrives_us > slot.setpoint_us + std::max(period_us, slot.drive.profile().period_us)) {
@@ -150,7 +150,7 @@ void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::ui
     {
         const std::lock_guard lock(motion.mutex);
         check_lateness(slot, motion, latest_us, period_us);
-        slot.drive.on_arrival(sent ? arrived_us : UINT64_MAX);
+        slot.drive.on_arrival(sent ? answer.arrived_us : UINT64_MAX, sent ? answer.replied_us : UINT64_MAX);
         motion.last_setpoint_us = sent ? std::max(motion.last_setpoint_us, arrived_us) : motion.last_setpoint_us;
     }
     if (sent) {
