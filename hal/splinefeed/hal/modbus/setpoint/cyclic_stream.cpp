@@ -23,12 +23,15 @@ CyclicStream::CyclicStream(const DriveProfile& profile, const CyclicSettings& se
 // Peak acceleration of 3 u^2 - 2 u^3 over T: 6 / T^2. If the path moves meanwhile, the drive takes its speed at once,
 // as it lost it: with the axis's acceleration it would fall far behind.
 void CyclicStream::on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept {
+    if (fading_us_ > 0.0 && instant.motion_us == instant.next_us) {
+        return; // the path stands: it is no further away than when the return began
+    }
     const std::int64_t place_q16 =
         begun_ ? std::midpoint(this->place_q16(0, instant.arrival_us), this->place_q16(1, instant.arrival_us))
                : target_q16_;
     offset_q16_ = static_cast<double>(place_q16 - track.at(settings_.axis, instant.motion_us).position_q16);
     fading_us_ = us_per_s * std::sqrt(6.0 * std::fabs(offset_q16_) / (settings_.acceleration * (1 << physical_bits)));
-    elapsed_us_ = 0.0;
+    fades_from_us_ = instant.arrival_us;
 }
 
 double CyclicStream::offset_q16(double elapsed_us) const noexcept {
@@ -82,10 +85,10 @@ std::span<const RegisterWrite> CyclicStream::frame(const TrajectoryBuffer& track
     std::int64_t here = track.at(settings_.axis, instant.motion_us).position_q16;
     std::int64_t then = track.at(settings_.axis, instant.next_us).position_q16;
     if (fading_us_ > 0.0) {
-        here += std::llround(offset_q16(elapsed_us_));
-        elapsed_us_ += settings_.interval_us;
-        then += std::llround(offset_q16(elapsed_us_));
-        fading_us_ = elapsed_us_ < fading_us_ ? fading_us_ : 0.0;
+        const auto passed_us = static_cast<double>(instant.arrival_us - fades_from_us_);
+        here += std::llround(offset_q16(passed_us));
+        then += std::llround(offset_q16(passed_us + settings_.interval_us));
+        fading_us_ = passed_us + settings_.interval_us < fading_us_ ? fading_us_ : 0.0;
     }
     target_q16_ = within_reach(here + (then - here) * settings_.period_us / settings_.interval_us, instant.arrival_us);
     clamped_ = frames_.set(FieldRole::target_position, target_q16_).clamped || clamped_;

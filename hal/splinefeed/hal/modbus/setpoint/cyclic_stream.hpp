@@ -49,13 +49,13 @@ public:
     /// Call when frames were missing for longer than the period: the drive stands at its last target. From the next
     /// frame on it returns to the path smoothly.
     void on_setpoint_timeout(const TrajectoryBuffer& track, const MotionInstant& instant) noexcept;
-    /// Whether the last target was limited: the drive is behind the path.
-    [[nodiscard]] bool behind() const noexcept { return limited_; }
+    /// Whether the last target was limited, or the drive still returns: it is behind the path.
+    [[nodiscard]] bool behind() const noexcept { return limited_ || fading_us_ > 0.0; }
     /// Whether a target exceeded the range of its register and was clamped.
     [[nodiscard]] bool clamped() const noexcept { return clamped_; }
     /// Whether the drive has got the end of the motion as its target at that motion time.
     [[nodiscard]] bool end_sent(const TrajectoryBuffer& track, std::uint64_t motion_us) const noexcept {
-        return !limited_ && fading_us_ == 0.0 && motion_us + settings_.interval_us >= track.end_us() &&
+        return !behind() && motion_us + settings_.interval_us >= track.end_us() &&
                (settings_.interval_us == settings_.period_us || motion_us >= track.end_us());
     }
     [[nodiscard]] SetpointFrames& frames() noexcept { return frames_; }
@@ -73,7 +73,7 @@ private:
     std::array<std::int64_t, 2> from_q16_{};    // and where the drive was then
     double offset_q16_ = 0.0;                   // distance from the path at the beginning of the return
     double fading_us_ = 0.0;                    // duration of the return; 0: none
-    double elapsed_us_ = 0.0;                   // of the return
+    std::uint64_t fades_from_us_ = 0;           // when it began
     bool begun_ = false;                        // the place of the drive is known
     bool limited_ = false;                      // the last target is not on the path
     bool clamped_ = false;

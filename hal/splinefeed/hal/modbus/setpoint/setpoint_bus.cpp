@@ -127,16 +127,17 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
 }
 
 // A drive without a new target continues for a short time only, so all drives stop. If no drive got a target meanwhile,
-// all have stopped by themselves: the clock then stops from the last target on, and the path waits there.
-void SetpointBus::check_lateness(const Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
+// all have stopped by themselves: the clock then stops from the last target on, and the path waits there. While the
+// clock stood, no target was late.
+void SetpointBus::check_lateness(Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
                                  std::uint32_t period_us) noexcept {
-    const bool any = slot.setpoint_us != 0; // else the first one is awaited since the start of the motion
-    if (motion.clock.stopping() || slot.end_sent_us != 0 || (!any && motion.clock.time(now_us) == 0)) {
+    if (motion.runs_from_us == 0 || motion.clock.stopping() || slot.end_sent_us != 0) {
         return;
     }
-    const std::uint64_t due_us = (any ? slot.setpoint_us : motion.clock.instant(0)) + period_us;
+    const std::uint64_t due_us = std::max(slot.setpoint_us, motion.runs_from_us) + period_us;
     if (now_us > due_us + period_us + allowed_late_us) {
         motion.clock.stop(std::clamp(motion.last_setpoint_us, due_us, now_us));
+        slot.late_stops.fetch_add(1, std::memory_order_relaxed);
     }
 }
 

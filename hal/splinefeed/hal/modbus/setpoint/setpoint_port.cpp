@@ -211,9 +211,9 @@ SetpointPort::Facts SetpointPort::facts(std::uint64_t now_us) noexcept {
     }
     stood_since_us_ = !fact(Event::stands) ? 0 : stood_since_us_ == 0 ? now_us : stood_since_us_;
     if (fact(Event::stands)) {
-        const std::optional<std::size_t> drive = group_.not_ready();
+        const std::optional<std::size_t> drive = group_.not_ready(stood_since_us_);
         awaited_ = drive.value_or(awaited_);
-        fact(Event::ready) = !drive && now_us > stood_since_us_ + settle_us;
+        fact(Event::ready) = !drive;
     }
     if (fact(Event::ran_out)) {
         const std::optional<std::size_t> drive = group_.not_arrived(motion_);
@@ -226,11 +226,13 @@ SetpointPort::Facts SetpointPort::facts(std::uint64_t now_us) noexcept {
 
 void SetpointPort::start_clock(std::uint64_t now_us) noexcept {
     const std::lock_guard lock(motion_.mutex);
-    if (motion_.clock.stopping()) {
-        motion_.clock.resume(now_us + lead_us);
+    if (motion_.clock.stopping()) { // its rate rises from 0: a target that does not know of it yet does no harm
+        motion_.runs_from_us = now_us + period_us();
+        motion_.clock.resume(motion_.runs_from_us);
         ++resumes_;
     } else {
-        motion_.clock.start(now_us + lead_us);
+        motion_.runs_from_us = now_us + lead_us;
+        motion_.clock.start(motion_.runs_from_us);
     }
 }
 
