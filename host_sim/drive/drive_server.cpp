@@ -42,16 +42,17 @@ std::uint64_t DriveServer::model_us(Clock::time_point time) const {
 }
 
 void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* record) {
+    record_ = record;
     while (stop == 0) {
         fire_events(Clock::now());
         const bool deaf = thaws_.has_value() || connects_.has_value();
         line_.wait(until_next(Clock::now()), deaf);
         Clock::time_point now = Clock::now();
-        advance(now, record);
+        advance(now);
         if (!deaf) {
             for (DriveLine::Request& request : line_.receive()) {
                 now = Clock::now();
-                advance(now, record);
+                advance(now);
                 accept(std::move(request), now);
             }
         }
@@ -62,7 +63,7 @@ void DriveServer::run(const volatile std::sig_atomic_t& stop, DriveRecord* recor
     }
     // The record ends behind everything that was told.
     line_.wait(microseconds(1000 - model_us(Clock::now()) % 1000 + 1), true);
-    advance(Clock::now(), record);
+    advance(Clock::now());
 }
 
 microseconds DriveServer::until_next(Clock::time_point now) const {
@@ -79,7 +80,7 @@ microseconds DriveServer::until_next(Clock::time_point now) const {
 
 void DriveServer::fire_events(Clock::time_point now) {
     if (const ModelFaults faults = faults_.of_model(passed_s(now)); faults != model_faults_) {
-        model_->advance(model_us(now));
+        advance(now);
         model_->set_faults(faults);
         model_faults_ = faults;
     }
@@ -103,7 +104,7 @@ void DriveServer::fire_events(Clock::time_point now) {
             break;
         case DriveFaults::EventKind::freeze: thaws_ = now + from_ms(event.amount); break;
         case DriveFaults::EventKind::power_cycle:
-            model_->advance(model_us(now));
+            advance(now);
             model_->power_cycle();
             due_.clear();
             if (!connects_) {
@@ -113,7 +114,7 @@ void DriveServer::fire_events(Clock::time_point now) {
             break;
         case DriveFaults::EventKind::swap_words: model_->swap_words(); break;
         case DriveFaults::EventKind::second_master:
-            model_->advance(model_us(now));
+            advance(now);
             model_->second_master();
             break;
         case DriveFaults::EventKind::flood:
@@ -126,12 +127,13 @@ void DriveServer::fire_events(Clock::time_point now) {
     }
 }
 
-void DriveServer::advance(Clock::time_point now, DriveRecord* record) {
+// Nothing else advances the model, or the record would lack what it did meanwhile.
+void DriveServer::advance(Clock::time_point now) {
     const std::uint64_t now_us = model_us(now);
     for (; recorded_ms_ * 1000 <= now_us; ++recorded_ms_) {
         model_->advance(recorded_ms_ * 1000);
-        if (record != nullptr) {
-            record->row(recorded_ms_, *model_);
+        if (record_ != nullptr) {
+            record_->row(recorded_ms_, *model_);
         }
     }
     model_->advance(now_us);
@@ -294,7 +296,7 @@ void DriveServer::deliver(Clock::time_point now) {
         Due due = std::move(due_[i]);
         due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(i));
         if (due.request) {
-            model_->advance(model_us(now));
+            advance(now);
             serve(due.channel, std::move(due.bytes), now);
         } else {
             line_.send(due.channel, due.bytes);

@@ -38,7 +38,7 @@ private:
     [[nodiscard]] std::uint64_t model_us(Clock::time_point time) const;
     [[nodiscard]] std::chrono::microseconds line_time(std::size_t bytes) const;
     void fire_events(Clock::time_point now);
-    void advance(Clock::time_point now, DriveRecord* record);
+    void advance(Clock::time_point now);
     void accept(DriveLine::Request request, Clock::time_point now);
     void serve(int channel, Bytes request, Clock::time_point now);
     [[nodiscard]] Bytes reply_to(const Bytes& request, const ExchangeFaults& faults);
@@ -64,6 +64,7 @@ private:
     Clock::time_point flooded_;
     ModelFaults model_faults_;
     std::size_t event_ = 0;
+    DriveRecord* record_ = nullptr;
     std::uint64_t recorded_ms_ = 0; // rows written so far
     std::vector<Due> due_;
     std::deque<Bytes> sent_; // the latest replies, as they were before any damage
