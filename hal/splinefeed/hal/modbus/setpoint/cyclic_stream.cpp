@@ -26,9 +26,9 @@ void CyclicStream::on_setpoint_timeout(const TrajectoryBuffer& track, const Moti
     if (fading_us_ > 0.0 && instant.motion_us == instant.next_us) {
         return; // the path stands: it is no further away than when the return began
     }
-    const std::int64_t place_q16 =
-        begun_ ? std::midpoint(this->place_q16(0, instant.arrival_us), this->place_q16(1, instant.arrival_us))
-               : target_q16_;
+    const std::int64_t place_q16 = begun_ ? std::midpoint(this->place_q16(ways_[0], instant.arrival_us),
+                                                          this->place_q16(ways_[1], instant.arrival_us))
+                                          : target_q16_;
     offset_q16_ = static_cast<double>(place_q16 - track.at(settings_.axis, instant.motion_us).position_q16);
     fading_us_ = us_per_s * std::sqrt(6.0 * std::fabs(offset_q16_) / (settings_.acceleration * (1 << physical_bits)));
     fades_from_us_ = instant.arrival_us;
@@ -43,28 +43,25 @@ double CyclicStream::offset_q16(double elapsed_us) const noexcept {
 }
 
 void CyclicStream::begin(std::int64_t position_q16) noexcept {
-    arrived_q16_ = target_q16_ = position_q16;
-    from_q16_.fill(position_q16);
-    arrival_us_.fill(0);
+    target_q16_ = position_q16;
+    ways_.fill({position_q16, position_q16, 0});
     begun_ = true;
 }
 
 void CyclicStream::on_arrival(std::uint64_t earliest_us, std::uint64_t latest_us) noexcept {
+    ways_[0] = {place_q16(ways_[0], earliest_us), target_q16_, earliest_us};
     if (latest_us != UINT64_MAX) {
-        from_q16_ = {place_q16(0, earliest_us), place_q16(1, latest_us)};
-        arrived_q16_ = target_q16_;
-        arrival_us_ = {earliest_us, latest_us};
+        ways_[1] = {place_q16(ways_[1], latest_us), target_q16_, latest_us};
     }
 }
 
 // The drive moves straight from where a target reaches it, for its period, and then stands at the target.
-std::int64_t CyclicStream::place_q16(std::size_t end, std::uint64_t now_us) const noexcept {
-    const double passed_us = now_us > arrival_us_[end] ? static_cast<double>(now_us - arrival_us_[end]) : 0.0;
+std::int64_t CyclicStream::place_q16(const Way& way, std::uint64_t now_us) const noexcept {
+    const double passed_us = now_us > way.since_us ? static_cast<double>(now_us - way.since_us) : 0.0;
     const double share = std::min(1.0, passed_us / settings_.period_us);
-    return from_q16_[end] + std::llround(static_cast<double>(arrived_q16_ - from_q16_[end]) * share);
+    return way.from_q16 + std::llround(static_cast<double>(way.to_q16 - way.from_q16) * share);
 }
 
-// Targets of which nobody knows whether they arrived are as near: they were limited from the same place.
 std::int64_t CyclicStream::within_reach(std::int64_t target_q16, std::uint64_t now_us) noexcept {
     if (!begun_ || settings_.fastest <= 0.0) {
         return target_q16;
@@ -72,7 +69,7 @@ std::int64_t CyclicStream::within_reach(std::int64_t target_q16, std::uint64_t n
     constexpr double rounding_counts = 2.0; // of targets and of the instants of their arrival
     const double most_counts = catch_up * settings_.fastest * settings_.period_us / us_per_s + rounding_counts;
     const std::int64_t most_q16 = std::llround(most_counts * (1 << physical_bits));
-    const auto [low, high] = std::minmax({place_q16(0, now_us), place_q16(1, now_us)});
+    const auto [low, high] = std::minmax({place_q16(ways_[0], now_us), place_q16(ways_[1], now_us)});
     const std::int64_t middle = std::midpoint(low, high);
     const std::int64_t reach = std::max<std::int64_t>(0, most_q16 - (high - low) / 2);
     const std::int64_t nearest = std::clamp(target_q16, middle - reach, middle + reach);

@@ -20,9 +20,9 @@ struct CyclicSettings {
 /// which the drive's own frame arrives, so all axes of a line follow the same path although their frames come one after
 /// the other. An error is multiplied by 1 - I / P with each frame.
 ///
-/// Where the drive is follows from the targets that have arrived, but for when each of them did. No target is further
-/// from either end of that than `catch_up` times the fastest way of a period: a drive that missed targets comes back to
-/// the path at that speed, and does not jump.
+/// Where the drive is follows from the targets that have arrived, but for when, and perhaps whether, each of them did.
+/// No target is further from either end of that than `catch_up` times the fastest way of a period: a drive that missed
+/// targets comes back to the path at that speed, and does not jump.
 ///
 /// Deviation from the path with one frame per interval: line_deviation_counts of the interval, since the drive moves
 /// straight between frames, plus half a unit of its register, times P / I if frames overlap. If a frame is late by more
@@ -44,7 +44,7 @@ public:
     }
     /// Where the drive stands before the first frame. From here on on_arrival() is called behind each frame.
     void begin(std::int64_t position_q16) noexcept;
-    /// The last frame arrived between these instants [us]; UINT64_MAX: nobody knows whether it did.
+    /// The last frame arrived between these instants [us]; the latest is UINT64_MAX: nobody knows whether it did.
     void on_arrival(std::uint64_t earliest_us, std::uint64_t latest_us) noexcept;
     /// Call when frames were missing for longer than the period: the drive stands at its last target. From the next
     /// frame on it returns to the path smoothly.
@@ -62,20 +62,24 @@ public:
 
 private:
     [[nodiscard]] double offset_q16(double elapsed_us) const noexcept;
-    [[nodiscard]] std::int64_t place_q16(std::size_t end, std::uint64_t now_us) const noexcept;
+    /// On its way to a target since that one arrived.
+    struct Way {
+        std::int64_t from_q16 = 0;
+        std::int64_t to_q16 = 0;
+        std::uint64_t since_us = 0;
+    };
+    [[nodiscard]] std::int64_t place_q16(const Way& way, std::uint64_t now_us) const noexcept;
     [[nodiscard]] std::int64_t within_reach(std::int64_t target_q16, std::uint64_t now_us) noexcept;
 
     CyclicSettings settings_;
     SetpointFrames frames_;
-    std::int64_t target_q16_ = 0;               // the last target
-    std::int64_t arrived_q16_ = 0;              // the last one that has arrived,
-    std::array<std::uint64_t, 2> arrival_us_{}; // between which instants,
-    std::array<std::int64_t, 2> from_q16_{};    // and where the drive was then
-    double offset_q16_ = 0.0;                   // distance from the path at the beginning of the return
-    double fading_us_ = 0.0;                    // duration of the return; 0: none
-    std::uint64_t fades_from_us_ = 0;           // when it began
-    bool begun_ = false;                        // the place of the drive is known
-    bool limited_ = false;                      // the last target is not on the path
+    std::int64_t target_q16_ = 0;     // the last target
+    std::array<Way, 2> ways_{};       // the earliest and the latest that is possible
+    double offset_q16_ = 0.0;         // distance from the path at the beginning of the return
+    double fading_us_ = 0.0;          // duration of the return; 0: none
+    std::uint64_t fades_from_us_ = 0; // when it began
+    bool begun_ = false;              // the place of the drive is known
+    bool limited_ = false;            // the last target is not on the path
     bool clamped_ = false;
 };
 

@@ -104,7 +104,7 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
         if (!motion.stop_requested && slot.end_sent_us != 0 && !(slot.drive.reading().done && slot.drive.at_target()) &&
             arrives_us > slot.end_sent_us + end_retry_us) {
             slot.end_sent_us = 0;
-            slot.drive.on_arrival(UINT64_MAX, UINT64_MAX); // the last block may be lost
+            slot.drive.on_arrival(arrives_us, UINT64_MAX); // the last block may be lost
         }
         if (slot.setpoint_us != 0 &&
             arrives_us > slot.setpoint_us + std::max(period_us, slot.drive.profile().period_us)) {
@@ -123,7 +123,7 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
     const bool sent = slot.drive.send();
     publish_report(slot);
     slot.end_sent_us = !end_sent || !sent ? 0 : slot.end_sent_us == 0 ? arrives_us : slot.end_sent_us;
-    on_sent(slot, motion, sent, period_us);
+    on_sent(slot, motion, sent, arrives_us, period_us);
 }
 
 // A drive without a new target continues for a short time only, so all drives stop. If no drive got a target meanwhile,
@@ -141,7 +141,8 @@ void SetpointBus::check_lateness(Slot& slot, SetpointMotion& motion, std::uint64
     }
 }
 
-void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint32_t period_us) noexcept {
+void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint64_t arrives_us,
+                          std::uint32_t period_us) noexcept {
     const LinkAnswer& answer = slot.drive.last_answer();
     const std::uint64_t arrived_us = sent ? (answer.arrived_us + answer.replied_us) / 2 : link_->clock().now_us();
     const bool end_sent = slot.end_sent_us != 0;
@@ -151,7 +152,7 @@ void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::ui
     {
         const std::lock_guard lock(motion.mutex);
         check_lateness(slot, motion, latest_us, period_us);
-        slot.drive.on_arrival(sent ? answer.arrived_us : UINT64_MAX, sent ? answer.replied_us : UINT64_MAX);
+        slot.drive.on_arrival(arrives_us, sent ? answer.replied_us : UINT64_MAX);
         motion.last_setpoint_us = sent ? std::max(motion.last_setpoint_us, arrived_us) : motion.last_setpoint_us;
     }
     if (sent) {

@@ -111,7 +111,8 @@ private:
     void send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_t period_us) noexcept;
     static void check_lateness(Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
                                std::uint32_t period_us) noexcept;
-    void on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint32_t period_us) noexcept;
+    void on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint64_t arrives_us,
+                 std::uint32_t period_us) noexcept;
     void publish_report(Slot& slot) noexcept;
     void carry_out(Slot& slot, StopRequest request) noexcept;
     void read_statuses() noexcept;
