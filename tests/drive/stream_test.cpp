@@ -9,6 +9,7 @@
 #include "support/rounds.hpp"
 
 #include <memory>
+#include <numeric>
 #include <random>
 
 using namespace splinefeed;
@@ -218,6 +219,46 @@ TEST_CASE("Cyclic targets: a drive that stood comes back to a path that stands w
     CHECK(furthest > 100.0);
     CHECK(axis.drive.position() == 0);
     CHECK(stream.end_sent(track, track.end_us()));
+}
+
+TEST_CASE("Cyclic targets: no shaft jumps, whenever a target takes effect, if it does") {
+    const Circle circle(wholes);
+    const TrajectoryBuffer track = circle.track();
+    const DriveProfile profile = host::find_profile("cia402-index");
+    constexpr std::uint32_t interval_us = 2000;
+    constexpr std::uint32_t period_us = 10'000;
+    const unsigned first = std::random_device{}();
+    for (unsigned seed = first; seed < first + static_cast<unsigned>(splinefeed_test::rounds(20)); ++seed) {
+        INFO("seed " << seed);
+        std::mt19937 random(seed);
+        auto axes = axes_of("cia402-index", circle, period_us);
+        Axis& axis = *axes[1];
+        CyclicStream stream(profile, {1, period_us, interval_us, 1e5, Circle::speed_counts_s});
+        stream.begin(track.at(1, 0).position_q16);
+        const std::uint64_t begun_us = axis.drive.now_us();
+        double most = 0.0;
+        std::uint64_t arrived_us = 0;
+        for (std::uint64_t now_us = 0; now_us < track.end_us();) {
+            const MotionInstant instant{now_us, now_us, now_us + interval_us};
+            if (now_us > arrived_us + period_us) {
+                stream.on_setpoint_timeout(track, instant);
+            }
+            const auto writes = stream.frame(track, instant);
+            const std::uint64_t answered_us = now_us + (random() % 4 == 0 ? random() % 40'000 : 200);
+            const std::uint64_t effect_us = random() % 2 == 0 ? now_us : answered_us;
+            const bool answers = random() % 6 != 0;
+            axis.drive.wait_us(begun_us + effect_us - axis.drive.now_us());
+            if (answers || random() % 2 == 0) {
+                axis.send(writes);
+            }
+            axis.drive.wait_us(0);
+            most = std::max(most, std::fabs(axis.drive.model().axis().reference().velocity_counts_s()));
+            stream.on_arrival(now_us, answers ? answered_us : UINT64_MAX);
+            arrived_us = answers ? std::midpoint(now_us, answered_us) : arrived_us;
+            now_us = std::max(now_us + interval_us, answered_us);
+        }
+        CHECK(most < 1.3 * Circle::speed_counts_s);
+    }
 }
 
 TEST_CASE("Blocks on the fly: what arrived late is known when the next one is made") {

@@ -32,8 +32,9 @@ STOP_RESERVE_S = 0.1
 WATCHDOG_S = 1.0
 TOLERATED = 1.005  # of a limit: recorded shafts are differences of rounded positions
 BEHIND_PATH = 1.5  # of the feed: how fast a drive without segments may come back to the path
-ENDS_S = 400.0  # a port ends a motion that advances by less than 1 s in 30 s; these take 10 s at most
+ENDS_S = 60.0  # these motions take 10 s at most, and a port ends one that takes 10 s more than four times its time
 EXIT_SEEN_S = 0.004  # the record has a row a millisecond
+SETTLES = 1.0  # counts: a port of drives that report whole ones cannot see that a shaft still settles by less
 
 # By kind and wire: the profile and, of a machine file's address, its keys. No cyclic profile that ships has a serial line: that
 # one is written for the test.
@@ -49,6 +50,7 @@ QUERY = "?baud=115200&parity=E&unit=1"
 
 SILENT = ["does not answer", "no connection", "in fault", "watchdog"]
 ANY = [""]
+SLOW = ["its line is too slow for targets"]  # never said of pvt
 PVT = ("pvt",)
 ALL = ("pvt", "cyclic", "block")
 
@@ -69,17 +71,17 @@ def lasting(name, low_ms, high_ms):
 # checksum of its own (on TCP; what a gateway mixes up) is nobody's to notice, so these are for pvt.
 FAULTS = {
     "none": (lambda rng, at: "", ALL, []),
-    "drop": (probability("drop", 0.002, 0.08), ALL, []),
+    "drop": (probability("drop", 0.002, 0.08), ALL, SLOW),
     "corrupt": (probability("corrupt", 0.002, 0.08), PVT, []),
     "exception": (probability("exception", 0.002, 0.08), PVT, []),
     "stale": (probability("stale", 0.002, 0.08), PVT, []),
     "duplicate": (probability("duplicate", 0.01, 0.5), ALL, []),
-    "short": (probability("short", 0.002, 0.08), ALL, []),
-    "foreign": (probability("foreign", 0.002, 0.08), ALL, []),
-    "delay": (spell("delay", 1, 60, 0.01, 0.2), ALL, []),
-    "late": (spell("late", 1, 250, 0.005, 0.05), ALL, []),
-    "drip": (spell("drip", 1, 30, 0.005, 0.03), ALL, []),
-    "mute": (spell("mute", 10, 150, 0.002, 0.02), ALL, []),
+    "short": (probability("short", 0.002, 0.08), ALL, SLOW),
+    "foreign": (probability("foreign", 0.002, 0.08), ALL, SLOW),
+    "delay": (spell("delay", 1, 60, 0.01, 0.2), ALL, SLOW),
+    "late": (spell("late", 1, 250, 0.005, 0.05), ALL, SLOW),
+    "drip": (spell("drip", 1, 30, 0.005, 0.03), ALL, SLOW),
+    "mute": (spell("mute", 10, 150, 0.002, 0.02), ALL, SLOW),
     "mute-at": (lambda rng, at: f"mute-at={rng.randint(1, 60)}:150", ALL, []),
     "dither": (lambda rng, at: f"dither={rng.randint(1, 2)}", ALL, []),
     "disconnect": (lasting("disconnect", 20, 1500), ALL, []),
@@ -210,7 +212,8 @@ class Run:
 
     def stands(self, drive, rows):
         off = max((abs(place - first) for row in rows for place, first in zip(row[1:], rows[0][1:])), default=0.0)
-        self.check(off < 1e-3, f"drive {drive}: a shaft moved by {off:.3f} counts after the exit")
+        most = 1e-3 if self.kind == "pvt" else SETTLES
+        self.check(off < most, f"drive {drive}: a shaft moved by {off:.3f} counts after the exit")
 
     def shafts(self, drive, rows, axes):
         pvt = self.kind == "pvt"
@@ -230,10 +233,15 @@ class Run:
 
 
 def write_serial_profile(path):
-    """cia402-index, as if it had a serial line."""
+    """cia402-index, as if it had a serial line, and interpolated over a few of its targets."""
     shipped = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "hal", "profiles", "cia402-index.toml")
-    with open(shipped, encoding="utf-8") as source, open(path, "w", encoding="utf-8") as file:
-        file.write(source.read().replace('name = "cia402-index"', 'name = "serial"').replace('wires = ["tcp"]', 'wires = ["rtu"]'))
+    with open(shipped, encoding="utf-8") as source:
+        text = source.read()
+    for theirs, ours in (('name = "cia402-index"', 'name = "serial"'), ('wires = ["tcp"]', 'wires = ["rtu"]'),
+                         ("unit = 255", "unit = 1"), ("period_ms = 10", "period_ms = 40")):
+        text = text.replace(theirs, ours)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
 
 
 def one(options, seed):

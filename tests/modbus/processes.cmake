@@ -76,10 +76,11 @@ process_test(modbus_inputs input_runs.py)
 process_test(modbus_pauses pause_runs.py)
 process_test(modbus_faulted_runs faulted_runs.py --kind pvt --wire tcp --runs 30 --long-runs 200)
 process_test(modbus_faulted_profile_runs faulted_runs.py --kind block --wire tcp --runs 8 --long-runs 200)
+process_test(modbus_faulted_cyclic_runs faulted_runs.py --kind cyclic --wire tcp --runs 8 --long-runs 200)
 process_test(modbus_paused_input paused_input.py)
 # Stops at random times, by signals, with inputs that stall, outputs that nobody reads and drives that are lost.
 process_test(modbus_stopped_runs stopped_runs.py --runs 30 --long-runs 300 --jobs 4)
-foreach(name faulted_runs faulted_profile_runs) # they have a pool of their own
+foreach(name faulted_runs faulted_profile_runs faulted_cyclic_runs) # they have a pool of their own
     if(TEST modbus_${name})
         set_tests_properties(modbus_${name} PROPERTIES PROCESSORS 2)
     endif()

@@ -179,3 +179,44 @@ TEST_CASE("Set-point port, virtual: no shaft jumps to a target after a gap of it
         }
     }
 }
+
+TEST_CASE("Set-point port, virtual: a motion that late answers stop again and again is ended, and says of which drive",
+          "[ports]") {
+    const SmoothMotion longer = smooth_motion(8000.0, 10, 400, 4000);
+    for (const char* const profile : {"cia402-index", "lexium32m"}) {
+        INFO(profile);
+        SetpointPlant plant({.profile = profile});
+        plant.sample_positions();
+        REQUIRE(plant.begin(longer) == "");
+        plant.wires[1]->faults.late = 0.3;
+        plant.wires[1]->faults.late_us = 49'000; // less than the time-out
+        CHECK(run(plant, longer, {}) == PortPhase::fault);
+        INFO(plant.port->trouble() << ", " << plant.port->resumes() << " resumes");
+        CHECK(plant.port->trouble().find("its line is too slow for targets: ") == 0);
+        CHECK(plant.port->trouble_with() == 1);
+        CHECK(plant.clock.now_us() < plant.began_us + 25'000'000);
+    }
+}
+
+TEST_CASE("Set-point port, virtual: pauses of a program are no late answers, however long they are", "[ports]") {
+    const SmoothMotion longer = smooth_motion(8000.0, 10, 400, 4000);
+    for (const char* const profile : {"cia402-index", "lexium32m"}) {
+        INFO(profile);
+        SetpointPlant plant({.profile = profile});
+        plant.sample_positions();
+        REQUIRE(plant.begin(longer) == "");
+        PortPhase phase = PortPhase::running;
+        for (int ms = 0; phase == PortPhase::running && ms < 300'000; ++ms) {
+            for (int i = 0; ms % 3000 == 0 && i < 90 && plant.next < longer.segments.size(); ++i) {
+                plant.next += plant.port->submit(longer.segments[plant.next]) ? 1 : 0;
+            }
+            if (plant.next == longer.segments.size()) {
+                plant.port->complete();
+            }
+            phase = plant.port->poll().phase;
+            plant.clock.sleep_us(1000);
+        }
+        CHECK(phase == PortPhase::idle);
+        CHECK(plant.port->resumes() > 30);
+    }
+}

@@ -108,7 +108,7 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
         if (!motion.stop_requested && slot.end_sent_us != 0 && !(slot.drive.reading().done && slot.drive.at_target()) &&
             arrives_us > slot.end_sent_us + end_retry_us) {
             slot.end_sent_us = 0;
-            slot.drive.on_arrival(UINT64_MAX); // the last block may be lost
+            slot.drive.on_arrival(arrives_us, UINT64_MAX); // the last block may be lost
         }
         if (slot.setpoint_us != 0 &&
             arrives_us > slot.setpoint_us + std::max(period_us, slot.drive.profile().period_us)) {
@@ -127,24 +127,26 @@ void SetpointBus::send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_
     const bool sent = slot.drive.send();
     publish_report(slot);
     slot.end_sent_us = !end_sent || !sent ? 0 : slot.end_sent_us == 0 ? arrives_us : slot.end_sent_us;
-    on_sent(slot, motion, sent, period_us);
+    on_sent(slot, motion, sent, arrives_us, period_us);
 }
 
 // A drive without a new target continues for a short time only, so all drives stop. If no drive got a target meanwhile,
-// all have stopped by themselves: the clock then stops from the last target on, and the path waits there.
-void SetpointBus::check_lateness(const Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
+// all have stopped by themselves: the clock then stops from the last target on, and the path waits there. While the
+// clock stood, no target was late.
+void SetpointBus::check_lateness(Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
                                  std::uint32_t period_us) noexcept {
-    const bool any = slot.setpoint_us != 0; // else the first one is awaited since the start of the motion
-    if (motion.clock.stopping() || slot.end_sent_us != 0 || (!any && motion.clock.time(now_us) == 0)) {
+    if (motion.runs_from_us == 0 || motion.clock.stopping() || slot.end_sent_us != 0) {
         return;
     }
-    const std::uint64_t due_us = (any ? slot.setpoint_us : motion.clock.instant(0)) + period_us;
+    const std::uint64_t due_us = std::max(slot.setpoint_us, motion.runs_from_us) + period_us;
     if (now_us > due_us + period_us + allowed_late_us) {
         motion.clock.stop(std::clamp(motion.last_setpoint_us, due_us, now_us));
+        slot.late_stops.fetch_add(1, std::memory_order_relaxed);
     }
 }
 
-void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint32_t period_us) noexcept {
+void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint64_t arrives_us,
+                          std::uint32_t period_us) noexcept {
     const LinkAnswer& answer = slot.drive.last_answer();
     const std::uint64_t arrived_us = sent ? (answer.arrived_us + answer.replied_us) / 2 : link_->clock().now_us();
     const bool end_sent = slot.end_sent_us != 0;
@@ -156,7 +158,7 @@ void SetpointBus::on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::ui
         const std::lock_guard lock(motion.mutex);
         check_lateness(slot, motion, latest_us, period_us);
         stands_us = motion.clock.stopping() ? motion.clock.standstill_from() : stands_us;
-        slot.drive.on_arrival(sent ? arrived_us : UINT64_MAX);
+        slot.drive.on_arrival(arrives_us, sent ? answer.replied_us : UINT64_MAX);
         motion.last_setpoint_us = sent ? std::max(motion.last_setpoint_us, arrived_us) : motion.last_setpoint_us;
     }
     if (sent) {

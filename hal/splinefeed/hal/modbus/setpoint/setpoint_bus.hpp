@@ -29,6 +29,7 @@ struct SetpointMotion {
     std::uint64_t reserve;              ///< motion time of the clock's slow-down [us]
     std::uint64_t ahead_us = 0;         ///< how far targets are ahead of motion time [us]
     std::uint64_t last_setpoint_us = 0; ///< arrival of the last target at any drive [us]
+    std::uint64_t runs_from_us = 0;     ///< when the clock began to run, or resumed; 0: it did not
     bool complete = false;              ///< the trajectory contains the end of the motion, at rest
     bool stop_requested = false;        ///< a stop was requested: drives that stand must not move any more
 };
@@ -79,6 +80,10 @@ public:
     void start(SetpointMotion& motion, std::uint32_t period_us);
     void stop() noexcept;
     [[nodiscard]] SetpointReport report(std::size_t drive) const noexcept;
+    /// How often late targets of a drive stopped the clock.
+    [[nodiscard]] std::uint32_t late_stops(std::size_t drive) const noexcept {
+        return drives_[drive].late_stops.load(std::memory_order_relaxed);
+    }
     /// Processor time that the thread has used. [us]
     [[nodiscard]] std::uint64_t busy_us() const noexcept { return busy_us_.load(std::memory_order_relaxed); }
     /// Stops a drive: sends the request with precedence, repeatedly, until the drive has answered. The drive gets no
@@ -98,6 +103,7 @@ private:
         std::uint64_t position_us = 0;   // of the last position in `standstill`
         std::uint64_t word_since_us = 0; // it says that it stands since then; 0: it does not
         std::atomic<StopRequest> stop_request{StopRequest::none};
+        std::atomic<std::uint32_t> late_stops{0};
         std::uint64_t setpoint_us = 0;      // arrival of the last target; 0: none
         std::uint64_t rest_setpoint_us = 0; // SetpointReport
         std::uint64_t end_sent_us = 0;      // when the end was sent; 0: not yet
@@ -106,9 +112,10 @@ private:
 
     void run(SetpointMotion& motion, std::uint32_t period_us) noexcept;
     void send_setpoint(Slot& slot, SetpointMotion& motion, std::uint32_t period_us) noexcept;
-    static void check_lateness(const Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
+    static void check_lateness(Slot& slot, SetpointMotion& motion, std::uint64_t now_us,
                                std::uint32_t period_us) noexcept;
-    void on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint32_t period_us) noexcept;
+    void on_sent(Slot& slot, SetpointMotion& motion, bool sent, std::uint64_t arrives_us,
+                 std::uint32_t period_us) noexcept;
     void publish_report(Slot& slot) noexcept;
     void carry_out(Slot& slot, StopRequest request) noexcept;
     void read_statuses() noexcept;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace splinefeed::hal::modbus {
 
@@ -220,11 +221,11 @@ void SetpointDrive::resync_position() noexcept {
     }
 }
 
-void SetpointDrive::on_arrival(std::uint64_t arrival_us) noexcept {
+void SetpointDrive::on_arrival(std::uint64_t earliest_us, std::uint64_t latest_us) noexcept {
     if (block_ && !prepared_.empty()) {
-        block_->on_arrival(arrival_us);
+        block_->on_arrival(latest_us == UINT64_MAX ? UINT64_MAX : std::midpoint(answer_.arrived_us, latest_us));
     } else if (cyclic_) {
-        cyclic_->on_arrival(arrival_us);
+        cyclic_->on_arrival(earliest_us, latest_us);
     }
 }
 

@@ -73,8 +73,8 @@ public:
     /// Call when the drive has stood for some time by the model of its blocks. If it reports another position, because
     /// a block was lost, the next block starts from the reported one.
     void resync_position() noexcept;
-    /// Reports when the last block arrived; UINT64_MAX: it did not.
-    void on_arrival(std::uint64_t arrival_us) noexcept;
+    /// Reports between which instants the last frames arrived; the latest is UINT64_MAX: nobody knows whether they did.
+    void on_arrival(std::uint64_t earliest_us, std::uint64_t latest_us) noexcept;
     /// Reads the status for reading(): all its frames, or the next one in turn. Return false on failure.
     bool read_status() noexcept;
     bool read_next() noexcept;

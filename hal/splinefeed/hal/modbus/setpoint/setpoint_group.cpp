@@ -178,11 +178,11 @@ DriveTrouble SetpointGroup::watch(std::uint64_t began_us) {
 }
 
 // A drive that lost blocks must first reach the path.
-std::optional<std::size_t> SetpointGroup::not_ready() const noexcept {
+std::optional<std::size_t> SetpointGroup::not_ready(std::uint64_t since_us) const noexcept {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-        const bool returns =
-            slots_[i].wiring.profile->stream == StreamWay::blocks && report(i).still_us < standstill_us;
-        if (!online(i) || returns || report(i).behind) {
+        const SetpointReport last = report(i);
+        const bool returns = slots_[i].wiring.profile->stream == StreamWay::blocks && last.still_us < standstill_us;
+        if (!online(i) || last.answered_us < since_us || returns || last.behind) {
             return i;
         }
     }

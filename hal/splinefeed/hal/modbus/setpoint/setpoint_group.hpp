@@ -56,6 +56,10 @@ public:
     /// Whether make_ready() ended while the drive may have been on its way to its reference.
     [[nodiscard]] bool homing(std::size_t i) const noexcept { return slots_[i].homing; }
     [[nodiscard]] bool online(std::size_t i) const noexcept;
+    /// How often late targets of a drive stopped all of them.
+    [[nodiscard]] std::uint32_t late_stops(std::size_t i) const noexcept {
+        return slots_[i].bus->late_stops(slots_[i].index);
+    }
     void stop_drive(std::size_t i, StopRequest request) noexcept {
         slots_[i].bus->stop_drive(slots_[i].index, request);
     }
@@ -65,8 +69,9 @@ public:
     [[nodiscard]] std::optional<std::size_t> convert(FeedSegment& segment) noexcept;
     /// The first drive that does not follow, by its reports. @param began_us  start of the motion
     [[nodiscard]] DriveTrouble watch(std::uint64_t began_us);
-    /// The first drive that does not answer or, with blocks, does not stand; empty: there is none.
-    [[nodiscard]] std::optional<std::size_t> not_ready() const noexcept;
+    /// The first drive that has not answered since that instant, is not on the path or, with blocks, does not stand;
+    /// empty: there is none.
+    [[nodiscard]] std::optional<std::size_t> not_ready(std::uint64_t since_us) const noexcept;
     /// The first drive that is not at the end of the motion; empty: there is none.
     [[nodiscard]] std::optional<std::size_t> not_arrived(SetpointMotion& motion) const noexcept;
     /// The window within which a drive is where it ought to be. [counts]

@@ -25,7 +25,7 @@ enum class SetpointEvent : std::uint8_t {
     filled,  ///< enough segments are buffered, or all that come
     slows,   ///< the clock began to slow down: segments or targets are late
     stands,  ///< the clock stands
-    ready,   ///< it stands, all drives answer, and those with blocks stand
+    ready,   ///< it stands, all drives have answered since and are on the path, and those with blocks stand
     ran_out, ///< the motion's time is over
     arrived, ///< all drives stand at the end
     stop,    ///< a stop was requested

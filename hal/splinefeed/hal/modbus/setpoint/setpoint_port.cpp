@@ -19,10 +19,11 @@ constexpr std::uint64_t lead_us = 50'000;
 constexpr std::uint64_t retain_us = 100'000;      // of past segments: bus threads may still read them
 constexpr std::uint64_t spare_us = 50'000;        // of the buffer: a poll may be late
 constexpr std::uint64_t settle_us = 50'000;       // settling time of the shafts
-constexpr std::uint64_t least_way_us = 1'000'000; // The motion must advance by this much
-constexpr std::uint64_t steady_us = 30'000'000;   // within this time, however often all drives stop.
+constexpr std::uint64_t slowest = 4;              // A motion may take so many times its own time,
+constexpr std::uint64_t patience_us = 10'000'000; // and this more, while late targets stop all drives.
 constexpr std::uint64_t poll_interval_us = 1000;
-constexpr unsigned stop_turns = 10; // periods of a bus until a command and its status have passed
+constexpr std::uint64_t longest_poll_us = 100'000; // a process that stood still tells nothing about a line
+constexpr unsigned stop_turns = 10;                // periods of a bus until a command and its status have passed
 
 } // namespace
 
@@ -50,7 +51,7 @@ std::string SetpointPort::prepare(const FeedSegment& first) {
     set_times();
     make_room(first);
     group_.start(motion_);
-    began_us_ = steady_us_ = settings_.clock->now_us();
+    began_us_ = bounded_us_ = settings_.clock->now_us();
     if (trouble.what.empty()) {
         return {};
     }
@@ -212,9 +213,9 @@ SetpointPort::Facts SetpointPort::facts(std::uint64_t now_us) noexcept {
     }
     stood_since_us_ = !fact(Event::stands) ? 0 : stood_since_us_ == 0 ? now_us : stood_since_us_;
     if (fact(Event::stands)) {
-        const std::optional<std::size_t> drive = group_.not_ready();
+        const std::optional<std::size_t> drive = group_.not_ready(stood_since_us_);
         awaited_ = drive.value_or(awaited_);
-        fact(Event::ready) = !drive && now_us > stood_since_us_ + settle_us;
+        fact(Event::ready) = !drive;
     }
     if (fact(Event::ran_out)) {
         const std::optional<std::size_t> drive = group_.not_arrived(motion_);
@@ -227,11 +228,13 @@ SetpointPort::Facts SetpointPort::facts(std::uint64_t now_us) noexcept {
 
 void SetpointPort::start_clock(std::uint64_t now_us) noexcept {
     const std::lock_guard lock(motion_.mutex);
-    if (motion_.clock.stopping()) {
-        motion_.clock.resume(now_us + lead_us);
+    if (motion_.clock.stopping()) { // its rate rises from 0: a target that does not know of it yet does no harm
+        motion_.runs_from_us = now_us + period_us();
+        motion_.clock.resume(motion_.runs_from_us);
         ++resumes_;
     } else {
-        motion_.clock.start(now_us + lead_us);
+        motion_.runs_from_us = now_us + lead_us;
+        motion_.clock.start(motion_.runs_from_us);
     }
 }
 
@@ -244,6 +247,8 @@ void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
         if (now[static_cast<std::size_t>(event)] && phases_.take(event, now_us)) {
             if (phases_.phase() == Phase::running) {
                 start_clock(now_us);
+            } else if (event == Event::slows) {
+                find_late();
             }
             break;
         }
@@ -257,14 +262,27 @@ void SetpointPort::follow_clock(std::uint64_t now_us) noexcept {
     }
 }
 
-// A phase that lasts too long, and a motion that is stopped again and again and hardly advances.
+// Whether late targets began this stop, and of which drive most did so far.
+void SetpointPort::find_late() noexcept {
+    std::uint32_t stops = 0;
+    for (std::size_t i = 0; i < group_.size(); ++i) {
+        stops += group_.late_stops(i);
+        latest_ = group_.late_stops(i) > group_.late_stops(latest_) ? i : latest_;
+    }
+    late_ = stops != late_stops_;
+    late_stops_ = stops;
+}
+
+// A phase that lasts too long, and a motion that late targets stop again and again, so that it hardly advances. What
+// the program takes is its own matter.
 void SetpointPort::follow_bounds(std::uint64_t now_us) noexcept {
     const Phase phase = phases_.phase();
     const bool moves = phase == Phase::running || phase == Phase::stopping || phase == Phase::returning;
-    if (!moves || time_us_ >= steady_time_us_ + least_way_us) {
-        steady_us_ = now_us;
-        steady_time_us_ = time_us_;
-    }
+    lag_us_ += late_ && moves ? std::min(now_us - bounded_us_, longest_poll_us) : 0;
+    const std::uint64_t reached_us = std::max(time_us_, bounded_time_us_); // a stop begins at an earlier instant
+    lag_us_ -= std::min(lag_us_, slowest * (reached_us - bounded_time_us_));
+    bounded_us_ = now_us;
+    bounded_time_us_ = reached_us;
     const char* const late = phases_.overdue(now_us);
     if (late != nullptr && phase == Phase::ending) {
         if (trouble_.what.empty()) { // a fault without a sentence would be a run that ended well
@@ -277,10 +295,16 @@ void SetpointPort::follow_bounds(std::uint64_t now_us) noexcept {
         static_cast<void>(phases_.take(Event::fails, now_us));
     } else if (late != nullptr) {
         fail({late, awaited_});
-    } else if (now_us > steady_us_ + steady_us) {
-        fail({"its targets come too late again and again; the line or the host is too slow, or another master "
-              "is on the line",
-              awaited_});
+    } else if (moves && lag_us_ > patience_us) {
+        const auto milliseconds = [](std::uint64_t time_us) {
+            return std::to_string(time_us / 1000) + " ms";
+        };
+        fail({"its line is too slow for targets: " + std::to_string(group_.late_stops(latest_)) +
+                  " times one was late by more than " + milliseconds(SetpointBus::allowed_late_us + period_us()) +
+                  ", by " + milliseconds(report(latest_).late_us) +
+                  " at worst, and all drives stopped; look for a busy host, a slow gateway, bad wiring or another "
+                  "master, or use drives that take segments",
+              latest_});
     }
 }
 

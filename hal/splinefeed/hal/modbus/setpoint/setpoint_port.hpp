@@ -109,6 +109,7 @@ private:
     void follow_bounds(std::uint64_t now_us) noexcept;
     [[nodiscard]] Facts facts(std::uint64_t now_us) noexcept;
     void start_clock(std::uint64_t now_us) noexcept;
+    void find_late() noexcept;
     [[nodiscard]] bool accepts_segments() const noexcept {
         const Phase phase = phases_.phase();
         return phase == Phase::filling || phase == Phase::running || phase == Phase::stopping ||
@@ -130,8 +131,12 @@ private:
     std::uint64_t stood_since_us_ = 0;   // the clock stands since then; 0: it does not
     std::uint64_t arrived_since_us_ = 0; // all drives have arrived since then; 0: not yet
     std::uint64_t time_us_ = 0;          // of the motion, at the last poll
-    std::uint64_t steady_us_ = 0;        // when the motion had last advanced by enough,
-    std::uint64_t steady_time_us_ = 0;   // and its time then
+    std::uint64_t bounded_us_ = 0;       // when it was last looked whether the motion advances,
+    std::uint64_t bounded_time_us_ = 0;  // and its time then
+    std::uint64_t lag_us_ = 0;           // how much longer it takes than it may, because of late targets
+    std::uint32_t late_stops_ = 0;       // by late targets of any drive
+    std::size_t latest_ = 0;             // the drive whose targets were late most often
+    bool late_ = false;                  // the last stop was because of late targets
     std::uint64_t submitted_ = 0;
     std::uint64_t segment_ticks_ = 1;
     std::uint32_t resumes_ = 0;
