@@ -62,7 +62,7 @@ TEST_CASE("a ring gives its items back in order, and holds one less than its sto
 // tests/modbus/tsan_runs.sh runs it under the thread sanitizer, too.
 TEST_CASE("a ring between two threads loses nothing, and no item is torn", "[ring]") {
     // With two places each item may take two switches of threads, which a busy host makes slow.
-    const auto items = static_cast<std::uint64_t>(rounds(80'000, 800'000));
+    const auto items = static_cast<std::uint64_t>(splinefeed_test::rounds(80'000, 800'000));
     for (const std::size_t places : {2U, 3U, 64U}) {
         std::array<Item, 64> storage{};
         const std::span<Item> all(storage);

@@ -13,6 +13,7 @@
 
 using namespace splinefeed::hal::modbus;
 using namespace splinefeed::host;
+using splinefeed::us_per_ms;
 using splinefeed_test::PvtBench;
 
 namespace {

@@ -80,7 +80,7 @@ inline std::vector<PvtSegment> steady(int axes, std::size_t count, std::uint32_t
     for (std::size_t i = 0; i < count; ++i) {
         out[i].duration_ticks = ticks;
         for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
-            const double way = counts_per_s * (k + 1) * ticks / ticks_per_s;
+            const double way = counts_per_s * (k + 1) * ticks / splinefeed::ticks_per_s;
             out[i].end[k] = std::llround(way * 65536.0) * static_cast<std::int64_t>(first + i + 1);
             out[i].end_velocity[k] = std::llround(way * 65536.0) * 256;
         }

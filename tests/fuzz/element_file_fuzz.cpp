@@ -9,6 +9,7 @@
 #include "splinefeed/s1_blended_path/tolerance_path.hpp"
 
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 using namespace splinefeed;

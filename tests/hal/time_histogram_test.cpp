@@ -2,7 +2,6 @@
 #include "splinefeed/hal/rt/time_histogram.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "support/catch.hpp"
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <random>
 #include <vector>
 
+using splinefeed::ns_per_us;
 using splinefeed::hal::TimeHistogram;
 
 namespace {

@@ -3,7 +3,6 @@
 #include "host_sim/target/program_outputs.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "support/catch.hpp"
 #include "support/virtual_clock.hpp"
 #include "talking_target.hpp"
@@ -11,6 +10,7 @@
 #include <algorithm>
 
 using namespace splinefeed_test;
+using splinefeed::us_per_ms;
 
 namespace {
 

@@ -2,8 +2,6 @@
 // How long an exchange may take whatever comes in, and whose answer it gets.
 #include "splinefeed/hal/modbus/link/modbus_link.hpp"
 
-#include "splinefeed/base/units.hpp"
-
 #include "scripted_peer.hpp"
 #include "support/catch.hpp"
 
@@ -15,6 +13,7 @@ using namespace splinefeed_test;
 namespace {
 
 constexpr LinkTiming brief{.answer_us = 50'000};
+constexpr unsigned us_per_ms = 1000;
 
 const Bytes two_registers{1, 3, 4, 0x12, 0x34, 0x56, 0x78};
 

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "drive/pvt_drive.hpp"
 
-#include "splinefeed/base/units.hpp"
-
 #include "drive/axis_stop.hpp"
 
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/s5_pulse_train/step.hpp"
 
 namespace firmware {
 
+using splinefeed::ticks_per_us;
+
 namespace {
 
+constexpr std::uint32_t us_per_ms = splinefeed::us_per_ms; // of a word
 constexpr std::uint32_t longest_watchdog_us = 65'535 * us_per_ms;
 
 /// How far an instant lies ahead of another one; both wrap.

@@ -61,7 +61,7 @@ ModbusException PvtRegisters::read(unsigned address, std::span<std::uint16_t> ou
         identity.version = pvt::version;
         identity.axes = drive_axes;
         identity.ring = drive_.queue().capacity();
-        identity.ticks_per_s = ticks_per_s;
+        identity.ticks_per_s = splinefeed::ticks_per_s;
         identity.boot = boot_;
         identity.check_16 = pvt::word_check_16;
         identity.check_32 = pvt::word_check_32;
