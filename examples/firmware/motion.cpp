@@ -145,10 +145,7 @@ void Motion::plan() noexcept {
 void Motion::emit() noexcept {
     loader_.take(segment_);
     if (loader_.next(part_.ticks)) {
-        at_rest_ = true;
-        for (unsigned k = 0; k < axes; ++k) {
-            at_rest_ = at_rest_ && segment_.end_velocity[k] == 0;
-        }
+        at_rest_ = segment_.ends_at_rest();
         part_.rest = at_rest_;
         part_.end = loader_.end_count();
         steps_.push(part_);

@@ -322,15 +322,8 @@ bool Motion<S>::execute(FeedSegment& segment) {
     } catch (const OutputError&) {
         failure_ = std::current_exception(); // the drives need it all the same
     }
-    bool rest = trajectory_.activity() == Activity::running;
-    bool moves = false;
-    bool ends_in_motion = false;
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
-        rest = rest && segment.end_velocity[k] == 0;
-        moves = moves || segment.start_velocity[k] != 0;
-        ends_in_motion = ends_in_motion || segment.end_velocity[k] != 0;
-    }
-    rest = rest && moves;
+    const bool begins_at_rest = segment.start_velocity == PerAxis<std::int64_t>{};
+    const bool rest = trajectory_.activity() == Activity::running && segment.ends_at_rest() && !begins_at_rest;
     rests_ += rest ? 1U : 0U;
     // The machine executes one segment a poll, in virtual time: it is never behind.
     const bool done = machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
@@ -343,7 +336,7 @@ bool Motion<S>::execute(FeedSegment& segment) {
         return false;
     }
     ++segments_;
-    moves_ = ends_in_motion;
+    moves_ = !segment.ends_at_rest();
     failure_ = failure_ ? failure_ : machine_.trace_failure();
     return !failure_;
 }

@@ -5,7 +5,6 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/output/place_text.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <thread>
@@ -65,7 +64,7 @@ bool Motion<S>::come_to_rest(const std::string& broken) {
     while (held && moves_ && next(segment) && machine_.submit(segment) &&
            machine_.poll().phase != hal::PortPhase::fault && target_->submit(segment, line_, passed_)) {
         ++segments_;
-        moves_ = std::ranges::any_of(segment.end_velocity, [](std::int64_t v) { return v != 0; });
+        moves_ = !segment.ends_at_rest();
     }
     if (!broken.empty()) {
         target_->stop(broken);

@@ -64,7 +64,7 @@ bool Supervision::submit(const FeedSegment& segment, std::uint64_t line, std::ui
     begin_line(line, moves);
     pushed_ticks_ += segment.duration_ticks;
     ++pushed_;
-    at_rest_ = std::ranges::all_of(segment.end_velocity, [](std::int64_t v) { return v == 0; });
+    at_rest_ = segment.ends_at_rest();
     ring_.push(segment);
     if (first) {
         thread_ = std::thread([this] { work(); });

@@ -187,9 +187,8 @@ bool StepPort::do_submit(const FeedSegment& segment) noexcept {
         return false;
     }
     last_ = segment;
-    const auto moving = std::span(segment.end_velocity).first(static_cast<std::size_t>(settings_.axes));
     ahead_ns_.store(reserve_ns(segment));
-    at_rest_.store(std::all_of(moving.begin(), moving.end(), [](std::int64_t v) { return v == 0; }));
+    at_rest_.store(segment.ends_at_rest());
     submitted_ticks_.fetch_add(segment.duration_ticks);
     return true;
 }

@@ -43,9 +43,6 @@ ModbusPort::ModbusPort(const std::vector<DriveWiring>& wiring, const ModbusPortS
         buses_.push_back(std::make_unique<ModbusBus>(settings.make_line(wire.link, wire.timing, *settings.clock)));
     }
     for (const DriveWiring& drive : wiring) {
-        for (const PvtAxis& axis : drive.axes) {
-            axes_ = std::max(axes_, axis.machine_axis + 1);
-        }
         ModbusBus& bus = *buses_[groups.of_drive[drives_.size()]];
         drives_.emplace_back(drive, bus.add(drive.link.unit, drive.both_in_one));
         stop_.add(drives_.back().client(), drive.axes);
@@ -238,9 +235,7 @@ bool ModbusPort::do_submit(const FeedSegment& segment) noexcept {
             return false;
         }
     }
-    const std::span<const std::int64_t> velocities(segment.end_velocity.data(), static_cast<std::size_t>(axes_));
-    const bool rests = std::all_of(velocities.begin(), velocities.end(), [](std::int64_t v) { return v == 0; });
-    return std::all_of(drives_.begin(), drives_.end(), [&](PortDrive& drive) { return drive.push(segment, rests); });
+    return std::all_of(drives_.begin(), drives_.end(), [&](PortDrive& drive) { return drive.push(segment); });
 }
 
 void ModbusPort::update_drives() noexcept {

@@ -140,7 +140,6 @@ private:
     std::size_t disturber_ = 0;     // the drive for which all stopped last
     std::uint32_t stop_at_ = 0;
     std::uint32_t resumes_ = 0;
-    int axes_ = 0; // number of machine axes
     bool complete_ = false;
     bool prepared_ = false;   // bus threads run
     bool moves_ = false;      // a command of this port may have moved a drive

@@ -38,7 +38,7 @@ bool PortDrive::carries(const FeedSegment& segment) const noexcept {
     return to_pvt(segment, wiring_.axes, ignored);
 }
 
-bool PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
+bool PortDrive::push(const FeedSegment& segment) noexcept {
     if (!to_pvt(segment, wiring_.axes, last_)) {
         return false;
     }
@@ -47,7 +47,6 @@ bool PortDrive::push(const FeedSegment& segment, bool rests) noexcept {
         last_.duration_ticks =
             std::clamp(trim_.trimmed(segment.duration_ticks, gain), pvt::shortest_ticks, pvt::longest_ticks);
     }
-    last_.rest = rests;
     return client_->push(last_);
 }
 

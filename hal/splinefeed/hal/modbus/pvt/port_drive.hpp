@@ -30,7 +30,7 @@ public:
     [[nodiscard]] bool carries(const FeedSegment& segment) const noexcept;
     /// @param rests  the whole machine is at rest at the end of the segment
     /// Returns false, and sends nothing of it, if it does not fit the registers or there is no room.
-    [[nodiscard]] bool push(const FeedSegment& segment, bool rests) noexcept;
+    [[nodiscard]] bool push(const FeedSegment& segment) noexcept;
 
     /// Updates last_report() and the lag from it.
     void update(std::uint64_t now_us, const PortTimes& times) noexcept;

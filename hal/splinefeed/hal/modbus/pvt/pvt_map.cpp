@@ -65,7 +65,7 @@ bool to_pvt(const FeedSegment& segment, std::span<const PvtAxis> axes, PvtSegmen
     static_assert(units_per_count % (std::int64_t{1} << PvtSegment::velocity_bits) == 0);
     PvtSegment made = out;
     made.duration_ticks = segment.duration_ticks;
-    made.rest = segment.end_velocity == PerAxis<std::int64_t>{};
+    made.rest = segment.ends_at_rest();
     bool fits = segment.duration_ticks >= pvt::shortest_ticks && segment.duration_ticks <= pvt::longest_ticks;
     for (std::size_t k = 0; k < axes.size() && fits; ++k) {
         if (axes[k].machine_axis >= 0) {

@@ -64,7 +64,7 @@ std::uint64_t TrajectoryBuffer::end_us() const noexcept {
 }
 
 bool TrajectoryBuffer::ends_at_rest() const noexcept {
-    return count_ == 0 || placed(count_ - 1).segment.end_velocity == PerAxis<std::int64_t>{};
+    return count_ == 0 || placed(count_ - 1).segment.ends_at_rest();
 }
 
 // The last segment that begins at that time or before. @pre the first one does
