@@ -21,11 +21,12 @@ struct CyclicSettings {
 /// the other. An error is multiplied by 1 - I / P with each frame.
 ///
 /// Where the drive is follows from the targets that have arrived. No target is further from there than `catch_up` times
-/// the fastest way of a period: a drive that missed targets comes back to the path at that speed, and does not jump.
+/// the fastest distance of a period. A drive that missed targets comes back to the path at that speed, and does not
+/// jump.
 ///
-/// Deviation from the path with one frame per interval: line_deviation_counts of the interval, since the drive moves
-/// straight between frames, plus half a unit of its register, times P / I if frames overlap. If a frame is late by more
-/// than P - I, the drive stops and waits for it.
+/// Deviation from the path with one frame per interval: line_deviation_counts
+/// of the interval, plus half a unit of its register, times P / I if frames overlap. The drive moves straight between
+/// frames. If a frame is late by more than P - I, the drive stops and waits for it.
 class CyclicStream {
 public:
     static constexpr double catch_up = 1.25; ///< of the velocity limit, for a drive behind the path
