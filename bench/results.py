@@ -77,7 +77,7 @@ def main():
     args = parser.parse_args()
     print("# Results\n\n`bench/results.py > docs/reference/results.md` makes this page. tests/judge computes every figure from the files of a"
           " run (trace,\ncurve, machine), by finite differences of the trace at 1 ms. `over optimum` is the cycle time divided by the"
-          " least possible time\non the same curve with the same velocity, acceleration and feed limits, with standstill at"
+          " least possible time\non the same curve. The limits are the same velocity, acceleration and feed, with standstill at"
           " every corner of the curve\n(TOPP-RA on a fine grid). 1 in a `use` column is the limit.")
     with tempfile.TemporaryDirectory() as work:
         print("\n## Three axes, 100 mm/s, 1000 mm/s^2 each, feed 100 mm/s, 1 ms")

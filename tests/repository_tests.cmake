@@ -70,6 +70,7 @@ repository_test(two_compilers tools/two_compilers.sh ${PROJECT_BINARY_DIR}/bin/s
 repository_test(format tools/format.sh)
 repository_test(scripts tools/scripts.sh)
 repository_test(rooms tools/rooms.py)
+repository_test(sentences tools/sentences.py)
 repository_test(refusals tool/refusals.py ${sanitized}/bin/splinefeed)
 repository_test(docs_links tools/docs_links.py)
 repository_test(docs_blocks ALONE tools/docs_blocks.py ${PROJECT_BINARY_DIR})

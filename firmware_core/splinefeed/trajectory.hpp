@@ -48,18 +48,18 @@ public:
     /// before it. Errors: axes_differ, counts_out_of_range, start_elsewhere.
     [[nodiscard]] Status status() const noexcept { return planner_->arc_length_->status(); }
 
-    /// Writes the next segment, or says why there is none: `starved` (push waypoints or finish the input), `held` (the
-    /// machine stands until resume() or a larger override) or `finished` (also after an abort, and after a refused
-    /// segment: see status()).
+    /// Writes the next segment, or says why there is none. The answer is then `starved` (push waypoints or finish the
+    /// input), `held` (the machine stands until resume() or a larger override) or `finished`. It is `finished` after an
+    /// abort, and after a refused segment: see status().
     /// @param underrun  drain: for a machine that moves and has no segment left while the input is late. The motion
     ///                  continues along the known path, brakes to standstill at its end, and starts again when more
     ///                  input comes.
     /// @param work      bound of the work of this call, at least 1, for a main loop that has other work as well. A step
-    ///                  is a node that is planned or a cell that is entered; a piece of the curve that is measured is
-    ///                  three; a segment of the curve, and each part of the search for the largest speeds of a new
-    ///                  cell, is four. On top comes one feed segment. docs/reference/budgets.md has the instructions.
-    ///                  `busy`: nothing was lost, call again. What is emitted does not depend on it. A plan that limits
-    ///                  the jerk ignores it.
+    ///                  is a node that is planned or a cell that is entered. A part of the curve that is
+    ///                  measured is three. A segment of the curve, and each part of the search for the largest speeds
+    ///                  of a new cell, is four. On top comes one feed segment. docs/reference/budgets.md has the
+    ///                  instructions. `busy`: nothing was lost, call again. What is emitted does not depend on it. A
+    ///                  plan that limits the jerk ignores it.
     [[nodiscard]] Pull next(FeedSegment& out, UnderrunPolicy underrun = UnderrunPolicy::wait,
                             unsigned work = WorkBudget::unlimited) noexcept {
         SPLINEFEED_ASSERT(work > 0);

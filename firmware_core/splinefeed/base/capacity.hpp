@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compile-time capacities. The number of axes and the degree are chosen at run time, up to these values. A small target
 // lowers them (CMake: SPLINEFEED_MAX_AXES, SPLINEFEED_MAX_DEGREE): every window then needs less memory. See DESIGN.md,
-// "Axes".
+// "Numbers and axes".
 #pragma once
 
 #include <array>

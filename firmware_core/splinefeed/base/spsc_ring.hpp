@@ -17,8 +17,8 @@ namespace splinefeed {
 ///
 /// Memory order. Each index has one writer: the writer's side stores `head_`, the reader's side `tail_`. push() writes
 /// the item, then stores head_ with release; who loads that value of head_ with acquire (size(), empty()) sees the
-/// item. drop() stores tail_ with release after the item was read; the writer loads it with acquire (room()) before it
-/// writes that place again, so a place is never written while it is read. Each side may load its own index relaxed,
+/// item. drop() stores tail_ with release after the item was read. The writer loads it with acquire (room()) before it
+/// writes that item again. So an item is never written while it is read. Each side may load its own index relaxed,
 /// because nobody else stores it. An old value of the other's index is safe: the writer then sees less room than there
 /// is, the reader fewer items. A precondition that was found true stays true, since only the own side can end it. On
 /// one core, between a main loop and an interrupt, the same orders keep the compiler from moving the accesses; the

@@ -31,8 +31,8 @@ inline constexpr std::array<std::uint8_t, 192> reciprocal_root_table = make_reci
 
 /// floor(sqrt(n)) for a normalised n >= 2^62; the root has exactly 32 bits. Cost: seven multiplies, no division.
 ///
-/// With x = n / 2^64 in [1/4, 1): the table gives y0 = 1/sqrt(x) with a relative error of 2^-7.7; one Newton step gives
-/// y1 with an error of 2^-14.6; one step of third order on s1 = x y1 gives the root with an error of 2^-38, much less
+/// Let x = n / 2^64 in [1/4, 1). The table gives y0 = 1/sqrt(x) with a relative error of 2^-7.7. One Newton step gives
+/// y1 with an error of 2^-14.6. One step of third order on s1 = x y1 gives the root with an error of 2^-38, much less
 /// than its last bit, 2^-32.
 constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
     // Both residuals h = 1 - x y^2 are below 1/2 and are computed modulo 1. The leading bits of the product would need
@@ -79,9 +79,9 @@ constexpr std::uint64_t normalised_root(std::uint64_t n) noexcept {
     // Scaling by a power of four scales the root by a power of two, and floor(floor(r) / 2^k) = floor(r / 2^k).
     const int shift = leading_zeros(a) & 126; // even; below 128 because a is not zero
     const Wide n = shift_left(a, shift);
-    // Zimmermann's step ("Karatsuba square root"): from the exact root s and remainder r of the upper half, the lower
-    // digit q = (r 2^32 + next digit) / 2s is right or one too large. The numerator has 65 bits, so it is halved first.
-    // q = 2^32 is possible only if the digit is 2^32 - 1.
+    // Zimmermann's step ("Karatsuba square root") takes the exact root s and remainder r of the upper half. Then the
+    // lower digit q = (r 2^32 + next digit) / 2s is right or one too large. The numerator has 65 bits, so it is halved
+    // first. q = 2^32 is possible only if the digit is 2^32 - 1.
     const std::uint64_t upper = detail::normalised_root(n.high);
     const std::uint64_t rest = n.high - upper * upper;
     const std::uint64_t half = (rest << 31) | (n.low >> 33);

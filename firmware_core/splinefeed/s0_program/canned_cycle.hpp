@@ -25,8 +25,9 @@ struct CycleWords {
     Decimal initial{};  ///< where the axis stood before the first one
 };
 
-/// The moves are those of the RS274/NGC report with LinuxCNC's levels: a first rapid to R if the series began below it,
-/// across at the level of retraction, down to R, the hole, and back to R (G99) or to the level before the series (G98).
+/// The moves are those of the RS274/NGC report with LinuxCNC's levels. First comes a rapid to R if the series began
+/// below it. Then the machine goes across at the level of retraction, down to R, and makes the hole. It goes back to R
+/// (G99) or to the level before the series (G98).
 class CannedCycle {
 public:
     /// From the words of a block. @param at  where the machine stands, in program coordinates

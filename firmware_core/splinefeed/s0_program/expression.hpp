@@ -8,11 +8,11 @@
 
 namespace splinefeed {
 
-/// Evaluates [ ], + - * / ** MOD AND OR XOR EQ NE GT GE LT LE, SIN COS TAN ASIN ACOS ATAN[]/[] SQRT ABS EXP LN ROUND
-/// FIX FUP EXISTS, #1, ##1, #[...], `#<name>`, by integers alone: the same digits on every target. Angles are in
-/// degrees. Values lie within +-9.2e9 (Decimal::largest_raw) and have a resolution of 1e-9; each operation is rounded
-/// to nearest, functions are within 2e-9 of the exact value of their rounded argument, EXP and ** also within 1e-15 of
-/// themselves. EQ and NE take values that differ by less than 1e-6 as equal.
+/// Evaluates [ ], + - * / ** MOD AND OR XOR EQ NE GT GE LT LE. Functions: SIN COS TAN ASIN ACOS ATAN[]/[] SQRT ABS EXP
+/// LN ROUND FIX FUP EXISTS. Parameters: #1, ##1, #[...], `#<name>`. All by integers alone: the same digits on every
+/// target. Angles are in degrees. Values lie within +-9.2e9 (Decimal::largest_raw) and have a resolution of 1e-9. Each
+/// operation is rounded to nearest. Functions are within 2e-9 of the exact value of their rounded argument, EXP and **
+/// also within 1e-15 of themselves. EQ and NE take values that differ by less than 1e-6 as equal.
 class Expression final : public WordEvaluator {
 public:
     static constexpr int most_assignments = 16; ///< of a block

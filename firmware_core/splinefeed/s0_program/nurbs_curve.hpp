@@ -6,8 +6,8 @@
 
 namespace splinefeed {
 
-/// A clamped uniform NURBS in the plane XY, degree 2 to 5, of any number of points: its knots are integers, so a piece
-/// depends on 2 degree points only, and one that is far from the end is known before the end is. Memory is constant.
+/// A clamped uniform NURBS in the plane XY, degree 2 to 5, of any number of points. Its knots are integers, so a
+/// piece depends on 2 degree points only. One that is far from the end is known before the end is. Memory is constant.
 class NurbsCurve {
 public:
     static constexpr int least_order = 3;

@@ -7,7 +7,7 @@
 namespace splinefeed {
 
 /// Quintics with the position, direction and curvature of the curve at both ends of each. Each is halved until its
-/// middle and quarters are within 1e-6 mm (float: 1e-3 mm) of the curve, or it is a 256th of the segment; a quintic's
+/// middle and quarters are within 1e-6 mm (float: 1e-3 mm) of the curve, or it is a 256th of the segment. A quintic's
 /// error is largest near those places. @pre weights differ by a factor of 64 at most
 template <Scalar S>
 class RationalPieces {

@@ -6,9 +6,9 @@
 
 namespace splinefeed {
 
-/// Parameters that the interpreter itself holds: #5061 to #5069 and #5070 (probe), #5161, #5181 (G28, G30), #5210 to
-/// #5390 (offsets), #5399 (M66), #5400 to #5428 (tool, position), and names such as `#<_x>`. A view: programs without
-/// expressions do not link it.
+/// Parameters that the interpreter itself holds. They are #5061 to #5069 and #5070 (probe), #5161, #5181 (G28, G30),
+/// #5210 to #5390 (offsets), #5399 (M66), #5400 to #5428 (tool, position), and names such as `#<_x>`. A view: programs
+/// without expressions do not link it.
 class SystemParameters {
 public:
     explicit SystemParameters(const BlockInterpreter& interpreter) noexcept : interpreter_(&interpreter) {}

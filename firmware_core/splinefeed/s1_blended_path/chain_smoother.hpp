@@ -17,8 +17,8 @@ struct IndexedMove {
 };
 
 /// Passes moves on, but for chains: lines in continuous mode that meet in small angles. A chain becomes quintics that
-/// join each other with direction and curvature (`joined`), each within the tolerance of the programmed lines, which is
-/// checked before it is passed on; that is chain_tolerance_mm, if it is less than tolerance_mm. What is left of the
+/// join each other with direction and curvature (`joined`). Each is within the tolerance of the programmed lines, which
+/// is checked before it is passed on. That is chain_tolerance_mm, if it is less than tolerance_mm. What is left of the
 /// latter is that of the joints at the ends of the chain. Where not even one line becomes a quintic, it stays a line,
 /// and the chain ends there.
 ///

@@ -21,9 +21,9 @@ struct Joint {
     S sharpest{};  ///< largest curvature of a blend in units of 2^-20 per chord unit; 0: any
 };
 
-/// Corners that are stops because a plan would take longer for their blend: those whose blend bends more than
-/// curvature_1_mm / (1 - fading sin^2(phi/2))^2, with the angle phi between the moves; where the root is below 1/4,
-/// none.
+/// Corners that are stops because a plan would take longer for their blend. Their blend bends more than
+/// curvature_1_mm / (1 - fading sin^2(phi/2))^2, with the angle phi between the moves. Where the root is below 1/4,
+/// none is.
 template <Scalar S>
 struct SharpestBlend {
     S curvature_1_mm{}; ///< 0: no corner is a stop for that

@@ -32,7 +32,7 @@ public:
     /// few steps of Newton's rule from the nearest of five places.
     [[nodiscard]] S distance_near(bool at_end, const PerAxis<S>& point) const noexcept;
 
-    /// Number of segments for the part between `trim_start` and `trim_end` of its ends: of an arc, quintics each of
+    /// Number of segments for the part between `trim_start` and `trim_end` of its ends. An arc has quintics each of
     /// which turns by 0.4 rad at most, where the radius is off by 9e-8 of itself.
     [[nodiscard]] int pieces(S trim_start, S trim_end) const noexcept;
     /// The state where piece `index` of `count` ends; offset from the start of the move. @pre index is below count

@@ -17,7 +17,7 @@ struct PathCounts {
 
 /// A source of Bezier segments. Push moves until it is full; next() makes room. Chains of short lines become the
 /// longest G2 quintics within their tolerance (ChainSmoother); other joints are rounded (BlendedPath).
-/// A move below 0.1 um is left out. That moves the start of the next one; an arc that is so small, 3 um of radius at
+/// A move below 0.1 um is left out. That moves the start of the next one. An arc that is so small, 3 um of radius at
 /// most, that its ends do not fit any more becomes its chord. CurveSegment::waypoint is the index, modulo 2^32, of the
 /// move at the segment's end, from 0. The path depends neither on feeds nor on the times of the calls. Memory and cost:
 /// those of both. Available if SPLINEFEED_MAX_DEGREE is at least 5.

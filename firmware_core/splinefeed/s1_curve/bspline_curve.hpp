@@ -15,8 +15,8 @@ namespace splinefeed {
 /// degree + 1 waypoints gets a lower degree: a parabola or a line. The base class merges coincident waypoints, so a
 /// waypoint that is given twice does not pull the curve towards it. The parameterization is always uniform, whatever
 /// the options say. The curve of a run with n + 1 waypoints has n + 1 - degree segments. A segment runs along one side
-/// of the polygon and reports the waypoint where that side ends (degree 2: the waypoint at the segment's vertex); the
-/// last segment reports the waypoint of the corner.
+/// of the polygon and reports the waypoint where that side ends (degree 2: the waypoint at the segment's vertex).
+/// The last segment reports the waypoint of the corner.
 ///
 /// Local: a cubic segment needs three waypoints after the side that it runs along, a quadratic segment two after its
 /// vertex. Source: handbook 4.1 (splines/boehm.hpp). Cost per waypoint: three divisions per axis.

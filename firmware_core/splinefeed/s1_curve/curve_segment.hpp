@@ -2,8 +2,8 @@
 // CurveSegment: the common form of every curve method: a polynomial Bezier segment.
 //
 // Control points are offsets from an exact integer origin, in units of 2^unit_log2 mm. The unit is chosen so that the
-// largest offset is in [2^15, 2^16). Fixed then has 47 bits below the size of the segment, however small the segment is
-// (a plain Q31.32 in mm would leave 26 bits for the curvature of a 0.2 mm segment), and float has its full 24.
+// largest offset is in [2^15, 2^16). Fixed then has 47 bits below the size of the segment, however small the segment
+// is, and float has its full 24. A plain Q31.32 in mm would leave 26 bits for the curvature of a 0.2 mm segment.
 #pragma once
 
 #include "splinefeed/s1_curve/waypoint.hpp"

@@ -18,18 +18,18 @@ enum class Seam : std::uint8_t {
 /// the tangents,
 ///     K = (n_a^2 K_a + n_b^2 K_b)/(n_a^2 + n_b^2),  n = |r'|.
 /// For equal tangents this is the plain mean. It moves both segments by the same amount, and never by more than the
-/// shorter segment allows, however long the other is (the plain mean would move a 100 mm line beside a 1 mm arc by 86
-/// mm). Each segment becomes a quintic that keeps its end points, its tangent lengths and the tangential parts of its
-/// second derivatives, and has the normal parts K |r'|^2.
+/// shorter segment allows, however long the other is. The plain mean would move a 100 mm line beside a 1 mm arc
+/// by 86 mm. Each segment becomes a quintic that keeps its end points, its tangent lengths and the tangential parts of
+/// its second derivatives, and has the normal parts K |r'|^2.
 ///
 /// Class G2 at these joints; in the parameter as before (C1 stays C1). Joints are left alone where the machine stops
-/// (stop_at_end), where the direction jumps (by more than 2^-10), where a tangent vanishes (below 2^-16 of its segment:
-/// no direction, no curvature), where both segments are lines, and where the common curvature would move a segment by
-/// its own size (beside a near-cusp). A segment is delivered unchanged if both its joints are left alone. Deviation
-/// from the source: at most 0.018 |K - K_a| n_a^2 per end (Hermite's quintic basis functions of the second derivative
-/// are at most 0.01728), that is 0.018 n_a^2 n_b^2/(n_a^2 + n_b^2) times the jump of the curvature.
-/// Available if SPLINEFEED_MAX_DEGREE is at least 5. Look-ahead: one segment. Cost: two square roots and a division per
-/// axis and joint, and 30 products per axis.
+/// (stop_at_end) and where the direction jumps (by more than 2^-10). So they are where a tangent vanishes (below 2^-16
+/// of its segment: no direction, no curvature), and where both segments are lines. The last case is where the common
+/// curvature would move a segment by its own size (beside a near-cusp). A segment is delivered unchanged if both its
+/// joints are left alone. Deviation from the source: at most 0.018 |K - K_a| n_a^2 per end (Hermite's quintic basis
+/// functions of the second derivative are at most 0.01728). That is 0.018 n_a^2 n_b^2/(n_a^2 + n_b^2) times the jump of
+/// the curvature. Available if SPLINEFEED_MAX_DEGREE is at least 5. Look-ahead: one segment. Cost: two square roots and
+/// a division per axis and joint, and 30 products per axis.
 template <Scalar S>
 class SmoothedCurve final : public CurveSource<S> {
 public:

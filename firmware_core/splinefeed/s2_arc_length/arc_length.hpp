@@ -9,11 +9,11 @@
 
 namespace splinefeed {
 
-/// Stage 2. It halves a segment until every piece is fine enough to be a cell: its metric can be inverted accurately,
-/// its direction and curvature hardly change, and near joints it is a fraction of the braking distance. Around a cusp
-/// the pieces shrink until almost nothing is left, or until they bend more than any speed above crawling allows; the
-/// machine then passes the chord of these pieces from stop to stop. Memory: two segments and a stack of pieces. Cost
-/// per cell: three evaluations with two derivatives.
+/// Stage 2. It halves a segment until every piece is fine enough to be a cell. Then its metric can be inverted
+/// accurately, and its direction and curvature hardly change. Near joints it is a fraction of the braking distance.
+/// Around a cusp the pieces shrink until almost nothing is left, or until they bend more than any speed above crawling
+/// allows. The machine then passes the chord of these pieces from stop to stop. Memory: two segments and a stack of
+/// pieces. Cost per cell: three evaluations with two derivatives.
 template <Scalar S>
 class ArcLength {
 public:

@@ -9,7 +9,7 @@
 namespace splinefeed {
 
 /// Whether the control points of a piece count from the start of the piece. In float the control points of a segment
-/// are known to 2^-24 of its length, which is a large part of a short piece; counted from the start of the piece they
+/// are known to 2^-24 of its length, which is a large part of a short piece. Counted from the start of the piece they
 /// are known to 2^-24 of the piece.
 template <Scalar S>
 inline constexpr bool counts_from_own_start = std::same_as<S, float>;

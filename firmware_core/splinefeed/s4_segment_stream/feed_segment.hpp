@@ -10,7 +10,7 @@
 namespace splinefeed {
 
 /// Position units per count. It is divisible by 6, so the joints of a cubic B-spline are whole numbers if its control
-/// points are multiples of 6 units; and every whole count is such a multiple.
+/// points are multiples of 6 units. Every whole count is such a multiple.
 inline constexpr std::int64_t units_per_count = std::int64_t{3} << 30;
 
 /// A cubic in time for each axis, in integers: positions in units, velocities in units per segment, duration in ticks

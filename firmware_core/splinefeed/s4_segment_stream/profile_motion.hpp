@@ -12,8 +12,8 @@ class ProfileMotion {
 public:
     ProfileMotion() noexcept = default;
     /// @param per_s  the unit of duration() is 1 / per_s
-    /// @pre the middle_sq of a parabola is at most 8 times as large as either end's, as GradedFeed's parts are by far:
-    /// from some 30 times on the search for the duration may begin behind the place where the parabola turns round
+    /// @pre the middle_sq of a parabola is at most 8 times as large as either end's, as GradedFeed's parts are by far.
+    /// From some 30 times on the search for the duration may begin behind the point where the parabola turns round
     ProfileMotion(const ProfileSegment<S>& profile_segment, S cell_length_mm, S per_s) noexcept;
 
     [[nodiscard]] S duration() const noexcept { return duration_; }

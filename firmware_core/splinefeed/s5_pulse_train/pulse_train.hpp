@@ -12,8 +12,8 @@
 namespace splinefeed {
 
 /// Use: train.take(segment); while (train.next(edge)) {...}; at the end of all motion train.finish(), and the loop once
-/// more. An edge is delivered as soon as no later step can come before it: the motion must be known beyond it by the
-/// set-up time, and beyond a step also by turn_gap(), or up to the next step of its axis.
+/// more. An edge is delivered as soon as no later step can come before it. The motion must be known beyond it by
+/// the set-up time, and beyond a step also by turn_gap(), or up to the next step of its axis.
 template <StepEngine Engine>
 class PulseTrain {
 public:

@@ -60,13 +60,13 @@ struct StepTiming {
         return 8e6 / (step_gap() + (grid > 1 ? 1.0 : 2.0));
     }
     /// How far an axis may be beyond half a step when the two steps of a reversal, closer than turn_gap(), are left
-    /// out: the way out and back in that time [steps].
+    /// out. It is the distance out and back in that time [steps].
     [[nodiscard]] constexpr double most_left_out(double steps_per_s2) const noexcept {
         const double seconds = (turn_gap() + 2.0 * grid) / 8e6;
         return steps_per_s2 * seconds * seconds / 8.0;
     }
 
-    /// Whether a plan can be stepped without moving any step: the rate must be kept, a reversal may leave out at most
+    /// Whether a plan can be stepped without moving any step. The rate must be kept, a reversal may leave out at most
     /// 1/64 of a step, and the direction times may last at most 24 steps (the capacity of StepDirSequencer).
     [[nodiscard]] constexpr Status allows(const StepDemand& demand) const noexcept {
         if (!(demand.steps_per_s <= most_steps_per_s())) {

@@ -58,8 +58,8 @@ public:
     /// Adds to entry (row, column). @pre inside the shape, not factored
     void add(std::size_t row, std::size_t column, S weight) noexcept;
 
-    /// Eliminates. Error: system_singular if a pivot is so small that rounding cannot be told from zero: below 2^-44
-    /// (double), 2^-18 (float), 2^-32 (Fixed; in Fixed also if a multiplier would exceed 2^15).
+    /// Eliminates. Error: system_singular if a pivot is so small that rounding cannot be told from zero. That is below
+    /// 2^-44 (double), 2^-18 (float), 2^-32 (Fixed; in Fixed also if a multiplier would exceed 2^15).
     Status factor() noexcept;
 
     /// Solves in place. values[first + i * stride] is the right-hand side i before, and the unknown i after. Error:

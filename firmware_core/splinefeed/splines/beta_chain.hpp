@@ -25,7 +25,7 @@ struct BetaChain {
 };
 
 /// Builds the pieces and the points of every joint, in order. Class at every joint as for beta_joint: G1, or G2 of the
-/// curvature vector, for any free points, because no point of a joint depends on the free points after it. A closed
+/// curvature vector, for any free points. No point of a joint depends on the free points after it. A closed
 /// chain with a degree below 2 order + 1 is refused: one joint would overwrite the points that the next joint reads.
 /// Source: Barsky & DeRose (8b), with free points W3 ... Wd (the text's "only W3" is the cubic case). After an error
 /// the content of the storage is undefined; `failed_joint`, if given, receives the index of the joint.

@@ -30,12 +30,12 @@ struct BetaJoint {
 /// curvature vector, in any number of dimensions. Barsky & DeRose (8b) from the last three points A, B, C:
 ///   W0 = C, W1 = C + beta1 (C - B), W2 = C + (2 beta1 + c)(C - B) + beta1^2 ((C - B) - (B - A)), c = beta2 / (d - 1),
 /// which is beta1^2 A - (2 beta1^2 + 2 beta1 + c) B + ((1 + beta1)^2 + c) C, written with differences.
-/// Two misprints are not followed: the unnumbered constraint r'' = beta1 q'' + beta2 q' (it must be beta1^2; the joint
-/// would only be G1), and the factor d in the last term of (8a) (the joint would be G2 for another beta2). (9a) to (9e)
-/// give gamma and the apex. W2 is not computed from them: at beta2 = -beta1 (d - 1)(1 + beta1) they are infinite and W2
-/// is not. If they are infinite or beyond the range of S, `gamma_known` is false. Errors: beta1 <= 0, a degree below
-/// the order, NaN, B = C (tangent_vanishes), and a sum beyond the range of S: |sum| <= ((2 beta1 + 1)^2 + 2 |c|) max
-/// |coordinate|. Error of a coordinate: 12 roundings of that bound.
+/// Two misprints are not followed. One is the unnumbered constraint r'' = beta1 q'' + beta2 q' (it must be beta1^2; the
+/// joint would only be G1). The other is the factor d in the last term of (8a) (the joint would be G2 for another
+/// beta2). (9a) to (9e) give gamma and the apex. W2 is not computed from them: at beta2 = -beta1 (d - 1)(1 + beta1)
+/// they are infinite and W2 is not. If they are infinite or beyond the range of S, `gamma_known` is false. Errors:
+/// beta1 <= 0, a degree below the order, NaN, B = C (tangent_vanishes), and a sum beyond the range of S: |sum| <= ((2
+/// beta1 + 1)^2 + 2 |c|) max |coordinate|. Error of a coordinate: 12 roundings of that bound.
 template <Scalar S>
 [[nodiscard]] Result<BetaJoint<S>> beta_joint(const BezierPiece<S>& before, const Beta<S>& beta, int order) noexcept;
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // BezierPiece: the output of the whole-curve methods: one polynomial piece, in the unit of the input points.
 //
-// These methods need all points at once and compute in plain scalars, in a unit that the caller chooses: mm in double
-// and float; in Fixed a power of two of mm that makes good use of the digits for the largest coordinate. The caller
-// owns the storage. The streaming methods are in s1_curve and share the arithmetic of a segment with the functions
-// here.
+// These methods need all points at once and compute in plain scalars, in a unit that the caller chooses. That is mm in
+// double and float, and in Fixed a power of two of mm that makes good use of the digits for the largest coordinate. The
+// caller owns the storage. The streaming methods are in s1_curve and share the arithmetic of a segment with the
+// functions here.
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // boehm: a uniform B-spline curve of degree 2 or 3 as a chain of Bezier pieces; the points are control points.
 //
-// Source: the handbook's chapter 4.1, "Krzywe B-sklejane 3 i 2 stopnia": the sides of the control polygon are divided;
-// the division points are the inner Bezier points, and the midpoints between them are the joints (Boehm's
+// Source: the handbook's chapter 4.1, "Krzywe B-sklejane 3 i 2 stopnia". The sides of the control polygon are divided.
+// The division points are the inner Bezier points, and the midpoints between them are the joints (Boehm's
 // construction). Not followed: its rule taken literally for four vertices. It halves the middle side; but the curve is
 // one Bezier piece and that side is not divided.
 //
 // Class: exactly C2 in the knot parameter for degree 3, and C1 for degree 2. If r' = 0 (three coincident vertices, or
-// d_{i+1} = d_{i-1}) a cubic joint is a cusp: still C2, but its curvature is undefined. A joint of quadratics is G2
-// only if the triangles at its two vertices have the same area.
+// d_{i+1} = d_{i-1}) a cubic joint is a cusp. It is still C2, but its curvature is undefined. A joint of quadratics is
+// G2 only if the triangles at its two vertices have the same area.
 #pragma once
 
 #include "splinefeed/splines/bezier_piece.hpp"

@@ -50,16 +50,16 @@ struct EndDerivatives {
 /// pivoting. Closed curves: cyclic, with pivoting. Cost: prepare points * k^2, solve points * k per axis.
 ///
 /// Error of the control points: condition * 4 (k + 1) u * largest coordinate, with u = 2^-53 (double), 2^-24 (float),
-/// 2^-46 (Fixed); in Fixed 4 (k + 1) ulp * condition more, from rounding of values. The condition is that of the system
+/// 2^-46 (Fixed). In Fixed 4 (k + 1) ulp * condition more, from rounding of values. The condition is that of the system
 /// (docs/explanation/numbers.md).
 template <Scalar S>
 class BsplineInterpolation {
 public:
     /// Builds and factors the system. Errors, checked in this order: degree_out_of_range; too_few_points (open: fewer
-    /// than k + 1 control points, use a lower degree; closed: fewer than 3); storage_too_small; knots_invalid, also for
-    /// a wrong number of knots; parameters_invalid (not strictly increasing, or outside the domain); even_degree_closed
-    /// (even degree, even number of points, knots at the points: always singular); schoenberg_whitney (the condition
-    /// below fails); system_singular.
+    /// than k + 1 control points, use a lower degree; closed: fewer than 3); storage_too_small. Then knots_invalid,
+    /// also for a wrong number of knots; parameters_invalid (not strictly increasing, or outside the domain). Then
+    /// even_degree_closed (even degree, even number of points, knots at the points: always singular);
+    /// schoenberg_whitney (the condition below fails); system_singular.
     Status prepare(const InterpolationKind& kind, std::span<const S> parameters, std::span<const S> knots,
                    std::span<S> entries, std::span<std::uint8_t> interchanges) noexcept;
 

@@ -4,9 +4,9 @@
 // Borysenko & Ustenko, "Modification of Catmull-Rom spline curves": the derivative R'(s) at a point is that of the
 // parabola through three points, where s is the sum of chord lengths. Errors in print that are not followed:
 // - s_i is the sum of the chords up to P_i and h_i the length of one chord; the text calls both the length;
-// - the one-sided formulas are labelled R'_x(s_i) and R'_y(s_i): they belong to s_{i-1} and s_{i+1}, the second one in
-//   x; its weights must be delta, -(1+delta)^2/delta, (1+2 delta)/delta (printed: plus sign, other last weight; their
-//   sum is not 0, so the printed derivative depends on the origin);
+// - the one-sided formulas are labelled R'_x(s_i) and R'_y(s_i). They belong to s_{i-1} and s_{i+1}, the second one
+//   in x. Its weights must be delta, -(1+delta)^2/delta, (1+2 delta)/delta (printed: plus sign, other last weight;
+//   their sum is not 0, so the printed derivative depends on the origin);
 // - the right difference uses P1, P2, P3; with "P2, P3, P4" and P4 = P3 it divides by zero;
 // - a closed curve P_0 ... P_n has P_{-1} = P_n, P_{n+1} = P_0, P_{n+2} = P_1 (printed: P_{n+2} = P_0);
 // - dR/dt on a segment is R'(s) ds/dt: a factor with the dimension of a length, which the text omits. "m must exceed 1"

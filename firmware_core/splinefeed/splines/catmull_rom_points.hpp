@@ -23,9 +23,9 @@ struct KnotTangent {
     bool by_span = false;
 };
 
-/// Between equal spans m (P_{i+1} - P_{i-1}), Borysenko & Ustenko (3); otherwise 2 m times the derivative of the
-/// parabola through the three points; at an end of the curve m times the chord, whatever the spans. Error: 3 roundings
-/// of the tangent, by span 8. Cost: one division per axis, by span two.
+/// Between equal spans m (P_{i+1} - P_{i-1}), Borysenko & Ustenko (3). Otherwise 2 m times the derivative of
+/// the parabola through the three points. At an end of the curve m times the chord, whatever the spans. Error: 3
+/// roundings of the tangent, by span 8. Cost: one division per axis, by span two.
 /// @pre |chord| < 2^29 in Fixed
 template <Scalar S>
 void catmull_rom_tangent(const SpannedChord<S>& before, const SpannedChord<S>& after, S tension, int axes,

@@ -15,8 +15,8 @@
 // - "class C2" holds only for delta = lambda = 1, mu = 0: see FergusonClass.
 //
 // Do not use delta = -1, except in rare cases. It reverses the curvature vector at the knot (only |kappa| is
-// continuous). The right side becomes a second difference: the tangent in the centre of a symmetric S is exactly zero
-// (a stop), on straight data the curve may run backwards, and with mu = 0 the system is singular for every odd number
+// continuous). The right side becomes a second difference. The tangent in the centre of a symmetric S is exactly zero
+// (a stop), and on straight data the curve may run backwards. With mu = 0 the system is singular for every odd number
 // of equal joints. A true inflection needs no sign: with delta = +1 it lies inside a segment. Loops come from uniform
 // parameters on uneven chords; mu removes them, delta does not.
 #pragma once
@@ -100,7 +100,7 @@ template <Scalar S>
 void estimate_end_tangents(std::span<const Point<S>> points, std::span<const FergusonJoint<S>> joints, Point<S>& start,
                            Point<S>& end) noexcept;
 
-/// -1 at a knot that is an inflection of the polygon: the polygon turns to opposite sides at the knots before and after
+/// -1 at a knot that is an inflection of the polygon. The polygon turns to opposite sides at the knots before and after
 /// it, each by at least about 2 degrees, and by less than either at this knot. +1 elsewhere, in particular at the ends
 /// and on straight data. In space, sides are compared by the inner product of the turns. For the effect on a symmetric
 /// S see above.

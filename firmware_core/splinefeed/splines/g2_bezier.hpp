@@ -35,15 +35,15 @@ struct G2BezierInput {
     }
 };
 
-/// Solves for the tangents. tangents[i] is the derivative, by its own parameter, at the end of the piece that leads to
-/// point i; beta1 times tangents[i] is the derivative at the start of the next piece. tangents[0] of an open curve is
-/// the derivative at its start. Class G2 of the curvature vector at every joint, C2 by chord length with the defaults.
-/// The constraint is Barsky & DeRose's with beta1^2 at q'' (they print beta1). Regular for every beta1 > 0 and beta2 >=
-/// 0 if the curve is open, or closed with the chord ratio. A closed curve whose beta1 do not multiply to 1 may be
-/// singular (system_singular; for example beta1 = 2.618 at every joint of an even number). With beta1 outside 0.382 to
-/// 2.618 at every joint and no tension, tangents grow from joint to joint. Errors: coincident points if a chord ratio
-/// is needed, beta1 <= 0, beta2 < 0, NaN; result_out_of_range if a tangent is beyond the range of S, in Fixed also if
-/// the lengths of neighbouring chords differ by a factor of 2^20.
+/// Solves for the tangents. tangents[i] is the derivative, by its own parameter, at the end of the piece that leads
+/// to point i. beta1 times tangents[i] is the derivative at the start of the next piece. tangents[0] of an open curve
+/// is the derivative at its start. Class G2 of the curvature vector at every joint, C2 by chord length with the
+/// defaults. The constraint is Barsky & DeRose's with beta1^2 at q'' (they print beta1). Regular for every beta1 > 0
+/// and beta2 >= 0 if the curve is open, or closed with the chord ratio. A closed curve whose beta1 do not multiply to 1
+/// may be singular (system_singular; for example beta1 = 2.618 at every joint of an even number). With beta1 outside
+/// 0.382 to 2.618 at every joint and no tension, tangents grow from joint to joint. Errors: coincident points if a
+/// chord ratio is needed, beta1 <= 0, beta2 < 0, NaN. result_out_of_range if a tangent is beyond the range of S, in
+/// Fixed also if the lengths of neighbouring chords differ by a factor of 2^20.
 /// @param tangents  as many numbers as coordinates
 /// @param scratch   one number per point
 /// Cost: one forward and one backward pass, closed one forward pass more; no memory except the scratch. Derivation, and

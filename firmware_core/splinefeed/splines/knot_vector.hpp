@@ -58,8 +58,8 @@ Status closed_knots(KnotRule rule, std::span<const S> parameters, int degree, S 
 template <Scalar S>
 Status check_knots(std::span<const S> knots, int degree) noexcept;
 
-/// A knot of a closed curve and a parameter, or a knot and the same knot one period later, count as equal up to this
-/// distance: the rounding of multiples and sums.
+/// Up to this distance a knot of a closed curve and a parameter count as equal, or a knot and the same knot one period
+/// later. It is the rounding of multiples and sums.
 template <Scalar S>
 [[nodiscard]] S closed_knot_tolerance(S period) noexcept {
     return scale2(period, std::same_as<S, double> ? -46 : std::same_as<S, float> ? -18 : -40);

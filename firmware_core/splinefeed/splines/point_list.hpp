@@ -8,8 +8,8 @@
 
 namespace splinefeed {
 
-/// Largest coordinate that the whole-curve methods accept, in the unit of the points: 2^18 in Fixed, which leaves 2^13
-/// for the factors of a method; 2^40 in floating point, where squares of chords still fit in a float.
+/// Largest coordinate that the whole-curve methods accept, in the unit of the points. It is 2^18 in Fixed, which leaves
+/// 2^13 for the factors of a method, and 2^40 in floating point, where squares of chords still fit in a float.
 template <Scalar S>
 [[nodiscard]] constexpr S farthest_coordinate() noexcept {
     return std::same_as<S, Fixed> ? literal<S>(0x1p18) : literal<S>(0x1p30) * literal<S>(0x1p10);

@@ -62,8 +62,8 @@ struct SurfaceJet {
 template <Scalar S>
 [[nodiscard]] SurfaceJet<S> evaluate(const BSplineSurface<S>& surface, S u, S v) noexcept;
 
-/// Control points of the iso-parametric curve in the direction `along`, with the other parameter constant at `at`: a
-/// B-spline curve with the surface's degree and knots of that direction, exactly on the surface. Errors:
+/// Control points of the iso-parametric curve in the direction `along`, with the other parameter constant at `at`. They
+/// are those of a B-spline curve with the surface's degree and knots of that direction, exactly on the surface. Errors:
 /// storage_too_small. Cost: k + 1 products per control point.
 template <Scalar S>
 Status iso_curve(const BSplineSurface<S>& surface, SurfaceDirection along, S at, std::span<Point<S>> controls) noexcept;

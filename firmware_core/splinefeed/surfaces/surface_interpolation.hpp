@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // surface_interpolation: the tensor-product B-spline surface through a grid of points.
 //
-// Sakude, section 3: the grid is interpolated along v, row by row, C_il = sum_j d_ij N_j(v_l) for l = 0...n and each i;
-// then the control points found are interpolated along u. Not followed: the printed C_ij = sum_j d_ij N_j(u_j), in
+// Sakude, section 3: the grid is interpolated along v, row by row, C_il = sum_j d_ij N_j(v_l) for l = 0...n and each i.
+// Then the control points found are interpolated along u. Not followed: the printed C_ij = sum_j d_ij N_j(u_j), in
 // which j is a summation index and free at once, and the parameter is of the wrong direction. The pages on the
 // parameters of surfaces are missing in the scan; those here are means of normalised chords. Class: C^(k-1) in u and v
 // with simple inner knots.
-// missing in the scan; those here are means of normalised chords. Class: C^(k-1) in u and v with simple inner knots.
 #pragma once
 
 #include "splinefeed/splines/bspline_interpolation.hpp"

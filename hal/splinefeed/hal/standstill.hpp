@@ -9,8 +9,8 @@
 namespace splinefeed::hal {
 
 /// A controlled shaft always moves a little. It counts as standing while its positions lie within a window, from the
-/// lowest to the highest; or, for twice as long, within twice the window, and so on up to eight times: it dithers, and
-/// goes nowhere.
+/// lowest to the highest. So it does, for twice as long, within twice the window, and so on up to eight times: it
+/// dithers, and goes nowhere.
 class Standstill {
 public:
     Standstill() = default;

@@ -68,9 +68,10 @@ std::string fit_to_ramps(const DriveTable& table, MachineDescription& machine) {
         axis.max_acceleration_mm_s2 = std::min(axis.max_acceleration_mm_s2, most);
         axis.max_braking_mm_s2 = std::min(axis.max_braking_mm_s2, most); // 0 stays: as max_acceleration
     }
-    return lowered.empty() ? lowered
-                           : "drives that are told blocks ramp four times as hard as the path, so it is planned with " +
-                                 lowered + "; say with &ramp= what a drive may ramp with, where that is more";
+    return lowered.empty()
+               ? lowered
+               : "drives with positioning blocks ramp four times as hard as the path, so it is planned with " +
+                     lowered + "; state with &ramp= the acceleration that a drive may ramp with, where it is more";
 }
 
 void check_register_ranges(const DriveTable& table, const MachineDescription& machine, std::uint32_t period_us) {

@@ -10,9 +10,9 @@
 namespace splinefeed {
 
 /// Goes over a window from its end to its front, in as many parts as its caller wants. In every cell that it has
-/// passed, `entry_sq` is the largest entry from which the machine's K after the cell can be reached, and `exit_sq` the
+/// passed, `entry_sq` is the largest entry from which the machine's K after the cell can be reached. `exit_sq` is the
 /// K of the steering there. The window must not change while the pass runs. Cost: a step of the budget for each cell,
-/// and four for each part of the search for the peak of a cell that comes for the first time; a step is two products
+/// and four for each part of the search for the peak of a cell that comes for the first time. A step is two products
 /// and sums for each axis, and as much again under a reduced feed.
 template <Scalar S>
 class BackwardPass {

@@ -15,7 +15,7 @@
 namespace splinefeed {
 
 /// The storage is the caller's. Cells are measured ahead of the plan, and the plan takes them when it wants to know
-/// more of the path: so what it computes does not depend on when they were measured. Cost of every function: constant.
+/// more of the path. So what it computes does not depend on when they were measured. Cost of every function: constant.
 template <Scalar S>
 class CellWindow {
 public:

@@ -20,8 +20,8 @@ struct SteeringTarget {
 };
 
 /// The profile segment nearest to what is wanted, within the cell's polygon. It brakes to the wanted speed, or
-/// accelerates to the speed of the exit, as hard as the cell allows, and ends where that speed is reached; otherwise it
-/// runs to the end of the cell. @pre some exit up to most_sq is allowed. Cost: usually two to four times that of
+/// accelerates to the speed of the exit, as hard as the cell allows, and ends where that speed is reached. Otherwise
+/// it runs to the end of the cell. @pre some exit up to most_sq is allowed. Cost: usually two to four times that of
 /// AccelerationBound::largest_exit; up to some thirty times where a machine stops in a small part of a long cell.
 template <Scalar S>
 [[nodiscard]] ProfileSegment<S> steered_segment(const Cell<S>& cell, const MotionLimits<S>& limits,

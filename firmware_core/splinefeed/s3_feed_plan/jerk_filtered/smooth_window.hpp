@@ -96,8 +96,8 @@ private:
     S end_bound_sq_{};         // bound of v^2 there
     Smoothing<S> smoothing_{}; // of the leg that is being prepared
     std::size_t bounded_ = 0;  // cells from the oldest on that have a bound from the leg itself
-    // Maxima over a window of cells that only moves forward: `own` of each cell from low_ to middle_ holds the maximum
-    // of all cells from there to middle_; joined_ holds that of the cells from middle_ to high_.
+    // Maxima over a window of cells that only moves forward. `own` of each cell from low_ to middle_ holds the maximum
+    // of all cells from there to middle_. joined_ holds that of the cells from middle_ to high_.
     std::size_t low_ = 0;
     std::size_t middle_ = 0;
     std::size_t high_ = 0;

@@ -6,7 +6,7 @@
 
 namespace splinefeed {
 
-/// Derivatives of an axis as Bezier points over the cell, in the direction of travel: q' is the cubic through its
+/// Derivatives of an axis as Bezier points over the cell, in the direction of travel. q' is the cubic through its
 /// values and slopes at both ends; the others are its derivatives.
 struct AxisPoints {
     double first[4];

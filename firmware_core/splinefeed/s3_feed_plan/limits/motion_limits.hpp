@@ -118,8 +118,8 @@ constexpr double speed_noise(double error_mm, double segment_s) noexcept {
 }
 
 /// Length of the longest cell [mm]. The parameter has the relative resolution `error` in a cell. The rounding that this
-/// causes must stay below `share` of the acceleration and ten times `share` of the feed, and below a thousandth of the
-/// jerk if the jerk is limited (not 0).
+/// causes must stay below `share` of the acceleration and ten times `share` of the feed. It must stay below a
+/// thousandth of the jerk if the jerk is limited (not 0).
 constexpr double longest_cell_mm(double error, double share, double acceleration, double feed, double jerk,
                                  double segment_s) noexcept {
     const double by_acceleration = share * acceleration * segment_s * segment_s / (4.0 * error);
@@ -150,8 +150,8 @@ template <>
 inline constexpr double direction_noise<float> = 2e-6;
 
 /// Largest curvature of a cell [1/mm]. Away from stops no plan is slower than v = 1e-3 mm/s. At that speed the
-/// curvature k needs the acceleration k v^2, at most an eighth of the smallest limit, and the jerk q''' v^3, at most a
-/// quarter of a limit. A hairpin that cells resolve has |q'''| up to some 5 k^2. @param jerk  0: not limited
+/// curvature k needs the acceleration k v^2, at most an eighth of the smallest limit. It needs the jerk q''' v^3, at
+/// most a quarter of a limit. A hairpin that cells resolve has |q'''| up to some 5 k^2. @param jerk  0: not limited
 constexpr double sharpest_curvature(double acceleration, double jerk) noexcept {
     constexpr double most = 16e6; // largest curvature that a cell can tell from infinite
     const double by_acceleration = 1e6 / 8.0 * acceleration;
@@ -196,7 +196,7 @@ constexpr bool travel_end_valid(const AxisSettings& axis) noexcept {
 }
 
 /// The range of full speed. The emitted motion averages the plan over two segments to either side, which the axis
-/// passes at its end velocity, and the position deviates by T^2 A / 6: the zone begins earlier by that distance.
+/// passes at its end velocity. The position deviates by T^2 A / 6. The zone begins earlier by that distance.
 constexpr PositionRange open_travel(const AxisSettings& axis, double segment_s) noexcept {
     const double zone = axis.travel_end_zone_mm + 2.0 * segment_s * axis.travel_end_velocity_mm_s +
                         segment_s * segment_s * axis.larger_acceleration_mm_s2() / 6.0;

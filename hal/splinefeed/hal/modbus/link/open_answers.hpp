@@ -17,10 +17,10 @@ enum class RequestKind : std::uint8_t {
 };
 
 /// An answer on a serial line does not say to which request it belongs. So a unit that owes an answer of a kind gets no
-/// other request of that kind before the answer cannot come any more: `latest_us` after the time-out, or once the unit
-/// has answered a request of another kind that was made since then, because it answers in order. The same writing again
-/// need not wait: it is done, whichever of its answers comes. An answer that is later still is taken for that of the
-/// next request: drives do not take that long. For one thread; all instants are of one clock [us].
+/// other request of that kind before the answer cannot come any more. That is `latest_us` after the time-out, or once
+/// the unit has answered a request of another kind that was made since then, because it answers in order. The same
+/// writing again need not wait: it is done, whichever of its answers comes. An answer that is later still is taken for
+/// that of the next request: drives do not take that long. For one thread; all instants are of one clock [us].
 class OpenAnswers {
 public:
     static constexpr std::uint64_t latest_us = 300'000; ///< an answer comes so long after the time-out, at most

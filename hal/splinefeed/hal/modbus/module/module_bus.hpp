@@ -30,7 +30,7 @@ struct ModuleBusSettings {
 };
 
 /// A coil is written as soon as it is set, and again until its module confirms. Each module has one of its coils read
-/// in turn: one that is not as it was set (a module that was off and on again, a watchdog, somebody else) is trouble,
+/// in turn. One that is not as it was set (a module that was off and on again, a watchdog, somebody else) is trouble,
 /// like a module that is lost or refuses. Once there is trouble, or end() was called, all coils become as they are
 /// safe, as soon as their modules answer, and nothing is set any more.
 ///

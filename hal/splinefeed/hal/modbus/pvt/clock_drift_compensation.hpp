@@ -9,7 +9,7 @@
 namespace splinefeed::hal::modbus {
 
 /// Each segment should end at its planned host time. Errors within `tolerated_us` are not corrected, because noise of
-/// the clock estimate must not disturb the motion: one tick changes the speed by one part in the duration's ticks (125
+/// the clock estimate must not disturb the motion. One tick changes the speed by one part in the duration's ticks (125
 /// ppm at 1 ms; 12.5 mm/s^2 for one segment at 100 mm/s). Larger errors are corrected by at most one part in 4000 per
 /// segment, until the drive is synchronous again.
 class ClockDriftCompensation {

@@ -16,7 +16,7 @@ struct BlockSettings {
     /// period.
     std::uint32_t reserve_us = 0;
     /// Acceleration of the drive's ramps [counts/s^2]: written if the profile has fields for it, else the drive's
-    /// setting. It should be four times that of the path or more: then the drive reaches a speed within a quarter of a
+    /// setting. It should be four times that of the path or more. Then the drive reaches a speed within a quarter of a
     /// period, and a speed error falls to a third with each block.
     double acceleration = 1e6;
     /// Highest speed of a drive that catches up, unless the path is faster [counts/s]; 0: the path's speed plus what

@@ -24,9 +24,9 @@ struct CyclicSettings {
 /// No target is further from either end of that than `catch_up` times the fastest way of a period: a drive that missed
 /// targets comes back to the path at that speed, and does not jump.
 ///
-/// Deviation from the path with one frame per interval: line_deviation_counts of the interval, since the drive moves
-/// straight between frames, plus half a unit of its register, times P / I if frames overlap. If a frame is late by more
-/// than P - I, the drive stops and waits for it.
+/// Deviation from the path with one frame per interval: line_deviation_counts
+/// of the interval, plus half a unit of its register, times P / I if frames overlap. The drive moves straight between
+/// frames. If a frame is late by more than P - I, the drive stops and waits for it.
 class CyclicStream {
 public:
     static constexpr double catch_up = 1.25; ///< of the velocity limit, for a drive behind the path

@@ -32,8 +32,8 @@ public:
     /// prepare().
     [[nodiscard]] bool placed(std::size_t drive) const noexcept { return group_.placed(drive); }
     /// Enables all drives and maps their positions to the start of the first segment. Returns what is wrong; empty:
-    /// nothing. If something is wrong all drives were stopped by then: a drive that was homing by a quick stop, the
-    /// others by a hold; or it is known that they did not confirm it: stop_report().
+    /// nothing. If something is wrong all drives were stopped by then: a drive that was homing by a quick stop,
+    /// the others by a hold. Or it is known that they did not confirm it: stop_report().
     [[nodiscard]] std::string prepare(const FeedSegment& first);
     /// Declares that no more segments will come. If the last one ends in motion, all drives stop on the path: halt().
     void complete() noexcept;

@@ -22,9 +22,9 @@ struct VfdSpindleSettings {
     std::uint32_t poll_ms = 50;                 ///< between two readings
 };
 
-/// Once the spindle has trouble, or end() was called, it is told to stop until it confirms, and it takes no order any
-/// more: a spindle that was stopped never turns again. A spindle that has to stand and turns is told to stop again with
-/// every reading. It is turned in the other direction only after it stood.
+/// Once the spindle has trouble, or end() was called, it gets stops until it confirms one, and it takes no order
+/// any more. A spindle that was stopped never turns again. A spindle that has to stand and turns is told to stop again
+/// with every reading. It is turned in the other direction only after it stood.
 ///
 /// All functions but open() may be called by any thread at any time.
 class VfdSpindle {
