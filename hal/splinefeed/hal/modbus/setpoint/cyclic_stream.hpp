@@ -21,7 +21,7 @@ struct CyclicSettings {
 /// the other. An error is multiplied by 1 - I / P with each frame.
 ///
 /// Where the drive is follows from the targets that have arrived, but for when, and perhaps whether, each of them did.
-/// No target is further from either end of that than `catch_up` times the fastest way of a period: a drive that missed
+/// No target is further from either end of that than `catch_up` times the fastest way of a period. A drive that missed
 /// targets comes back to the path at that speed, and does not jump.
 ///
 /// Deviation from the path with one frame per interval: line_deviation_counts
