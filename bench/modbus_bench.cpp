@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What drives on Modbus TCP cost: exchanges one by one, and motion in real time through the port. The simulated drives
 // are processes of their own on the loopback. items_per_second counts segments of the whole machine (three axes).
-#include "host_sim/diagnose/histogram_picture.hpp"
+#include "host_sim/ports/histogram_picture.hpp"
 
 #include "host_sim/drive/drive_server.hpp"
 #include "host_sim/drive/pvt_drive.hpp"

@@ -2,7 +2,7 @@
 #include "host_sim/cli/command_options.hpp"
 
 #include "host_sim/base/nearest_name.hpp"
-#include "host_sim/targets/target_table.hpp"
+#include "host_sim/ports/target_table.hpp"
 
 namespace splinefeed::host {
 

@@ -5,7 +5,7 @@
 #include "host_sim/base/number_text.hpp"
 #include "host_sim/base/standard_output.hpp"
 #include "host_sim/config/machine_file.hpp"
-#include "host_sim/targets/target_table.hpp"
+#include "host_sim/ports/target_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "host_sim/base/standard_output.hpp"
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/cli/command_line.hpp"
-#include "host_sim/target/run_target.hpp"
+#include "host_sim/ports/run_target.hpp"
 
 #include <csignal>
 #include <exception>

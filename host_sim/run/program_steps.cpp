@@ -3,7 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_streams.hpp"
-#include "host_sim/target/program_outputs.hpp"
+#include "host_sim/ports/program_outputs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "host_sim/config/machine_description.hpp"
 #include "host_sim/config/state_file.hpp"
-#include "host_sim/target/run_target.hpp"
+#include "host_sim/ports/run_target.hpp"
 
 #include <optional>
 #include <string>

@@ -9,15 +9,15 @@
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
+#include "host_sim/ports/run_target.hpp"
+#include "host_sim/ports/target_table.hpp"
 #include "host_sim/run/machine_limits.hpp"
 #include "host_sim/run/motion.hpp"
+#include "host_sim/run/output_table.hpp"
 #include "host_sim/run/path_tee.hpp"
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/run_start.hpp"
 #include "host_sim/run/supervision.hpp"
-#include "host_sim/target/run_target.hpp"
-#include "host_sim/targets/output_table.hpp"
-#include "host_sim/targets/target_table.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "host_sim/output/outputs.hpp"
+#include "host_sim/ports/run_target.hpp"
 #include "host_sim/program/path_input.hpp"
 #include "host_sim/run/motion.hpp"
-#include "host_sim/target/run_target.hpp"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host_sim/config/state_file.hpp"
-#include "host_sim/target/run_target.hpp"
+#include "host_sim/ports/run_target.hpp"
 
 #include <mutex>
 #include <optional>

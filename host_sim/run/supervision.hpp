@@ -3,10 +3,10 @@
 #pragma once
 
 #include "host_sim/base/signal_watch.hpp"
+#include "host_sim/ports/program_outputs.hpp"
+#include "host_sim/ports/run_target.hpp"
 #include "host_sim/run/program_orders.hpp"
 #include "host_sim/run/state_keeper.hpp"
-#include "host_sim/target/program_outputs.hpp"
-#include "host_sim/target/run_target.hpp"
 
 #include "splinefeed/s4_segment_stream/segment_ring.hpp"
 

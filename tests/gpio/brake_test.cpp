@@ -3,7 +3,7 @@
 #include "gpio_bench.hpp"
 
 #include "host_sim/planning/straight_motion.hpp"
-#include "host_sim/target/gpio/gpio_target.hpp"
+#include "host_sim/ports/gpio/gpio_target.hpp"
 #include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"
 #include "support/virtual_clock.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // GpioMover on a virtual clock: homing, and what ends it.
 #include "gpio_bench.hpp"
-#include "host_sim/target/gpio/gpio_target.hpp"
+#include "host_sim/ports/gpio/gpio_target.hpp"
 #include "support/catch.hpp"
 #include "support/virtual_clock.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/target/gpio/line_spindle.hpp"
+#include "host_sim/ports/gpio/line_spindle.hpp"
 
 #include "host_sim/config/machine_file.hpp"
 #include "recorded_chips.hpp"

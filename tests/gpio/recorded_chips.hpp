@@ -2,7 +2,7 @@
 // The lines that a program switches, on chips that record, and inputs that act when a test says so.
 #pragma once
 
-#include "host_sim/target/gpio/program_chips.hpp"
+#include "host_sim/ports/gpio/program_chips.hpp"
 #include "recording_writer.hpp"
 
 namespace splinefeed_test {

@@ -2,7 +2,7 @@
 // SimulatedLines: the lines of a map on a virtual clock: what was set when, and switches that act when a test says so.
 #pragma once
 
-#include "host_sim/target/gpio/gpio_chips.hpp"
+#include "host_sim/ports/gpio/gpio_chips.hpp"
 
 #include "splinefeed/hal/rt/clock.hpp"
 

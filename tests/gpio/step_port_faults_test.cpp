@@ -2,7 +2,7 @@
 // StepPort on a virtual clock: disable(), and lines that cannot be set.
 #include "gpio_bench.hpp"
 #include "host_sim/planning/straight_motion.hpp"
-#include "host_sim/target/gpio/gpio_target.hpp"
+#include "host_sim/ports/gpio/gpio_target.hpp"
 #include "support/catch.hpp"
 #include "support/virtual_clock.hpp"
 

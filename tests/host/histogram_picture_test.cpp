@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/diagnose/histogram_picture.hpp"
+#include "host_sim/ports/histogram_picture.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ProgramOutputs under Supervision: when a spindle and switches get their orders, and when they end.
-#include "host_sim/target/program_outputs.hpp"
+#include "host_sim/ports/program_outputs.hpp"
 
 #include "splinefeed/base/units.hpp"
 #include "support/catch.hpp"

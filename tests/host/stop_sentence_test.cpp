@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/target/stop_sentence.hpp"
+#include "host_sim/ports/stop_sentence.hpp"
 
 #include "support/catch.hpp"
 

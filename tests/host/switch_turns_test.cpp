@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/target/switch_turns.hpp"
+#include "host_sim/ports/switch_turns.hpp"
 
 #include "support/catch.hpp"
 

@@ -3,8 +3,8 @@
 // What a drive's registers cannot carry is refused before anything moves, by the machine's limits.
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/machine_file.hpp"
-#include "host_sim/target/modbus/pvt_target.hpp"
-#include "host_sim/target/modbus/setpoint_target.hpp"
+#include "host_sim/ports/modbus/pvt_target.hpp"
+#include "host_sim/ports/modbus/setpoint_target.hpp"
 #include "support/catch.hpp"
 
 using namespace splinefeed;

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/ports/gpio/gpio_chips.hpp"
+
+#include "splinefeed/hal/rt/clock.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::host {
+
+using hal::gpio::ChipOutputs;
+using hal::gpio::LevelMasks;
+using hal::gpio::LineBit;
+
+namespace {
+
+LevelMasks masks_of(LineBit line, bool inverted) {
+    return {line.mask(), inverted ? line.mask() : 0};
+}
+
+void join(LevelMasks& masks, const LevelMasks& others) {
+    masks.mask |= others.mask;
+    masks.inverted |= others.inverted;
+}
+
+} // namespace
+
+GpioChips::GpioChips(const hal::gpio::LineMap& map, const MachineDescription& machine)
+    : map_(&map), machine_(&machine) {
+    for (const hal::gpio::ChipLines& chip : map.chips) {
+        writer_.push_back(chip.outputs.empty() ? nullptr : std::make_unique<Writer>(chip, map.consumer));
+        source_.push_back(chip.inputs.empty() ? nullptr : std::make_unique<Source>(chip, map.consumer));
+    }
+    std::vector<hal::gpio::OutputLines*> lines;
+    for (const auto& writer : writer_) {
+        if (writer) {
+            lines.push_back(&writer->lines());
+        }
+    }
+    guard_.emplace(lines);
+}
+
+std::vector<ChipOutputs> GpioChips::outputs() {
+    std::vector<ChipOutputs> chips(map_->chips.size());
+    for (std::size_t c = 0; c < chips.size(); ++c) {
+        chips[c].writer = writer_[c].get();
+    }
+    for (unsigned k = 0; k < static_cast<unsigned>(machine_->settings.axes); ++k) {
+        const StepMotors& polarity = machine_->motors[k];
+        for (unsigned m = 0; m < map_->axis[k].motors; ++m) {
+            const hal::gpio::MotorLines& motor = map_->axis[k].motor[m];
+            join(chips[motor.step.chip].step[k], masks_of(motor.step, polarity.invert_step));
+            join(chips[motor.direction.chip].direction[k], masks_of(motor.direction, polarity.invert_direction[m]));
+        }
+    }
+    if (map_->enable) {
+        chips[map_->enable->line.chip].enable = masks_of(map_->enable->line, !map_->enable->active_level);
+    }
+    if (map_->brake) {
+        chips[map_->brake->line.chip].brake = masks_of(map_->brake->line, !map_->brake->released_level);
+    }
+    std::erase_if(chips, [](const ChipOutputs& chip) { return chip.writer == nullptr; });
+    return chips;
+}
+
+std::vector<GpioLines::Inputs> GpioChips::inputs() {
+    std::vector<Inputs> all;
+    for (std::size_t c = 0; c < source_.size(); ++c) {
+        Inputs chip{source_[c].get(), {}};
+        for (std::size_t i = 0; i < map_->inputs.size(); ++i) {
+            if (map_->inputs[i].line.chip == c) {
+                chip.input.push_back(i);
+            }
+        }
+        if (!chip.input.empty()) {
+            all.push_back(std::move(chip));
+        }
+    }
+    return all;
+}
+
+std::vector<std::uint64_t> GpioChips::set_times_ns(int calls) {
+    std::vector<std::uint64_t> slowest;
+    std::uint64_t slowest_sum = 0;
+    for (std::size_t c = 0; c < writer_.size(); ++c) {
+        if (!writer_[c]) {
+            continue;
+        }
+        std::uint64_t levels = 0;
+        std::uint64_t mask = 0;
+        for (std::size_t i = 0; i < map_->chips[c].outputs.size(); ++i) {
+            mask |= std::uint64_t{1} << i;
+            levels |= std::uint64_t{map_->chips[c].outputs[i].safe_level ? 1U : 0U} << i;
+        }
+        std::vector<std::uint64_t> times;
+        std::uint64_t sum = 0;
+        for (int i = 0; i < calls; ++i) {
+            const std::uint64_t before = hal::system_clock().now_ns();
+            static_cast<void>(writer_[c]->set(mask, levels));
+            times.push_back(hal::system_clock().now_ns() - before);
+            sum += times.back();
+        }
+        if (sum > slowest_sum) {
+            slowest_sum = sum;
+            slowest = std::move(times);
+        }
+    }
+    return slowest;
+}
+
+void GpioChips::make_safe() noexcept {
+    for (const std::unique_ptr<Writer>& writer : writer_) {
+        if (writer) {
+            writer->lines().make_safe();
+        }
+    }
+}
+
+void GpioChips::keep_drives_on() noexcept {
+    if (map_->enable) {
+        writer_[map_->enable->line.chip]->lines().retain_levels(map_->enable->line.mask());
+    }
+    if (map_->brake) {
+        writer_[map_->brake->line.chip]->lines().retain_levels(map_->brake->line.mask());
+    }
+}
+
+std::string GpioChips::name(LineBit input) const {
+    const hal::gpio::ChipLines& chip = map_->chips[input.chip];
+    const hal::gpio::LineName& line = chip.inputs[input.bit].line;
+    return chip.chip + ' ' + (line.name.empty() ? "line " + std::to_string(*line.offset) : line.name);
+}
+
+} // namespace splinefeed::host

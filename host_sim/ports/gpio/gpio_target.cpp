@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/ports/gpio/gpio_target.hpp"
+
+#include "splinefeed/base/units.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/base/signal_watch.hpp"
+#include "host_sim/config/gpio_map.hpp"
+#include "host_sim/config/step_lines.hpp"
+#include "host_sim/output/place_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+#include <thread>
+
+namespace splinefeed::host {
+
+using hal::gpio::InputRole;
+
+namespace {
+
+constexpr int measured_calls = 500;      // to measure one by
+constexpr double share_of_time = 0.5;    // that calls may take
+constexpr double most_reserve_ms = 50.0; // of a slow-down that takes twice as long: a hold waits for what is buffered
+
+/// Half of the longest time in which an axis brakes from the speed that it may have.
+std::uint32_t reserve_ms(const MachineDescription& machine) {
+    double braking_s = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        const double most =
+            axis.rotary ? axis.max_velocity_mm_s : std::min(axis.max_velocity_mm_s, machine.settings.max_feed_mm_s);
+        braking_s = std::max(braking_s, most / axis.max_acceleration_mm_s2);
+    }
+    return static_cast<std::uint32_t>(
+        std::ceil(std::clamp(braking_s * 500.0, double{hal::gpio::StepPort::least_reserve_ms}, most_reserve_ms)));
+}
+
+/// A hold begins behind what was handed over, and takes the braking time of the path: each axis's from its full speed,
+/// twice, for feeds that brake along a bend. A plan that does not bring that in time is stopped by the port.
+hal::StopTimes stop_times(const MachineDescription& machine) {
+    constexpr double handed_over_s = 1.0;
+    double braking_s = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        const double jerk_s = axis.max_jerk_mm_s3 > 0.0 ? axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3 : 0.0;
+        braking_s = std::max(braking_s, axis.max_velocity_mm_s / axis.max_acceleration_mm_s2 + jerk_s);
+    }
+    return {.hold_us = static_cast<std::uint64_t>((handed_over_s + 2.0 * braking_s) * us_per_s),
+            .quick_stop_us = 400'000, // the port's slow-down, four times
+            .disable_us = 200'000,
+            .settle_us = 2000};
+}
+
+std::vector<GpioSummary::Octave> octaves(const hal::TimeHistogram& late) {
+    std::vector<GpioSummary::Octave> some;
+    for (std::size_t i = 0; i < hal::TimeHistogram::octaves; ++i) {
+        if (late.in_octave(i) > 0) {
+            some.push_back({static_cast<double>(std::uint64_t{1} << i) / us_per_s, late.in_octave(i)});
+        }
+    }
+    return some;
+}
+
+/// What the thread of a port will lack.
+std::string lacking(const hal::RealTimeSettings& settings) {
+    std::string missing;
+    std::thread([&] { missing = claim_real_time(settings); }).join();
+    return missing;
+}
+
+} // namespace
+
+double most_edges_per_s(double call_ns) noexcept {
+    return share_of_time * ns_per_s / call_ns;
+}
+
+// Along a path at a feed f the axes make at most |steps_per_mm| f steps a second in all (Cauchy-Schwarz).
+double asked_edges_per_s(const MachineDescription& machine) noexcept {
+    double of_axes = 0.0;
+    double squares = 0.0;
+    double rotary = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        const double rate = axis.max_velocity_mm_s * axis.steps_per_mm;
+        (axis.rotary ? rotary : of_axes) += rate;
+        squares += axis.rotary ? 0.0 : axis.steps_per_mm * axis.steps_per_mm;
+    }
+    const double steps = rotary + std::min(of_axes, std::sqrt(squares) * machine.settings.max_feed_mm_s);
+    return steps * (machine.step.step_on_edge ? 1.0 : 2.0);
+}
+
+hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, const hal::gpio::LineMap& map,
+                                          hal::Clock* clock) {
+    const bool real = clock == nullptr;
+    PerAxis<double> acceleration{};
+    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        acceleration[k] = axis.max_acceleration_mm_s2 * axis.steps_per_mm;
+    }
+    return {.axes = machine.settings.axes,
+            .timing = checked_step_timing(machine),
+            .real_time = {.priority = real ? map.thread.priority : 0,
+                          .cpu = map.thread.cpu,
+                          .spin_ns = real ? static_cast<std::uint32_t>(map.thread.spin_us * ns_per_us) : 0},
+            .tolerated_ns = std::uint64_t{map.thread.tolerated_late_us} * ns_per_us,
+            .settle_ms = map.enable ? map.enable->settle_ms : 0,
+            .brake_release_ms = map.brake ? map.brake->release_ms : 0,
+            .brake_engage_ms = map.brake ? map.brake->engage_ms : 0,
+            .acceleration = acceleration,
+            .reserve_ms = reserve_ms(machine),
+            .stall_ns = std::uint64_t{map.thread.stall_ms} * 1000 * ns_per_us,
+            .clock = clock};
+}
+
+GpioTarget::GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
+                       const MachineDescription& machine, const RunOptions& options, hal::Clock* clock)
+    : machine_(&machine), options_(options), time_(clock != nullptr ? clock : &hal::system_clock()),
+      map_(std::move(map)), chips_(std::move(lines)), port_(chips_->outputs(), port_settings(machine, *map_, clock)),
+      // Above the thread that makes edges, which may spin: an e-stop must not wait for it.
+      inputs_(*map_, machine, *chips_, port_,
+              {.priority = clock == nullptr ? map_->thread.priority + 1 : 0, .clock = clock}),
+      mover_(
+          machine, *map_, inputs_, port_, &SignalWatch::interrupts, [this] { quick_stop(); }, *time_),
+      stop_(1, stop_times(machine)), began_ns_(time_->now_ns()) {
+    if (clock == nullptr) {
+        awake_.emplace();
+        missing_ = awake_->missing() + lacking(port_settings(machine, *map_).real_time);
+    }
+    const std::vector<std::uint64_t> times = chips_->set_times_ns(measured_calls);
+    const double mean_ns = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
+    if (asked_edges_per_s(machine) > most_edges_per_s(mean_ns)) {
+        throw UsageError(
+            fmt::format("--target: a call that sets lines takes {:.1f} us on this chip, so that they can be "
+                        "set {:.0f} times a second, and the machine's limits may ask for {:.0f}; lower its "
+                        "velocities, max_feed_mm_s or steps_per_mm",
+                        mean_ns / ns_per_us, most_edges_per_s(mean_ns), asked_edges_per_s(machine)));
+    }
+    const auto has = [&](InputRole role) {
+        return std::any_of(map_->inputs.begin(), map_->inputs.end(),
+                           [&](const auto& input) { return input.role == role; });
+    };
+    if (options.probe && !has(InputRole::probe)) {
+        throw UsageError("--probe: the map has no input with the role probe");
+    }
+    if (options.home &&
+        std::none_of(map_->home.begin(), map_->home.end(), [](const auto& home) { return home.has_value(); })) {
+        throw UsageError("--home: the map has no axis with a home switch ([home.x] and an input)");
+    }
+}
+
+std::unique_ptr<GpioTarget> make_gpio_target(const GpioAddress& address, const MachineDescription& machine,
+                                             const RunOptions& options) {
+    auto map = std::make_unique<hal::gpio::LineMap>(read_gpio_map(address.map, machine, address.chip));
+    std::unique_ptr<GpioLines> lines;
+    try {
+        lines = std::make_unique<GpioChips>(*map, machine);
+    } catch (const hal::gpio::GpioError& error) {
+        throw TargetError(error.what());
+    }
+    return std::make_unique<GpioTarget>(std::move(map), std::move(lines), machine, options);
+}
+
+// The lines become safe when nobody sets any more.
+GpioTarget::~GpioTarget() {
+    port_.stop();
+}
+
+std::string GpioTarget::note() const {
+    return missing_.empty()
+               ? missing_
+               : "edges may come late: " + missing_.substr(0, missing_.size() - 2) + " (docs/reference/gpio.md)";
+}
+
+std::string GpioTarget::prepare(const FeedSegment& first) {
+    if (std::string what = inputs_.in_the_way(!options_.home); !what.empty()) {
+        return what;
+    }
+    began_ = true;
+    PerAxis<double> begin_mm{};
+    for (int k = 0; k < machine_->settings.axes; ++k) {
+        const auto axis = static_cast<unsigned>(k);
+        mover_.preset_position(k, nearest_step(first.start[axis]));
+        begin_mm[axis] = static_cast<double>(first.start[axis]) / static_cast<double>(units_per_count) /
+                         machine_->settings.axis[axis].steps_per_mm;
+    }
+    if (options_.home) {
+        for (int k = 0; k < machine_->settings.axes; ++k) {
+            if (map_->home[static_cast<unsigned>(k)]) {
+                mover_.forget_position(k);
+            }
+        }
+        if (std::string what = mover_.home(); !what.empty()) {
+            return port_.was_disabled() ? fault() : what;
+        }
+        if (std::string what = inputs_.in_the_way(true); !what.empty()) {
+            return what;
+        }
+        if (std::string what = mover_.go_to(begin_mm); !what.empty()) {
+            return port_.was_disabled() ? fault() : what;
+        }
+    }
+    while (inputs_.take()) { // discard the changes during homing
+    }
+    port_.stop();
+    port_.reset();
+    static_cast<void>(port_.start());
+    began_ns_ = time_->now_ns();
+    return {};
+}
+
+void GpioTarget::update() {
+    take_changes();
+    // Levels, too: a change may have been taken before the run.
+    if (const auto input = inputs_.stopping(); input && holds_.empty()) {
+        holds_ = fmt::format("the {} acts: held on the path", inputs_.name(*input));
+    }
+    follow_stop();
+}
+
+// What all axes do about it, as one: the plan holds; where it does not, the port stops; where that does not, it is cut.
+void GpioTarget::follow_stop() {
+    const std::uint64_t now_us = time_->now_us();
+    if (!holds_.empty()) {
+        stop_.request(hal::StopRequest::hold, now_us);
+    }
+    const hal::PortPhase phase = port_.poll().phase;
+    const hal::StopRequest executed = port_.was_disabled() && phase == hal::PortPhase::fault ? hal::StopRequest::disable
+                                      : port_.halted()                              ? hal::StopRequest::quick_stop
+                                      : completed_ && phase == hal::PortPhase::idle ? hal::StopRequest::hold
+                                                                                    : hal::StopRequest::none;
+    executed_us_ = executed == hal::StopRequest::none ? 0 : executed_us_ == 0 ? now_us : executed_us_;
+    const hal::StopFacts facts{.status_us = port_.last_cycle_us(),
+                               .standstill = port_.at_standstill(),
+                               .executed = executed,
+                               .executed_us = executed_us_};
+    stop_.update(now_us, {&facts, 1});
+    if (stop_.to_send(0) == hal::StopRequest::quick_stop) {
+        port_.quick_stop();
+    } else if (stop_.to_send(0) == hal::StopRequest::disable) {
+        port_.disable();
+    }
+}
+
+void GpioTarget::take_changes() {
+    while (const auto change = inputs_.take()) {
+        const hal::gpio::MappedInput& input = map_->inputs[change->input];
+        GpioSummary::Change entry{
+            .role = role_name(input.role),
+            .axis = input.axis >= 0 ? machine_->axis_name[static_cast<unsigned>(input.axis)] : std::string(),
+            .active = change->active,
+            .time_s = static_cast<double>(static_cast<std::int64_t>(change->time_ns - began_ns_)) / ns_per_s,
+            .position_mm = std::nullopt};
+        if (change->counts) {
+            entry.position_mm.emplace();
+            for (int k = 0; k < machine_->settings.axes; ++k) {
+                entry.position_mm->push_back(mover_.position_at(k, (*change->counts)[static_cast<unsigned>(k)]));
+            }
+        }
+        input_summary_.add(std::move(entry));
+        const bool stops = input.role == InputRole::limit || input.role == InputRole::drive_fault;
+        if (!change->active || !holds_.empty()) {
+            continue;
+        }
+        if (stops) {
+            holds_ = fmt::format("the {} acts: held on the path", inputs_.name(change->input));
+        } else if (input.role == InputRole::probe && options_.probe) {
+            holds_ = fmt::format("the {} touched: held on the path", inputs_.name(change->input));
+            probed_ = true;
+        }
+    }
+}
+
+void GpioTarget::complete() {
+    if (options_.probe && !probed_ && holds_.empty()) {
+        holds_ = "the probe did not touch anything on the way";
+    }
+    completed_ = true;
+    port_.complete();
+}
+
+void GpioTarget::quick_stop() {
+    quick_ = true;
+    holds_ = "interrupted twice: stopped on the path";
+    stop_.request(hal::StopRequest::quick_stop, time_->now_us());
+    port_.quick_stop();
+}
+
+std::string GpioTarget::halted(bool /*quick*/) const {
+    if (const std::string what = port_.trouble(); !quick_ && !what.empty()) {
+        return (holds_.empty() ? holds_ : holds_ + "; ") + what + ": stopped on the path by the port";
+    }
+    return quick_ ? holds_ : holds_ + " (by the port: the plan did not bring the way to standstill in time)";
+}
+
+std::string GpioTarget::finish() {
+    port_.stop();
+    if (machine_->drives_on_at_end.value_or(false) && port_.position_known()) {
+        chips_->keep_drives_on();
+    } else {
+        port_.park();
+    }
+    finished_ = true;
+    return port_.may_be_on() && port_.position_known()
+               ? "the drives could not be disabled and may still be on: " + port_.trouble()
+               : std::string();
+}
+
+void GpioTarget::release() noexcept {
+    port_.stop();
+    if (!finished_) {
+        chips_->make_safe();
+    }
+}
+
+std::string GpioTarget::fault() const {
+    const char* const drives = port_.may_be_on() ? "the drives could not be disabled" : "the drives were disabled";
+    if (const std::string what = inputs_.trouble(); !what.empty()) {
+        return what + ": " + drives;
+    }
+    if (!port_.was_disabled()) {
+        return port_.trouble();
+    }
+    // Asked of the port as the last means, or of the switch.
+    return stop_.report(0).request == hal::StopRequest::disable ? holds_ + ", but the port did not stop: " + drives
+                                                                : std::string("the e-stop was pressed: ") + drives;
+}
+
+// By the steps that were made from a reference on.
+std::optional<double> GpioTarget::place(int axis) const {
+    return mover_.referenced(axis) ? std::optional(mover_.position(axis)) : std::nullopt;
+}
+
+// Nothing on step lines knows it; behind homing they are moved.
+std::vector<RunTarget::AxisPlace> GpioTarget::standing() {
+    std::vector<AxisPlace> out;
+    for (int k = 0; !options_.home && k < machine_->settings.axes; ++k) {
+        out.push_back({static_cast<unsigned>(k), std::nullopt});
+    }
+    return out;
+}
+
+// An axis that is asked to stop is at its place once it stands.
+std::vector<RunTarget::AxisPlace> GpioTarget::places() const {
+    std::vector<AxisPlace> out;
+    for (int k = 0; began_ && k < machine_->settings.axes; ++k) {
+        out.push_back({.axis = static_cast<unsigned>(k),
+                       .mm = port_.position_known() ? place(k) : std::nullopt,
+                       .online = holds_.empty() || port_.at_standstill()});
+    }
+    return out;
+}
+
+std::string GpioTarget::where() const {
+    if (!began_) {
+        return "; nothing was moved";
+    }
+    constexpr const char* unknown = "where the machine stands is not known (find the references again); the last steps "
+                                    "were those to";
+    PlaceText text(port_.position_known() ? std::string("; the machine stands at")
+                   : port_.may_be_on()    ? std::string("; drives may still be on, and ") + unknown
+                                          : std::string("; drives are off, and ") + unknown);
+    for (int k = 0; k < machine_->settings.axes; ++k) {
+        text.add(machine_->axis_name[static_cast<unsigned>(k)], place(k));
+    }
+    return text.text();
+}
+
+void GpioTarget::describe(Summary& summary) const {
+    const hal::TimeHistogram& late = port_.late();
+    const hal::gpio::StepPortReport report = port_.report();
+    summary.gpio = GpioSummary{.edges = report.edges,
+                               .median_late_s = late.below_us(0.5) / us_per_s,
+                               .p99_late_s = late.below_us(0.99) / us_per_s,
+                               .most_late_s = static_cast<double>(late.most_ns()) / ns_per_s,
+                               .late = octaves(late),
+                               .schedule_slip_s = static_cast<double>(report.schedule_slip_ns) / ns_per_s,
+                               .buffer_underruns = report.buffer_underruns,
+                               .began_monotonic_s = static_cast<double>(began_ns_) / ns_per_s,
+                               .missed = inputs_.missed(),
+                               .changes = input_summary_.changes,
+                               .changes_left_out = input_summary_.changes_left_out};
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// GpioTarget: a run on step and direction lines of GPIO chips.
+#pragma once
+
+#include "host_sim/config/gpio_address.hpp"
+#include "host_sim/ports/gpio/gpio_mover.hpp"
+#include "host_sim/ports/run_target.hpp"
+
+#include "splinefeed/hal/stop_sequence.hpp"
+
+namespace splinefeed::host {
+
+class GpioTarget final : public RunTarget {
+public:
+    /// Throws TargetError, and UsageError if the chip is too slow for the machine's limits. `machine` must outlive it.
+    /// @param lines  lines of the map
+    /// @param clock  null: the system's clock; the target then also requests real-time priority. Must outlive it.
+    GpioTarget(std::unique_ptr<hal::gpio::LineMap> map, std::unique_ptr<GpioLines> lines,
+               const MachineDescription& machine, const RunOptions& options, hal::Clock* clock = nullptr);
+    ~GpioTarget() override;
+
+    [[nodiscard]] double least_segment_us() const noexcept override { return 0.0; }
+    [[nodiscard]] bool resamples() const noexcept override { return false; }
+    [[nodiscard]] std::string note() const override;
+    [[nodiscard]] std::vector<AxisPlace> standing() override;
+    [[nodiscard]] std::vector<AxisPlace> places() const override;
+    [[nodiscard]] std::string where() const override;
+    void describe(Summary& summary) const override;
+    [[nodiscard]] std::string holds() const override { return holds_; }
+    [[nodiscard]] bool achieved() const override { return probed_; }
+
+private:
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    [[nodiscard]] std::string prepare(const FeedSegment& first) override;
+    void complete() override;
+    void hold() override { holds_ = "interrupted: held on the path"; }
+    void quick_stop() override;
+    [[nodiscard]] std::string halted(bool quick) const override;
+    [[nodiscard]] std::string finish() override;
+    void release() noexcept override;
+    void update() override;
+    [[nodiscard]] std::string fault() const override;
+
+    [[nodiscard]] std::optional<double> place(int axis) const;
+    void take_changes();
+    void follow_stop();
+
+    const MachineDescription* machine_;
+    RunOptions options_;
+    hal::Clock* time_;
+    std::optional<hal::AwakeHost> awake_;
+    std::unique_ptr<hal::gpio::LineMap> map_;
+    std::unique_ptr<GpioLines> chips_;
+    hal::gpio::StepPort port_;
+    GpioInputs inputs_;
+    GpioMover mover_;
+    hal::StopSequence stop_; // all axes stop as one drive
+    std::uint64_t executed_us_ = 0;
+    std::string missing_;       // real-time rights that are missing
+    std::string holds_;         // why the motion is held and ends
+    GpioSummary input_summary_; // changes of inputs
+    std::uint64_t began_ns_;
+    bool began_ = false; // the lines may have changed
+    bool probed_ = false;
+    bool quick_ = false;
+    bool completed_ = false;
+    bool finished_ = false; // the drives are in the state that the machine file requires
+};
+
+/// Reads the map and requests the lines. Throws InputError, TargetError and UsageError.
+[[nodiscard]] std::unique_ptr<GpioTarget>
+make_gpio_target(const GpioAddress& address, const MachineDescription& machine, const RunOptions& options);
+
+/// Number of lines that may be set per second if a call takes this long: half of the time may be spent in calls.
+[[nodiscard]] double most_edges_per_s(double call_ns) noexcept;
+/// Number of edges per second that the machine's limits may require.
+[[nodiscard]] double asked_edges_per_s(const MachineDescription& machine) noexcept;
+/// Settings from the thread section of the map.
+[[nodiscard]] hal::gpio::StepPortSettings port_settings(const MachineDescription& machine,
+                                                        const hal::gpio::LineMap& map, hal::Clock* clock = nullptr);
+
+} // namespace splinefeed::host

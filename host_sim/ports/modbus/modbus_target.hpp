@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// ModbusTarget: the common part of runs on Modbus drives, both those that interpolate and those that follow target
+// positions.
+#pragma once
+
+#include "host_sim/base/signal_watch.hpp"
+#include "host_sim/config/drive_table.hpp"
+#include "host_sim/output/place_text.hpp"
+#include "host_sim/ports/run_target.hpp"
+#include "host_sim/ports/stop_sentence.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// A port with the drives of a table, in the same order.
+template <class Port>
+class ModbusTarget : public RunTarget {
+protected:
+    /// @param wiring_of  converts the drives of a table to the form of the port
+    template <class WiringOf>
+    ModbusTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options, WiringOf wiring_of)
+        : machine_(&machine), table_(std::move(table)), home_(options.home),
+          port_(wiring_of(table_, machine),
+                {.home = options.home, .reset = options.reset, .interrupted = &SignalWatch::interrupted}) {}
+
+    [[nodiscard]] std::vector<StoppedDrive> stopped() const {
+        std::vector<StoppedDrive> drives;
+        for (std::size_t i = 0; i < port_.drives(); ++i) {
+            drives.push_back({table_.drives[i].name, port_.stop_report(i)});
+        }
+        return drives;
+    }
+
+    /// As prepare().
+    [[nodiscard]] virtual std::string prepare_port(const FeedSegment& first) = 0;
+    /// Of an axis that stands at this position in the machine's own direction, once it has its reference. A drive that
+    /// answers and did not confirm its stop may still move.
+    [[nodiscard]] AxisPlace place(std::size_t drive, unsigned axis, double counts, bool online) const {
+        const double mm = counts / machine_->settings.axis[axis].steps_per_mm;
+        const bool moves = online && port_.stop_report(drive).state == hal::StopState::unconfirmed;
+        return {axis, referenced_ && !moves ? std::optional(mm) : std::nullopt, online};
+    }
+    /// The same before prepare(): where it will stand behind it.
+    /// @param placed  the counts are those of the machine
+    [[nodiscard]] AxisPlace standing_place(unsigned axis, double counts, bool placed) const {
+        const double mm = home_ ? 0.0 : counts / machine_->settings.axis[axis].steps_per_mm;
+        return {axis, home_ || placed ? std::optional(mm) : std::nullopt};
+    }
+    [[nodiscard]] bool may_have_moved() const noexcept { return may_have_moved_; }
+
+    const MachineDescription* machine_;
+    DriveTable table_;
+    bool home_; // prepare() finds the references: the axes then stand at 0
+    Port port_;
+
+private:
+    // Without homing nothing moves before the port is ready.
+    [[nodiscard]] std::string prepare(const FeedSegment& first) final {
+        may_have_moved_ = home_;
+        std::string what = prepare_port(first);
+        referenced_ = what.empty();
+        may_have_moved_ = may_have_moved_ || referenced_;
+        return what;
+    }
+    [[nodiscard]] std::string where() const final {
+        const std::vector<AxisPlace> all = places();
+        PlaceText text;
+        for (const AxisPlace& at : all) {
+            text.add(machine_->axis_name[at.axis], at.mm, at.online);
+        }
+        return all.empty() ? "; nothing was moved" : text.text();
+    }
+    [[nodiscard]] hal::MotionPort& port() noexcept override { return port_; }
+    void complete() override { port_.complete(); }
+    void quick_stop() override { port_.quick_stop(); }
+    [[nodiscard]] std::string halted(bool quick) const override { return stop_sentence(stopped(), quick); }
+    [[nodiscard]] std::string finish() override {
+        if (machine_->drives_on_at_end.value_or(true)) {
+            return {};
+        }
+        port_.power_off();
+        return not_switched_off(stopped());
+    }
+    void release() noexcept override { port_.close(); }
+
+    bool may_have_moved_ = false;
+    bool referenced_ = false; // positions of the drives are those of the machine
+};
+
+} // namespace splinefeed::host

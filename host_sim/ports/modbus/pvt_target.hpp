@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// PvtTarget: a run on drives that interpolate: which drives answer, whether the line carries the plan, and the results
+// of the run.
+#pragma once
+
+#include "host_sim/ports/modbus/modbus_target.hpp"
+
+#include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
+
+namespace splinefeed::host {
+
+/// Converts the drives of a table to the form of the port. @pre they interpolate
+[[nodiscard]] std::vector<hal::modbus::DriveWiring> pvt_wiring(const DriveTable& table,
+                                                               const MachineDescription& machine);
+
+/// Checks that segments of this duration can carry the machine's velocities. Throws UsageError with the axis, its value
+/// and the range.
+void check_pvt_range(const MachineDescription& machine, double segment_us);
+
+/// One line: which drive has a problem, and what it is.
+[[nodiscard]] std::string drive_sentence(const DriveTable& table, const hal::modbus::ModbusPort& port,
+                                         const hal::modbus::DriveFailure& failure);
+
+class PvtTarget final : public ModbusTarget<hal::modbus::ModbusPort> {
+public:
+    /// Connects to the drives. Throws TargetError. @pre they interpolate
+    PvtTarget(DriveTable table, const MachineDescription& machine, const RunOptions& options);
+
+    [[nodiscard]] double least_segment_us() const noexcept override { return least_segment_us_; }
+    [[nodiscard]] bool resamples() const noexcept override;
+    void check(const MachineDescription& machine, double segment_us) const override {
+        check_pvt_range(machine, segment_us);
+    }
+    [[nodiscard]] std::vector<AxisPlace> standing() override;
+    [[nodiscard]] std::vector<AxisPlace> places() const override;
+    void describe(Summary& summary) const override;
+
+private:
+    [[nodiscard]] std::string prepare_port(const FeedSegment& first) override;
+    [[nodiscard]] std::string fault() const override;
+
+    [[nodiscard]] int counts_of(std::size_t drive, std::size_t drive_axis) const;
+
+    double least_segment_us_ = 0.0;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// ProgramOutputs: everything that the events of a program act on or wait for in a run on a real target: spindle,
+// coolant, digital outputs and inputs.
+#pragma once
+
+#include "host_sim/ports/input_question.hpp"
+#include "host_sim/ports/run_inputs.hpp"
+#include "host_sim/ports/run_spindle.hpp"
+#include "host_sim/ports/run_switches.hpp"
+#include "host_sim/program/program_action.hpp"
+
+#include "splinefeed/hal/rt/clock.hpp"
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace splinefeed::host {
+
+/// All functions return at once; but act() and update(), which one thread calls, they may be called by any thread.
+/// After end(), or once there is trouble, nothing is turned on any more.
+class ProgramOutputs {
+public:
+    using Switches = std::vector<std::unique_ptr<RunSwitches>>;
+    using Inputs = std::vector<std::unique_ptr<RunInputs>>;
+
+    /// @param spindle  null: the machine has none
+    ProgramOutputs(std::unique_ptr<RunSpindle> spindle, Switches switches, Inputs inputs = {},
+                   hal::Clock& clock = hal::system_clock())
+        : spindle_(std::move(spindle)), switches_(std::move(switches)), inputs_(std::move(inputs)), clock_(&clock) {}
+
+    /// Carries out what an event asks for, or begins to wait for its input. @pre the machine has what it is about
+    void act(const ProgramAction& action);
+    /// Called each millisecond.
+    void update();
+    /// Whether the last order is carried out: the spindle turns as it was told, the input has answered. The motion
+    /// waits for that.
+    [[nodiscard]] bool reached() const { return !asks_.load() && (spindle_ == nullptr || spindle_->reached()); }
+    /// What the last input answered: its level as 0 or 1, -1 after the time-out.
+    [[nodiscard]] int answer() const noexcept { return answer_.load(); }
+    /// Stops the spindle, turns the coolant off, and makes the outputs safe, for good.
+    void end();
+    /// Why something is not as ordered; empty: all is.
+    [[nodiscard]] std::string trouble() const;
+    /// Whether the spindle is known to stand.
+    [[nodiscard]] bool spindle_stands() const { return spindle_ == nullptr || spindle_->stands(); }
+    /// After end(): what may not have ended yet, "the spindle did not confirm ..."; empty: everything has.
+    [[nodiscard]] std::string unended() const;
+    /// After end(): whether something that has not ended may still do so, each in the time that it may take.
+    [[nodiscard]] bool ends() const;
+
+    /// Whether an event acts on an output.
+    [[nodiscard]] static bool is_of(const ProgramAction& action) noexcept {
+        return action.spindle.has_value() || RunSwitches::is_of(action.kind);
+    }
+
+private:
+    void ask(const ProgramAction& action);
+    [[nodiscard]] std::string unconfirmed() const;
+
+    std::unique_ptr<RunSpindle> spindle_;
+    Switches switches_;
+    Inputs inputs_;
+    hal::Clock* clock_;
+    RunInputs* asked_ = nullptr; // those of the question
+    std::optional<InputQuestion> question_;
+    std::atomic<bool> asks_{false};
+    std::atomic<int> answer_{0};
+    std::atomic<std::uint64_t> ended_us_{0}; // 0: not yet
+};
+
+} // namespace splinefeed::host
