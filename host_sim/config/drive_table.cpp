@@ -13,7 +13,7 @@ using namespace hal::modbus;
 
 namespace {
 
-void take_defaults(TargetAddress& address, const LinkSettings& link) {
+void take_defaults(DriveAddress& address, const LinkSettings& link) {
     address.link.unit = address.states_unit ? address.link.unit : link.unit;
     address.link.baud = address.states_baud ? address.link.baud : link.baud;
     address.link.parity = address.states_parity ? address.link.parity : link.parity;
@@ -31,7 +31,7 @@ template <class... Values>
 }
 
 /// A drive on a serial line may stand behind a gateway; one with a socket of its own has no serial line.
-void check_wire(const TargetAddress& address, const DriveProfile& profile) {
+void check_wire(const DriveAddress& address, const DriveProfile& profile) {
     if (address.link.wire == Wire::rtu && !profile.link.rtu) {
         refuse("the profile {} is of drives on tcp alone (`wires`); write modbus-tcp://HOST:PORT", profile.name);
     }
@@ -42,7 +42,7 @@ void check_wire(const TargetAddress& address, const DriveProfile& profile) {
 }
 
 /// The window becomes the profile's, which has one for the drive already or not.
-void take_window(const TargetAddress& address, DriveProfile& profile) {
+void take_window(const DriveAddress& address, DriveProfile& profile) {
     if (!address.following_window_counts) {
         return;
     }
@@ -59,7 +59,7 @@ void take_window(const TargetAddress& address, DriveProfile& profile) {
 }
 
 /// What only some profiles ask for, or refuse.
-void check_ramp(const TargetAddress& address, const DriveProfile& profile) {
+void check_ramp(const DriveAddress& address, const DriveProfile& profile) {
     const bool blocks = profile.stream == StreamWay::blocks;
     if (blocks && profile.field_of(FieldRole::profile_acceleration) == nullptr && !address.ramp_counts_s2) {
         refuse("the profile {} has no register for ramps; say with &ramp= what the drive's is set to, in counts/s^2",
@@ -74,7 +74,7 @@ class Builder {
 public:
     explicit Builder(const MachineDescription& machine) : machine_(machine) {}
 
-    void add(TargetAddress address, int machine_axis) {
+    void add(DriveAddress address, int machine_axis) {
         const auto k = static_cast<unsigned>(machine_axis);
         DriveProfile profile = find_profile(address.profile);
         if (profile.stream == StreamWay::speed) {
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] DriveTable take() && { return std::move(table_); }
 
 private:
-    void check_line(const TargetAddress& address) const {
+    void check_line(const DriveAddress& address) const {
         for (const DriveTable::Drive& drive : table_.drives) {
             const LinkAddress& link = drive.address.link;
             if (link.same_wire(address.link) && (link.baud != address.link.baud || link.parity != address.link.parity ||
@@ -115,7 +115,7 @@ private:
         }
     }
 
-    DriveTable::Drive& drive_at(const TargetAddress& address, const DriveProfile& profile) {
+    DriveTable::Drive& drive_at(const DriveAddress& address, const DriveProfile& profile) {
         const bool interpolates = profile.stream == StreamWay::pvt;
         if (!table_.drives.empty() && table_.interpolate != interpolates) {
             refuse("the drives of a run must all interpolate (splinefeed-pvt) or none of them; {} and {} do not go "
@@ -135,7 +135,7 @@ private:
     }
 
     // Keys of the drive as a whole, which may stand at any of its axes.
-    static void check_same(DriveTable::Drive& known, const TargetAddress& address, const DriveProfile& profile) {
+    static void check_same(DriveTable::Drive& known, const DriveAddress& address, const DriveProfile& profile) {
         auto& window = known.profile.following_error_window_counts;
         if (known.address.profile != address.profile || known.address.resample != address.resample ||
             (known.address.following_window_counts && address.following_window_counts &&
@@ -169,7 +169,7 @@ void name_drive(DriveTable::Drive& drive, bool of_file, const MachineDescription
 
 } // namespace
 
-void complete_address(TargetAddress& address, const DriveProfile& profile) {
+void complete_address(DriveAddress& address, const DriveProfile& profile) {
     take_defaults(address, profile.link);
     check_wire(address, profile);
 }
@@ -194,7 +194,7 @@ DriveTable drive_table(const std::string& target, const MachineDescription& mach
             throw UsageError(fmt::format("--target {}: {}", in_quotes(target), error.what()));
         };
         try {
-            TargetAddress address = parse_target_address(of_file ? machine.drive[k] : target);
+            DriveAddress address = parse_drive_address(of_file ? machine.drive[k] : target);
             if (!of_file) {
                 address.axis = static_cast<int>(k);
             }

@@ -2,8 +2,8 @@
 // DriveTable: the drives of a run: their addresses, their profiles, and the machine axes of each.
 #pragma once
 
+#include "host_sim/config/drive_address.hpp"
 #include "host_sim/config/machine_description.hpp"
-#include "host_sim/config/target_address.hpp"
 
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
@@ -14,7 +14,7 @@ namespace splinefeed::host {
 
 struct DriveTable {
     struct Drive {
-        TargetAddress address;
+        DriveAddress address;
         hal::modbus::DriveProfile profile;
         std::vector<int> machine_axis;       ///< machine axis of each of its axes; -1: none
         std::vector<std::string> axis_names; ///< likewise: "axis y", or "its axis 2", which the machine does not use
@@ -26,7 +26,7 @@ struct DriveTable {
 };
 
 /// Values that an address does not state become those of the profile. Throws AddressError if they do not fit together.
-void complete_address(TargetAddress& address, const hal::modbus::DriveProfile& profile);
+void complete_address(DriveAddress& address, const hal::modbus::DriveProfile& profile);
 
 /// The drives of a target, each with its machine axes. Values that an address does not state come from the profile.
 /// Throws UsageError and InputError.

@@ -4,7 +4,7 @@
 #include "host_sim/base/address_text.hpp"
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/nearest_name.hpp"
-#include "host_sim/config/target_address.hpp"
+#include "host_sim/config/drive_address.hpp"
 
 #include <array>
 #include <fmt/format.h>

@@ -27,7 +27,7 @@ IoModule IoModules::read(const toml::table& table) const {
     module.name = check_.text(check_.required(table, "name", "[[module]]", "a name"), "name");
     const toml::node& address = check_.required(table, "address", "[[module]]", "modbus-tcp://HOST:PORT?unit=1");
     try {
-        module.address = parse_target_address(check_.text(address, "address"));
+        module.address = parse_drive_address(check_.text(address, "address"));
     } catch (const AddressError& error) {
         check_.fail(address, fmt::format("address: {}", error.what()));
     }

@@ -5,9 +5,9 @@
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/base/toml_checker.hpp"
 #include "host_sim/base/toml_text.hpp"
+#include "host_sim/config/drive_address.hpp"
 #include "host_sim/config/program_lines_section.hpp"
 #include "host_sim/config/spindle_section.hpp"
-#include "host_sim/config/target_address.hpp"
 
 #include <array>
 #include <cmath>
@@ -302,7 +302,7 @@ private:
             machine.drive[k] = check_.text(*drive, "drive");
             machine.axis_line[k] = drive->source().begin.line;
             try {
-                static_cast<void>(parse_target_address(machine.drive[k]));
+                static_cast<void>(parse_drive_address(machine.drive[k]));
             } catch (const AddressError& error) {
                 check_.fail(*drive, fmt::format("drive: {}", error.what()));
             }

@@ -3,7 +3,7 @@
 // file names them.
 #pragma once
 
-#include "host_sim/config/target_address.hpp"
+#include "host_sim/config/drive_address.hpp"
 
 #include "splinefeed/hal/gpio/line_map.hpp"
 #include "splinefeed/hal/modbus/link/modbus_line.hpp"
@@ -28,7 +28,7 @@ struct SensedLine {
 /// A device with coils and discrete inputs.
 struct IoModule {
     std::string name;
-    TargetAddress address;
+    DriveAddress address;
     std::uint32_t answer_ms = 100; ///< it answers within this time
 };
 

@@ -2,8 +2,8 @@
 // SpindleDescription: the spindle of a machine: its speeds, and the frequency inverter (VFD) or the lines that turn it.
 #pragma once
 
+#include "host_sim/config/drive_address.hpp"
 #include "host_sim/config/program_lines.hpp"
-#include "host_sim/config/target_address.hpp"
 
 #include "splinefeed/hal/modbus/profile/drive_profile.hpp"
 
@@ -13,7 +13,7 @@ namespace splinefeed::host {
 
 struct SpindleDescription {
     struct Vfd {
-        TargetAddress address; ///< with the values of the profile where it states none
+        DriveAddress address; ///< with the values of the profile where it states none
         hal::modbus::DriveProfile profile;
     };
 

@@ -18,7 +18,7 @@ namespace {
 SpindleDescription::Vfd read_vfd(const TomlChecker& check, const toml::node& node, double most_hz) {
     SpindleDescription::Vfd vfd;
     try {
-        vfd.address = parse_target_address(check.text(node, "vfd"));
+        vfd.address = parse_drive_address(check.text(node, "vfd"));
         vfd.profile = find_profile(vfd.address.profile);
         if (vfd.profile.stream != StreamWay::speed) {
             check.fail(node, fmt::format("vfd: the profile {} is not of a frequency inverter; give &profile=, one of "

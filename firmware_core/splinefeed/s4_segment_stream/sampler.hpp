@@ -5,7 +5,7 @@
 #include "splinefeed/base/capacity.hpp"
 #include "splinefeed/number/position.hpp"
 #include "splinefeed/s1_curve/curve_source.hpp"
-#include "splinefeed/s3_feed_plan/steering/motion_plan.hpp"
+#include "splinefeed/s3_feed_plan/motion_plan.hpp"
 
 namespace splinefeed {
 

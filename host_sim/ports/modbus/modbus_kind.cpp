@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/base/input_error.hpp"
-#include "host_sim/config/target_address.hpp"
+#include "host_sim/config/drive_address.hpp"
 #include "host_sim/ports/modbus/modbus_report.hpp"
 #include "host_sim/ports/modbus/pvt_target.hpp"
 #include "host_sim/ports/modbus/setpoint_target.hpp"
@@ -16,7 +16,7 @@ bool is_modbus(const std::string& target) {
 
 void check_modbus(const std::string& target) {
     if (target != "modbus") {
-        static_cast<void>(parse_target_address(target));
+        static_cast<void>(parse_drive_address(target));
     }
 }
 

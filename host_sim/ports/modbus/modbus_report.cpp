@@ -219,7 +219,7 @@ LinkReport target_report(const DriveTable& table, const MachineDescription& mach
 
 LinkReport modbus_report(const std::string& target, MachineDescription machine, bool any_axes, double seconds) {
     if (any_axes && target != "modbus") {
-        const DriveProfile profile = find_profile(parse_target_address(target).profile);
+        const DriveProfile profile = find_profile(parse_drive_address(target).profile);
         machine.settings.axes = std::min(machine.settings.axes, profile.axes);
     }
     const DriveTable table = drive_table(target, machine);

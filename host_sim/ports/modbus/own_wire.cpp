@@ -7,14 +7,14 @@
 
 namespace splinefeed::host {
 
-void require_own_wire(const TargetAddress& device, const std::string& what, const MachineDescription& machine,
+void require_own_wire(const DriveAddress& device, const std::string& what, const MachineDescription& machine,
                       const std::string& target) {
     const bool all = target == "modbus";
     if (!all && target.rfind("modbus-", 0) != 0) {
         return;
     }
     for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
-        const TargetAddress drive = parse_target_address(all ? machine.drive[k] : target);
+        const DriveAddress drive = parse_drive_address(all ? machine.drive[k] : target);
         if (drive.link.same_wire(device.link)) {
             throw UsageError(fmt::format("{}: {} shares the line of the drive of axis {}; give it a line, or a port, "
                                          "of its own",

@@ -10,7 +10,7 @@ namespace splinefeed::host {
 
 /// Throws UsageError if a drive of the run is on the device's wire. @param what  the device, for the message: "the
 /// spindle"   @param target  of the run
-void require_own_wire(const TargetAddress& device, const std::string& what, const MachineDescription& machine,
+void require_own_wire(const DriveAddress& device, const std::string& what, const MachineDescription& machine,
                       const std::string& target);
 
 } // namespace splinefeed::host

@@ -20,7 +20,7 @@
 // enters it, the exit is the K of the steering, limited to the exits that P allows for the entry and to the machine's K
 // at the exit. If the machine is not faster than the steering wants, the lower limit of P has no effect, and the plan
 // is that without steering. A change computes the K of the steering again, drops what was committed beyond final nodes,
-// and chooses a new profile segment from where the machine is (profile_segment.cpp).
+// and chooses a new profile segment from where the machine is (steered_segment.cpp).
 //
 // A pass in parts. It counts with the steering that it began with; a request that comes meanwhile stays pending, and a
 // pass of its own follows. Behind the place where it is, the cells have new K, before it old ones. That would be safe
@@ -278,7 +278,7 @@ bool FeedPlan<S>::replan(WorkBudget& work) noexcept {
 }
 
 template <Scalar S>
-bool FeedPlan<S>::steer(const Place<S>& place) noexcept {
+bool FeedPlan<S>::steer(const PlanState<S>& place) noexcept {
     if (!(place.fraction < profile_segment_.stretch.to)) {
         return false; // nothing of it is left to be travelled in another way
     }

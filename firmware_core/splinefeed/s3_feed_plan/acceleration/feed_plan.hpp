@@ -15,7 +15,7 @@
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/backward_pass.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/cell_window.hpp"
-#include "splinefeed/s3_feed_plan/acceleration/profile_segment.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/steered_segment.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/turning.hpp"
 #include "splinefeed/s3_feed_plan/steering/steering.hpp"
 
@@ -53,7 +53,7 @@ public:
     void pop() noexcept;
 
     bool replan(WorkBudget& work) noexcept override;
-    bool steer(const Place<S>& place) noexcept override;
+    bool steer(const PlanState<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override;
     /// Prepares this plan to be refined: another plan takes its cells and uses its speeds as upper bounds, without the

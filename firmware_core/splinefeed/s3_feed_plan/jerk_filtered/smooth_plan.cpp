@@ -368,7 +368,7 @@ void SmoothPlan<S>::advance() noexcept {
 }
 
 template <Scalar S>
-bool SmoothPlan<S>::steer(const Place<S>& place) noexcept {
+bool SmoothPlan<S>::steer(const PlanState<S>& place) noexcept {
     const S speed = square_root(place.speed_sq);
     // The machine almost stands. It first has to come to standstill or to start; otherwise it would be taken to stand
     // where its average does not.

@@ -43,7 +43,7 @@ public:
         speed_sq_ = speed_ = S{};
         chosen_ = false;
     }
-    bool steer(const Place<S>& place) noexcept override;
+    bool steer(const PlanState<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override { return !chosen_ && !(speed_sq_ > S{}); }
     void clear() noexcept override {
         SPLINEFEED_ASSERT(standing());

@@ -261,7 +261,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
 }
 
 template <Scalar S>
-bool JerkPlan<S>::steer(const Place<S>& place) noexcept {
+bool JerkPlan<S>::steer(const PlanState<S>& place) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
     if (line_.done() && (left < least_part || left * window_.node(0).cell.length_mm < JerkWindow<S>::shortest_mm)) {

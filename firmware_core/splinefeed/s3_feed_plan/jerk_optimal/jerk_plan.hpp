@@ -31,7 +31,7 @@ public:
     [[nodiscard]] const Cell<S>& cell() const noexcept override { return window_.cell(0); }
     void advance() noexcept override;
     void rest_at(S fraction) noexcept override;
-    bool steer(const Place<S>& place) noexcept override;
+    bool steer(const PlanState<S>& place) noexcept override;
     [[nodiscard]] bool standing() const noexcept override;
     void clear() noexcept override;
 

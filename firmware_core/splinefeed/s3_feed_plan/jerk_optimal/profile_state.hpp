@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/jerk_optimal/state_polygon.hpp"
-#include "splinefeed/s3_feed_plan/steering/motion_plan.hpp"
+#include "splinefeed/s3_feed_plan/motion_plan.hpp"
 
 namespace splinefeed {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/acceleration/acceleration_bound.hpp"
-#include "splinefeed/s3_feed_plan/steering/motion_plan.hpp"
+#include "splinefeed/s3_feed_plan/motion_plan.hpp"
 
 namespace splinefeed {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TargetAddress: the address of a drive and its profile, as in --target, `drive = ` of a machine file, and --listen.
+// DriveAddress: the address of a drive and its profile, as in --target, `drive = ` of a machine file, and --listen.
 #pragma once
 
 #include "splinefeed/hal/modbus/link/link_address.hpp"
@@ -16,7 +16,7 @@ struct AddressError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-struct TargetAddress {
+struct DriveAddress {
     std::string text; ///< the text as given
     hal::modbus::LinkAddress link;
     std::string profile = "splinefeed-pvt"; ///< a name, or the path of a .toml
@@ -33,6 +33,6 @@ struct TargetAddress {
 
 /// Reads modbus-tcp://HOST[:PORT] or modbus-rtu://DEVICE, then ?key=value&...: profile, unit, axis, resample (yes, no),
 /// ramp, following_window; for a serial line also baud, parity (N, E, O) and stop (1, 2). Throws AddressError.
-[[nodiscard]] TargetAddress parse_target_address(const std::string& text);
+[[nodiscard]] DriveAddress parse_drive_address(const std::string& text);
 
 } // namespace splinefeed::host

@@ -9,7 +9,7 @@
 // reaches the wanted speed. A cell can be a thousand braking distances long. b1 may then be far below zero (it is only
 // the slope of a line that ends earlier) or above all caps, and Fixed has no range for such values. So b1 is limited to
 // twice the wanted change. If it could go further, half of the part is used instead, and so on.
-#include "splinefeed/s3_feed_plan/acceleration/profile_segment.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/steered_segment.hpp"
 
 namespace splinefeed {
 

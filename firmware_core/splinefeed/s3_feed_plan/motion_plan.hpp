@@ -34,7 +34,7 @@ struct ProfileSegment {
 
 /// Where the machine is on its profile segment.
 template <Scalar S>
-struct Place {
+struct PlanState {
     S fraction{};   ///< fraction of the cell's length
     S speed_sq{};   ///< v^2, or the value that a hold may take for it (SegmentStream)
     S time_share{}; ///< fraction of the profile segment's time
@@ -79,7 +79,7 @@ public:
     /// the change applies from the next profile segment on. false: the profile segment stays as it is, for instance
     /// where the place is its end, to rounding.
     /// @pre the last replan() answered true
-    virtual bool steer(const Place<S>& place) noexcept = 0;
+    virtual bool steer(const PlanState<S>& place) noexcept = 0;
     /// Whether the machine stands where its last profile segment ended.
     [[nodiscard]] virtual bool standing() const noexcept = 0;
     /// Forgets every cell, for a new program. @pre standing()

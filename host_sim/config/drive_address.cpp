@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/config/target_address.hpp"
+#include "host_sim/config/drive_address.hpp"
 
 #include "host_sim/base/address_text.hpp"
 #include "host_sim/base/input_error.hpp"
@@ -27,7 +27,7 @@ int whole_number(std::string_view key, std::string_view value, int low, int high
     return *number;
 }
 
-void take_baud(TargetAddress& address, std::string_view value) {
+void take_baud(DriveAddress& address, std::string_view value) {
     address.link.baud = whole_number("baud", value, baud_rates.front(), baud_rates.back());
     address.states_baud = true;
     if (!is_baud_rate(address.link.baud)) {
@@ -57,7 +57,7 @@ int unit_number(std::string_view value, hal::modbus::Wire wire) {
     }
 }
 
-void take_key(TargetAddress& address, std::string_view key, std::string_view value) {
+void take_key(DriveAddress& address, std::string_view key, std::string_view value) {
     constexpr std::array<std::string_view, 9> serial{"profile",          "unit", "axis",   "resample", "ramp",
                                                      "following_window", "baud", "parity", "stop"};
     constexpr std::size_t serial_only = 3;
@@ -97,7 +97,7 @@ void take_key(TargetAddress& address, std::string_view key, std::string_view val
     }
 }
 
-void take_place(TargetAddress& address, std::string_view place) {
+void take_place(DriveAddress& address, std::string_view place) {
     if (place.empty()) {
         throw AddressError(address.link.wire == hal::modbus::Wire::rtu
                                ? "there is no device; write modbus-rtu:///dev/ttyUSB0?baud=115200"
@@ -121,8 +121,8 @@ void take_place(TargetAddress& address, std::string_view place) {
 
 } // namespace
 
-TargetAddress parse_target_address(const std::string& text) {
-    TargetAddress address;
+DriveAddress parse_drive_address(const std::string& text) {
+    DriveAddress address;
     address.text = text;
     const AddressText parts = split_address(text);
     if (parts.scheme == "modbus-rtu") {

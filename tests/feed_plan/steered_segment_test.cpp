@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Steered profile segments: in closed form on straight cells, within the polygon of the part that they travel on any.
-#include "splinefeed/s3_feed_plan/acceleration/profile_segment.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/steered_segment.hpp"
 
 #include "support/catch.hpp"
 #include "support/plan_reference.hpp"
