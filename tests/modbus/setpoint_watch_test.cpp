@@ -30,7 +30,12 @@ TEST_CASE("Setpoint watch: states in which a drive does not follow, and one that
         SetpointReport seen;
         seen.reading.state = state;
         seen.answered_us = seen.status_us = 1'000;
-        CHECK_FALSE(watch.trouble(seen, 1'000, 500, 0).empty());
+        CHECK(watch.trouble(seen, 1'000, 500, 0).empty()); // perhaps an answer to another request
+        CHECK(watch.trouble(seen, 1'100, 500, 0).empty()); // the same reading
+        seen.answered_us = seen.status_us = 1'200;
+        CHECK_FALSE(watch.trouble(seen, 1'200, 500, 0).empty());
+        seen.reading.state = DriveState::moving;
+        CHECK(watch.trouble(seen, 1'200, 500, 0).empty());
     }
     SetpointWatch watch;
     SetpointReport seen;

@@ -338,6 +338,8 @@ def main():
         SITUATIONS.remove("spindle")
     if options.long_runs > 0 and os.environ.get("SPLINEFEED_LONG") == "1":
         options.runs = options.long_runs
+    for ignored in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP):  # by a shell's & or nohup; a tool would ignore them, too
+        signal.signal(ignored, signal.SIG_DFL)
     seed = options.seed if options.seed is not None else random.SystemRandom().randrange(10**9)
     print(f"seed {seed}, {options.runs} runs", flush=True)
     runs = []

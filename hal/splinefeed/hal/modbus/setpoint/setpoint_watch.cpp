@@ -39,7 +39,15 @@ std::string SetpointWatch::trouble(const SetpointReport& report, std::uint64_t n
     if (report.clamped) {
         return "a position or speed exceeds the range of its register; check scale and clamp in its profile";
     }
-    switch (report.reading.state) {
+    if (report.reading.state != state_) {
+        state_ = report.reading.state;
+        state_seen_us_ = now_us;
+    }
+    // On a serial line an answer may be one to another request (a gateway sent it twice): one reading proves nothing.
+    if (report.status_us <= state_seen_us_ && state_ != DriveState::unknown) {
+        return {};
+    }
+    switch (state_) {
     case DriveState::fault: return fault_sentence(report.reading);
     case DriveState::disabled:
     case DriveState::not_ready: return "it was disabled while it moved";

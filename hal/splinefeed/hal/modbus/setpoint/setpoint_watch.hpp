@@ -25,6 +25,8 @@ public:
                                       std::uint64_t began_us);
 
 private:
+    DriveState state_ = DriveState::unknown;
+    std::uint64_t state_seen_us_ = 0;    // when its state was first that
     std::uint64_t unknown_since_us_ = 0; // its state is unknown since then; 0: it is known
 };
 
