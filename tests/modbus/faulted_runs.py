@@ -10,7 +10,7 @@ Each run has one of the kinds, and one of the wires, by its seed. Every run is j
   the path adds, and each executed segment has the number, the ends and (but for trims) the duration of the plan's;
 - no shaft moves after the program's exit, but of drives that the program names as not confirmed;
 - a run that says it is done ended where the plan ends, at rest; one that says it is not names what was done to it;
-- of ten runs at most one ends before anything moved, because a line went dead while the session was opened;
+- of ten runs, or fewer, at most one ends before anything moved, because a line went dead while the session was opened;
 - drives that were told to stop stand within twice the stop reserve and the watchdog; every run ends.
 """
 import argparse
@@ -286,7 +286,7 @@ def main():
             for problem in run.problems[:5]:
                 print(f"    {problem}", flush=True)
     print(f"{failed} of {options.runs} runs failed, {late} ended before they began")
-    return 1 if failed or late > options.runs / 10 else 0
+    return 1 if failed or late > max(1, options.runs / 10) else 0
 
 
 if __name__ == "__main__":

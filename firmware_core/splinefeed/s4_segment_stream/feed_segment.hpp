@@ -26,7 +26,13 @@ struct FeedSegment {
     PerAxis<std::int64_t> end_velocity{};
 
     /// Whether every axis stands at its end.
-    [[nodiscard]] constexpr bool ends_at_rest() const noexcept { return end_velocity == PerAxis<std::int64_t>{}; }
+    [[nodiscard]] constexpr bool ends_at_rest() const noexcept {
+        bool rests = true; // a comparison of the arrays would call memcmp, which a firmware does not have
+        for (const std::int64_t velocity : end_velocity) {
+            rests = rests && velocity == 0;
+        }
+        return rests;
+    }
 };
 
 } // namespace splinefeed
