@@ -14,8 +14,9 @@ namespace splinefeed {
 inline constexpr std::int64_t units_per_count = std::int64_t{3} << 30;
 
 /// A cubic in time for each axis, in integers: positions in units, velocities in units per segment, duration in ticks
-/// of 1/8 us. Axes that the machine does not have are 0. A segment starts exactly where the previous one ends, in position, velocity and acceleration
-/// (start_velocity and end_velocity are three times differences of the control points; see segment_stream.cpp).
+/// of 1/8 us. Axes that the machine does not have are 0. A segment starts exactly where the previous one ends, in
+/// position, velocity and acceleration (start_velocity and end_velocity are three times differences of the control
+/// points; see segment_stream.cpp).
 struct FeedSegment {
     std::uint64_t index = 0;
     std::uint32_t duration_ticks = 0;

@@ -28,7 +28,6 @@ public:
     [[nodiscard]] DriveProblem prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept;
     /// Whether the segment fits the drive's registers.
     [[nodiscard]] bool carries(const FeedSegment& segment) const noexcept;
-    /// @param rests  the whole machine is at rest at the end of the segment
     /// Returns false, and sends nothing of it, if it does not fit the registers or there is no room.
     [[nodiscard]] bool push(const FeedSegment& segment) noexcept;
 
