@@ -50,7 +50,7 @@ QUERY = "?baud=115200&parity=E&unit=1"
 
 SILENT = ["does not answer", "no connection", "in fault", "watchdog"]
 ANY = [""]
-SLOW = ["its line is too slow for targets"]  # never said of pvt
+SLOW = ["its line is too slow for targets", "the wire carries a target"]  # never said of pvt
 PVT = ("pvt",)
 ALL = ("pvt", "cyclic", "block")
 
@@ -82,7 +82,7 @@ FAULTS = {
     "late": (spell("late", 1, 250, 0.005, 0.05), ALL, SLOW),
     "drip": (spell("drip", 1, 30, 0.005, 0.03), ALL, SLOW),
     "mute": (spell("mute", 10, 150, 0.002, 0.02), ALL, SLOW),
-    "mute-at": (lambda rng, at: f"mute-at={rng.randint(1, 60)}:150", ALL, []),
+    "mute-at": (lambda rng, at: f"mute-at={rng.randint(1, 60)}:150", ALL, SLOW),
     "dither": (lambda rng, at: f"dither={rng.randint(1, 2)}", ALL, []),
     "disconnect": (lasting("disconnect", 20, 1500), ALL, []),
     "freeze": (lasting("freeze", 20, 1500), ALL, ["in fault"]),
