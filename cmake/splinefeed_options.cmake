@@ -51,7 +51,8 @@ function(splinefeed_unity target)
         return()
     endif()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    target_compile_options(${target} PRIVATE -Wno-shadow) # of a name that another source has for itself; alone they are looked at
+    # clang takes a name that another source has for itself for a shadowed one. Alone each source is looked at (clang-tidy, the preset clang).
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
     get_target_property(sources ${target} SOURCES)
     foreach(source IN LISTS sources)
         get_filename_component(path ${source} ABSOLUTE)

@@ -7,8 +7,6 @@
 
 namespace splinefeed::host {
 
-namespace {} // namespace
-
 bool PvtSchedule::take(std::optional<std::uint64_t>& event_us, std::uint64_t now_us) noexcept {
     const bool due = event_us && *event_us <= now_us;
     if (due) {

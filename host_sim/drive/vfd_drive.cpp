@@ -2,7 +2,6 @@
 #include "host_sim/drive/vfd_drive.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <algorithm>

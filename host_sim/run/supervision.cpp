@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/run/supervision.hpp"
 
-#include "splinefeed/base/units.hpp"
-
 #include "host_sim/base/abandon.hpp"
 #include "host_sim/base/output_file.hpp"
 #include "host_sim/output/place_text.hpp"
 
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include <algorithm>

@@ -110,39 +110,6 @@ void check_end(const std::array<std::unique_ptr<Axis>, 2>& axes) {
 
 } // namespace
 
-TEST_CASE("Segment track: positions and velocities between and beyond its segments") {
-    const Circle circle(wholes);
-    TrajectoryBuffer track = circle.track();
-    CHECK(track.room() == 0);
-    CHECK(track.ends_at_rest());
-    for (std::uint64_t time_us = 0; time_us < track.end_us(); time_us += 377) {
-        const double time_s = static_cast<double>(time_us) / 1e6;
-        for (const int k : {0, 1}) {
-            const TrajectoryPoint point = track.at(k, time_us);
-            const auto expected = circle.at(time_s)[static_cast<std::size_t>(k)];
-            REQUIRE(static_cast<double>(point.position_q16) / 65536.0 == Approx(expected).margin(1e-4));
-            const double ahead = circle.at(time_s + 1e-5)[static_cast<std::size_t>(k)];
-            const double behind = circle.at(time_s - 1e-5)[static_cast<std::size_t>(k)];
-            REQUIRE(point.velocity == Approx((ahead - behind) / 2e-5).margin(30.0));
-        }
-    }
-    CHECK(track.at(0, track.end_us() + 5).position_q16 == std::int64_t{wholes} << 16);
-    CHECK(track.at(0, track.end_us() + 5).velocity == 0.0);
-    const std::int64_t before = track.at(1, 500'000).position_q16;
-    track.release(500'000);
-    CHECK(track.room() == 500);
-    CHECK(track.at(1, 500'000).position_q16 == before);
-    track.release(track.end_us() + 1000);
-    CHECK(track.at(0, track.end_us()).position_q16 == std::int64_t{wholes} << 16);
-    FeedSegment segment;
-    segment.duration_ticks = 8000;
-    segment.end[0] = 4 * units_per_count; // 4 counts in a millisecond, from rest to rest: 6 D / T^2
-    CHECK(track.push(segment));
-    CHECK(line_deviation_counts(segment, 0, 500) == Approx(24.0 * 0.25 / 8.0));
-    track.reset(4);
-    CHECK(track.empty());
-}
-
 TEST_CASE("Cyclic targets: shafts stay within the chord of a period, though their frames come one after the other") {
     const Circle circle(wholes);
     const TrajectoryBuffer track = circle.track();
@@ -394,36 +361,4 @@ TEST_CASE("Blocks on the fly: where the link dies the drive stops by itself, not
     axis.drive.wait_ms(1000);
     CHECK_FALSE(axis.drive.model().axis().moving());
     CHECK(std::fabs(axis.drive.model().position_counts(0) - here) < speed * 0.011 + speed * speed / 2e6 + 1.0);
-}
-
-TEST_CASE("Target frames: one frame for a group, only what changed without, and a start once") {
-    const DriveProfile kinco = host::find_profile("cia402-kinco");
-    SetpointFrames frames(kinco);
-    frames.set(FieldRole::profile_velocity, std::int64_t{125} << 16);
-    frames.set(FieldRole::target_position, std::int64_t{0x12345} << 16);
-    std::span<const RegisterWrite> writes = frames.build();
-    REQUIRE(writes.size() == 6); // speed, both ramps, target, two steps of the start
-    CHECK(writes[0].address == 0x4A00);
-    CHECK(writes[0].values[0] == 2048);
-    CHECK(writes[3].address == 0x4000);
-    CHECK(writes[3].count == 2);
-    CHECK(writes[3].values[0] == 0x2345);
-    CHECK(writes[3].values[1] == 0x0001);
-    CHECK(writes[4].values[0] == 0x002F);
-    CHECK(writes[5].values[0] == 0x103F);
-    CHECK(frames.build().size() == 1);                  // the target alone
-    frames.set_last(kinco.index_of("control"), 0x000F); // somebody enabled anew
-    CHECK(frames.build().size() == 3);
-    frames.forget(); // some of them were lost, nobody knows which
-    CHECK(frames.build().size() == 6);
-    CHECK(frames.build().size() == 1);
-
-    const DriveProfile lexium = host::find_profile("lexium32m");
-    SetpointFrames group(lexium);
-    CHECK(group.build().size() == 1);
-    writes = group.build();
-    CHECK(writes[0].count == 13);
-    CHECK(writes[0].values[0] == 0x0200);
-    CHECK(writes[0].values[4] == 0x0001);
-    CHECK(group.build()[0].values[4] == 0x0081); // toggled
 }

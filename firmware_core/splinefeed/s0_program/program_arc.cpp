@@ -31,14 +31,14 @@ PlanePoint beside(PlanePoint from, PlanePoint to, Decimal distance, Decimal chor
             {from.second.raw + y.raw / 2 + product_quotient(x.raw, distance.raw, length).raw}};
 }
 
-Decimal center_distance(PlanePoint a, PlanePoint b) noexcept {
+Decimal plane_distance(PlanePoint a, PlanePoint b) noexcept {
     return hypotenuse(b.first - a.first, b.second - a.second);
 }
 
 BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
                              bool clockwise, PlanePoint& out) noexcept {
     const Decimal radius = modal.in_mm(block.value('r'));
-    const Decimal chord = center_distance(from, to);
+    const Decimal chord = plane_distance(from, to);
     if (chord.raw == 0) {
         return block.at(Error::arc_end_is_start, 'r');
     }
@@ -74,8 +74,8 @@ BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, Plane
         out.first += from.first;
         out.second += from.second;
     }
-    const Decimal start = center_distance(out, from);
-    const Decimal end = center_distance(out, to);
+    const Decimal start = plane_distance(out, from);
+    const Decimal end = plane_distance(out, to);
     if (start < least_radius || end < least_radius) {
         return block.at(Error::arc_radius_zero, block.has(i) ? i : j);
     }
@@ -84,7 +84,7 @@ BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, Plane
         (mismatch > free_mismatch && mismatch.raw > (start > end ? start : end).raw / relative_mismatch)) {
         return block.at(Error::arc_radius_mismatch, block.has(i) ? i : j);
     }
-    const Decimal chord = center_distance(from, to);
+    const Decimal chord = plane_distance(from, to);
     if (mismatch.raw > start.raw / core_mismatch && chord.raw > 0) {
         // The way of the centre along the chord's normal: (to - from) x (centre - from) / chord
         const Decimal x = to.first - from.first;

@@ -2,7 +2,6 @@
 #include "host_sim/ports/gpio/gpio_link.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/rt/clock.hpp"
 
 #include "host_sim/config/gpio_map.hpp"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/ports/modbus/pvt_target.hpp"
 
-#include "splinefeed/base/units.hpp"
-
 #include "host_sim/base/input_error.hpp"
 
+#include "splinefeed/base/units.hpp"
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/rt/clock.hpp"
 

@@ -2,7 +2,6 @@
 #include "splinefeed/hal/gpio/input_lines.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/gpio/chip_access.hpp"
 #include "splinefeed/hal/gpio/line_lookup.hpp"
 

@@ -2,7 +2,6 @@
 #include "splinefeed/hal/gpio/input_watch.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/rt/real_time.hpp"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "splinefeed/hal/modbus/link/modbus_link.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/modbus/link/connection_error.hpp"
 
 #include <arpa/inet.h>

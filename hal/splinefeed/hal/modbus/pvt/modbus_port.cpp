@@ -7,7 +7,6 @@
 #include "splinefeed/hal/modbus/pvt/modbus_port.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/pvt/bus_rate.hpp"
 #include "splinefeed/hal/modbus/pvt/pvt_setup.hpp"

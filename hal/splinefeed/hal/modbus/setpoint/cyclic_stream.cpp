@@ -9,8 +9,6 @@
 
 namespace splinefeed::hal::modbus {
 
-namespace {} // namespace
-
 CyclicStream::CyclicStream(const DriveProfile& profile, const CyclicSettings& settings)
     : settings_(settings), frames_(profile) {
     if (settings_.interval_us == 0 || settings_.interval_us > settings_.period_us) {

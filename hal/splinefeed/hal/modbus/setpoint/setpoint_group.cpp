@@ -2,7 +2,6 @@
 #include "splinefeed/hal/modbus/setpoint/setpoint_group.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/modbus/link/wire_groups.hpp"
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/modbus/setpoint/setpoint_setup.hpp"

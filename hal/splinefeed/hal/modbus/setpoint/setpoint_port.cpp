@@ -6,7 +6,6 @@
 #include "splinefeed/hal/modbus/setpoint/setpoint_port.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/rt/wait_until.hpp"
 
 #include <algorithm>

@@ -2,15 +2,12 @@
 #include "splinefeed/hal/modbus/setpoint/setpoint_wiring.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace splinefeed::hal::modbus {
-
-namespace {} // namespace
 
 std::uint32_t horizon_us(const SetpointWiring& wiring, std::uint32_t period_us) noexcept {
     const DriveProfile& profile = *wiring.profile;

@@ -2,7 +2,6 @@
 #include "splinefeed/hal/modbus/spindle/vfd_client.hpp"
 
 #include "splinefeed/base/units.hpp"
-
 #include "splinefeed/hal/modbus/profile/drive_timing.hpp"
 #include "splinefeed/hal/modbus/profile/field_codec.hpp"
 
