@@ -36,7 +36,7 @@ double curve_length(const PathStrand& strand, int axes, double& least_radius) {
     constexpr int parts = 64;
     const auto between = [axes](const PerAxis<double>& a, const PerAxis<double>& b) {
         double sum = 0.0;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             sum += (b[k] - a[k]) * (b[k] - a[k]);
         }
         return std::sqrt(sum);
@@ -93,7 +93,7 @@ double ExactStopTime::straight_s(const PathElement<double>& move) const noexcept
     double length_sq = 0.0;
     double linear_sq = 0.0;
     PerAxis<double> way{};
-    for (unsigned k = 0; k < static_cast<unsigned>(settings_->axes); ++k) {
+    for (const unsigned k : indices(settings_->axes)) {
         way[k] = to_mm(Position{move.to[k].raw - here_[k].raw});
         length_sq += way[k] * way[k];
         linear_sq += settings_->axis[k].rotary ? 0.0 : way[k] * way[k];
@@ -102,7 +102,7 @@ double ExactStopTime::straight_s(const PathElement<double>& move) const noexcept
     double speed = linear_sq > 0.0 ? feed_of(move) * length / std::sqrt(linear_sq) : unlimited;
     double acceleration = unlimited;
     double jerk = unlimited;
-    for (unsigned k = 0; k < static_cast<unsigned>(settings_->axes); ++k) {
+    for (const unsigned k : indices(settings_->axes)) {
         const AxisSettings& axis = settings_->axis[k];
         if (way[k] != 0.0) {
             const double share = std::fabs(way[k]) / length;
@@ -117,7 +117,7 @@ double ExactStopTime::straight_s(const PathElement<double>& move) const noexcept
 double ExactStopTime::bent_s(const PathElement<double>& move) const noexcept {
     const AxisTotals totals = axis_totals(*settings_);
     double speed = feed_of(move);
-    for (unsigned k = 0; k < static_cast<unsigned>(settings_->axes); ++k) {
+    for (const unsigned k : indices(settings_->axes)) {
         speed = std::fmin(speed, settings_->axis[k].max_velocity_mm_s);
     }
     const double acceleration = totals.softest / std::numbers::sqrt2;

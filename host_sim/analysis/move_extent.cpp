@@ -22,12 +22,12 @@ void AxisBox::add(unsigned axis, double from, double to) noexcept {
 
 void add_extent(const PerAxis<Position>& from, const PathElement<double>& move, int axes, AxisBox& box) noexcept {
     if (box.empty) {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             box.low[k] = box.high[k] = to_mm(from[k]);
         }
         box.empty = false;
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         box.add(k, to_mm(from[k]), to_mm(move.to[k]));
         if (move.shape == MoveShape::bezier) {
             for (unsigned i = 1; i < static_cast<unsigned>(move.bezier.degree); ++i) {
@@ -38,7 +38,7 @@ void add_extent(const PerAxis<Position>& from, const PathElement<double>& move, 
     }
     if (move.shape == MoveShape::arc) {
         const ProgrammedArc arc = arc_of(from, move, axes);
-        for (unsigned k = 0; k < static_cast<unsigned>(std::min(axes, 3)); ++k) {
+        for (const unsigned k : indices(std::min(axes, 3))) {
             const auto [low, high] = arc.range(k);
             box.add(k, low, high);
         }
@@ -67,7 +67,7 @@ double move_length(const PerAxis<Position>& from, const PathElement<double>& mov
                 const double t = static_cast<double>(part) / parts;
                 auto points = move.bezier.points[k];
                 for (int left = move.bezier.degree; left > 0; --left) {
-                    for (unsigned i = 0; i < static_cast<unsigned>(left); ++i) {
+                    for (const unsigned i : indices(left)) {
                         points[i] += t * (points[i + 1] - points[i]);
                     }
                 }

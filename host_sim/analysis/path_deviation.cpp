@@ -73,7 +73,7 @@ double spiral_error(const ProgrammedArc& arc, double others_sq) noexcept {
 
 PathDeviation::PathDeviation(const MachineSettings& settings, double joint_mm, double rounding)
     : axes_(settings.axes), joint_mm_(joint_mm), rounding_(rounding) {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         AxisSet& set = sets_[settings.axis[k].rotary ? 1 : 0];
         set.axis[static_cast<unsigned>(set.count++)] = k;
     }
@@ -81,7 +81,7 @@ PathDeviation::PathDeviation(const MachineSettings& settings, double joint_mm, d
 
 void PathDeviation::start(const PerAxis<Position>& position) {
     here_ = whole_end_ = position;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         reached_mm_[k] = to_mm(position[k]);
     }
 }
@@ -103,7 +103,7 @@ void PathDeviation::move(const PathElement<double>& move, std::uint64_t line) {
     double largest = 0.0;
     double farthest = 0.0;
     double apart_sq = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const double way = std::fabs(to_mm(Position{move.to[k].raw - here_[k].raw}));
         largest = std::fmax(largest, way);
         const double apart = std::fabs(to_mm(Position{move.to[k].raw - whole_end_[k].raw}));
@@ -212,7 +212,7 @@ double PathDeviation::from_segments(const PerAxis<double>& point, const AxisSet&
         return best;
     }
     double sum = 0.0;
-    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+    for (const unsigned n : indices(set.count)) {
         const double apart = reached_mm_[set.axis[n]] - point[set.axis[n]];
         sum += apart * apart;
     }

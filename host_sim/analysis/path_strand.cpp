@@ -28,13 +28,13 @@ PathStrand::PathStrand(const PerAxis<Position>& from, const PathElement<double>&
     if (move.shape == MoveShape::bezier) {
         degree_ = move.bezier.degree;
         parts_ = parts_of_bezier;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             for (unsigned i = 0; i <= static_cast<unsigned>(degree_); ++i) {
                 control_[k][i] = to_mm(from[k]) + move.bezier.points[k][i] * chord_mm;
             }
         }
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         control_[k][0] = to_mm(from[k]);
         control_[k][static_cast<unsigned>(degree_)] = to_mm(move.to[k]);
     }
@@ -47,7 +47,7 @@ PathStrand::PathStrand(const PerAxis<Position>& from, const PathElement<double>&
 
 template <Scalar S>
 PathStrand::PathStrand(const CurveSegment<S>& segment, int detail) : axes_(segment.axes), degree_(segment.degree) {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         for (unsigned i = 0; i <= static_cast<unsigned>(degree_); ++i) {
             control_[k][i] = segment.control_mm(static_cast<int>(k), static_cast<int>(i));
         }
@@ -64,14 +64,14 @@ void PathStrand::prepare() {
         for (std::size_t first = 0; first < places_.size(); first += block) {
             Box& box = blocks_.emplace_back(Box{places_[first], places_[first]});
             for (std::size_t i = first; i < std::min(first + block, places_.size()); ++i) {
-                for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+                for (const unsigned k : indices(axes_)) {
                     box.low[k] = std::fmin(box.low[k], places_[i][k]);
                     box.high[k] = std::fmax(box.high[k], places_[i][k]);
                 }
             }
         }
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const auto* const first = control_[k].begin();
         const auto [low, high] = std::minmax_element(first, first + degree_ + 1);
         box_.low[k] = *low;
@@ -90,10 +90,10 @@ double PathStrand::radius() const noexcept {
 
 PerAxis<double> PathStrand::at(double t) const noexcept {
     PerAxis<double> out{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         PerDegree<double> row = control_[k];
         for (int last = degree_; last > 0; --last) {
-            for (unsigned i = 0; i < static_cast<unsigned>(last); ++i) {
+            for (const unsigned i : indices(last)) {
                 row[i] += t * (row[i + 1] - row[i]);
             }
         }
@@ -111,7 +111,7 @@ PerAxis<double> PathStrand::at(double t) const noexcept {
 // Of an axis by De Casteljau's rows: the derivatives are in the last two before the point.
 PathStrand::State PathStrand::state(double t) const noexcept {
     State out;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         PerDegree<double> row = control_[k];
         for (int last = degree_; last > 0; --last) {
             if (last == 2) {
@@ -119,7 +119,7 @@ PathStrand::State PathStrand::state(double t) const noexcept {
             } else if (last == 1) {
                 out.first[k] = degree_ * (row[1] - row[0]);
             }
-            for (unsigned i = 0; i < static_cast<unsigned>(last); ++i) {
+            for (const unsigned i : indices(last)) {
                 row[i] += t * (row[i + 1] - row[i]);
             }
         }
@@ -139,7 +139,7 @@ PathStrand::State PathStrand::state(double t) const noexcept {
 double PathStrand::distance_sq(const PerAxis<double>& point, const AxisSet& set, double t) const noexcept {
     const PerAxis<double> place = at(t);
     double sum = 0.0;
-    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+    for (const unsigned n : indices(set.count)) {
         const double apart = place[set.axis[n]] - point[set.axis[n]];
         sum += apart * apart;
     }
@@ -148,7 +148,7 @@ double PathStrand::distance_sq(const PerAxis<double>& point, const AxisSet& set,
 
 double PathStrand::Box::distance_sq(const PerAxis<double>& point, const AxisSet& set) const noexcept {
     double sum = 0.0;
-    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+    for (const unsigned n : indices(set.count)) {
         const unsigned k = set.axis[n];
         const double apart = std::max(0.0, std::max(low[k] - point[k], point[k] - high[k]));
         sum += apart * apart;
@@ -159,7 +159,7 @@ double PathStrand::Box::distance_sq(const PerAxis<double>& point, const AxisSet&
 double PathStrand::from_line(const PerAxis<double>& point, const AxisSet& set) const noexcept {
     double along = 0.0;
     double length_sq = 0.0;
-    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+    for (const unsigned n : indices(set.count)) {
         const PerDegree<double>& c = control_[set.axis[n]];
         const double way = c[static_cast<unsigned>(degree_)] - c[0];
         along += (point[set.axis[n]] - c[0]) * way;
@@ -167,7 +167,7 @@ double PathStrand::from_line(const PerAxis<double>& point, const AxisSet& set) c
     }
     const double t = length_sq > 0.0 ? std::clamp(along / length_sq, 0.0, 1.0) : 0.0;
     double sum = 0.0;
-    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+    for (const unsigned n : indices(set.count)) {
         const PerDegree<double>& c = control_[set.axis[n]];
         const double apart = c[0] + t * (c[static_cast<unsigned>(degree_)] - c[0]) - point[set.axis[n]];
         sum += apart * apart;
@@ -185,7 +185,7 @@ PathStrand::Foot PathStrand::guess(const PerAxis<double>& point, const AxisSet& 
         }
         for (std::size_t i = b * block; i < std::min((b + 1) * block, places_.size()); ++i) {
             double sum = 0.0;
-            for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+            for (const unsigned n : indices(set.count)) {
                 const double apart = places_[i][set.axis[n]] - point[set.axis[n]];
                 sum += apart * apart;
             }
@@ -205,7 +205,7 @@ PathStrand::Foot PathStrand::guess_on_arc(const PerAxis<double>& point, const Ax
     const double growth = arc_->radius_to() - arc_->radius_from();
     double along = growth * polar.growth + arc_->rise() * polar.rise;
     double way_sq = growth * growth + arc_->rise() * arc_->rise();
-    for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+    for (const unsigned n : indices(set.count)) {
         const unsigned k = set.axis[n];
         if (k >= 3) {
             const double way = control_[k][static_cast<unsigned>(degree_)] - control_[k][0];
@@ -238,7 +238,7 @@ PathStrand::Foot PathStrand::descend(Foot foot, const PerAxis<double>& point, co
         double way = 0.0;
         double speed_sq = 0.0;
         double bend = 0.0;
-        for (unsigned n = 0; n < static_cast<unsigned>(set.count); ++n) {
+        for (const unsigned n : indices(set.count)) {
             const unsigned k = set.axis[n];
             const double apart = point[k] - there.point[k];
             apart_sq += apart * apart;

@@ -7,10 +7,10 @@ namespace splinefeed::host {
 
 ProgramReport::ProgramReport(const MachineDescription& machine) : axes_(machine.settings.axes) {
     bool linear = false;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         linear = linear || !machine.settings.axis[k].rotary;
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         counts_[k] = !linear || !machine.settings.axis[k].rotary;
     }
 }

@@ -58,13 +58,13 @@ bool comes_before(std::uint32_t index, std::uint32_t other) {
 
 double WaypointError::Piece::distance_mm(const PerAxis<Position>& position) const noexcept {
     PerAxis<double> target{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         target[k] = to_mm(Position{position[k].raw - origin[k].raw}); // exact before it is rounded
     }
     const auto approach = [&](double u) noexcept {
         Approach at;
         double tangent_sq = 0.0;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             const Derivatives axis = derivatives_at(offset[k], degree, u);
             const double miss = axis.value - target[k];
             at.distance_sq += miss * miss;
@@ -129,7 +129,7 @@ void WaypointError::segment(const CurveSegment<S>& segment) {
     piece.axes = segment.axes;
     piece.degree = segment.degree;
     piece.origin = segment.origin;
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         for (unsigned i = 0; i <= static_cast<unsigned>(segment.degree); ++i) {
             piece.offset[k][i] = scale2(to_double(segment.control[k][i]), segment.unit_log2);
         }

@@ -176,7 +176,7 @@ void complete_address(DriveAddress& address, const DriveProfile& profile) {
 
 DriveTable drive_table(const std::string& target, const MachineDescription& machine) {
     Builder builder(machine);
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         const bool of_file = target == "modbus";
         if (of_file && machine.drive[k].empty()) {
             if (machine.file.empty()) {

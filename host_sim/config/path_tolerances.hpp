@@ -48,7 +48,7 @@ inline constexpr PathToleranceKey path_tolerance_keys[] = {
 [[nodiscard]] inline SharpestCorner sharpest_corner(const MachineSettings& machine) {
     double jerk = 0.0;
     double acceleration = machine.axis[0].max_acceleration_mm_s2;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+    for (const unsigned k : indices(machine.axes)) {
         const AxisSettings& axis = machine.axis[k];
         if (axis.max_jerk_mm_s3 > 0.0) {
             jerk = jerk > 0.0 ? std::min(jerk, axis.max_jerk_mm_s3) : axis.max_jerk_mm_s3;

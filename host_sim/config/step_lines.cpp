@@ -55,7 +55,7 @@ StepTiming checked_step_timing(const MachineDescription& machine) {
     if (!timing.has_value()) {
         throw InputError(machine.file, 0, describe(timing.error()));
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         check(machine, k, *timing);
     }
     return *timing;

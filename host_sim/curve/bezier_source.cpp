@@ -16,7 +16,7 @@ BezierSource<S>::BezierSource(const CurveFile& file, int axes, bool repeat_seam)
     SPLINEFEED_ASSERT(axes >= file.axes && axes <= max_axes && !file.segments.empty());
     go_to_start(0);
     repeats_ = repeat_seam && file.closed;
-    for (unsigned k = 0; k < static_cast<unsigned>(file.axes); ++k) {
+    for (const unsigned k : indices(file.axes)) {
         repeats_ = repeats_ && std::fabs(file.at(0, k) - file.at(file.points() - 1, k)) <= CurveFile::largest_gap_mm;
     }
     before_seam_ = after_seam_ = repeats_;
@@ -24,7 +24,7 @@ BezierSource<S>::BezierSource(const CurveFile& file, int axes, bool repeat_seam)
 
 template <Scalar S>
 void BezierSource<S>::go_to_start(std::size_t segment) noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(file_->axes); ++k) {
+    for (const unsigned k : indices(file_->axes)) {
         here_[k] = position_from_mm(file_->at(file_->segments[segment].first_point, k));
     }
 }
@@ -33,7 +33,7 @@ template <Scalar S>
 bool BezierSource<S>::negligible(std::size_t segment) const noexcept {
     const CurveFile::Segment& at = file_->segments[segment];
     double farthest = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(file_->axes); ++k) {
+    for (const unsigned k : indices(file_->axes)) {
         for (unsigned i = 1; i <= static_cast<unsigned>(at.degree); ++i) {
             const double offset = file_->at(at.first_point + i, k) - file_->at(at.first_point, k);
             farthest = std::fmax(farthest, std::fabs(offset));
@@ -54,7 +54,7 @@ bool BezierSource<S>::deliver(std::size_t segment, CurveSegment<S>& out) noexcep
     out.waypoint = static_cast<std::uint32_t>(segment);
     PerAxis<PerDegree<S>> offsets{};
     double farthest = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(file_->axes); ++k) {
+    for (const unsigned k : indices(file_->axes)) {
         const double start = to_mm(here_[k]);
         for (unsigned i = 1; i <= degree; ++i) {
             const double offset = file_->at(from.first_point + i, k) - start;

@@ -162,7 +162,7 @@ private:
     }
 
     void require_near(std::size_t from, std::size_t to, const std::string& name) const {
-        for (std::size_t k = 0; k < static_cast<std::size_t>(curve_.axes); ++k) {
+        for (const unsigned k : indices(curve_.axes)) {
             if (std::fabs(curve_.at(to, k) - curve_.at(from, k)) > longest_mm) {
                 fail(fmt::format("{} is longer than {} mm; cut it into shorter ones", name, longest_mm));
             }
@@ -171,7 +171,7 @@ private:
 
     void require_joint(std::size_t end, std::size_t start, std::string_view name) const {
         double gap_sq = 0.0;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(curve_.axes); ++k) {
+        for (const unsigned k : indices(curve_.axes)) {
             const double d = curve_.at(start, k) - curve_.at(end, k);
             gap_sq += d * d;
         }
@@ -207,7 +207,7 @@ CurveFile compute_curve(std::string_view method, const json& input, ScalarKind s
     for (const BezierPiece<double>& piece : made.pieces) {
         curve.segments.push_back({curve.numbers.size() / static_cast<std::size_t>(made.axes), piece.degree});
         for (unsigned i = 0; i <= static_cast<unsigned>(piece.degree); ++i) {
-            for (unsigned k = 0; k < static_cast<unsigned>(made.axes); ++k) {
+            for (const unsigned k : indices(made.axes)) {
                 curve.numbers.push_back(piece.control[k][i]);
             }
         }
@@ -220,7 +220,7 @@ void require_executable(const CurveFile& curve, const std::string& file) {
         const CurveFile::Segment& segment = curve.segments[s];
         for (std::size_t i = segment.first_point; i <= segment.first_point + static_cast<unsigned>(segment.degree);
              ++i) {
-            for (std::size_t k = 0; k < static_cast<std::size_t>(curve.axes); ++k) {
+            for (const unsigned k : indices(curve.axes)) {
                 if (!position_representable(curve.at(i, k))) {
                     throw InputError(file, 0,
                                      fmt::format("segment {} of the curve reaches {:.6g}; a position must lie within "

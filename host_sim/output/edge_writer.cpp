@@ -8,7 +8,7 @@ namespace splinefeed::host {
 EdgeWriter::EdgeWriter(OutputFile& file, const MachineDescription& machine)
     : file_(&file), train_(make_pulse_train(machine.settings.axes, checked_step_timing(machine))),
       motors_(machine.motors) {
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         name_[k] = {machine.axis_name[k], machine.axis_name[k] + "2"};
     }
     file.append("t_ns,axis,line,value\n");
@@ -38,7 +38,7 @@ void EdgeWriter::drain() {
 void EdgeWriter::row(const Edge& edge) {
     constexpr std::int64_t tick_ns = 1000 / ticks_per_us;
     const StepMotors& motors = motors_[edge.axis];
-    for (std::size_t i = 0; i < static_cast<std::size_t>(motors.count); ++i) {
+    for (const unsigned i : indices(motors.count)) {
         const bool step = edge.line == Line::step;
         const bool inverted = step ? motors.invert_step : motors.invert_direction[i];
         file_->format("{},{},{},{}\n", edge.tick * tick_ns, name_[edge.axis][i], step ? "step" : "dir",

@@ -54,7 +54,7 @@ std::string check_text(const ProgramReport& report, const MachineDescription& ma
     text += fmt::format("{}{} problem{}\n\n", problems.empty() ? "" : "\n", problems.size(),
                         problems.size() == 1 ? "" : "s");
     text += fmt::format("{:<6}{:>28}{:>28}{:>28}\n", "axis", "feeds", "rapids", "travel");
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         const auto& travel = machine.travel[k];
         text += fmt::format("{:<6}{:>28}{:>28}{:>28}\n", machine.axis_name[k], range(report.feed_box(), k),
                             range(report.rapid_box(), k),
@@ -84,7 +84,7 @@ std::string check_json(const ProgramReport& report, const MachineDescription& ma
     object["feed_box"] = box_json(report.feed_box(), machine);
     object["rapid_box"] = box_json(report.rapid_box(), machine);
     object["travel"] = Json::object();
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         if (machine.travel[k]) {
             object["travel"][machine.axis_name[k]] = {machine.travel[k]->low, machine.travel[k]->high};
         }

@@ -23,13 +23,13 @@ void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerA
                         given->components, axes));
     }
     has = true;
-    for (unsigned k = 0; k < static_cast<unsigned>(given->components); ++k) {
+    for (const unsigned k : indices(given->components)) {
         out[k] = from_double<S>(given->value[k]);
     }
 }
 
 bool same_point(const WaypointRow& a, const WaypointRow& b) {
-    for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+    for (const unsigned k : indices(max_axes)) {
         if (!(std::fabs(a.position[k] - b.position[k]) < same_point_mm)) {
             return false;
         }

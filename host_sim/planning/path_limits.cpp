@@ -16,7 +16,7 @@ constexpr double slack_mm = 1e-9; // rounding of points up to 2^20 mm
 } // namespace
 
 PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settings.axes) {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const double reach = counter_limit / machine.settings.axis[k].steps_per_mm;
         const Travel travel = machine.travel[k].value_or(Travel{-reach, reach});
         const char* const unit = machine.settings.axis[k].rotary ? "degrees" : "mm";
@@ -27,7 +27,7 @@ PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settin
 template <Scalar S>
 std::optional<std::string> PathLimits::violation(const CurveSegment<S>& segment) const {
     const auto degree = static_cast<unsigned>(segment.degree);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const Axis& axis = axis_[k];
         PerDegree<double> points{};
         for (unsigned i = 0; i <= degree; ++i) {

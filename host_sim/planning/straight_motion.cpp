@@ -15,7 +15,7 @@ StraightMotion::StraightMotion(const MachineDescription& machine, const PerAxis<
       planner_(line_, limits_, window_cells) {
     const auto waypoint = [&](const PerAxis<double>& place) {
         Waypoint<double> point;
-        for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+        for (const unsigned k : indices(machine.settings.axes)) {
             point.position[k] = position_from_mm(place[k]);
         }
         point.feed_mm_s = feed_mm_s;

@@ -26,7 +26,7 @@ template <Scalar To, Scalar From>
     }
     if (element.shape == MoveShape::bezier) {
         out.bezier.degree = element.bezier.degree;
-        for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+        for (const unsigned k : indices(max_axes)) {
             for (unsigned i = 0; i <= static_cast<unsigned>(element.bezier.degree); ++i) {
                 out.bezier.points[k][i] = number(element.bezier.points[k][i]);
             }

@@ -51,7 +51,7 @@ private:
     void require_travel(const PerAxis<Position>& from, const SourceStep<double>& step) {
         AxisBox box;
         add_extent(from, step.programmed, machine_->settings.axes, box);
-        for (unsigned k = 0; k < static_cast<unsigned>(machine_->settings.axes); ++k) {
+        for (const unsigned k : indices(machine_->settings.axes)) {
             const auto& travel = machine_->travel[k];
             if (travel && (box.low[k] < travel->low || box.high[k] > travel->high) &&
                 outside_.emplace(step.line, k).second) {

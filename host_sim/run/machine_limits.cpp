@@ -27,7 +27,7 @@ constexpr std::array axis_limits{
 /// The one value that is too small for the sample period: with a large one in its place, all goes together.
 template <Scalar S>
 std::string lost_in_rounding(const MachineDescription& machine) {
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         for (const AxisLimit& limit : axis_limits) {
             MachineSettings raised = machine.settings;
             double& value = raised.axis[k].*limit.value;

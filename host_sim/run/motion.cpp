@@ -278,7 +278,7 @@ bool Motion<S>::execute_first(FeedSegment& segment) {
         return execute(segment);
     }
     PerAxis<double> to{};
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+    for (const unsigned k : indices(limits_->axes)) {
         to[k] = static_cast<double>(segment.start[k]) / static_cast<double>(units_per_count) /
                 description_->settings.axis[k].steps_per_mm;
     }

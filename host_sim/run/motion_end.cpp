@@ -169,7 +169,7 @@ template <Scalar S>
 std::string Motion<S>::where() const {
     PlaceText place("; the machine stands at", 6);
     const PerAxis<double> position = machine_.position_mm();
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+    for (const unsigned k : indices(limits_->axes)) {
         place.add(description_->axis_name[k], position[k]);
     }
     return place.text() + fmt::format(", {:.6f} s after its start", machine_.cycle_time_s()) + on_line(line_);

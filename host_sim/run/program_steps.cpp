@@ -160,7 +160,7 @@ template <Scalar S>
 void ProgramSteps<S>::at_start(FeedSegment& segment) const noexcept {
     segment = {};
     segment.duration_ticks = limits_->segment_ticks;
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+    for (const unsigned k : indices(limits_->axes)) {
         segment.start[k] = units_per_control * scaled(start_[k], limits_->steps_per_mm_q32[k], control_shift);
         segment.end[k] = segment.start[k];
     }

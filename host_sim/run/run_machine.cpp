@@ -18,7 +18,7 @@ double fastest_rapid_mm_s(const MachineSettings& machine) {
     constexpr double most = 10000.0; // as a machine file may state
     double linear_sq = 0.0;
     double rotary_sq = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+    for (const unsigned k : indices(machine.axes)) {
         const double v = machine.axis[k].max_velocity_mm_s;
         (machine.axis[k].rotary ? rotary_sq : linear_sq) += v * v;
     }

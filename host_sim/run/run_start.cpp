@@ -28,7 +28,7 @@ void RunStart::settle(PerAxis<std::optional<double>>& begins) noexcept {
 
 std::string RunStart::names_of_unknown() const {
     std::string names;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine_->settings.axes); ++k) {
+    for (const unsigned k : indices(machine_->settings.axes)) {
         names += place_[k] ? "" : (names.empty() ? "" : ", ") + machine_->axis_name[k];
     }
     return names;
@@ -54,7 +54,7 @@ std::optional<PerAxis<double>> RunStart::move_from(const PerAxis<double>& begin)
     PerAxis<double> from = begin;
     std::string stands;
     std::string begins;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine_->settings.axes); ++k) {
+    for (const unsigned k : indices(machine_->settings.axes)) {
         from[k] = place_[k].value_or(begin[k]);
         const double off_counts = std::fabs(from[k] - begin[k]) * machine_->settings.axis[k].steps_per_mm;
         if (off_counts > standstill_window_counts(*machine_, k)) {

@@ -30,24 +30,24 @@ void require_state(const PathState<S>& state, const ProgrammedMove& move, Real t
     const PlaceMm ahead = move.at(t + h, axes);
     PlaceMm first{};
     PlaceMm second{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         first[k] = (ahead[k] - behind[k]) / (2.0L * h);
         second[k] = (ahead[k] - 2.0L * here[k] + behind[k]) / (h * h);
     }
     const Real speed = apart(first, {}, axes);
     Real along = 0.0L;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         first[k] /= speed;
         along += first[k] * second[k];
     }
     Real bend = 0.0L;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         second[k] = (second[k] - along * first[k]) / (speed * speed);
         bend += second[k] * second[k];
     }
     bend = std::sqrt(bend);
     const Real digits = std::same_as<S, float> ? 1e-4L : 2e-6L;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         CAPTURE(k, static_cast<double>(t));
         CHECK(std::fabs(exact(state.offset[k]) / unit - (here[k] - from[k])) < close_mm);
         CHECK(std::fabs(exact(state.tangent[k]) - first[k]) < digits);
@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE("states near the ends of arcs, helices and Bezier segments", 
             // A place off the move by a little: its distance
             PlaceMm place = programmed.at(1.0L - t, program.axes);
             PerAxis<S> offset{};
-            for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
+            for (const unsigned k : indices(program.axes)) {
                 place[k] += 1e-3L * size * (k % 2 == 0 ? 1.0L : -0.7L);
                 offset[k] = from_double<S>(static_cast<double>((place[k] - programmed.to[k]) * unit));
             }

@@ -55,12 +55,12 @@ MoveProgram random_moves(Random& random, Real longest = 2e3L) {
         const Real length = std::min(longest, real_decades(random, size / spread, size * spread));
         Real sum = 0.0L;
         const double turn = smooth && random.chance(0.9) ? 0.3 : random.decades(1e-4, 10.0);
-        for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
+        for (const unsigned k : indices(program.axes)) {
             direction[k] += real_between(random, -turn, turn);
             sum += direction[k] * direction[k];
         }
         PlaceMm to = program.moves.empty() ? program.start : program.moves.back().to;
-        for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
+        for (const unsigned k : indices(program.axes)) {
             direction[k] /= std::sqrt(sum);
             to[k] += length * direction[k];
         }
@@ -81,7 +81,7 @@ MoveProgram random_moves(Random& random, Real longest = 2e3L) {
             std::vector<PlaceMm> offsets;
             for (int n = 1, degree = random.integer(1, 5); n <= degree; ++n) {
                 PlaceMm offset{};
-                for (unsigned k = 0; k < static_cast<unsigned>(program.axes); ++k) {
+                for (const unsigned k : indices(program.axes)) {
                     offset[k] =
                         (to[k] - from[k]) * n / degree + 0.3L * length * real_between(random, -1.0, 1.0) / degree;
                 }

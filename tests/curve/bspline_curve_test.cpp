@@ -15,7 +15,7 @@ Path random_points(RandomPath& random, int axes, int count) {
     Path path{axes, {}};
     for (int i = 0; i < count; ++i) {
         PerAxis<Position> point{};
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             point[k].raw = static_cast<std::int64_t>(random.below(1 << 28) - (1 << 27)) << 20;
         }
         path.points.push_back(point);
@@ -31,7 +31,7 @@ std::vector<BezierPiece<double>> batch(const Path& path, std::size_t from, std::
     std::vector<Point<double>> vertices;
     for (std::size_t i = from; i < end; ++i) {
         Point<double> vertex{};
-        for (unsigned k = 0; k < static_cast<unsigned>(path.axes); ++k) {
+        for (const unsigned k : indices(path.axes)) {
             vertex[k] = to_mm(path.points[i][k]);
         }
         vertices.push_back(vertex);

@@ -25,7 +25,7 @@ TEMPLATE_TEST_CASE("segment: the largest offset lies in [2^15, 2^16)", "[curve][
             for (auto& axis : offsets) {
                 axis.fill(from_double<S>(1073741823.0));
             }
-            for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+            for (const unsigned k : indices(segment.axes)) {
                 for (unsigned i = 0; i <= static_cast<unsigned>(segment.degree); ++i) {
                     offsets[k][i] = from_double<S>(std::ldexp(random.between(-0.99, 0.99), log2));
                 }
@@ -37,7 +37,7 @@ TEMPLATE_TEST_CASE("segment: the largest offset lies in [2^15, 2^16)", "[curve][
             segment.assign(offsets);
             REQUIRE(segment.unit_log2 == chord_unit_log2 + log2 - 15);
             REQUIRE(exponent_of(absolute(segment.control[axis][point])) == 15);
-            for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+            for (const unsigned k : indices(segment.axes)) {
                 for (unsigned i = 0; i <= static_cast<unsigned>(segment.degree); ++i) {
                     const Real given = std::ldexp(exact(offsets[k][i]), chord_unit_log2);
                     const Real kept = std::ldexp(exact(segment.control[k][i]), segment.unit_log2);

@@ -97,7 +97,7 @@ Worst against_batch(const Path& path, Parameterization how, const std::vector<st
         // once.
         REQUIRE(size(bezier(segments[from], 0)) == 0.0L);
         const Vec miss = bezier(segments[end - 1], 3) - chords[end - 1];
-        for (unsigned k = 0; k < static_cast<unsigned>(path.axes); ++k) {
+        for (const unsigned k : indices(path.axes)) {
             REQUIRE(std::fabs(miss[k]) <= rounding<S>(std::fabs(chords[end - 1][k])));
         }
         from = end;

@@ -25,7 +25,7 @@ TEMPLATE_TEST_CASE("polyline: each segment is the exact chord", "[curve][polylin
             REQUIRE(segments[i].waypoint == i + 1);
             REQUIRE_FALSE(segments[i].stop_at_end);
             REQUIRE(size(bezier(segments[i], 0)) == 0.0L);
-            for (unsigned k = 0; k < static_cast<unsigned>(path.axes); ++k) { // rounded once
+            for (const unsigned k : indices(path.axes)) { // rounded once
                 const Real error = std::fabs(bezier(segments[i], 1)[k] - chords[i][k]);
                 REQUIRE(error <= rounding<S>(std::fabs(chords[i][k])));
             }

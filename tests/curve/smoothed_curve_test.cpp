@@ -97,7 +97,7 @@ Vec point_on(const CurveSegment<double>& segment, double u) {
     Jet<double> jet;
     evaluate(segment, u, jet);
     Vec out{};
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         out[k] = std::ldexp(static_cast<Real>(jet.position[k]), segment.unit_log2);
     }
     return out;

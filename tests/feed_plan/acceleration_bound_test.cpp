@@ -39,7 +39,7 @@ public:
     template <Scalar S>
     SmallestExits(const Cell<S>& cell, const MotionLimits<S>& limits, const CellInterval<S>& stretch, Real entry)
         : planes_(half_planes_of(cell, limits, exact(stretch.from), exact(stretch.to))), entry_(entry) {
-        for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
+        for (const unsigned k : indices(limits.axes)) {
             spread_.push_back(exact(cell.shape[k].error_bound) * exact(stretch.length()));
         }
     }

@@ -76,7 +76,7 @@ TEST_CASE("the limits of a move keep those of the axes, whatever the motion", "[
         const MoveLimits most = cell.move_limits(cell.cap_sq);
         REQUIRE(most.speed_mm_s * most.speed_mm_s <= cell.cap_sq * (1.0 + 1e-12));
         for (const auto& end : cell.end) {
-            for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+            for (const unsigned k : indices(cell.axes)) {
                 const double v = most.speed_mm_s;
                 const double a = std::fabs(end[k].first) * most.acceleration_mm_s2 + std::fabs(end[k].second) * v * v;
                 const double j = std::fabs(end[k].first) * most.jerk_mm_s3 +

@@ -19,7 +19,7 @@ void require_chain(const CurveFile& file) {
     PerAxis<Position> here{};
     bool first = true;
     while (source.next(segment) == Pull::item) {
-        for (unsigned k = 0; k < static_cast<unsigned>(file.axes); ++k) {
+        for (const unsigned k : indices(file.axes)) {
             if (!first && segment.origin[k] != here[k]) {
                 std::abort();
             }

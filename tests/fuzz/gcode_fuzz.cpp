@@ -107,7 +107,7 @@ void run(std::string_view text, const ProgramSettings& settings, bool evaluates)
             if (item.kind != ItemKind::move) {
                 continue;
             }
-            for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+            for (const unsigned k : indices(settings.axes)) {
                 if (std::abs(item.element.to[k].raw) > std::int64_t{1} << 60 ||
                     std::abs(item.element.to[k].raw - at[k].raw) > std::int64_t{65537} << 40) {
                     fail("a move out of range", line);

@@ -65,7 +65,7 @@ Program make_program(Bytes& bytes) {
     constexpr double accelerations[] = {1000.0, 100.0, 20000.0};
     constexpr double velocities[] = {100.0, 10.0, 1000.0};
     constexpr int periods[] = {1000, 250, 4000};
-    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+    for (const unsigned k : indices(settings.axes)) {
         settings.axis[k] = {.max_velocity_mm_s = velocities[bytes.below(3)],
                             .max_acceleration_mm_s2 = accelerations[bytes.below(3)],
                             .steps_per_mm = 320.0};
@@ -83,13 +83,13 @@ Program make_program(Bytes& bytes) {
     program.window = 16U + bytes.byte();
     constexpr double reach[] = {10.0, 0.001, 0.1, 1.0, 50.0, 200.0, 1e-5, 1e-7};
     PerAxis<double> here{};
-    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+    for (const unsigned k : indices(settings.axes)) {
         here[k] = 1000.0 * std::round(4.0 * bytes.unit());
     }
     program.points.push_back(here);
     while (!bytes.empty() && program.points.size() < most_points) {
         const unsigned kind = bytes.byte();
-        for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+        for (const unsigned k : indices(settings.axes)) {
             here[k] += reach[kind & 7U] * bytes.unit();
         }
         if ((kind & 8U) != 0 && program.points.size() > 1) {
@@ -177,7 +177,7 @@ void run_curve(const Program& program, Curve& curve) {
         if (pushed < order.size()) {
             Waypoint<S> waypoint;
             const Feed feed = order[pushed++];
-            for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            for (const unsigned k : indices(axes)) {
                 waypoint.position[k] = position_from_mm(program.points[feed.point][k]);
             }
             waypoint.feed_mm_s = from_double<S>(program.feeds[feed.point]);

@@ -18,7 +18,7 @@ CurveSegment<S> sample_segment(int axes, int degree) {
     segment.axes = axes;
     segment.degree = degree;
     segment.unit_log2 = -13;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         segment.origin[k] = position_from_mm(1.0 / 3.0 + 100.0 * k);
         for (unsigned i = 0; i <= static_cast<unsigned>(degree); ++i) {
             segment.control[k][i] = from_double<S>(40000.0 / 7.0 * i - 0.1 * k);

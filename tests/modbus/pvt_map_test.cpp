@@ -60,7 +60,7 @@ TEST_CASE("PVT map: blocks and status come back as they were, and blocks of a wr
         for (PvtSegment& segment : segments) {
             segment.duration_ticks = static_cast<std::uint32_t>(random() >> 33U);
             segment.rest = random() % 2 == 0;
-            for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            for (const unsigned k : indices(axes)) {
                 segment.end[k] = static_cast<std::int64_t>(random()) >> 16;
                 segment.end_velocity[k] = static_cast<std::int64_t>(random()) >> 16;
             }
@@ -93,7 +93,7 @@ TEST_CASE("PVT map: blocks and status come back as they were, and blocks of a wr
         status.next = block.first;
         status.executed = block.argument;
         status.clock_us = static_cast<std::uint32_t>(random());
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             status.position[k] = static_cast<std::int32_t>(random());
             status.following_error[k] = static_cast<std::int32_t>(random());
         }

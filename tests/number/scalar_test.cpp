@@ -3,6 +3,8 @@
 // The functions every Scalar offers: measured errors against the bounds their comments state.
 #include "splinefeed/number/scalar.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 #include "random_operands.hpp"
 
 #include <algorithm>
@@ -137,7 +139,7 @@ TEST_CASE("Fixed norms are the nearest numbers", "[number][scalar]") {
             const Uint128 size = size_of(v[static_cast<std::size_t>(k)].raw());
             sum += size * size;
         }
-        const Fixed length = norm(v.data(), n);
+        const Fixed length = norm(v, n);
         const bool saturates = sum > (Uint128{1} << 126) - (Uint128{1} << 63); // from (2^63 - 1/2)^2 on
         if (saturates ? length != Fixed::max() : !is_nearest_root(static_cast<Uint128>(length.raw()), sum)) {
             FAIL_SAMPLE(n, v[0].raw(), v[1].raw(), v[2].raw(), v[3].raw(), v[4].raw(), v[5].raw(), length.raw());
@@ -149,14 +151,14 @@ TEST_CASE("Fixed norms at the limits", "[number][scalar]") {
     constexpr std::int64_t top = (std::int64_t{1} << 62) - 1;
     std::array<Fixed, 6> v;
     v.fill(Fixed::from_raw(-top));
-    REQUIRE(norm(v.data(), 0) == Fixed{});
-    REQUIRE(norm(v.data(), 1).raw() == top);
-    REQUIRE(norm(v.data(), 4).raw() == 2 * top);
-    REQUIRE(norm(v.data(), 5) == Fixed::max());
-    REQUIRE(norm(v.data(), 6) == Fixed::max());
+    REQUIRE(norm(v, 0) == Fixed{});
+    REQUIRE(norm(v, 1).raw() == top);
+    REQUIRE(norm(v, 4).raw() == 2 * top);
+    REQUIRE(norm(v, 5) == Fixed::max());
+    REQUIRE(norm(v, 6) == Fixed::max());
     v = {Fixed{3}, Fixed{-4}, Fixed{12}, Fixed{}, Fixed{}, Fixed{84}};
-    REQUIRE(norm(v.data(), 3) == Fixed{13});
-    REQUIRE(norm(v.data(), 6) == Fixed{85});
+    REQUIRE(norm(v, 3) == Fixed{13});
+    REQUIRE(norm(v, 6) == Fixed{85});
 }
 
 TEMPLATE_TEST_CASE("norms of float and double", "[number][scalar]", float, double) {
@@ -175,7 +177,7 @@ TEMPLATE_TEST_CASE("norms of float and double", "[number][scalar]", float, doubl
         }
         if (sum > 0) {
             double& most = worst[static_cast<std::size_t>(n)];
-            most = std::max(most, error_in_ulp(norm(v.data(), n), std::sqrt(sum)));
+            most = std::max(most, error_in_ulp(norm(v, n), std::sqrt(sum)));
         }
     }
     for (int n = 1; n <= 6; ++n) {
@@ -184,8 +186,8 @@ TEMPLATE_TEST_CASE("norms of float and double", "[number][scalar]", float, doubl
     }
     REQUIRE(worst[3] > 0.7);
     const std::array<TestType, 3> v{TestType{-3}, TestType{4}, TestType{12}};
-    REQUIRE(norm(v.data(), 3) == TestType{13});
-    REQUIRE(norm(v.data(), 0) == TestType{0});
+    REQUIRE(norm(v, 3) == TestType{13});
+    REQUIRE(norm(v, 0) == TestType{0});
 }
 
 // ---- exact operations

@@ -6,6 +6,7 @@
 #include "random_operands.hpp"
 
 #include "splinefeed/number/scalar.hpp"
+#include "splinefeed/number/vector.hpp"
 
 using namespace splinefeed;
 using namespace splinefeed_test;
@@ -149,12 +150,12 @@ TEST_CASE("numbers of one word: the length of a vector is the nearest or saturat
         const int n = random.between(0, 6);
         Uint128 sum = 0;
         const int shorter = random.between(0, 30);
-        for (unsigned k = 0; k < static_cast<unsigned>(n); ++k) {
+        for (const unsigned k : indices(n)) {
             v[k] = ShortFixed::from_raw(random_word(random) >> shorter);
             sum += size_of(static_cast<Int128>(v[k].raw()) * v[k].raw());
         }
         // The nearest r: (r - 1/2)^2 < sum < (r + 1/2)^2.
-        const auto r = static_cast<Uint128>(norm(v.data(), n).raw());
+        const auto r = static_cast<Uint128>(norm(v, n).raw());
         const bool saturated = r == 0x7fff'ffffU && sum > r * r;
         if ((r > 0 && (2 * r - 1) * (2 * r - 1) > 4 * sum) || (!saturated && (2 * r + 1) * (2 * r + 1) < 4 * sum)) {
             FAIL_SAMPLE(i, n);
@@ -162,5 +163,5 @@ TEST_CASE("numbers of one word: the length of a vector is the nearest or saturat
     }
     const std::array<ShortFixed, 6> longest{ShortFixed::lowest(), ShortFixed::lowest(), ShortFixed::lowest(),
                                             ShortFixed::lowest(), ShortFixed::lowest(), ShortFixed::lowest()};
-    REQUIRE(norm(longest.data(), 6) == ShortFixed::max());
+    REQUIRE(norm(longest, 6) == ShortFixed::max());
 }

@@ -16,7 +16,7 @@ StepDemand demand_of(const std::vector<FeedSegment>& segments, int axes) {
     StepDemand demand;
     for (const FeedSegment& s : segments) {
         const double per_s = 8e6 / s.duration_ticks;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             const auto v0 = static_cast<double>(s.start_velocity[k]) / units_per_count;
             const auto v2 = static_cast<double>(s.end_velocity[k]) / units_per_count;
             const double v1 = 3.0 * static_cast<double>(s.end[k] - s.start[k]) / units_per_count - v0 - v2;
@@ -78,7 +78,7 @@ void require_train(const E& engine, const StepTiming& timing, const std::vector<
     // Each step that the engine made is there, at its instant, but for pairs that cancel.
     const std::vector<Step> all = steps_of(engine, segments);
     std::size_t seen = 0;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         CHECK(drive[k].at_rest());
         const std::vector<SeenStep>& made = drive[k].steps;
         std::size_t i = 0;

@@ -29,7 +29,7 @@ public:
     /// As the segment stream makes them: a uniform cubic B-spline from rest to rest, velocities below `rate` counts/s.
     std::vector<FeedSegment> smooth(int axes, int count, std::uint32_t ticks, double rate) {
         std::vector<FeedSegment> segments(static_cast<std::size_t>(count));
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             const double most = rate * ticks / 8e6 * units_per_count / 6.0; // of a difference [6 units]
             const double change = most * decades(1e-3, 0.3);
             auto at = static_cast<std::int64_t>(between(-1e6, 1e6) * units_per_count / 6.0);
@@ -65,7 +65,7 @@ public:
         for (FeedSegment& s : segments) {
             s.duration_ticks = static_cast<std::uint32_t>(between(least_ticks, most_ticks));
         }
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             auto position = static_cast<std::int64_t>(between(-1e5, 1e5) * units_per_count);
             double velocity = 0.0; // [counts/s]
             for (FeedSegment& s : segments) {

@@ -77,7 +77,7 @@ Found require_ideal(const std::vector<Step>& steps, const std::vector<FeedSegmen
         REQUIRE(step.tick % check.step_ticks == 0);
         last = step.tick;
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         const IdealMotion motion(segments, k);
         std::vector<Step> own;
         std::copy_if(steps.begin(), steps.end(), std::back_inserter(own), [&](const Step& s) { return s.axis == k; });

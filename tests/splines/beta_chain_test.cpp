@@ -21,7 +21,7 @@ struct RandomChain {
     RandomChain(RandomPath& random, int degree, int order, bool closed, int joints, int axes = 3) {
         const auto point = [&] {
             Point<S> out{};
-            for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            for (const unsigned k : indices(axes)) {
                 out[k] = scale2(from_integer<S>(random.below(1 << 15)), -10);
             }
             return out;

@@ -45,7 +45,7 @@ template <Scalar S>
 BezierPiece<S> random_piece(RandomPath& random, int degree, int axes) {
     BezierPiece<S> piece;
     piece.degree = degree;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         for (unsigned i = 0; i <= static_cast<unsigned>(degree); ++i) {
             piece.control[k][i] = scale2(from_integer<S>(random.below(1 << 17) * 2 + (i % 2 ? 1 : 0) - (1 << 17)), -11);
         }

@@ -56,7 +56,7 @@ std::vector<Vec> chords_of(const std::vector<S>& coordinates, int axes, bool clo
     const std::size_t n = coordinates.size() / static_cast<std::size_t>(axes);
     for (std::size_t i = 0; i + (closed ? 0U : 1U) < n; ++i) {
         Vec chord{};
-        for (std::size_t k = 0; k < static_cast<std::size_t>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             const std::size_t a = static_cast<std::size_t>(axes);
             chord[k] = exact(coordinates[(i + 1) % n * a + k]) - exact(coordinates[i * a + k]);
         }

@@ -43,7 +43,7 @@ void require_on_track(const SteeredRun& run, const Track<S>& track) {
 }
 
 void require_end(const SteeredRun& run, const SteeredRun& plain, int axes) {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         REQUIRE(run.segments.back().end[k] == plain.segments.back().end[k]);
     }
 }

@@ -74,7 +74,7 @@ template <Scalar S>
 std::vector<CurveSegment<S>> segments_of(const BezierPath& path, const PerAxis<double>& start = {}) {
     std::vector<CurveSegment<S>> segments;
     PerAxis<Position> here{};
-    for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+    for (const unsigned k : indices(max_axes)) {
         here[k] = position_from_mm(start[k]);
     }
     for (const BezierShape& shape : path) {
@@ -87,7 +87,7 @@ std::vector<CurveSegment<S>> segments_of(const BezierPath& path, const PerAxis<d
         segment.stop_at_end = shape.stop_at_end;
         segment.waypoint = static_cast<std::uint32_t>(segments.size());
         PerAxis<PerDegree<S>> chords{};
-        for (unsigned k = 0; k < static_cast<unsigned>(shape.axes); ++k) {
+        for (const unsigned k : indices(shape.axes)) {
             for (unsigned i = 0; i <= static_cast<unsigned>(shape.degree); ++i) {
                 chords[k][i] = from_double<S>(shape.offset[k][i] * 4096.0);
             }
@@ -137,7 +137,7 @@ struct Jet {
     PerAxis<Real> d2{};
     [[nodiscard]] Real speed(int axes) const {
         Real sum = 0.0L;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             sum += d1[k] * d1[k];
         }
         return std::sqrt(sum);
@@ -155,7 +155,7 @@ Jet evaluate(const CurveSegment<S>& segment, Real u) {
     Jet jet;
     const auto n = static_cast<unsigned>(segment.degree);
     const Real unit = std::ldexp(1.0L, segment.unit_log2);
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         PerDegree<Real> b{};
         for (unsigned i = 0; i <= n; ++i) {
             b[i] = exact(segment.control[k][i]) * unit;
@@ -234,7 +234,7 @@ inline BezierShape random_shape(Random& random, int axes, int degree, double siz
     shape.degree = degree;
     for (unsigned i = 1; i <= static_cast<unsigned>(degree); ++i) {
         const double step = size_mm / degree / random.decades(1.0, ratio > 1.0 ? ratio : 1.0 + 1e-9);
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             const double drift = k == 0 ? 1.0 : 0.0; // mostly forward
             shape.offset[k][i] = shape.offset[k][i - 1] + step * (drift + random.between(-0.7, 0.7));
         }
@@ -247,7 +247,7 @@ inline BezierShape line_shape(int axes, int degree, const PerAxis<double>& to) {
     BezierShape shape;
     shape.axes = axes;
     shape.degree = degree;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         for (unsigned i = 1; i <= static_cast<unsigned>(degree); ++i) {
             shape.offset[k][i] = to[k] * i / degree;
         }
@@ -269,13 +269,13 @@ inline void join_smoothly(const BezierShape& before, BezierShape& after) {
     const auto m = static_cast<unsigned>(before.degree);
     Real in = 0.0L;
     Real out = 0.0L;
-    for (unsigned k = 0; k < static_cast<unsigned>(after.axes); ++k) {
+    for (const unsigned k : indices(after.axes)) {
         const Real step = real(before.offset[k][m] - before.offset[k][m - 1]);
         in += step * step;
         out += real(after.offset[k][1]) * real(after.offset[k][1]);
     }
     const auto factor = static_cast<double>(std::sqrt(out / in));
-    for (unsigned k = 0; k < static_cast<unsigned>(after.axes); ++k) {
+    for (const unsigned k : indices(after.axes)) {
         after.offset[k][1] = (before.offset[k][m] - before.offset[k][m - 1]) * factor;
     }
 }

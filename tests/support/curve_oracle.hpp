@@ -64,7 +64,7 @@ inline std::vector<Vec> chords_of(const Path& path) {
     std::vector<Vec> chords;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
         Vec chord{};
-        for (unsigned k = 0; k < static_cast<unsigned>(path.axes); ++k) {
+        for (const unsigned k : splinefeed::indices(path.axes)) {
             chord[k] = std::ldexp(static_cast<Real>(path.points[i + 1][k].raw - path.points[i][k].raw), -40);
         }
         chords.push_back(chord);

@@ -109,7 +109,7 @@ std::string text_of(const ProgramItem<S>& item, int axes = 3, std::string_view l
     const char* const moves[] = {"feed", "rapid", "probe", "home"};
     const char* const shapes[] = {"", " arc", " bezier"};
     out = std::string(moves[static_cast<int>(item.move)]) + shapes[static_cast<int>(item.element.shape)];
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         put(out, to_mm(item.element.to[k]));
     }
     if (item.element.shape == MoveShape::arc) {

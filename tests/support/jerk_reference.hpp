@@ -78,7 +78,7 @@ inline JerkUse use_of(const splinefeed::JerkCell& cell, long double b0, long dou
         const long double db = slope + x * l * u;
         use.speed_sq = std::max(use.speed_sq, b / wide(cell.cap_sq));
         use.least_sq = std::min(use.least_sq, b / wide(cell.cap_sq));
-        for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        for (const unsigned k : splinefeed::indices(cell.axes)) {
             const auto& p = cell.end[0][k];
             const auto& q = cell.end[1][k];
             const long double d0 = wide(p.second) * l;

@@ -68,7 +68,7 @@ public:
                 const std::vector<double> turn = unit(axes);
                 const double much = shape == Shape::zigzag ? 3.0 : 0.6;
                 double size = 0.0;
-                for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+                for (const unsigned k : splinefeed::indices(axes)) {
                     direction[k] += much * turn[k];
                     size += direction[k] * direction[k];
                 }
@@ -78,7 +78,7 @@ public:
             } else if (shape == Shape::zigzag) {
                 direction[0] = -direction[0];
             }
-            for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 at[k] += length * (shape == Shape::collinear ? fixed_direction[k] : direction[k]);
             }
         }
@@ -120,7 +120,7 @@ inline Path path_of(int axes, const std::vector<double>& mm) {
     Path path{axes, {}};
     for (std::size_t i = 0; i + static_cast<std::size_t>(axes) <= mm.size(); i += static_cast<std::size_t>(axes)) {
         PerAxis<Position> point{};
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             point[k] = splinefeed::position_from_mm(mm[i + k]);
         }
         path.points.push_back(point);

@@ -35,7 +35,7 @@ double from_rest_to_rest(const MachineSettings& machine, double length_mm, doubl
     double speed = machine.max_feed_mm_s;
     double acceleration = 1e9;
     double rise_s = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.axes); ++k) {
+    for (const unsigned k : indices(machine.axes)) {
         const AxisSettings& axis = machine.axis[k];
         speed = std::min(speed, axis.max_velocity_mm_s);
         acceleration = std::min(acceleration, axis.smaller_acceleration_mm_s2());

@@ -4,6 +4,8 @@
 // "Numbers and axes".
 #pragma once
 
+#include "splinefeed/base/indices.hpp"
+
 #include <array>
 
 #ifndef SPLINEFEED_MAX_AXES

@@ -13,7 +13,7 @@ enum class AxisKind : std::uint8_t { linear, second_linear, rotary, extruder };
 class AxisLetters {
 public:
     explicit constexpr AxisLetters(const ProgramSettings& settings) noexcept : count_(settings.axes) {
-        for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+        for (const unsigned k : indices(max_axes)) {
             letters_[k] = static_cast<int>(k) < count_ ? lower_case(settings.letters[k]) : '\0';
             bits_ |= static_cast<int>(k) < count_ ? 1U << (static_cast<unsigned>(letters_[k] - 'a') % 32U) : 0U;
         }

@@ -36,7 +36,7 @@ BlockInterpreter::BlockInterpreter(const ProgramSettings& settings, WordEvaluato
 }
 
 void BlockInterpreter::start(const PerAxis<Position>& position) noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
+    for (const unsigned k : indices(letters_.count())) {
         place_.machine[k] = to_decimal(position[k]);
     }
     emitted_ = place_.machine;
@@ -84,7 +84,7 @@ void BlockInterpreter::frame_changed() noexcept {
 
 PerAxis<Position> BlockInterpreter::position() const noexcept {
     PerAxis<Position> out{};
-    for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
+    for (const unsigned k : indices(letters_.count())) {
         out[k] = to_position(place_.machine[k]);
     }
     return out;
@@ -93,7 +93,7 @@ PerAxis<Position> BlockInterpreter::position() const noexcept {
 void BlockInterpreter::report_probe(bool contact, const PerAxis<Position>& contact_at,
                                     const PerAxis<Position>& stands_at) noexcept {
     AxisPoint at{};
-    for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
+    for (const unsigned k : indices(letters_.count())) {
         at[k] = to_decimal(contact_at[k]);
         place_.machine[k] = to_decimal(stands_at[k]);
     }

@@ -5,6 +5,8 @@
 //     F * (length in all axes) / (length that F counts).
 #include "splinefeed/s0_program/interpreter.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -63,7 +65,7 @@ Pull Interpreter<S>::next(ProgramItem<S>& out) noexcept {
             in_pieces_ = true;
             pieces_begun_ = false;
             piece_end_ = {};
-            for (unsigned k = 0; k < static_cast<unsigned>(letters().count()); ++k) {
+            for (const unsigned k : indices(letters().count())) {
                 piece_end_[k] = to_position(step.from[k]);
             }
             pieces_to_ = step.to;
@@ -102,7 +104,7 @@ void Interpreter<S>::fill_move(const ProgramStep& step, ProgramItem<S>& out) con
     PathElement<S>& element = out.element;
     element.shape = step.shape;
     element.stop_at_end = step.stop_at_end;
-    for (unsigned k = 0; k < static_cast<unsigned>(letters().count()); ++k) {
+    for (const unsigned k : indices(letters().count())) {
         element.to[k] = to_position(step.to[k]);
     }
     if (step.shape == MoveShape::arc) {
@@ -209,14 +211,14 @@ S Interpreter<S>::space_length(const ProgramStep& step) const noexcept {
     }
     if (step.shape == MoveShape::bezier) { // between its chord and its polygon
         S polygon{};
-        for (unsigned i = 0; i < static_cast<unsigned>(step.bezier->degree); ++i) {
+        for (const unsigned i : indices(step.bezier->degree)) {
             std::array<S, 3> leg{};
             for (unsigned k = 0; k < 3; ++k) {
                 leg[k] = length_mm<S>(step.bezier->points[i][k], step.bezier->points[i + 1][k]);
             }
-            polygon += norm(leg.data(), 3);
+            polygon += norm(leg, 3);
         }
-        return scale2(polygon + norm(way.data(), 3), -1);
+        return scale2(polygon + norm(way, 3), -1);
     }
     if (step.shape == MoveShape::arc) {
         const auto normal = static_cast<unsigned>(step.arc->plane);
@@ -229,10 +231,10 @@ S Interpreter<S>::space_length(const ProgramStep& step) const noexcept {
         // The centre is on the level of the start, so the arm lies in the plane; the rise is across it.
         const S rise = axes[normal] >= 0 && (normal == 2 || !frame().is_turned()) ? way[normal] : S{};
         const S angle = absolute(scalar_of_q32<S>(radians_q32(step.arc->sweep_deg)));
-        const std::array<S, 2> legs{product_up_to(norm(arm.data(), 3), angle, literal<S>(0x1p29)), rise};
-        return norm(legs.data(), 2);
+        const std::array<S, 2> legs{product_up_to(norm(arm, 3), angle, literal<S>(0x1p29)), rise};
+        return norm(legs, 2);
     }
-    return norm(way.data(), 3);
+    return norm(way, 3);
 }
 
 template <Scalar S>
@@ -266,12 +268,12 @@ S Interpreter<S>::path_feed(const ProgramStep& step) const noexcept {
         }
     }
     const S in_space = space_length(step);
-    const S in_second = norm(second.data(), max_axes);
-    const S in_rotary = norm(rotary.data(), max_axes);
-    const S in_extruder = norm(extruder.data(), max_axes);
-    const std::array<S, 2> parts{in_space, norm(counted_by_plan.data(), max_axes)};
-    S total = norm(parts.data(), 2);
-    total = total > S{} ? total : norm(left_by_plan.data(), max_axes);
+    const S in_second = norm(second, max_axes);
+    const S in_rotary = norm(rotary, max_axes);
+    const S in_extruder = norm(extruder, max_axes);
+    const std::array<S, 2> parts{in_space, norm(counted_by_plan, max_axes)};
+    S total = norm(parts, 2);
+    total = total > S{} ? total : norm(left_by_plan, max_axes);
     if (how.inverse_time) {
         return clamped(product_up_to(total, per_second, literal<S>(fastest_mm_s)));
     }

@@ -6,6 +6,8 @@
 //     b1 = b0 + C' h / 5,  b2 = 2 b1 - b0 + C'' h^2 / 20,  and mirrored.
 #include "splinefeed/s0_program/rational_pieces.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -49,7 +51,7 @@ typename RationalPieces<S>::State RationalPieces<S>::state(S u) const noexcept {
                 derivative[1][k] = degree * (work[1][k] - work[0][k]);
             }
         }
-        for (unsigned i = 0; i < static_cast<unsigned>(level); ++i) {
+        for (const unsigned i : indices(level)) {
             for (unsigned k = 0; k < 4; ++k) {
                 work[i][k] = work[i][k] + u * (work[i + 1][k] - work[i][k]);
             }
@@ -96,7 +98,7 @@ bool RationalPieces<S>::fits(const State& from, const State& to, S u, S width,
             }
             apart[k] = work[0] - (exact.position[k] - from.position[k]);
         }
-        if (norm(apart.data(), 3) > bound) {
+        if (norm(apart, 3) > bound) {
             return false;
         }
     }

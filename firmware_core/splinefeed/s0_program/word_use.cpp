@@ -156,7 +156,7 @@ BlockStatus find_axis_use(const Block& block, const ModalState& modal, bool axes
 BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLetters& letters, Dialect dialect,
                      BlockUse& out) noexcept {
     if (block.has(CodeGroup::printer)) { // its words are its own
-        for (unsigned group = 0; group < static_cast<unsigned>(CodeGroup::printer); ++group) {
+        for (const unsigned group : indices(CodeGroup::printer)) {
             if (block.has(static_cast<CodeGroup>(group))) {
                 return block.at(Error::modal_group_conflict, static_cast<CodeGroup>(group));
             }

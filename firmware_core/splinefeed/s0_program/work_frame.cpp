@@ -27,7 +27,7 @@ AxisPoint WorkFrame::to_machine(const AxisPoint& program) const noexcept {
         turn(point, turn_, false);
     }
     const WorkSystem& system = offsets_.systems[static_cast<unsigned>(offsets_.active)];
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         point[k] += system.origin[k] + offsets_.tool[k];
     }
     return point;
@@ -40,7 +40,7 @@ AxisPoint WorkFrame::to_program(const AxisPoint& machine) const noexcept {
 AxisPoint WorkFrame::to_program(const AxisPoint& machine, int system) const noexcept {
     const WorkSystem& of = offsets_.systems[static_cast<unsigned>(system)];
     AxisPoint point = machine;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         point[k] -= of.origin[k] + offsets_.tool[k];
     }
     if (of.rotation_deg.raw != 0 && x_ >= 0 && y_ >= 0) {
@@ -65,7 +65,7 @@ void WorkFrame::set_place(int system, const AxisPoint& machine, const AxisPoint&
     if (of.rotation_deg.raw != 0 && x_ >= 0 && y_ >= 0) {
         turn(point, sine_cosine(of.rotation_deg), false);
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         of.origin[k] = machine[k] - offsets_.tool[k] - point[k];
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/blended_path.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -26,7 +28,7 @@ S absorbed(const PathMove<S>& move, S way) noexcept {
 template <Scalar S>
 PerAxis<Position> offset_by(const PerAxis<Position>& from, const PerAxis<S>& offset, int axes) noexcept {
     PerAxis<Position> place{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         place[k] = displaced(from[k], offset[k], chord_unit_log2);
     }
     return place;
@@ -36,7 +38,7 @@ PerAxis<Position> offset_by(const PerAxis<Position>& from, const PerAxis<S>& off
 template <Scalar S>
 void halve(PerAxis<PerDegree<S>>& points, PerAxis<PerDegree<S>>& rest, int degree, int axes) noexcept {
     const auto n = static_cast<unsigned>(degree);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         rest[k] = points[k];
         for (unsigned step = 1; step <= n; ++step) {
             for (unsigned i = 0; i + step <= n; ++i) {
@@ -51,7 +53,7 @@ void halve(PerAxis<PerDegree<S>>& points, PerAxis<PerDegree<S>>& rest, int degre
 
 template <Scalar S>
 Status BlendedPath<S>::start(const PerAxis<Position>& position) noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         if (position[k].raw > farthest_raw || position[k].raw < -farthest_raw) {
             return Error::position_out_of_range;
         }
@@ -64,7 +66,7 @@ Status BlendedPath<S>::start(const PerAxis<Position>& position) noexcept {
 template <Scalar S>
 Status BlendedPath<S>::measure(const PerAxis<Position>& from, const PathElement<S>& element, int axes,
                                PathMove<S>& out) noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         if (element.to[k].raw > farthest_raw || element.to[k].raw < -farthest_raw) {
             return Error::position_out_of_range;
         }
@@ -104,12 +106,12 @@ Status BlendedPath<S>::push(const PathElement<S>& element, std::uint32_t index) 
         if (known_ > 0) { // its joints become one with that of the move before it, which is off by what is left out
             Entry& before = entry(known_ - 1);
             PerAxis<S> off{};
-            for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+            for (const unsigned k : indices(axes_)) {
                 off[k] = distance<S>(last_[k], element.to[k], chord_unit_log2);
             }
             before.stop_at_end = before.stop_at_end || stops;
             before.tolerance_at_end = smaller(before.tolerance_at_end, tolerance);
-            before.left_out = larger(before.left_out, norm(off.data(), axes_));
+            before.left_out = larger(before.left_out, norm(off, axes_));
             before.mode = before.mode < element.mode ? element.mode : before.mode;
         }
         return {};
@@ -222,7 +224,7 @@ void BlendedPath<S>::emit_body(CurveSegment<S>& out) noexcept {
     if (present.move.shape() == MoveShape::bezier) {
         degree = present.move.bezier_part(before_, after_, points);
         PerAxis<S> end{};
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             end[k] = points[k][static_cast<unsigned>(degree)];
         }
         there = after_ > S{} ? offset_by(present.move.from(), end, axes_) : present.move.to();
@@ -255,7 +257,7 @@ int BlendedPath<S>::piece_of(const PathMove<S>& move, bool last, PerAxis<PerDegr
         move.piece_end(before_, after_, piece_ - 1, pieces_, to);
     }
     there = last && !(after_ > S{}) ? move.to() : offset_by(last ? move.to() : move.from(), to.offset, axes_);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         from.offset[k] = S{};
         to.offset[k] = points[k][1] = distance<S>(here_[k], there[k], chord_unit_log2);
     }
@@ -281,7 +283,7 @@ template <Scalar S>
 void BlendedPath<S>::place_ends(PerAxis<PerDegree<S>>& points, int degree,
                                 const PerAxis<Position>& there) const noexcept {
     const auto n = static_cast<unsigned>(degree);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const S start = points[k][0];
         for (unsigned i = 0; i < n; ++i) {
             points[k][i] = points[k][i] - start;
@@ -300,7 +302,7 @@ void BlendedPath<S>::emit_blend(CurveSegment<S>& out) noexcept {
     PerAxis<PerDegree<S>> points = blend_.points;
     bool last = true;
     if (stage_ == Stage::blend) {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             points[k][0] = distance<S>(vertex[k], here_[k], chord_unit_log2);
         }
         if (present.feed_mm_s != behind.feed_mm_s || present.max_feed_mm_s != behind.max_feed_mm_s) {
@@ -311,7 +313,7 @@ void BlendedPath<S>::emit_blend(CurveSegment<S>& out) noexcept {
     }
     describe(stage_ == Stage::second_half && last ? behind : present, blend_.degree, out);
     PerAxis<S> end{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         end[k] = points[k][degree];
     }
     out.origin = vertex;

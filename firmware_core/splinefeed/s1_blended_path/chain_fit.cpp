@@ -2,6 +2,7 @@
 #include "splinefeed/s1_blended_path/chain_fit.hpp"
 
 #include "splinefeed/number/exponent.hpp"
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/s1_blended_path/chain_state.hpp"
 
 namespace splinefeed {
@@ -26,12 +27,12 @@ void ChainFit<S>::measure_way(std::uint64_t to) noexcept {
     for (std::uint64_t i = from_ + 1; i <= to; ++i) {
         PerAxis<S> chord{};
         points_.smoothed(i - 1, i, chord);
-        const S length = norm(chord.data(), points_.axes());
-        for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+        const S length = norm(chord, points_.axes());
+        for (const unsigned k : indices(points_.axes())) {
             chord[k] = chord[k] / length;
             before[k] = i > from_ + 1 ? chord[k] - before[k] : S{};
         }
-        const S turn = norm(before.data(), points_.axes());
+        const S turn = norm(before, points_.axes());
         bend_ = larger(bend_, quotient_or_max(scale2(turn, bend_log2 + 1), length + length_before));
         // The line turns by the half of what its ends do; the first and the last one have one inner end.
         const S half = i > from_ + 1 ? turn : S{};
@@ -59,7 +60,7 @@ void ChainFit<S>::expand() noexcept {
     unit_ = exponent_of(way_) - size_log2;
     unit_ = unit_ > 0 ? unit_ : 0;
     constexpr std::array<std::int32_t, 6> binomial{1, 5, 10, 10, 5, 1};
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         PerDegree<S>& a = power_[k];
         for (unsigned i = 0; i <= 5; ++i) {
             a[i] = scale2(quintic_[k][i], -unit_);
@@ -82,7 +83,7 @@ void ChainFit<S>::line(std::uint64_t end, Line& out) const noexcept {
     points_.programmed(from_, end - 1, out.start);
     points_.programmed(end - 1, end, chord);
     out.length = scale2(point.chord, -unit_);
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         out.start[k] = scale2(out.start[k] - points_[from_].moved[k], -unit_);
         out.direction[k] = chord[k] / point.chord;
     }
@@ -90,7 +91,7 @@ void ChainFit<S>::line(std::uint64_t end, Line& out) const noexcept {
 
 template <Scalar S>
 void ChainFit<S>::place(S u, PerAxis<S>& out) const noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         const PerDegree<S>& a = power_[k];
         out[k] = a[0] + u * (a[1] + u * (a[2] + u * (a[3] + u * (a[4] + u * a[5]))));
     }
@@ -98,7 +99,7 @@ void ChainFit<S>::place(S u, PerAxis<S>& out) const noexcept {
 
 template <Scalar S>
 void ChainFit<S>::derivatives(S u, PerAxis<S>& first, PerAxis<S>& second) const noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         const PerDegree<S>& a = power_[k];
         first[k] = a[1] + u * (times(2, a[2]) + u * (times(3, a[3]) + u * (times(4, a[4]) + u * times(5, a[5]))));
         second[k] = times(2, a[2]) + u * (times(6, a[3]) + u * (times(12, a[4]) + u * times(20, a[5])));
@@ -107,19 +108,14 @@ void ChainFit<S>::derivatives(S u, PerAxis<S>& first, PerAxis<S>& second) const 
 
 template <Scalar S>
 bool ChainFit<S>::near(const PerAxis<S>& place, const Line& line, S limit) const noexcept {
-    PerAxis<S> apart{};
-    S along{};
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
-        apart[k] = place[k] - line.start[k];
-        along += apart[k] * line.direction[k];
-    }
-    along = larger(S{}, smaller(along, line.length));
+    PerAxis<S> apart = difference(place, line.start, points_.axes());
+    const S along = larger(S{}, smaller(dot(apart, line.direction, points_.axes()), line.length));
     S sum{};
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         apart[k] = apart[k] - along * line.direction[k];
         sum += absolute(apart[k]);
     }
-    return sum <= limit || norm(apart.data(), points_.axes()) <= limit; // the sum saves a root
+    return sum <= limit || norm(apart, points_.axes()) <= limit; // the sum saves a root
 }
 
 // The distance from any place of the quintic is not below the distance from it: after a step of Newton it is near.
@@ -133,18 +129,18 @@ bool ChainFit<S>::near_point(const PerAxis<S>& point, S u, S limit, bool bends) 
     const S speed = scale2(way_, -unit_);
     S ahead{};
     S across{};
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         ahead += (point[k] - at[k]) * (first[k] / speed);
         across += first[k] / speed * (second[k] / speed);
     }
     const S step = ahead / speed;
     place(larger(S{}, smaller(from_integer<S>(1), u + step)), at);
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         at[k] = point[k] - at[k];
         second[k] = second[k] / speed - across * (first[k] / speed);
     }
-    const S bend = scale2(norm(second.data(), points_.axes()), bend_log2 - unit_) / speed;
-    return norm(at.data(), points_.axes()) <= limit &&
+    const S bend = scale2(norm(second, points_.axes()), bend_log2 - unit_) / speed;
+    return norm(at, points_.axes()) <= limit &&
            (!bends || bend <= literal<S>(bend_factor) * bend_ + literal<S>(bend_more));
 }
 
@@ -155,7 +151,7 @@ bool ChainFit<S>::reaches(std::uint64_t to, S limit) noexcept {
     points_.smoothed(from_, to, end_.offset);
     const S first = literal<S>(0.2) * way_;
     const S sharpest = quotient_or_max(literal<S>(most_end_turn), first);
-    if (norm(state_.bend.data(), points_.axes()) > sharpest || norm(end_.bend.data(), points_.axes()) > sharpest) {
+    if (norm(state_.bend, points_.axes()) > sharpest || norm(end_.bend, points_.axes()) > sharpest) {
         return false;
     }
     quintic_between(state_, end_, first, literal<S>(0.4) * way_, points_.axes(), quintic_);

@@ -64,14 +64,14 @@ public:
     }
     /// From one programmed point to another.
     void programmed(std::uint64_t from, std::uint64_t to, PerAxis<S>& out) const noexcept {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             out[k] = distance<S>((*this)[from].place[k], (*this)[to].place[k], chord_unit_log2);
         }
     }
     /// From one point of the spline to another.
     void smoothed(std::uint64_t from, std::uint64_t to, PerAxis<S>& out) const noexcept {
         programmed(from, to, out);
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             out[k] = out[k] + (*this)[to].moved[k] - (*this)[from].moved[k];
         }
     }

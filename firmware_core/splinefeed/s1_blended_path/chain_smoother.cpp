@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/chain_smoother.hpp"
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/s1_blended_path/chain_fit.hpp"
 #include "splinefeed/s1_blended_path/chain_smoothing.hpp"
 #include "splinefeed/s1_blended_path/chain_state.hpp"
@@ -57,12 +58,12 @@ void ChainSmoother<S>::push(const PathElement<S>& element, std::uint32_t index) 
 template <Scalar S>
 S ChainSmoother<S>::length_to(const PerAxis<Position>& place, PerAxis<S>& direction) const noexcept {
     const PerAxis<Position>& from = points_[points_.last()].place;
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         direction[k] = distance<S>(from[k], place[k], chord_unit_log2);
     }
-    const S length = norm(direction.data(), points_.axes());
+    const S length = norm(direction, points_.axes());
     if (length > literal<S>(shortest_line)) {
-        for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+        for (const unsigned k : indices(points_.axes())) {
             direction[k] = direction[k] / length;
         }
     }
@@ -114,10 +115,10 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
         return true;
     }
     const S longer = larger(length, before);
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         direction[k] = direction[k] - direction_[k];
     }
-    const S turn = norm(direction.data(), points_.axes());
+    const S turn = norm(direction, points_.axes());
     if (turn > literal<S>(sharpest_turn)) {
         return false;
     }
@@ -145,16 +146,16 @@ bool ChainSmoother<S>::may_leave_out(const PathElement<S>& element) const noexce
     PerAxis<S> direction{};
     const S length = length_to(element.to, direction);
     S along{};
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         out[k] = far * out[k];
         along += out[k] * direction[k];
     }
     along = larger(S{}, smaller(along, length));
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         out[k] = out[k] - along * direction[k];
     }
     return element.shape == MoveShape::line && !too_short(length) &&
-           norm(out.data(), points_.axes()) < literal<S>(left_out) * tolerance_;
+           norm(out, points_.axes()) < literal<S>(left_out) * tolerance_;
 }
 
 // The place that was left out becomes a point.
@@ -223,7 +224,7 @@ void ChainSmoother<S>::close() noexcept {
         ChainPoint<S>& point = points_[last];
         point.place = end_.to;
         points_.programmed(last - 1, last, chord);
-        point.chord = norm(chord.data(), points_.axes());
+        point.chord = norm(chord, points_.axes());
         point.index = end_index_;
         measure_last_point(points_, tolerance_);
         left_out_ = false;
@@ -316,7 +317,7 @@ std::uint64_t ChainSmoother<S>::longest_piece(PathState<S>& end, BezierShape<S>&
 template <Scalar S>
 void ChainSmoother<S>::pass_line(PathElement<S>& out) noexcept {
     bool exact = true;
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         exact = exact && !(absolute(points_[front_].moved[k]) > S{});
     }
     const S share = !exact ? literal<S>(of_joint) : merged(front_ + 1) ? literal<S>(rest) : from_integer<S>(1);
@@ -343,7 +344,7 @@ bool ChainSmoother<S>::pass_piece(PathElement<S>& out) noexcept {
     const S all = merged(to) ? literal<S>(rest) * tolerance_ : tolerance_;
     out.tolerance_mm = scale2(larger(all - limit, literal<S>(of_joint) * tolerance_) + spare_, chord_unit_log2);
     const bool ends = closed_ && to == points_.last();
-    for (unsigned k = 0; k < static_cast<unsigned>(points_.axes()); ++k) {
+    for (const unsigned k : indices(points_.axes())) {
         out.to[k] =
             ends ? points_[to].place[k] : displaced(points_[to].place[k], points_[to].moved[k], chord_unit_log2);
     }

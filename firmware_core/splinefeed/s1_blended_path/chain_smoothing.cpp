@@ -6,6 +6,7 @@
 #include "splinefeed/s1_blended_path/chain_smoothing.hpp"
 
 #include "splinefeed/number/exponent.hpp"
+#include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
 
@@ -63,13 +64,13 @@ void measure_last_point(ChainPoints<S>& points, S tolerance) noexcept {
     PerAxis<S> out{};
     points.programmed(last - 2, last - 1, in);
     points.programmed(last - 1, last, out);
-    for (unsigned k = 0; k < static_cast<unsigned>(points.axes()); ++k) {
+    for (const unsigned k : indices(points.axes())) {
         in[k] = (out[k] / ahead - in[k] / behind) * (longer / both) * scale2(longer, -3); // half the bow
     }
-    S half_bow = norm(in.data(), points.axes());
+    S half_bow = norm(in, points.axes());
     if (half_bow >= tolerance) {
         const S share = smaller(behind, ahead) / longer;
-        for (unsigned k = 0; k < static_cast<unsigned>(points.axes()); ++k) {
+        for (const unsigned k : indices(points.axes())) {
             in[k] = share * share * in[k];
         }
         half_bow = share * share * half_bow;
@@ -129,7 +130,7 @@ void smooth_point(ChainPoints<S>& points, std::uint64_t i) noexcept {
     for (unsigned k = 0; k < axes; ++k) {
         here.moved[k] = here.moved[k] - scale2(pull[k] / stiffness, finest) - here.centre[k];
     }
-    const S away = norm(here.moved.data(), points.axes());
+    const S away = norm(here.moved, points.axes());
     for (unsigned k = 0; k < axes; ++k) {
         here.moved[k] = here.centre[k] + (away > here.radius ? here.moved[k] * (here.radius / away) : here.moved[k]);
     }

@@ -5,6 +5,8 @@
 // What is left out beyond five points counts less than 0.27^5 there.
 #include "splinefeed/s1_blended_path/chain_state.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -25,7 +27,7 @@ void chain_state(const ChainPoints<S>& points, std::uint64_t at, PathState<S>& o
     std::array<S, most> length{};
     for (unsigned i = 1; i <= count; ++i) {
         points.smoothed(first + i - 1, first + i, chord[i]);
-        length[i] = norm(chord[i].data(), points.axes());
+        length[i] = norm(chord[i], points.axes());
         for (unsigned k = 0; k < axes; ++k) {
             chord[i][k] = chord[i][k] / length[i];
         }
@@ -56,7 +58,7 @@ void chain_state(const ChainPoints<S>& points, std::uint64_t at, PathState<S>& o
         const S part = literal<S>(1.0 / 6.0) * scale2(length[chosen] * twice, -bend_log2);
         out.tangent[k] = chord[chosen][k] + (behind ? part : -part);
     }
-    const S speed = norm(out.tangent.data(), points.axes());
+    const S speed = norm(out.tangent, points.axes());
     S along{};
     for (unsigned k = 0; k < axes; ++k) {
         out.tangent[k] = out.tangent[k] / speed;

@@ -9,6 +9,8 @@
 // moves is 0.0107 |K1 - K0| l^2.
 #include "splinefeed/s1_blended_path/joint.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -30,17 +32,13 @@ constexpr float no_jump<float> = 1e-6F;
 
 template <Scalar S>
 S distance_between(const PerAxis<S>& a, const PerAxis<S>& b, int axes) noexcept {
-    PerAxis<S> apart{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
-        apart[k] = a[k] - b[k];
-    }
-    return norm(apart.data(), axes);
+    return norm(difference(a, b, axes), axes);
 }
 
 template <Scalar S>
 PerAxis<S> point_at(const Blend<S>& blend, S u, int axes) noexcept {
     PerAxis<S> point{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         PerDegree<S> row = blend.points[k];
         reduce(row, blend.degree, 0, u);
         point[k] = row[0];
@@ -71,7 +69,7 @@ S measured_deviation(const Blend<S>& blend, const PathMove<S>& before, const Pat
             const S u = from_integer<S>(i) / from_integer<S>(measured_places + 1);
             const PerAxis<S> point = point_at(blend, u, axes);
             last[2] = smaller(before.distance_near(true, point), after.distance_near(false, point));
-            vertex = smaller(vertex, norm(point.data(), axes));
+            vertex = smaller(vertex, norm(point, axes));
         }
         largest_yet = larger(largest_yet, peak(last[0], last[1], last[2]));
     }
@@ -87,7 +85,7 @@ void draw(const PathMove<S>& before, const PathMove<S>& after, S way, S w, int a
     out.way = way;
     out.degree = 3;
     if (before.straight() && after.straight() && !(w > S{})) {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             out.points[k][0] = from.offset[k];
             out.points[k][1] = out.points[k][2] = S{};
             out.points[k][3] = to.offset[k];
@@ -121,10 +119,10 @@ Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathM
     const S jump = distance_between(in.tangent, out.tangent, axes);
     joint.half_sine = scale2(jump, -1);
     PerAxis<S> sum{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         sum[k] = in.tangent[k] + out.tangent[k];
     }
-    const bool reverses = scale2(norm(sum.data(), axes), -1) < literal<S>(reversal_half_cosine);
+    const bool reverses = scale2(norm(sum, axes), -1) < literal<S>(reversal_half_cosine);
     const bool exact = mode == PathMode::exact_path || !(tolerances.corner > S{});
     if (mode == PathMode::exact_stop || reverses || (exact && jump > literal<S>(corner_jump))) {
         return joint;
@@ -151,7 +149,7 @@ Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathM
         joint.way = smaller(literal<S>(bent_share) * joint.way, scale2(square_root(square), bend_log2 / 2));
     }
     for (const PathState<S>* state : {&in, &out}) { // l |K| is at most 1/2
-        joint.way = smaller(joint.way, quotient_or_max(literal<S>(0x1p19), norm(state->bend.data(), axes)));
+        joint.way = smaller(joint.way, quotient_or_max(literal<S>(0x1p19), norm(state->bend, axes)));
     }
     joint.way = smaller(joint.way, smaller(before.longest_way(), after.longest_way()));
     return joint;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_blended_path/path_bezier.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -16,7 +18,7 @@ void PathBezier<S>::set(const BezierShape<S>& shape, const PerAxis<S>& to, int a
     axes_ = axes;
     degree_ = shape.degree;
     points_ = shape.points;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         points_[k][0] = S{};
         points_[k][static_cast<unsigned>(degree_)] = to[k];
     }
@@ -25,12 +27,12 @@ void PathBezier<S>::set(const BezierShape<S>& shape, const PerAxis<S>& to, int a
 template <Scalar S>
 S PathBezier<S>::polygon() const noexcept {
     S length{};
-    for (unsigned i = 0; i < static_cast<unsigned>(degree_); ++i) {
+    for (const unsigned i : indices(degree_)) {
         PerAxis<S> side{};
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             side[k] = points_[k][i + 1] - points_[k][i];
         }
-        length += norm(side.data(), axes_);
+        length += norm(side, axes_);
     }
     return length;
 }
@@ -41,11 +43,11 @@ bool PathBezier<S>::has_directions() const noexcept {
     const auto n = static_cast<unsigned>(degree_);
     PerAxis<S> first{};
     PerAxis<S> last{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         first[k] = points_[k][1] - points_[k][0];
         last[k] = points_[k][n] - points_[k][n - 1];
     }
-    return norm(first.data(), axes_) > least && norm(last.data(), axes_) > least;
+    return norm(first, axes_) > least && norm(last, axes_) > least;
 }
 
 // K = (C'' - (C'' T) T) / |C'|^2.
@@ -55,7 +57,7 @@ void PathBezier<S>::state(S u, bool from_end, PathState<S>& out) const noexcept 
     PerAxis<S> first{};
     PerAxis<S> second{};
     const auto n = static_cast<unsigned>(degree_);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         PerDegree<S> row = points_[k];
         if (from_end) {
             for (unsigned i = 0; i <= n; ++i) {
@@ -71,17 +73,17 @@ void PathBezier<S>::state(S u, bool from_end, PathState<S>& out) const noexcept 
         reduce(row, 1, 0, u);
         out.offset[k] = row[0];
     }
-    const S speed = norm(first.data(), axes_);
+    const S speed = norm(first, axes_);
     if (!(speed > S{})) {
         return;
     }
     S along{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         out.tangent[k] = first[k] / speed;
         second[k] = second[k] / speed;
         along += second[k] * out.tangent[k];
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         out.bend[k] = scale2(second[k] - along * out.tangent[k], bend_log2) / speed;
     }
 }
@@ -89,7 +91,7 @@ void PathBezier<S>::state(S u, bool from_end, PathState<S>& out) const noexcept 
 template <Scalar S>
 void PathBezier<S>::part(S u0, S u1, PerAxis<PerDegree<S>>& out) const noexcept {
     const S one = from_integer<S>(1);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         PerDegree<S> row = points_[k];
         if (u1 < one) { // the part before u1: the first points of all degrees
             PerDegree<S> rest = row;
@@ -111,13 +113,13 @@ void PathBezier<S>::part(S u0, S u1, PerAxis<PerDegree<S>>& out) const noexcept 
 template <Scalar S>
 S PathBezier<S>::distance_at(S u, bool at_end, const PerAxis<S>& point) const noexcept {
     PerAxis<S> apart{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         PerDegree<S> row = points_[k];
         const S from = at_end ? row[static_cast<unsigned>(degree_)] : S{};
         reduce(row, degree_, 0, u);
         apart[k] = point[k] - (row[0] - from);
     }
-    return norm(apart.data(), axes_);
+    return norm(apart, axes_);
 }
 
 template <Scalar S>
@@ -138,20 +140,20 @@ S PathBezier<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexc
     for (int i = 0; i <= nearings; ++i) {
         PerAxis<S> apart{};
         PerAxis<S> first{};
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             PerDegree<S> row = points_[k];
             const S from = at_end ? row[static_cast<unsigned>(degree_)] : S{};
             reduce(row, degree_, 1, u);
             first[k] = from_integer<S>(degree_) * (row[1] - row[0]);
             apart[k] = point[k] - (row[0] + u * (row[1] - row[0]) - from);
         }
-        least = smaller(least, norm(apart.data(), axes_));
-        const S speed = norm(first.data(), axes_);
+        least = smaller(least, norm(apart, axes_));
+        const S speed = norm(first, axes_);
         if (!(speed > S{})) {
             break;
         }
         S ahead{};
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             ahead += first[k] / speed * (apart[k] / speed);
         }
         u = at_end ? larger(half, smaller(one, u + ahead)) : larger(S{}, smaller(half, u + ahead));

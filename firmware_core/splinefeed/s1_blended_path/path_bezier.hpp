@@ -11,7 +11,7 @@ namespace splinefeed {
 template <Scalar S>
 void reduce(PerDegree<S>& row, int degree, int left, S u) noexcept {
     for (int n = degree; n > left; --n) {
-        for (unsigned i = 0; i < static_cast<unsigned>(n); ++i) {
+        for (const unsigned i : indices(n)) {
             row[i] = row[i] + u * (row[i + 1] - row[i]);
         }
     }

@@ -7,6 +7,7 @@
 #include "splinefeed/s1_blended_path/path_move.hpp"
 
 #include "splinefeed/number/angle.hpp"
+#include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
 
@@ -20,11 +21,6 @@ constexpr double longest_move = 0x1p28; // 65 m
 constexpr double two_pi = 6.28318530717958647692;
 constexpr double most_of_piece = 0.4; // [rad]
 constexpr std::int32_t most_turns = 10000;
-
-template <Scalar S>
-S dot(const std::array<S, 3>& a, const std::array<S, 3>& b) noexcept {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 // floor(x) for 0 <= x < 2^20.
 template <Scalar S>
@@ -47,7 +43,7 @@ Status PathMove<S>::set(const PerAxis<Position>& from, const PathElement<S>& ele
     length_ = S{};
     bool moves = false;
     PerAxis<S> chord{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         const std::int64_t move = to_[k].raw - from[k].raw;
         if (move > longest_raw || move < -longest_raw) {
             return Error::move_too_long;
@@ -64,8 +60,8 @@ Status PathMove<S>::set(const PerAxis<Position>& from, const PathElement<S>& ele
     if (!moves) {
         return {};
     }
-    length_ = longest_way_ = norm(chord.data(), axes);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    length_ = longest_way_ = norm(chord, axes);
+    for (const unsigned k : indices(axes)) {
         along_[k] = chord[k] / length_;
     }
     return {};
@@ -96,11 +92,11 @@ S PathMove<S>::frame_at(const PerAxis<Position>& place, const ArcShape<S>& arc, 
     for (unsigned k = 0; k < in_plane(); ++k) {
         arm[k] = distance<S>(arc.centre[k], place[k], chord_unit_log2);
     }
-    const S height = dot(arm, arc.normal);
+    const S height = dot(arm, arc.normal, 3);
     for (unsigned k = 0; k < 3; ++k) {
         arm[k] = arm[k] - height * arc.normal[k];
     }
-    const S radius = norm(arm.data(), 3);
+    const S radius = norm(arm, 3);
     if (!(radius > S{})) {
         return radius;
     }
@@ -140,7 +136,7 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     }
     // The ends say where the arc ends, the sweep how many turns it makes.
     const S turn = literal<S>(two_pi);
-    const S seen = angle_of(dot(start_.radial, end_.radial), dot(start_.along, end_.radial));
+    const S seen = angle_of(dot(start_.radial, end_.radial, 3), dot(start_.along, end_.radial, 3));
     const S asked = absolute(arc.sweep_rad);
     const S turns = (asked - seen) / turn + literal<S>(0.5);
     if (!(turns < from_integer<S>(most_turns))) {
@@ -164,10 +160,10 @@ Status PathMove<S>::set_arc(const ArcShape<S>& arc) noexcept {
     for (unsigned k = 3; k < static_cast<unsigned>(smaller(axes_, max_axes)); ++k) {
         rise[k] = distance<S>(from_[k], to_[k], chord_unit_log2);
     }
-    const std::array<S, 2> legs{radius * sweep_, norm(rise.data(), axes_)};
-    length_ = norm(legs.data(), 2);
+    const std::array<S, 2> legs{radius * sweep_, norm(rise, axes_)};
+    length_ = norm(legs, 2);
     in_plane_ = legs[0] / length_;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         along_[k] = rise[k] / length_;
     }
     longest_way_ = smaller(length_, scale2(smaller(radius_start_, radius_end_), -1));
@@ -180,7 +176,7 @@ void PathMove<S>::turned(const Frame& frame, S cosine, S sine, S radius, PathSta
     // K = cos^2(pitch) / r, in units of 2^-bend_log2.
     const S bend = quotient_or_max(literal<S>(0x1p20) * in_plane_ * in_plane_, radius);
     out = {};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         out.tangent[k] = along_[k];
     }
     for (unsigned k = 0; k < in_plane(); ++k) {
@@ -198,7 +194,7 @@ void PathMove<S>::near(const Frame& frame, S radius, S way, PathState<S>& out) c
     const S sine = small_sine(angle);
     const S versine = small_versine(angle);
     turned(frame, from_integer<S>(1) - versine, sine, radius, out);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         out.offset[k] = way * along_[k];
     }
     for (unsigned k = 0; k < in_plane(); ++k) {
@@ -217,7 +213,7 @@ void PathMove<S>::behind_start(S way, PathState<S>& out) const noexcept {
         return;
     }
     out = {};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         out.tangent[k] = along_[k];
         out.offset[k] = way * along_[k];
     }
@@ -241,9 +237,7 @@ S PathMove<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexcep
     }
     S way{};
     if (shape_ == MoveShape::line) {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
-            way += point[k] * along_[k];
-        }
+        way = dot(point, along_, axes_);
     } else {
         const Frame& frame = at_end ? end_ : start_;
         const S radius = at_end ? radius_end_ : radius_start_;
@@ -254,7 +248,7 @@ S PathMove<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexcep
             along += point[k] * frame.along[k];
         }
         way = angle_of(across, along) * radius * in_plane_; // and how far it has risen
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             way += point[k] * along_[k];
         }
     }
@@ -266,11 +260,7 @@ S PathMove<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexcep
     } else {
         behind_start(way, nearest);
     }
-    PerAxis<S> apart{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
-        apart[k] = point[k] - nearest.offset[k];
-    }
-    return norm(apart.data(), axes_);
+    return norm(difference(point, nearest.offset, axes_), axes_);
 }
 
 template <Scalar S>
@@ -312,7 +302,7 @@ void PathMove<S>::piece_end(S trim_start, S trim_end, int index, int count, Path
     }
     const S radius = radius_start_ + (radius_end_ - radius_start_) * share;
     turned(start_, cosine, sine, radius, out);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         out.offset[k] += way * along_[k];
     }
     for (unsigned k = 0; k < in_plane(); ++k) {

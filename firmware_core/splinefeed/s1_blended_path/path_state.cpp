@@ -6,7 +6,7 @@ namespace splinefeed {
 template <Scalar S>
 void quintic_between(const PathState<S>& from, const PathState<S>& to, S first, S second, int axes,
                      PerAxis<PerDegree<S>>& points) noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         PerDegree<S>& b = points[k];
         // first^2 K in two steps: first |K| is at most 1, so neither product leaves the range of Fixed.
         const S turn_from = scale2(first * from.bend[k], -bend_log2);

@@ -36,7 +36,7 @@ void BSplineCurve<S>::emit(std::uint64_t end, int degree, CurveSegment<S>& out) 
                     SideParts::of_open(static_cast<std::int64_t>(at - first_), pieces), points);
     }
     PerAxis<PerDegree<S>> offsets{};
-    for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
+    for (const unsigned k : indices(this->axes())) {
         for (unsigned i = 0; i <= static_cast<unsigned>(degree); ++i) {
             offsets[k][i] = points[i][k];
         }

@@ -42,7 +42,7 @@ Pull CatmullRom<S>::next(CurveSegment<S>& out) noexcept {
             Point<S> leg_out{};
             catmull_rom_legs<S>({&here.chord, here.span}, start, end, this->axes(), leg_in, leg_out);
             PerAxis<PerDegree<S>> offsets{};
-            for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
+            for (const unsigned k : indices(this->axes())) {
                 offsets[k][1] = leg_in[k];
                 offsets[k][2] = leg_out[k];
                 offsets[k][3] = here.chord[k];

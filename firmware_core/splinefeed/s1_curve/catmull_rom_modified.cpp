@@ -7,7 +7,7 @@ template <Scalar S>
 Chord<S> CatmullRomModified<S>::chord(std::uint64_t i) const noexcept {
     const Knot<S>& knot = this->knot(i);
     Chord<S> out{{}, knot.length};
-    for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
+    for (const unsigned k : indices(this->axes())) {
         out.vector[k] = knot.chord[k];
     }
     return out;
@@ -44,7 +44,7 @@ Pull CatmullRomModified<S>::next(CurveSegment<S>& out) noexcept {
             Point<S> leg_out{};
             modified_legs(chord(i), start_slope(i), end_slope(i), tangents_, leg_in, leg_out);
             PerAxis<PerDegree<S>> offsets{};
-            for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
+            for (const unsigned k : indices(this->axes())) {
                 offsets[k][1] = leg_in[k];
                 offsets[k][2] = leg_out[k];
                 offsets[k][3] = this->knot(i).chord[k];

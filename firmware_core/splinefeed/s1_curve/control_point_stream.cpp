@@ -157,7 +157,7 @@ void ControlPointStream<S, Joints>::emit(std::uint64_t i, CurveSegment<S>& out) 
     const Knot<S>& knot = this->knot(i);
     const Knot<S>& knot_to = this->knot(i + 1);
     PerAxis<PerDegree<S>> offsets{};
-    for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
+    for (const unsigned k : indices(this->axes())) {
         const S end = knot.chord[k]; // P_{i+1} seen from P_i
         const S next = end + to.delta[k];
         const S step = next - from.delta[k]; // d_{i+1} - d_i

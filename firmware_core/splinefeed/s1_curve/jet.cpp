@@ -17,7 +17,7 @@ void evaluate(const CurveSegment<S>& segment, S u, Jet<S>& out) noexcept {
     const auto n = static_cast<unsigned>(segment.degree);
     const S degree = from_integer<S>(static_cast<std::int32_t>(n));
     const S degree2 = from_integer<S>(static_cast<std::int32_t>(n * (n - 1)));
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         const PerDegree<S>& b = segment.control[k];
         // The last three points of the construction hold the value and both derivatives.
         S p0 = b[0];

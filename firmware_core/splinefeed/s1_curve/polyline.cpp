@@ -17,7 +17,7 @@ Pull Polyline<S>::next(CurveSegment<S>& out) noexcept {
             // flag is set only for forced corners of the user.
             out.stop_at_end = this->knot(i + 1).corner == Corner::forced;
             PerAxis<PerDegree<S>> offsets{};
-            for (unsigned k = 0; k < static_cast<unsigned>(this->axes()); ++k) {
+            for (const unsigned k : indices(this->axes())) {
                 offsets[k][1] = this->knot(i).chord[k];
             }
             out.assign(offsets);

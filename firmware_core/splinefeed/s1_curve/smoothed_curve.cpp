@@ -8,6 +8,7 @@
 #include "splinefeed/s1_curve/smoothed_curve.hpp"
 
 #include "splinefeed/number/exponent.hpp"
+#include "splinefeed/number/vector.hpp"
 
 namespace splinefeed {
 
@@ -29,7 +30,7 @@ Derivatives<S> derivatives_at(const CurveSegment<S>& segment, bool at_end) noexc
     const S degree = from_integer<S>(segment.degree);
     const S degree2 = from_integer<S>(segment.degree * (segment.degree - 1));
     Derivatives<S> out;
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         const PerDegree<S>& b = segment.control[k];
         const S leg = at_end ? b[n] - b[n - 1] : b[1] - b[0];
         out.first[k] = leg * degree;
@@ -38,17 +39,8 @@ Derivatives<S> derivatives_at(const CurveSegment<S>& segment, bool at_end) noexc
             out.second[k] = (at_end ? leg - inner : inner - leg) * degree2;
         }
     }
-    out.length = norm(out.first.data(), segment.axes);
+    out.length = norm(out.first, segment.axes);
     return out;
-}
-
-template <Scalar S>
-S dot(const PerAxis<S>& a, const PerAxis<S>& b, int axes) noexcept {
-    S sum{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
-        sum += a[k] * b[k];
-    }
-    return sum;
 }
 
 /// A length as mantissa and exponent.
@@ -89,17 +81,17 @@ void SmoothedCurve<S>::join() noexcept {
         return;
     }
     PerAxis<S> sum{};
-    PerAxis<S> difference{};
+    PerAxis<S> apart{};
     for (unsigned k = 0; k < axes_u; ++k) {
         const S from = a.first[k] / a.length;
         const S to = b.first[k] / b.length;
         sum[k] = from + to;
-        difference[k] = to - from;
+        apart[k] = to - from;
     }
-    if (norm(difference.data(), axes) > literal<S>(0x1p-10)) {
+    if (norm(apart, axes) > literal<S>(0x1p-10)) {
         return;
     }
-    const S twice = norm(sum.data(), axes);
+    const S twice = norm(sum, axes);
     PerAxis<S> direction{};
     for (unsigned k = 0; k < axes_u; ++k) {
         direction[k] = sum[k] / twice;
@@ -154,7 +146,7 @@ Derivatives<S> promoted(const CurveSegment<S>& segment, bool at_end, const End& 
     Derivatives<S> own = derivatives_at(segment, at_end);
     if (end.shared) {
         const S along = dot(own.second, end.direction, segment.axes);
-        for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+        for (const unsigned k : indices(segment.axes)) {
             own.first[k] = end.tangent[k];
             own.second[k] = end.curvature[k] + along * end.direction[k];
         }
@@ -178,7 +170,7 @@ void SmoothedCurve<S>::emit(CurveSegment<S>& out) const noexcept {
     const S five = from_integer<S>(5);
     const S twenty = from_integer<S>(20);
     PerAxis<PerDegree<S>> control{};
-    for (unsigned k = 0; k < static_cast<unsigned>(current_.axes); ++k) {
+    for (const unsigned k : indices(current_.axes)) {
         const S p0 = current_.control[k][0];
         const S p5 = current_.control[k][last];
         const S leg_in = from.first[k] / five;

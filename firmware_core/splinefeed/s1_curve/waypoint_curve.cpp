@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s1_curve/waypoint_curve.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -63,7 +65,7 @@ Status WaypointCurve<S>::push(const Waypoint<S>& waypoint, Role role) noexcept {
         for (unsigned k = 0; k < axes_u; ++k) {
             last.chord[k] = distance<S>(last.position[k], waypoint.position[k], chord_unit_log2);
         }
-        last.length = norm(last.chord.data(), axes());
+        last.length = norm(last.chord, axes());
         last.span = span_of(last.length);
         if (known_ > 1) {
             decide_corner(known_ - 1);
@@ -112,7 +114,7 @@ void WaypointCurve<S>::decide_corner(std::uint64_t i) noexcept {
         return;
     }
     S cosine{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes()); ++k) {
+    for (const unsigned k : indices(axes())) {
         cosine += (before.chord[k] / before.length) * (here.chord[k] / here.length);
     }
     // The tolerance prevents that rounding decides about an exact 60-degree turn.

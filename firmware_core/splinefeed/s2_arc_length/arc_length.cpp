@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/s2_arc_length/control_rounding.hpp"
 
 namespace splinefeed {
@@ -27,13 +28,13 @@ bool ArcLength<S>::coarse_near(const Piece<S>& piece, bool start, bool end) cons
     const auto n = static_cast<unsigned>(current().degree);
     const auto distance_mm = [&](unsigned of_piece, unsigned of_segment) {
         PerAxis<S> gap{};
-        for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+        for (const unsigned k : indices(current().axes)) {
             gap[k] = piece.control[k][of_piece] - current().control[k][of_segment];
             if constexpr (counts_from_own_start<S>) {
                 gap[k] += distance<S>(current().origin[k], piece.start[k], current().unit_log2);
             }
         }
-        return scale2(norm(gap.data(), current().axes), current().unit_log2);
+        return scale2(norm(gap, current().axes), current().unit_log2);
     };
     const auto coarse = [&](S gap) {
         return gap < literal<S>(9.1) * grade_mm_ && m_.length_mm > gap / literal<S>(2.93);
@@ -44,7 +45,7 @@ bool ArcLength<S>::coarse_near(const Piece<S>& piece, bool start, bool end) cons
 // Whether an end of an axis's open travel lies in the hull of the piece.
 template <Scalar S>
 bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+    for (const unsigned k : indices(current().axes)) {
         const auto [low, high] =
             hull(piece.control[k], current().degree, piece.origin(current(), k), current().unit_log2);
         const PositionRange& open = refinement_.open[k];
@@ -76,7 +77,7 @@ bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
 
 template <Scalar S>
 bool ArcLength<S>::bends_too_much() const noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+    for (const unsigned k : indices(current().axes)) {
         const auto& bend = m_.second;
         const Ratio<S> change = absolute(bend[2][k] - bend[0][k]) * m_.slowest;
         const Ratio<S> uneven = absolute(bend[2][k] - bend[1][k] - (bend[1][k] - bend[0][k])) * m_.slowest;
@@ -105,7 +106,7 @@ auto ArcLength<S>::judge(const Piece<S>& piece) noexcept -> Verdict {
         return Verdict::coarse;
     }
     Ratio<S> turn{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         turn = larger(turn, absolute(m_.first[2][k] - m_.first[0][k]));
     }
     if (turn > refinement_.turn) {
@@ -145,7 +146,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     out.degree = current().degree;
     out.stop_before = after_cusp_;
     fill_common(piece.at_end, out);
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+    for (const unsigned k : indices(current().axes)) {
         // The origin moves to the start of the cell, so that offsets stay as small as the cell.
         const Position origin = piece.origin(current(), k);
         out.origin[k] = displaced(origin, piece.control[k][0], current().unit_log2);
@@ -157,7 +158,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const R estimate = larger(m_.length_error, times(2, m_.slope_error()));
     const R error = m_.shape_error + m_.by_length(scale2(estimate, 9));
     const R ripple = scale2(times(40, scale2(error, -6)), -6);
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+    for (const unsigned k : indices(current().axes)) {
         PerDegree<S>& power = out.power[k]; // the differences of the control points, without power[0]
         for (unsigned j = n; j >= 1; --j) {
             power[j] = piece.control[k][j] - piece.control[k][j - 1];
@@ -176,7 +177,7 @@ void ArcLength<S>::fill(const Piece<S>& piece, Cell<S>& out) noexcept {
     const DivisionBy<S> by_length(out.length_mm);
     const ControlRounding<S> rounded =
         ControlRounding<S>::of(current(), piece.level, m_.in_segment(m_.slowest), out.tangent_max);
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+    for (const unsigned k : indices(current().axes)) {
         // The remaining error of the inverse is about c x^3 (1-x)^3 (x-1/2). With the slope e in the middle its second
         // derivative reaches 8 e, an acceleration of 8 e v^2 / L along the tangent; 10 e is allowed for. Of the other
         // estimates of e, which are of the right order only, it is 40 e. Rounding of the control points bends the
@@ -211,7 +212,7 @@ Position ArcLength<S>::end_of(int piece, unsigned axis) const noexcept {
 // one begins. steady_speed() allows for the change of its slope.
 template <Scalar S>
 void ArcLength<S>::arrive(Cell<S>& cell) const noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+    for (const unsigned k : indices(cell.axes)) {
         S rest = distance<S>(cell.origin[k], end_of(depth_ - 1, k), cell.unit_log2);
         for (unsigned i = 0; i <= static_cast<unsigned>(cell.degree); ++i) {
             rest = rest - cell.power[k][i];
@@ -242,7 +243,7 @@ AxisShape<S> ArcLength<S>::shape_of(unsigned axis, Ratio<S> bend, Ratio<S> round
 // Adds a piece to the cusp that is being passed.
 template <Scalar S>
 void ArcLength<S>::extend_cusp(const Piece<S>& piece) noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+    for (const unsigned k : indices(current().axes)) {
         const Position origin = piece.origin(current(), k);
         const PerDegree<S>& control = piece.control[k];
         cusp_from_[k] = in_cusp_ ? cusp_from_[k] : displaced(origin, control[0], current().unit_log2);
@@ -255,7 +256,7 @@ void ArcLength<S>::extend_cusp(const Piece<S>& piece) noexcept {
 template <Scalar S>
 void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
     PerAxis<S> chord{};
-    for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+    for (const unsigned k : indices(current().axes)) {
         chord[k] = distance<S>(cusp_from_[k], cusp_to_[k], current().unit_log2);
         out.power[k][0] = S{};
         out.power[k][1] = chord[k];
@@ -264,7 +265,7 @@ void ArcLength<S>::fill_chord(bool at_end, Cell<S>& out) noexcept {
         out.shape[k] = largest_shape(k, out);
     }
     // Not zero, so that time passes.
-    out.length_mm = larger(scale2(norm(chord.data(), current().axes), current().unit_log2), literal<S>(1e-8));
+    out.length_mm = larger(scale2(norm(chord, current().axes), current().unit_log2), literal<S>(1e-8));
     out.inverse = {};
     out.steady_mm_s = largest<S>();
     out.degree = 1;
@@ -302,7 +303,7 @@ Pull ArcLength<S>::load() noexcept {
     slow_after_ = has_ahead_ && !stop_after_ && turns_within(ahead, literal<S>(slow_grades) * grade_mm_);
     stack_[0].control = current().control;
     if constexpr (counts_from_own_start<S>) {
-        for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+        for (const unsigned k : indices(current().axes)) {
             stack_[0].start[k] = current().origin[k];
             stack_[0].begin_at_start(k, current().degree, current().unit_log2);
         }
@@ -328,7 +329,7 @@ void ArcLength<S>::split() noexcept {
     right.halve(current().axes, current().degree, left.control, right.control);
     if constexpr (counts_from_own_start<S>) {
         left.start = right.start;
-        for (unsigned k = 0; k < static_cast<unsigned>(current().axes); ++k) {
+        for (const unsigned k : indices(current().axes)) {
             const Position end = end_of(depth_ - 2, k);
             right.begin_at_start(k, current().degree, current().unit_log2);
             right.lead_to(end, k, current().degree, current().unit_log2);

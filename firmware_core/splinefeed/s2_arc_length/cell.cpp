@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s2_arc_length/cell.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 template <Scalar S>
@@ -16,7 +18,7 @@ S Cell<S>::parameter_at(S x) const noexcept {
 template <Scalar S>
 void Cell<S>::position_at(S x, PerAxis<Position>& out) const noexcept {
     const S w = parameter_at(x);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         S offset = power[k][static_cast<unsigned>(degree)];
         for (int i = degree - 1; i >= 0; --i) {
             offset = offset * w + power[k][static_cast<unsigned>(i)];
@@ -28,15 +30,15 @@ void Cell<S>::position_at(S x, PerAxis<Position>& out) const noexcept {
 template <Scalar S>
 void Cell<S>::direction_at(S x, PerAxis<S>& out) const noexcept {
     const S w = parameter_at(x);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         S slope{};
         for (int i = degree; i > 0; --i) {
             slope = slope * w + from_integer<S>(i) * power[k][static_cast<unsigned>(i)];
         }
         out[k] = slope;
     }
-    const S sigma = norm(out.data(), axes);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    const S sigma = norm(out, axes);
+    for (const unsigned k : indices(axes)) {
         out[k] = sigma > S{} ? out[k] / sigma : S{};
     }
 }

@@ -38,7 +38,7 @@ Cell<S> part_of(const Cell<S>& cell, const CellInterval<S>& stretch) noexcept {
     const S width = w1 - w0;
     const auto degree = static_cast<std::size_t>(cell.degree);
     const R sixth = literal<R>(1.0 / 6.0);
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+    for (const unsigned k : indices(cell.axes)) {
         PerDegree<S>& power = out.power[k];
         shift(std::span<S>(power).first(degree + 1), w0);
         S scale = width;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s2_arc_length/checked_source.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -27,17 +29,17 @@ bool direction_jumps(const CurveSegment<S>& before, const CurveSegment<S>& after
     const auto m = static_cast<unsigned>(before.degree);
     PerAxis<S> in{};
     PerAxis<S> out{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         in[k] = before.control[k][m] - before.control[k][m - 1];
         out[k] = after.control[k][1] - after.control[k][0];
     }
-    const S length_in = norm(in.data(), axes);
-    const S length_out = norm(out.data(), axes);
+    const S length_in = norm(in, axes);
+    const S length_out = norm(out, axes);
     if (length_in < negligible_units<S> || length_out < negligible_units<S>) {
         return true;
     }
     S jump{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         jump = larger(jump, absolute(out[k] / length_out - in[k] / length_in));
     }
     return jump > most;
@@ -49,21 +51,19 @@ bool turns_within(const CurveSegment<S>& segment, S radius_mm) noexcept {
     PerAxis<S> first{};
     PerAxis<S> side{};
     S length{};
-    for (unsigned i = 0; i < static_cast<unsigned>(segment.degree); ++i) {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned i : indices(segment.degree)) {
+        for (const unsigned k : indices(axes)) {
             side[k] = segment.control[k][i + 1] - segment.control[k][i];
         }
-        const S part = norm(side.data(), axes);
+        const S part = norm(side, axes);
         length += part;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             side[k] = part > S{} ? side[k] / part : S{};
             first[k] = i == 0 ? side[k] : first[k];
         }
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
-        side[k] = side[k] - first[k];
-    }
-    return segment.degree > 1 && scale2(length, segment.unit_log2) < norm(side.data(), axes) * radius_mm;
+    return segment.degree > 1 &&
+           scale2(length, segment.unit_log2) < norm(difference(side, first, axes), axes) * radius_mm;
 }
 
 // Whether the machine can be where a segment leads: its counters reach the whole segment, and the first segment begins
@@ -73,7 +73,7 @@ Status CheckedSource<S>::check(const CurveSegment<S>& segment) const noexcept {
     if (refinement_->axes != 0 && segment.axes != refinement_->axes) {
         return Error::axes_differ;
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         const auto [low, high] = hull(segment.control[k], segment.degree, segment.origin[k], segment.unit_log2);
         if (low < refinement_->countable[k].low || high > refinement_->countable[k].high) {
             return Error::counts_out_of_range;

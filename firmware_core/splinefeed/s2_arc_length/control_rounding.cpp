@@ -43,7 +43,7 @@ ControlRounding<S> ControlRounding<S>::of(const CurveSegment<S>& segment, int le
     ControlRounding out;
     S jump_along{};
     S bend_along{};
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         S two = two_roundings<S>;
         S bend = bend_rounding<S>;
         if constexpr (std::same_as<S, float>) {
@@ -64,7 +64,7 @@ ControlRounding<S> ControlRounding<S>::of(const CurveSegment<S>& segment, int le
     if (jump_along == S{} && bend_along == S{}) {
         return out; // in Fixed, of a long piece
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         out.jump[k] = out.jump[k] + jump_along * tangent_max[k];
         out.bend[k] = out.bend[k] + bend_along * tangent_max[k];
     }
@@ -74,7 +74,7 @@ ControlRounding<S> ControlRounding<S>::of(const CurveSegment<S>& segment, int le
 template <Scalar S>
 S ControlRounding<S>::steady_speed(const PerAxis<S>& jump_mm_s, int axes) const noexcept {
     S speed = largest<S>();
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         speed = smaller(speed, quotient_or_max(jump_mm_s[k], jump[k]));
     }
     return speed;

@@ -13,6 +13,8 @@
 // was not used for the construction; it shows how good the inverse is.
 #include "splinefeed/s2_arc_length/piece.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -33,7 +35,7 @@ constexpr Ratio<S> word_noise = literal<Ratio<S>>(std::same_as<S, Fixed> ? 0x1p-
 template <Scalar S>
 void Piece<S>::halve(int axes, int degree, PerAxis<PerDegree<S>>& left, PerAxis<PerDegree<S>>& right) const noexcept {
     const auto n = static_cast<unsigned>(degree);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         PerDegree<S> row = control[k]; // a row of the triangle; its last entries become the right half
         left[k][0] = row[0];
         for (unsigned step = 1; step <= n; ++step) {
@@ -53,7 +55,7 @@ template <Scalar S>
 void PieceMeasure<S>::choose_unit(const Piece<S>& piece, unsigned degree, int axes) noexcept {
     if constexpr (std::same_as<S, Fixed>) {
         std::uint64_t bits = 1;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             for (unsigned i = 0; i < degree; ++i) {
                 const std::int64_t step = (piece.control[k][i + 1] - piece.control[k][i]).raw();
                 bits |= static_cast<std::uint64_t>(step ^ (step >> 63));
@@ -72,7 +74,7 @@ void PieceMeasure<S>::differentiate(const Piece<S>& piece, int degree, int axes)
     choose_unit(piece, n, axes);
     const R factor = shortened<R>(from_integer<S>(degree), -fine_log2_);
     const R factor2 = shortened<R>(from_integer<S>(degree * (degree - 1)), -fine_log2_);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         const PerDegree<S>& b = piece.control[k];
         PerDegree<R> step{}; // a row of the triangle of differences
         for (unsigned i = 0; i < n; ++i) {
@@ -96,7 +98,7 @@ void PieceMeasure<S>::differentiate(const Piece<S>& piece, int degree, int axes)
         first[1][k] = step[0] * factor;
     }
     for (unsigned p = 0; p < points; ++p) {
-        sigma[p] = norm(first[p].data(), axes);
+        sigma[p] = norm(first[p], axes);
     }
     slowest = smaller(sigma[0], smaller(sigma[1], sigma[2]));
     fastest = larger(sigma[0], larger(sigma[1], sigma[2]));
@@ -107,7 +109,7 @@ void PieceMeasure<S>::measure_length(int axes, int segment_unit_log2) noexcept {
     for (unsigned p = 0; p < points; ++p) {
         by_sigma_[p] = DivisionBy<R>(sigma[p]);
         slope[p] = R{};
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             first[p][k] = first[p][k] / by_sigma_[p];
             slope[p] += first[p][k] * second[p][k];
         }
@@ -183,7 +185,7 @@ void PieceMeasure<S>::measure_curvature(int axes, int segment_unit_log2) noexcep
     const R rounded = by_length(shortened<R>(length_mm, -unit_log2 - segment_unit_log2));
     for (unsigned p = 0; p < points; ++p) {
         const R stretch = stretch_[p] * rounded;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             second[p][k] = (second[p][k] - first[p][k] * slope[p]) / by_sigma_[p] * stretch;
         }
     }
@@ -193,7 +195,7 @@ template <Scalar S>
 auto PieceMeasure<S>::sharpest_bend(int axes) const noexcept -> R {
     R most{};
     for (const PerAxis<R>& bend : second) {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             most = larger(most, absolute(bend[k]));
         }
     }

@@ -27,7 +27,7 @@ struct Piece {
 
     /// Whether no control point is farther than `nothing` from the first one, in each axis.
     [[nodiscard]] bool vanishes(int axes, int degree, S nothing) const noexcept {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             for (unsigned i = 1; i <= static_cast<unsigned>(degree); ++i) {
                 if (absolute(control[k][i] - control[k][0]) > nothing) {
                     return false;

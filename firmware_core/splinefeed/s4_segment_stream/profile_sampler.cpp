@@ -44,7 +44,7 @@ constexpr int fine = 12;                  // lengths in units of 2^-12 mm
 template <Scalar S>
 ProfileSampler<S>::ProfileSampler(MotionPlan<S>& plan, const MotionLimits<S>& limits) noexcept
     : plan_(&plan), segments_per_s_(limits.segments_per_s), axes_(limits.axes) {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         braking_mm_s2_[k] = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
     }
     between_samples_ = !limits.jerk_limited;
@@ -79,7 +79,7 @@ S ProfileSampler<S>::braked(S x, S speed) const noexcept {
     plan_->cell().direction_at(x, direction);
     const S way = scale2(speed, fine) / segments_per_s_;
     S less = way;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const S half = scale2(braking_mm_s2_[k] / segments_per_s_, fine - 1) / segments_per_s_;
         const bool forward = direction[k] > S{};
         const S along = absolute(direction[k]);
@@ -133,7 +133,7 @@ bool ProfileSampler<S>::within(unsigned axis, S change) const noexcept {
 
 template <Scalar S>
 bool ProfileSampler<S>::may_arrive_at(const PerAxis<Position>& stop) const noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const S before = distance<S>(older_[k], previous_[k], -fine);
         const S last = distance<S>(previous_[k], stop[k], -fine);
         if (!within(k, last - before) || !within(k, last) || absolute(last) > absolute(before)) {
@@ -157,7 +157,7 @@ bool ProfileSampler<S>::may_leave() const noexcept {
     PerAxis<Position> far{};
     plan_->cell().position_at(fraction_at(first), near);
     plan_->cell().position_at(fraction_at(second), far);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const S before = distance<S>(position_[k], near[k], -fine);
         const S behind = distance<S>(near[k], far[k], -fine);
         if (!within(k, before) || !within(k, behind - before) || absolute(before) > absolute(behind)) {

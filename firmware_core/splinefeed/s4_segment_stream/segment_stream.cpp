@@ -41,7 +41,7 @@ void SegmentStream<S>::repeat_control() noexcept {
 template <Scalar S>
 void SegmentStream<S>::push_control(const PerAxis<Position>& position) noexcept {
     repeat_control();
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         control_[3][k] = scaled(position[k], steps_per_mm_q32_[k], control_shift);
     }
 }
@@ -77,7 +77,7 @@ void SegmentStream<S>::write(FeedSegment& out) noexcept {
     out.index = index_++;
     out.duration_ticks = segment_ticks_;
     out.waypoint = sampler_->waypoint();
-    for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+    for (const unsigned k : indices(axes_)) {
         const std::int64_t c0 = control_[0][k];
         const std::int64_t c1 = control_[1][k];
         const std::int64_t c2 = control_[2][k];

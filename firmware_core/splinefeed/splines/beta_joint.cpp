@@ -10,6 +10,7 @@
 // gamma = (d-1)(1 + beta1) / (beta2 + beta1 (d-1)(1 + beta1)), T = B + beta1^2 gamma (B - A).
 #include "splinefeed/splines/beta_joint.hpp"
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/product_fits.hpp"
 
 namespace splinefeed {
@@ -162,13 +163,13 @@ Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>& before, const BezierP
             r2[k] = from_integer<S>(m * (m - 1)) * ((r[2] - r[1]) - (r[1] - r[0]));
         }
     }
-    const S speed_before = norm(q1.data(), max_axes);
-    const S speed_after = norm(r1.data(), max_axes);
+    const S speed_before = norm(q1, max_axes);
+    const S speed_after = norm(r1, max_axes);
     if (!(speed_before > S{}) || !(speed_after > S{})) {
         return Error::tangent_vanishes;
     }
     BetaMeasure<S> out;
-    out.gap = norm(step.data(), max_axes);
+    out.gap = norm(step, max_axes);
     out.beta.beta1 = quotient_or_max(speed_after, speed_before);
     if (out.beta.beta1 > beta1_most<S>()) {
         return Error::result_out_of_range;
@@ -194,8 +195,8 @@ Result<BetaMeasure<S>> measure_joint(const BezierPiece<S>& before, const BezierP
     }
     const S tension = quotient_or_max(absolute(along), speed_before);
     out.beta.beta2 = along < S{} ? -tension : tension;
-    out.tangent_jump = norm(turn.data(), max_axes);
-    out.curvature_jump = quotient_or_max(quotient_or_max(norm(left.data(), max_axes), speed_after), speed_after);
+    out.tangent_jump = norm(turn, max_axes);
+    out.curvature_jump = quotient_or_max(quotient_or_max(norm(left, max_axes), speed_after), speed_after);
     return out;
 }
 

@@ -27,13 +27,13 @@ struct BezierPiece {
     /// Bezier point i, 0 to degree.
     [[nodiscard]] Point<S> point(int i) const noexcept {
         Point<S> out{};
-        for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+        for (const unsigned k : indices(max_axes)) {
             out[k] = control[k][static_cast<unsigned>(i)];
         }
         return out;
     }
     void set_point(int i, const Point<S>& point) noexcept {
-        for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+        for (const unsigned k : indices(max_axes)) {
             control[k][static_cast<unsigned>(i)] = point[k];
         }
     }

@@ -116,12 +116,12 @@ Point<S> weighted_sum(const PerDegree<S>& weights, int degree, bool derivative, 
     Point<S> out{};
     for (std::size_t j = 0; j <= k; ++j) {
         const Point<S>& point = points[(first + j * stride) % count];
-        for (unsigned a = 0; a < static_cast<unsigned>(axes); ++a) {
+        for (const unsigned a : indices(axes)) {
             out[a] += weighted(weights[j], point[a] - middle[a]);
         }
     }
     if (!derivative) {
-        for (unsigned a = 0; a < static_cast<unsigned>(axes); ++a) {
+        for (const unsigned a : indices(axes)) {
             out[a] += middle[a];
         }
     }

@@ -194,7 +194,7 @@ Point<S> BsplineInterpolation<S>::derivative_value(const Point<S>& end_point, co
     const std::size_t controls = kind_.controls(points_);
     const S reach = at_end ? knots_[controls - 1U] - knots_[controls + k - 1U] : knots_[k + 1U] - knots_[1];
     Point<S> value{};
-    for (unsigned a = 0; a < static_cast<unsigned>(axes); ++a) {
+    for (const unsigned a : indices(axes)) {
         value[a] = end_point[a] + derivative[a] * reach / from_integer<S>(kind_.degree);
     }
     return value;
@@ -214,7 +214,7 @@ Status BsplineInterpolation<S>::interpolate(std::span<const Point<S>> points, co
     if (kind_.end_derivatives) {
         if constexpr (std::same_as<S, Fixed>) {
             const S period = knots_[count] - knots_[0];
-            for (unsigned a = 0; a < static_cast<unsigned>(axes); ++a) {
+            for (const unsigned a : indices(axes)) {
                 const S size = larger(absolute(ends->start[a]), absolute(ends->end[a]));
                 if (quotient_or_max(from_integer<S>(1 << 28), period) <= size) {
                     return Error::result_out_of_range;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/catmull_rom_modified.hpp"
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/point_list.hpp"
 
 namespace splinefeed {
@@ -21,7 +22,7 @@ Point<S> mirrored(const Chord<S>& chord, const Point<S>& central) noexcept {
 template <Scalar S>
 Chord<S> chord_of(const Point<S>& from, const Point<S>& to) noexcept {
     Chord<S> chord{chord_between(from, to), S{}};
-    chord.length = norm(chord.vector.data(), max_axes);
+    chord.length = norm(chord.vector, max_axes);
     return chord;
 }
 

@@ -52,7 +52,7 @@ template <Scalar S>
 void catmull_rom_legs(const SpannedChord<S>& chord, const KnotTangent<S>& start, const KnotTangent<S>& end, int axes,
                       Point<S>& leg_in, Point<S>& leg_out) noexcept {
     const S reach = start.by_span || end.by_span ? chord.span / from_integer<S>(3) : S{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         leg_in[k] = start.by_span ? start.vector[k] * reach : start.vector[k];
         leg_out[k] = (*chord.vector)[k] - (end.by_span ? end.vector[k] * reach : end.vector[k]);
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/ferguson.hpp"
 #include "splinefeed/splines/point_list.hpp"
 
@@ -7,18 +8,9 @@ namespace splinefeed {
 namespace {
 
 template <Scalar S>
-S dot(const Point<S>& a, const Point<S>& b) noexcept {
-    S sum{};
-    for (unsigned k = 0; k < all_axes; ++k) {
-        sum += a[k] * b[k];
-    }
-    return sum;
-}
-
-template <Scalar S>
 Point<S> direction(const Point<S>& from, const Point<S>& to) noexcept {
     Point<S> out = chord_between(from, to);
-    const S length = norm(out.data(), max_axes);
+    const S length = norm(out, max_axes);
     for (S& x : out) {
         x = length > S{} ? x / length : S{};
     }
@@ -28,7 +20,7 @@ Point<S> direction(const Point<S>& from, const Point<S>& to) noexcept {
 // (a ^ b) . (c ^ d): in the plane the product of two signed turns, in space that of their vectors.
 template <Scalar S>
 S turns_product(const Point<S>& a, const Point<S>& b, const Point<S>& c, const Point<S>& d) noexcept {
-    return dot(a, c) * dot(b, d) - dot(a, d) * dot(b, c);
+    return dot(a, c, max_axes) * dot(b, d, max_axes) - dot(a, d, max_axes) * dot(b, c, max_axes);
 }
 
 } // namespace

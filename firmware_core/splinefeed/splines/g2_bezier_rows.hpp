@@ -2,6 +2,7 @@
 // The rows of g2_bezier's equations (derived in g2_bezier.cpp), computed from its points one at a time.
 #pragma once
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/g2_bezier.hpp"
 #include "splinefeed/splines/product_fits.hpp"
 
@@ -73,7 +74,7 @@ public:
             }
         }
         if constexpr (std::same_as<S, Fixed>) {
-            out.length = norm(out.e.data(), static_cast<int>(axes()));
+            out.length = norm(out.e, static_cast<int>(axes()));
         } else { // norm, without taking the address of values in registers
             each_axis<fixed_axes>(axes(), [&out](std::size_t k) { out.length += out.e[k] * out.e[k]; });
         }

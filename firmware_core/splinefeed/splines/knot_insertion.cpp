@@ -16,7 +16,7 @@ template <Scalar S>
 Point<S> between(const Point<S>& from, const Point<S>& to, S a, S b, S t, int axes) noexcept {
     const S weight = weight_ratio(t - a, b - a);
     Point<S> out{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         out[k] = from[k] + weighted(weight, to[k] - from[k]);
     }
     return out;

@@ -24,7 +24,7 @@ std::size_t closed_count(std::span<const Point<S>> points) noexcept {
 template <Scalar S>
 Point<S> chord_between(const Point<S>& from, const Point<S>& to) noexcept {
     Point<S> out{};
-    for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+    for (const unsigned k : indices(max_axes)) {
         out[k] = to[k] - from[k];
     }
     return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/splines/spline_parameters.hpp"
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/splines/weight.hpp"
 
 #include <cstddef>
@@ -26,10 +27,10 @@ S span_length(const Point<S>& from, const Point<S>& to, int axes, Parameterizati
         return from_integer<S>(1);
     }
     Point<S> chord{};
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         chord[k] = to[k] - from[k];
     }
-    const S length = norm(chord.data(), axes);
+    const S length = norm(chord, axes);
     return how == Parameterization::chordal ? length : square_root(length);
 }
 
@@ -57,7 +58,7 @@ Status spline_parameters(std::span<const Point<S>> points, int axes, Parameteriz
         }
     }
     for (const Point<S>& point : points) {
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             if (!usable(point[k])) {
                 return Error::position_out_of_range;
             }

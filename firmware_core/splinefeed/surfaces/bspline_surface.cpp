@@ -4,6 +4,8 @@
 // over i. All sums are of differences to one point of the row (weighted_sum), so their error is relative to the piece.
 #include "splinefeed/surfaces/bspline_surface.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -21,7 +23,7 @@ constexpr S none() noexcept {
 
 template <Scalar S>
 S length(const Point<S>& vector) noexcept {
-    return norm(vector.data(), 3);
+    return norm(vector, 3);
 }
 
 template <Scalar S>

@@ -29,7 +29,7 @@ Status check(const PointGrid<S>& grid, const SurfaceKind& kind, const SurfaceSto
         return Error::storage_too_small;
     }
     for (std::size_t i = 0; i < grid.rows * grid.columns; ++i) {
-        for (unsigned k = 0; k < static_cast<unsigned>(grid.axes); ++k) {
+        for (const unsigned k : indices(grid.axes)) {
             if (!within(grid.points[i][k], largest<S>())) {
                 return Error::position_out_of_range;
             }

@@ -142,7 +142,7 @@ int least_continuity(const std::vector<S>& knots, const InterpolationKind& kind)
 double derivative_of(PerDegree<double> row, int degree, int order, double span, bool at_end) {
     double factor = 1.0;
     for (int d = 0; d < order; ++d) {
-        for (unsigned i = 0; i < static_cast<unsigned>(degree - d); ++i) {
+        for (const unsigned i : indices(degree - d)) {
             row[i] = row[i + 1U] - row[i];
         }
         factor *= (degree - d) / span;
@@ -157,14 +157,14 @@ bool agrees(const DescribedCurve& curve, std::size_t from, std::size_t to, int o
     const double h0 = curve.intervals[from].to - curve.intervals[from].from;
     const double h1 = curve.intervals[to].to - curve.intervals[to].from;
     double size = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(curve.axes); ++k) {
+    for (const unsigned k : indices(curve.axes)) {
         for (unsigned i = 0; i <= static_cast<unsigned>(before.degree); ++i) {
             size = std::max({size, std::fabs(before.control[k][i]), std::fabs(after.control[k][i])});
         }
     }
     const double noise =
         agreement.rounding * size * std::pow(2.0 * before.degree, order) * std::pow(std::min(h0, h1), -order);
-    for (unsigned k = 0; k < static_cast<unsigned>(curve.axes); ++k) {
+    for (const unsigned k : indices(curve.axes)) {
         const double a = derivative_of(before.control[k], before.degree, order, h0, true);
         const double b = derivative_of(after.control[k], after.degree, order, h1, false);
         if (!(std::fabs(a - b) <= agreement.relative * std::max(std::fabs(a), std::fabs(b)) + noise)) {
@@ -211,7 +211,7 @@ DescribedCurve computed(const Request& request, const Unit<S>& unit, Error& erro
     BsplineInterpolation<S> system;
     require(system.prepare(kind, parameters, knots, entries, interchanges));
     EndDerivatives<S> ends;
-    for (unsigned k = 0; k < static_cast<unsigned>(list.axes); ++k) {
+    for (const unsigned k : indices(list.axes)) {
         ends.start[k] = unit.in(request.start[k] * t_unit);
         ends.end[k] = unit.in(request.end[k] * t_unit);
     }
@@ -244,7 +244,7 @@ DescribedCurve computed(const Request& request, const Unit<S>& unit, Error& erro
 template <Scalar S>
 DescribedCurve computed(const Request& request) {
     double largest = request.list.largest();
-    for (unsigned k = 0; k < static_cast<unsigned>(request.list.axes); ++k) {
+    for (const unsigned k : indices(request.list.axes)) {
         const double reach = std::max(std::fabs(request.start[k]), std::fabs(request.end[k])) * request.domain;
         largest = std::max(largest, reach);
     }

@@ -85,7 +85,7 @@ DescribedCurve describe_catmull_rom_modified(const nlohmann::json& input) {
     auto& slopes = curve.results["derivatives_ds"] = nlohmann::ordered_json::array();
     for (const Point<S>& derivative : derivatives) {
         PerAxis<double> slope{};
-        for (unsigned k = 0; k < static_cast<unsigned>(list.axes); ++k) {
+        for (const unsigned k : indices(list.axes)) {
             slope[k] = to_double(derivative[k]); // mm by mm
         }
         slopes.push_back(to_json(slope, list.axes));

@@ -225,7 +225,7 @@ double Unit<S>::out(S value) const noexcept {
 template <Scalar S>
 Point<S> Unit<S>::in(const PerAxis<double>& mm) const {
     Point<S> point{};
-    for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+    for (const unsigned k : indices(max_axes)) {
         point[k] = in(mm[k]);
     }
     return point;
@@ -234,7 +234,7 @@ Point<S> Unit<S>::in(const PerAxis<double>& mm) const {
 template <Scalar S>
 PerAxis<double> Unit<S>::out(const Point<S>& point) const noexcept {
     PerAxis<double> mm{};
-    for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+    for (const unsigned k : indices(max_axes)) {
         mm[k] = out(point[k]);
     }
     return mm;
@@ -288,7 +288,7 @@ void require(Status status) {
 
 nlohmann::ordered_json to_json(const PerAxis<double>& point, int axes) {
     nlohmann::ordered_json array = nlohmann::ordered_json::array();
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         array.push_back(point[k]);
     }
     return array;

@@ -161,7 +161,7 @@ CurveSample sample_of(const BezierPiece<double>& piece, int axes, double u) {
     const auto n = static_cast<unsigned>(piece.degree);
     CurveSample out;
     double largest = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         PerDegree<double> row = piece.control[k];
         for (unsigned i = 0; i <= n; ++i) {
             largest = std::max(largest, std::fabs(row[i]));

@@ -11,7 +11,7 @@ namespace {
 
 json point_json(const PerAxis<double>& point, int axes) {
     json array = json::array();
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         array.push_back(point[k]);
     }
     return array;

@@ -44,7 +44,7 @@ std::vector<ChipOutputs> GpioChips::outputs() {
     for (std::size_t c = 0; c < chips.size(); ++c) {
         chips[c].writer = writer_[c].get();
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(machine_->settings.axes); ++k) {
+    for (const unsigned k : indices(machine_->settings.axes)) {
         const StepMotors& polarity = machine_->motors[k];
         for (unsigned m = 0; m < map_->axis[k].motors; ++m) {
             const hal::gpio::MotorLines& motor = map_->axis[k].motor[m];

@@ -28,7 +28,7 @@ constexpr double most_reserve_ms = 50.0; // of a slow-down that takes twice as l
 /// Half of the longest time in which an axis brakes from the speed that it may have.
 std::uint32_t reserve_ms(const MachineDescription& machine) {
     double braking_s = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         const AxisSettings& axis = machine.settings.axis[k];
         const double most =
             axis.rotary ? axis.max_velocity_mm_s : std::min(axis.max_velocity_mm_s, machine.settings.max_feed_mm_s);
@@ -43,7 +43,7 @@ std::uint32_t reserve_ms(const MachineDescription& machine) {
 hal::StopTimes stop_times(const MachineDescription& machine) {
     constexpr double handed_over_s = 1.0;
     double braking_s = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         const AxisSettings& axis = machine.settings.axis[k];
         const double jerk_s = axis.max_jerk_mm_s3 > 0.0 ? axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3 : 0.0;
         braking_s = std::max(braking_s, axis.max_velocity_mm_s / axis.max_acceleration_mm_s2 + jerk_s);
@@ -82,7 +82,7 @@ double asked_edges_per_s(const MachineDescription& machine) noexcept {
     double of_axes = 0.0;
     double squares = 0.0;
     double rotary = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         const AxisSettings& axis = machine.settings.axis[k];
         const double rate = axis.max_velocity_mm_s * axis.steps_per_mm;
         (axis.rotary ? rotary : of_axes) += rate;
@@ -96,7 +96,7 @@ hal::gpio::StepPortSettings port_settings(const MachineDescription& machine, con
                                           hal::Clock* clock) {
     const bool real = clock == nullptr;
     PerAxis<double> acceleration{};
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         const AxisSettings& axis = machine.settings.axis[k];
         acceleration[k] = axis.max_acceleration_mm_s2 * axis.steps_per_mm;
     }

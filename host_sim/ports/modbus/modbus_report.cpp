@@ -109,7 +109,7 @@ std::string state_of(const DriveReport& report, const DriveTable::Drive& drive, 
     std::string text = state < pvt_states.size() ? fmt::format("  state: {}", pvt_states[state])
                                                  : fmt::format("  state: {}, which the map does not have", state);
     text += report.status.fault != 0 ? ", " + fault_text(report.status, drive) + "\n" : ", no fault\n";
-    for (std::size_t k = 0; k < static_cast<std::size_t>(report.identity.axes); ++k) {
+    for (const unsigned k : indices(report.identity.axes)) {
         text += standing(drive, k, report.status.position[k], machine, in_mm);
     }
     return text;

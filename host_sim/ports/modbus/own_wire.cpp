@@ -13,7 +13,7 @@ void require_own_wire(const DriveAddress& device, const std::string& what, const
     if (!all && target.rfind("modbus-", 0) != 0) {
         return;
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         const DriveAddress drive = parse_drive_address(all ? machine.drive[k] : target);
         if (drive.link.same_wire(device.link)) {
             throw UsageError(fmt::format("{}: {} shares the line of the drive of axis {}; give it a line, or a port, "

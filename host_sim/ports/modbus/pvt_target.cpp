@@ -46,7 +46,7 @@ std::vector<DriveWiring> pvt_wiring(const DriveTable& table, const MachineDescri
 
 void check_pvt_range(const MachineDescription& machine, double segment_us) {
     constexpr double margin = 1.001; // of what a plan's arithmetic may be above its limits
-    for (unsigned k = 0; k < static_cast<unsigned>(machine.settings.axes); ++k) {
+    for (const unsigned k : indices(machine.settings.axes)) {
         const AxisSettings& axis = machine.settings.axis[k];
         const double counts = axis.max_velocity_mm_s * axis.steps_per_mm * segment_us / us_per_s;
         if (counts * margin >= pvt_velocity_range) {

@@ -113,7 +113,7 @@ template <Scalar S>
 template <auto Given, auto Asked>
 S AccelerationBound<S>::lowered(S given_sq, S at_most) const noexcept {
     S best = at_most;
-    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+    for (const unsigned k : indices(cell_.axes)) {
         const AxisRows axis = rows_of(k);
         const S given_e = quarter_product(given_sq, axis.e);
         S of_e = given_e + quarter_product(best, axis.e);
@@ -151,7 +151,7 @@ template <Scalar S>
 S AccelerationBound<S>::lifted(S entry_sq, S exit_sq, S at_most) const noexcept {
     const bool below_zero = exit_sq < S{};
     S best = exit_sq;
-    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+    for (const unsigned k : indices(cell_.axes)) {
         const AxisRows axis = rows_of(k);
         const R exit_e = below_zero ? -axis.e : axis.e;
         const S entry_e = quarter_product(entry_sq, axis.e);
@@ -184,7 +184,7 @@ template <Scalar S>
 S AccelerationBound<S>::reach_from_standstill(S at_most) const noexcept {
     S reach = at_most;
     const S twice = cell_.length_mm + cell_.length_mm;
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
+    for (const unsigned k : indices(limits_.axes)) {
         const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
         reach = smaller(reach, quotient_or_max(twice * limit,
                                                lengthened<S>(cell_.tangent_max[k]) + twice * cell_.curvature_max[k]));
@@ -208,7 +208,7 @@ auto AccelerationBound<S>::exits_from(S entry_sq, S cap_sq, const PerAxis<AxisRo
     const S beyond = cap_sq + cap_sq;                                       // larger than every exit
     const Row none{R{}, -one, S{}};                                         // exit >= 0
     Exits out{S{}, cap_sq, none, {R{}, one, quarter_product(cap_sq, one)}}; // exit <= cap
-    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+    for (const unsigned k : indices(cell_.axes)) {
         const AxisRows& axis = rows[k];
         const S entry_e = quarter_product(entry_sq, axis.e);
         for (unsigned i = 0; i < 8; ++i) {
@@ -250,7 +250,7 @@ PeakSpeeds<S> AccelerationBound<S>::peak(S cap_sq) const noexcept {
 template <Scalar S>
 void AccelerationBound<S>::approach_peak(S cap_sq, PeakSpeeds<S>& peak) const noexcept {
     PerAxis<AxisRows> rows;
-    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+    for (const unsigned k : indices(cell_.axes)) {
         rows[k] = rows_of(k);
     }
     S& entry = peak.smallest_exit_sq;

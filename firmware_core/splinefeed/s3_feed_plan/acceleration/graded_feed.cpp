@@ -55,7 +55,7 @@ CellInterval<S> GradedFeed<S>::next_part(const Cell<S>& cell) const noexcept {
         return part;
     }
     S jerk = largest<S>();
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+    for (const unsigned k : indices(cell.axes)) {
         jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], lengthened<S>(cell.tangent_max[k])));
     }
     const auto too_long = [&] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s3_feed_plan/acceleration/speed_caps.hpp"
 
+#include "splinefeed/number/vector.hpp"
 #include "splinefeed/s3_feed_plan/limits/axis_velocity.hpp"
 #include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
 
@@ -13,7 +14,7 @@ S SpeedCaps<S>::cap_sq(const Cell<S>& cell) const noexcept {
     const S most = cell.max_feed_mm_s > S{} ? smaller(limits_.usable_feed(cell.max_feed_mm_s), limits_.feed_mm_s)
                                             : limits_.feed_mm_s;
     S speed = path_speed(cell, most);
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
+    for (const unsigned k : indices(limits_.axes)) {
         const S velocity = axis_velocity(cell, limits_, k);
         if (speed * cell.tangent_max[k] > velocity) {
             speed = velocity / lengthened<S>(cell.tangent_max[k]);
@@ -22,14 +23,14 @@ S SpeedCaps<S>::cap_sq(const Cell<S>& cell) const noexcept {
     speed = smaller(speed, cell.steady_mm_s);
     S cap = speed * speed;
     const S twice = cell.length_mm + cell.length_mm;
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_.axes); ++k) {
+    for (const unsigned k : indices(limits_.axes)) {
         if (twice * cell.curvature_max[k] > literal<S>(Cell<S>::sharp_turn)) {
             const S limit = smaller(limits_.acceleration_mm_s2[k], limits_.braking_mm_s2[k]);
             cap = smaller(cap, scale2(limit, -1) / cell.curvature_max[k]);
         }
     }
     if (limits_.centripetal_mm_s2 > S{} || limits_.chord_mm_s2 > S{}) {
-        const S curvature = norm(cell.curvature_max.data(), limits_.axes);
+        const S curvature = norm(cell.curvature_max, limits_.axes);
         if (limits_.centripetal_mm_s2 > S{}) {
             cap = smaller(cap, quotient_or_max(limits_.centripetal_mm_s2, curvature));
         }

@@ -40,7 +40,7 @@ S Turning<S>::near_mm_of(unsigned axis) const noexcept {
 
 template <Scalar S>
 void Turning<S>::clear() noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+    for (const unsigned k : indices(limits_->axes)) {
         travelled_mm_[k] = near_mm_of(k); // the axis stood
     }
     way_ = {};

@@ -23,7 +23,7 @@ public:
     ///                 changed
     template <class CellAt, class Settled>
     void take(std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
-        for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        for (const unsigned k : indices(limits_->axes)) {
             if (const S near_mm = near_mm_of(k); near_mm > S{}) {
                 take(k, near_mm, count, cell_at, settled);
             }
@@ -32,7 +32,7 @@ public:
     /// Call it if the path ends at standstill with the newest of `count` cells.
     template <class CellAt, class Settled>
     void end(std::size_t count, const CellAt& cell_at, const Settled& settled) noexcept {
-        for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+        for (const unsigned k : indices(limits_->axes)) {
             if (const S near_mm = near_mm_of(k); near_mm > S{}) {
                 settle(k, near_mm, count, near_mm, cell_at, settled);
             }

@@ -119,7 +119,7 @@ S FilteredLimits<S>::excess(S speed_sq, S speed, S acceleration) const noexcept 
     const S thrice = from_integer<S>(3) * acceleration * t;
     const bool steady = acceleration == S{};
     S most = -largest<S>();
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+    for (const unsigned k : indices(limits_->axes)) {
         const AxisDemand<S>& at = demand_->axis[k];
         const auto cubed = [&](S third) {
             return bounded_product(bounded_product(third, w_t), w_sq);
@@ -153,7 +153,7 @@ S FilteredLimits<S>::max_steady(S at_most) const noexcept {
 template <Scalar S>
 S FilteredLimits<S>::max_path_acceleration() const noexcept {
     S most = scale2(from_integer<S>(1), 22); // more than the limits of six axes together
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+    for (const unsigned k : indices(limits_->axes)) {
         const S limit = smaller(smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]), change(k));
         most = smaller(most, quotient_or_max(limit, demand_->axis[k].first));
     }

@@ -47,7 +47,7 @@ std::uint32_t LegSmoothing<S>::longest_q8(bool& in_view) const noexcept {
     bool bends = all_.beyond;
     S jerk = literal<S>(1e9);
     S acceleration = largest<S>();
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+    for (const unsigned k : indices(limits_->axes)) {
         const AxisDemand<S>& axis = all_.axis[k];
         const S limit = smaller(limits_->acceleration_mm_s2[k], limits_->braking_mm_s2[k]);
         jerk = smaller(jerk, quotient_or_max(limits_->jerk_mm_s3[k], axis.first));

@@ -29,7 +29,7 @@ PathDerivativeBounds<S> PathDerivativeBounds<S>::of(const Cell<S>& cell, S cap_s
     out.cap_sq = cap_sq;
     out.programmed_sq = programmed_sq;
     const S length = cell.length_mm;
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+    for (const unsigned k : indices(cell.axes)) {
         const AxisShape<S>& shape = cell.shape[k];
         const std::array<S, 3> c{lengthened<S>(shape.bend[0]), lengthened<S>(shape.bend[1]),
                                  lengthened<S>(shape.bend[2])};
@@ -55,7 +55,7 @@ PathDerivativeBounds<S> PathDerivativeBounds<S>::of(const Cell<S>& cell, S cap_s
 
 template <Scalar S>
 void PathDerivativeBounds<S>::join(const PathDerivativeBounds& other, int axes) noexcept {
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         AxisDemand<S>& at = axis[k];
         const AxisDemand<S>& from = other.axis[k];
         at.first = larger(at.first, from.first);

@@ -35,7 +35,7 @@ bool SmoothWindow<S>::bend_jumps(const Cell<S>& before, const Cell<S>& after, S 
     const auto second = [](Ratio<S> bend, S length) { // |q''|
         return quotient_or_max(lengthened<S>(absolute(bend), -1), length);
     };
-    for (unsigned k = 0; k < static_cast<unsigned>(limits_->axes); ++k) {
+    for (const unsigned k : indices(limits_->axes)) {
         const S second_before = second(before.shape[k].bend[2], before.length_mm);
         const S second_after = second(after.shape[k].bend[0], after.length_mm);
         if (!(larger(second_before, second_after) < scale2(largest<S>(), -1))) { // their sum must fit

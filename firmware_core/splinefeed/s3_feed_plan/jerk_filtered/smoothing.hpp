@@ -42,7 +42,7 @@ struct Smoothing {
         const S reach = from_integer<S>(ticks());
         half_s = scale2(reach * (scale2(reach, fraction_bits) / duration) / segments_per_s, -1);
         close_mm_s2 = largest<S>();
-        for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
+        for (const unsigned k : indices(limits.axes)) {
             change_mm_s2[k] = bounded_product(limits.jerk_mm_s3[k], seconds);
             const S least = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
             close_mm_s2 = smaller(close_mm_s2, scale2(smaller(change_mm_s2[k], least), -close_log2));

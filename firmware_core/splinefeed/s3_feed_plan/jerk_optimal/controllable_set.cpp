@@ -81,7 +81,7 @@ void ControllableSet::add_jerk(const CellPassage& passage, const ExpectedSpeeds&
     const double a1 = 1.5 * root1;
     const double g0 = 0.5 * root0 / r0;
     const double g1 = 0.5 * root1 / r1;
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+    for (const unsigned k : indices(cell.axes)) {
         const AxisEnd& from = passage.entry()[k];
         const AxisEnd& to = passage.exit()[k];
         const AxisPoints q(from, to, passage.direction(), length_mm_, per_length);
@@ -116,7 +116,7 @@ void ControllableSet::add_acceleration(const CellPassage& passage) noexcept {
     const JerkCell& cell = *passage.cell;
     const double half = 0.5 * length_mm_;
     const double per_length = 1.0 / length_mm_;
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+    for (const unsigned k : indices(cell.axes)) {
         const AxisEnd& from = passage.entry()[k];
         const AxisEnd& to = passage.exit()[k];
         const AxisPoints q(from, to, passage.direction(), length_mm_, per_length);
@@ -360,7 +360,7 @@ void cut_to_node(StatePolygon& states, const CellPassage& before, const CellPass
     cut({per_after, 1.0, after_cap * per_after});
     cut({per_before, -1.0, before_cap * per_before});
     const double half = 0.5 * after.direction();
-    for (unsigned k = 0; k < static_cast<unsigned>(after.cell->axes); ++k) {
+    for (const unsigned k : indices(after.cell->axes)) {
         const AxisEnd& left = before.exit()[k];
         const AxisEnd& right = after.entry()[k];
         const bool smooth = absolute(left.second - right.second) <= 1e-2 * left.second_spread &&

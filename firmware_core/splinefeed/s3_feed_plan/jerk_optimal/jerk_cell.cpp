@@ -51,7 +51,7 @@ double least_acceleration(const JerkCell& cell, unsigned axis) noexcept {
 double JerkCell::largest_from_rest(unsigned moving) const noexcept {
     double largest_b = cap_sq;
     const double l = length_mm;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         const AxisEnd& rest = end[1 - moving][k];
         const AxisEnd& at = end[moving][k];
         const double direction = moving == 1 ? 1.0 : -1.0;
@@ -85,7 +85,7 @@ double JerkCell::largest_from_rest(unsigned moving) const noexcept {
 // |q'| a + |q''| v^2 <= A and |q'| j + 3 |q''| v a + |q'''| v^3 <= J: bends get at most half of A and two thirds of J.
 MoveLimits JerkCell::move_limits(double most_sq) const noexcept {
     double v_sq = most_sq;
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         const Steepness s = steepness(*this, k);
         v_sq = smaller(v_sq, quotient_or_max(0.5 * least_acceleration(*this, k), s.second));
         if (3.0 * s.third * v_sq * square_root(v_sq) > jerk_mm_s3[k]) {
@@ -94,13 +94,13 @@ MoveLimits JerkCell::move_limits(double most_sq) const noexcept {
     }
     const double v = square_root(v_sq);
     auto a = largest<double>();
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         const Steepness s = steepness(*this, k);
         a = smaller(a, quotient_or_max(least_acceleration(*this, k) - s.second * v_sq, s.first));
         a = smaller(a, quotient_or_max(jerk_mm_s3[k], 9.0 * s.second * v));
     }
     auto j = largest<double>();
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         const Steepness s = steepness(*this, k);
         j = smaller(j, quotient_or_max(jerk_mm_s3[k] - (3.0 * s.second * a + s.third * v_sq) * v, s.first));
     }
@@ -110,10 +110,10 @@ MoveLimits JerkCell::move_limits(double most_sq) const noexcept {
 bool JerkCell::straight(double most_sq) const noexcept {
     const double v = square_root(most_sq);
     auto a = largest<double>(); // along the path
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         a = smaller(a, quotient_or_max(least_acceleration(*this, k), steepness(*this, k).first));
     }
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         const Steepness s = steepness(*this, k);
         if (s.second * most_sq > nothing * least_acceleration(*this, k) ||
             (3.0 * s.second * a + s.third * most_sq) * v > nothing * jerk_mm_s3[k]) {

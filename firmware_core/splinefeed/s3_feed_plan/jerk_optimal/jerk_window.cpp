@@ -25,7 +25,7 @@ JerkCell jerk_cell_of(const Cell<S>& cell, const MotionLimits<S>& limits, double
     out.length_mm = to_double(cell.length_mm);
     out.cap_sq = cap_sq;
     const double per_length = 1.0 / out.length_mm;
-    for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+    for (const unsigned k : indices(cell.axes)) {
         const AxisShape<S>& shape = cell.shape[k];
         out.jerk_mm_s3[k] = to_double(limits.jerk_mm_s3[k]);
         for (unsigned e = 0; e < 2; ++e) {
@@ -55,7 +55,7 @@ template <Scalar S>
 bool JerkWindow<S>::bend_jumps(const JerkNode& before, const JerkNode& after) const noexcept {
     const double per_s = 0.75 * to_double(limits_->segments_per_s);
     const double noise = bend_noise<S> / smaller(before.cell.length_mm, after.cell.length_mm);
-    for (unsigned k = 0; k < static_cast<unsigned>(after.cell.axes); ++k) {
+    for (const unsigned k : indices(after.cell.axes)) {
         const double jump = absolute(after.cell.end[0][k].second - before.cell.end[1][k].second);
         const double reserve = detail::jerk_reserve * after.cell.jerk_mm_s3[k];
         if ((jump - noise) * smaller(after.at_most_sq, after.most_sq) * per_s > reserve) {

@@ -17,7 +17,7 @@ S crawling_ticks(S way_mm, const MotionLimits<S>& limits) noexcept {
     const S second = scale2(way_mm, 1) * per_s;
     const S third = scale2(way_mm, 2) * per_s * per_s;
     S seconds{};
-    for (unsigned k = 0; k < static_cast<unsigned>(limits.axes); ++k) {
+    for (const unsigned k : indices(limits.axes)) {
         const S acceleration = smaller(limits.acceleration_mm_s2[k], limits.braking_mm_s2[k]);
         seconds = larger(seconds,
                          larger(quotient_or_max(second, acceleration), quotient_or_max(third, limits.jerk_mm_s3[k])));

@@ -4,6 +4,8 @@
 // length of the linear axes' part is nowhere larger than at the longest of the four points.
 #include "splinefeed/s3_feed_plan/limits/feed_share.hpp"
 
+#include "splinefeed/number/vector.hpp"
+
 namespace splinefeed {
 
 namespace {
@@ -14,7 +16,7 @@ Ratio<S> share_of(const Cell<S>& cell, const MotionLimits<S>& limits, bool rotar
     Ratio<S> largest{};
     for (unsigned j = 0; j < 4; ++j) {
         PerAxis<Ratio<S>> direction{};
-        for (unsigned k = 0; k < static_cast<unsigned>(cell.axes); ++k) {
+        for (const unsigned k : indices(cell.axes)) {
             const AxisShape<S>& shape = cell.shape[k];
             if (limits.rotary[k] == rotary) {
                 direction[k] = j == 0   ? shape.tangent[0]
@@ -23,7 +25,7 @@ Ratio<S> share_of(const Cell<S>& cell, const MotionLimits<S>& limits, bool rotar
                                         : shape.tangent[1];
             }
         }
-        largest = larger(largest, norm(direction.data(), cell.axes));
+        largest = larger(largest, norm(direction, cell.axes));
     }
     return smaller(largest, from_integer<Ratio<S>>(1));
 }

@@ -87,7 +87,7 @@ struct AxisTotals {
 
 constexpr AxisTotals axis_totals(const MachineSettings& settings) noexcept {
     AxisTotals totals;
-    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+    for (const unsigned k : indices(settings.axes)) {
         const AxisSettings& axis = settings.axis[k];
         const double acceleration = axis.smaller_acceleration_mm_s2();
         totals.acceleration_sq += axis.larger_acceleration_mm_s2() * axis.larger_acceleration_mm_s2();

@@ -279,7 +279,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     }
     MotionLimits limits;
     limits.axes = settings.axes;
-    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+    for (const unsigned k : indices(settings.axes)) {
         if (const Error error = detail::axis_error<S>(settings.axis[k]); error != Error::none) {
             return error;
         }
@@ -299,7 +299,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
     double feed_noise = 0.0;
     const double longest = detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest,
                                                    settings.max_feed_mm_s, smoothest, segment_s);
-    for (unsigned k = 0; k < static_cast<unsigned>(settings.axes); ++k) {
+    for (const unsigned k : indices(settings.axes)) {
         const AxisSettings& axis = settings.axis[k];
         // Planning leaves room for rounding: of the parameter, of positions (2^-41 mm) and of counts (2^-30). With a
         // jerk limit v^2 is a parabola of s, and the parameter is the sum of a series.

@@ -31,7 +31,7 @@ bool LineChanges::enable(bool on) noexcept {
             take(c, chip.brake, false);
         }
         // With step_on_edge every change of a step line is a step, so they keep their level.
-        for (unsigned k = 0; k < static_cast<unsigned>(axes_); ++k) {
+        for (const unsigned k : indices(axes_)) {
             if (!step_on_edge_) {
                 take(c, chip.step[k], false);
             }

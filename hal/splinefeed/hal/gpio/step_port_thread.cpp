@@ -204,7 +204,7 @@ void StepPort::make() noexcept {
         return;
     }
     const std::uint64_t at_ns = time_->now_ns();
-    for (unsigned k = 0; k < static_cast<unsigned>(settings_.axes); ++k) {
+    for (const unsigned k : indices(settings_.axes)) {
         if (edges_.steps(k)) {
             counts_[k].fetch_add(lines_.up(k) ? 1 : -1, std::memory_order_relaxed);
             log_.add(at_ns, k, lines_.up(k));

@@ -14,7 +14,7 @@ constexpr double command_transit_us = 10'000.0; // time for a command to arrive
 
 DriveProblem PortDrive::prepare(const FeedSegment& first, std::uint16_t stop_reserve_ms) noexcept {
     const PvtStatus status = client_->report().status;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(client_->axes()); ++k) {
+    for (const unsigned k : indices(client_->axes())) {
         last_.end[k] = std::int64_t{status.position[k]} * (1 << PvtSegment::position_bits);
     }
     FeedSegment standing = first;

@@ -94,7 +94,7 @@ std::size_t encode(const PvtBlock& block, std::span<const PvtSegment> segments, 
     writer.put32(0);
     for (const PvtSegment& segment : segments.first(block.count)) {
         writer.put32(segment.duration_ticks | (segment.rest ? pvt::rest_mark : 0));
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             writer.put48(segment.end[k]);
             writer.put48(segment.end_velocity[k]);
         }
@@ -127,7 +127,7 @@ std::optional<PvtBlock> decode_block(std::span<const std::uint16_t> registers, i
         const std::uint32_t duration = reader.take32();
         segment.duration_ticks = duration & ~pvt::rest_mark;
         segment.rest = (duration & pvt::rest_mark) != 0;
-        for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+        for (const unsigned k : indices(axes)) {
             segment.end[k] = reader.take48();
             segment.end_velocity[k] = reader.take48();
         }
@@ -197,7 +197,7 @@ void encode(const PvtStatus& status, int axes, std::span<std::uint16_t> out) noe
     writer.put16(status.last_command);
     writer.put32(status.clock_us);
     writer.put32(status.boot);
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         writer.put32(static_cast<std::uint32_t>(status.position[k]));
         writer.put32(static_cast<std::uint32_t>(status.following_error[k]));
     }
@@ -224,7 +224,7 @@ PvtStatus decode_status(std::span<const std::uint16_t> in, int axes) noexcept {
     status.last_command = reader.take16();
     status.clock_us = reader.take32();
     status.boot = reader.take32();
-    for (unsigned k = 0; k < static_cast<unsigned>(axes); ++k) {
+    for (const unsigned k : indices(axes)) {
         status.position[k] = static_cast<std::int32_t>(reader.take32());
         status.following_error[k] = static_cast<std::int32_t>(reader.take32());
     }

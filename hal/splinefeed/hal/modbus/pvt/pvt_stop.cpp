@@ -37,7 +37,7 @@ void PvtStop::watch_speed() noexcept {
         return;
     }
     std::int64_t way = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(client_->axes()); ++k) {
+    for (const unsigned k : indices(client_->axes())) {
         way += std::abs(std::int64_t{report_.status.position[k]} - looked_.position[k]);
     }
     // By time, since answers may be late.
