@@ -37,9 +37,11 @@ UserSteering steering_of(int signal) {
 } // namespace
 
 std::atomic<int> SignalWatch::interrupts_{0};
+std::atomic<bool> SignalWatch::may_suspend_{false};
 
 SignalWatch::SignalWatch(std::function<void()> at_once) : at_once_(std::move(at_once)) {
     interrupts_.store(0);
+    may_suspend_.store(false);
     sigemptyset(&taken_);
     sigaddset(&taken_, wake_up);
     const auto take = [this](int signal) {
@@ -70,15 +72,27 @@ void SignalWatch::at_once(std::function<void()> action) {
     at_once_ = std::move(action);
 }
 
-void SignalWatch::suspend_now() noexcept {
-    static_cast<void>(kill(getpid(), SIGSTOP));
+// A signal that the thread was not woken for is still pending. SIGSTOP would discard a SIGCONT among them.
+bool SignalWatch::suspend_now() noexcept {
+    sigset_t pending;
+    sigpending(&pending);
+    const auto waits = [&](int signal) {
+        return sigismember(&pending, signal) == 1;
+    };
+    if (!may_suspend_.load() || waits(SIGCONT) || std::ranges::any_of(end_signals, waits)) {
+        return false;
+    }
+    return kill(getpid(), SIGSTOP) == 0;
 }
 
 void SignalWatch::steer(int signal) noexcept {
     const UserSteering steering = steering_of(signal);
     const std::lock_guard lock(mutex_);
+    if (steering != UserSteering::none && steering != UserSteering::hold) {
+        may_suspend_.store(steering == UserSteering::suspend);
+    }
     if (steering == UserSteering::suspend && at_once_) {
-        suspend_now();
+        static_cast<void>(suspend_now());
     } else if (steering != UserSteering::none && !(steering == UserSteering::held && at_once_)) {
         asked_to_suspend_ = steering == UserSteering::suspend;
         steering_.store(steering);
@@ -104,6 +118,7 @@ void SignalWatch::work() noexcept {
         }
         // Under the lock: whoever takes the request over sees the count, or at_once was called.
         const std::lock_guard lock(mutex_);
+        may_suspend_.store(false);
         interrupts_.fetch_add(1);
         if (at_once_) {
             at_once_();

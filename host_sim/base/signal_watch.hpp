@@ -51,8 +51,9 @@ public:
     /// Requests to end since the present object was created.
     [[nodiscard]] static int interrupts() noexcept { return interrupts_.load(); }
     [[nodiscard]] static bool interrupted() noexcept { return interrupts() > 0; }
-    /// Stops the process, as SIGSTOP does. Returns when it continues; UserSteering::held follows.
-    static void suspend_now() noexcept;
+    /// Stops the process, as SIGSTOP does. Returns true when it continues; UserSteering::held follows. Returns false at
+    /// once where a signal came behind the SIGTSTP that steers otherwise: nobody would continue the process again.
+    [[nodiscard]] static bool suspend_now() noexcept;
     /// The last request that was not taken yet.
     [[nodiscard]] UserSteering take_steering() noexcept { return steering_.exchange(UserSteering::none); }
 
@@ -62,7 +63,8 @@ private:
 
     sigset_t taken_{};
     sigset_t before_{};
-    static std::atomic<int> interrupts_; // ports read it through a plain function
+    static std::atomic<int> interrupts_;   // ports read it through a plain function
+    static std::atomic<bool> may_suspend_; // the last signal was SIGTSTP
     std::atomic<UserSteering> steering_{UserSteering::none};
     bool asked_to_suspend_ = false; // used by the thread
     std::atomic<bool> ends_{false};

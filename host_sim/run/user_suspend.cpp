@@ -29,7 +29,7 @@ void UserSuspend::follow(bool moves, std::uint64_t submitted, std::uint64_t exec
              spindle_stands ? "e-stop lines, switches and drives"
                             : "e-stop lines, switches, drives and the spindle, which turns on",
              getpid(), getpid());
-        SignalWatch::suspend_now();
+        static_cast<void>(SignalWatch::suspend_now());
     } else if (steady_clock::now() > *since_ + most) {
         forget();
         tell("splinefeed: the machine does not come to a hold, so the process does not stop; Ctrl-C ends the run\n");

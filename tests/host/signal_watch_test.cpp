@@ -90,6 +90,12 @@ TEST_CASE("the last of hold and resume is what is taken, once") {
     }
     CHECK(watch.take_steering() == UserSteering::none);
     CHECK(SignalWatch::interrupts() == 0);
+    // SIGCONT came behind SIGTSTP, or the end was asked for: nobody would continue the process again.
+    CHECK_FALSE(SignalWatch::suspend_now());
+    REQUIRE(kill(getpid(), SIGTSTP) == 0);
+    CHECK(taken() == UserSteering::suspend);
+    REQUIRE(kill(getpid(), SIGTERM) == 0); // pending or counted
+    CHECK_FALSE(SignalWatch::suspend_now());
 }
 
 TEST_CASE("as long as nothing moves, Ctrl-Z stops the process at once") {
