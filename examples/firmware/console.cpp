@@ -11,7 +11,7 @@ using splinefeed::Status;
 
 namespace {
 
-/// splinefeed::describe would take ten kilobytes with its sentences about G-code.
+/// splinefeed::describe would take five kilobytes, most of it sentences about curves that are not here.
 const char* sentence(Error error) {
     switch (error) {
     case Error::start_elsewhere: return "the machine stands elsewhere (? says where): begin there, or send at x,y,z";

@@ -9,31 +9,32 @@ using namespace splinefeed::host;
 TEST_CASE("A word of another dialect is told with the dialect that has it") {
     const std::string_view marlin = "this dialect does not have the word; --dialect marlin does";
     for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl}) {
-        CHECK(dialect_hint("M104 S200", Error::user_code_unsupported, dialect) == marlin);
-        CHECK(dialect_hint("m 8 2", Error::m_code_unknown, dialect) == marlin);
-        CHECK(dialect_hint("E.5", Error::word_unused, dialect).find("--dialect marlin") < 60);
-        CHECK(dialect_hint("?", Error::character_invalid, dialect).find("grbl takes this byte") == 0);
+        CHECK(dialect_hint("M104 S200", ProgramError::user_code_unsupported, dialect) == marlin);
+        CHECK(dialect_hint("m 8 2", ProgramError::m_code_unknown, dialect) == marlin);
+        CHECK(dialect_hint("E.5", ProgramError::word_unused, dialect).find("--dialect marlin") < 60);
+        CHECK(dialect_hint("?", ProgramError::character_invalid, dialect).find("grbl takes this byte") == 0);
     }
-    CHECK(dialect_hint("$X", Error::character_invalid, Dialect::linuxcnc).find("--dialect grbl") < 60);
+    CHECK(dialect_hint("$X", ProgramError::character_invalid, Dialect::linuxcnc).find("--dialect grbl") < 60);
 }
 
 TEST_CASE("A decimal comma and prose are told as such") {
-    CHECK(dialect_hint(",5 F600", Error::character_invalid, Dialect::linuxcnc) == "a number has a point, not a comma");
-    CHECK(dialect_hint(", 5", Error::character_invalid, Dialect::linuxcnc).empty());
-    CHECK(dialect_hint("ello world", Error::function_unknown, Dialect::grbl).find("the letter before it") == 0);
-    CHECK(dialect_hint("SINE [1]", Error::function_unknown, Dialect::linuxcnc).empty());
+    CHECK(dialect_hint(",5 F600", ProgramError::character_invalid, Dialect::linuxcnc) ==
+          "a number has a point, not a comma");
+    CHECK(dialect_hint(", 5", ProgramError::character_invalid, Dialect::linuxcnc).empty());
+    CHECK(dialect_hint("ello world", ProgramError::function_unknown, Dialect::grbl).find("the letter before it") == 0);
+    CHECK(dialect_hint("SINE [1]", ProgramError::function_unknown, Dialect::linuxcnc).empty());
 }
 
 TEST_CASE("What no dialect has gets no hint") {
     for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl, Dialect::marlin}) {
-        CHECK(dialect_hint("M123", Error::user_code_unsupported, dialect).empty());
-        CHECK(dialect_hint("M862.3", Error::m_code_unknown, dialect).empty());
-        CHECK(dialect_hint("M", Error::m_code_unknown, dialect).empty());
-        CHECK(dialect_hint("Q1", Error::word_unused, dialect).empty());
-        CHECK(dialect_hint("\xe9", Error::character_invalid, dialect).empty());
-        CHECK(dialect_hint("", Error::character_invalid, dialect).empty());
-        CHECK(dialect_hint("M104", Error::number_invalid, dialect).empty());
+        CHECK(dialect_hint("M123", ProgramError::user_code_unsupported, dialect).empty());
+        CHECK(dialect_hint("M862.3", ProgramError::m_code_unknown, dialect).empty());
+        CHECK(dialect_hint("M", ProgramError::m_code_unknown, dialect).empty());
+        CHECK(dialect_hint("Q1", ProgramError::word_unused, dialect).empty());
+        CHECK(dialect_hint("\xe9", ProgramError::character_invalid, dialect).empty());
+        CHECK(dialect_hint("", ProgramError::character_invalid, dialect).empty());
+        CHECK(dialect_hint("M104", ProgramError::number_invalid, dialect).empty());
     }
-    CHECK(dialect_hint("M104", Error::user_code_unsupported, Dialect::marlin).empty());
-    CHECK(dialect_hint("E1", Error::word_unused, Dialect::marlin).empty());
+    CHECK(dialect_hint("M104", ProgramError::user_code_unsupported, Dialect::marlin).empty());
+    CHECK(dialect_hint("E1", ProgramError::word_unused, Dialect::marlin).empty());
 }

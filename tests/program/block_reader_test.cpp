@@ -15,7 +15,7 @@ std::string refused(const std::string& line, ProgramSettings settings = six_axes
            std::to_string(status.length);
 }
 
-std::string said(Error error, int column, int length) {
+std::string said(ProgramError error, int column, int length) {
     return std::string(describe(error)) + " " + std::to_string(column) + " " + std::to_string(length);
 }
 
@@ -64,36 +64,36 @@ TEST_CASE("block delete", "[program][reader]") {
 }
 
 TEST_CASE("wrong text is refused at its place", "[program][reader]") {
-    CHECK(refused("G1 X") == said(Error::number_invalid, 4, 1));
-    CHECK(refused("G1 X1 ?") == said(Error::character_invalid, 7, 1));
-    CHECK(refused(std::string("G1 X1") + '\0' + "Y2") == said(Error::character_invalid, 6, 1));
-    CHECK(refused("G\xc3\xa4 X1") == said(Error::number_invalid, 1, 1));
-    CHECK(refused("G1 X1 (open") == said(Error::comment_not_closed, 7, 1));
-    CHECK(refused("G1 (a (b) X1") == said(Error::comment_nested, 7, 1));
-    CHECK(refused("G1 X1 X2") == said(Error::word_repeated, 7, 2));
-    CHECK(refused("G1 X1 G2") == said(Error::modal_group_conflict, 7, 2));
-    CHECK(refused("M7 M8") == said(Error::modal_group_conflict, 4, 2));
-    CHECK(refused("G1.5 X1") == said(Error::g_code_unknown, 1, 4));
-    CHECK(refused("G-1 X1") == said(Error::g_code_unknown, 1, 1));
-    CHECK(refused("G1000000 X1") == said(Error::g_code_unknown, 1, 8));
-    CHECK(refused("M12") == said(Error::m_code_unknown, 1, 3));
-    CHECK(refused("X1 G41 D3") == said(Error::cutter_radius_unsupported, 4, 3));
-    CHECK(refused("G1 X1e3") == said(Error::word_unused, 6, 2));
-    CHECK(refused(std::string("G1 X").append(300, '1')) == said(Error::line_too_long, 257, 1));
-    CHECK(refused(std::string("G1 X").append(200, '1')) == said(Error::number_out_of_range, 4, 201));
-    CHECK(refused("G1 @3 ^45") == said(Error::polar_unsupported, 4, 1));
-    CHECK(refused("o100 sub") == said(Error::o_word, 1, 4));
-    CHECK(refused("G1 X1 % 2") == said(Error::character_invalid, 7, 1));
-    CHECK(refused("% 2", six_axes(), "G0") == said(Error::character_invalid, 3, 1));
+    CHECK(refused("G1 X") == said(ProgramError::number_invalid, 4, 1));
+    CHECK(refused("G1 X1 ?") == said(ProgramError::character_invalid, 7, 1));
+    CHECK(refused(std::string("G1 X1") + '\0' + "Y2") == said(ProgramError::character_invalid, 6, 1));
+    CHECK(refused("G\xc3\xa4 X1") == said(ProgramError::number_invalid, 1, 1));
+    CHECK(refused("G1 X1 (open") == said(ProgramError::comment_not_closed, 7, 1));
+    CHECK(refused("G1 (a (b) X1") == said(ProgramError::comment_nested, 7, 1));
+    CHECK(refused("G1 X1 X2") == said(ProgramError::word_repeated, 7, 2));
+    CHECK(refused("G1 X1 G2") == said(ProgramError::modal_group_conflict, 7, 2));
+    CHECK(refused("M7 M8") == said(ProgramError::modal_group_conflict, 4, 2));
+    CHECK(refused("G1.5 X1") == said(ProgramError::g_code_unknown, 1, 4));
+    CHECK(refused("G-1 X1") == said(ProgramError::g_code_unknown, 1, 1));
+    CHECK(refused("G1000000 X1") == said(ProgramError::g_code_unknown, 1, 8));
+    CHECK(refused("M12") == said(ProgramError::m_code_unknown, 1, 3));
+    CHECK(refused("X1 G41 D3") == said(ProgramError::cutter_radius_unsupported, 4, 3));
+    CHECK(refused("G1 X1e3") == said(ProgramError::word_unused, 6, 2));
+    CHECK(refused(std::string("G1 X").append(300, '1')) == said(ProgramError::line_too_long, 257, 1));
+    CHECK(refused(std::string("G1 X").append(200, '1')) == said(ProgramError::number_out_of_range, 4, 201));
+    CHECK(refused("G1 @3 ^45") == said(ProgramError::polar_unsupported, 4, 1));
+    CHECK(refused("o100 sub") == said(ProgramError::o_word, 1, 4));
+    CHECK(refused("G1 X1 % 2") == said(ProgramError::character_invalid, 7, 1));
+    CHECK(refused("% 2", six_axes(), "G0") == said(ProgramError::character_invalid, 3, 1));
 }
 
 TEST_CASE("without an evaluator expressions are refused", "[program][reader]") {
     Interpreter<double> interpreter(six_axes());
     interpreter.start({});
-    CHECK(interpreter.push("G0 X#1", 1).error == Error::expression_unsupported);
-    CHECK(interpreter.push("G0 X[1]", 1).error == Error::expression_unsupported);
-    CHECK(interpreter.push("#1=2", 1).error == Error::expression_unsupported);
-    CHECK(interpreter.push("G0 Xsin[1]", 1).error == Error::number_invalid);
+    CHECK(interpreter.push("G0 X#1", 1).error == ProgramError::expression_unsupported);
+    CHECK(interpreter.push("G0 X[1]", 1).error == ProgramError::expression_unsupported);
+    CHECK(interpreter.push("#1=2", 1).error == ProgramError::expression_unsupported);
+    CHECK(interpreter.push("G0 Xsin[1]", 1).error == ProgramError::number_invalid);
     CHECK(interpreter.push("G0 X1", 1).ok());
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("the items of a block must be taken before the next", "[program][reade
     Interpreter<double> interpreter(six_axes());
     interpreter.start({});
     REQUIRE(interpreter.push("G0 X1", 1).ok());
-    CHECK(interpreter.push("G0 X2", 2).error == Error::block_pending);
+    CHECK(interpreter.push("G0 X2", 2).error == ProgramError::block_pending);
     ProgramItem<double> item;
     CHECK(interpreter.next(item) == Pull::item);
     CHECK(interpreter.next(item) == Pull::starved);
@@ -117,5 +117,5 @@ TEST_CASE("words that may be ignored", "[program][reader]") {
     GcodeRun<double> run(settings);
     CHECK(run.text("M104 S200 T0\nM862.3 P \"MK3S\" ; who\nG29\nG1 X1 E5 F600") == "feed 1 0 0");
     CHECK(run.text("G1 X2 M104").empty() == false);
-    CHECK(run.push("M109 S200 X\"1\"").error == Error::number_invalid);
+    CHECK(run.push("M109 S200 X\"1\"").error == ProgramError::number_invalid);
 }

@@ -89,8 +89,8 @@ TEST_CASE("the page of G-code has every word of the table, and no other", "[prog
             for (int code = 0; code <= most; code += letter == 'G' ? 1 : 10) {
                 const CodeInfo info =
                     letter == 'G' ? find_g_code(code, dialects[i]) : find_m_code(code / 10, dialects[i]);
-                const bool taken = info.group != CodeGroup::none && info.refusal == Error::none;
-                const bool refused = info.refusal != Error::none && info.refusal != Error::not_in_dialect;
+                const bool taken = info.group != CodeGroup::none && info.refusal == ProgramError::none;
+                const bool refused = info.refusal != ProgramError::none && info.refusal != ProgramError::not_in_dialect;
                 const Word word{letter, code};
                 // A refused word stands for those with its whole number, too.
                 const bool on_page = page.refused.count(word) > 0 || page.refused.count({letter, code / 10 * 10}) > 0;

@@ -15,7 +15,7 @@ using namespace splinefeed_test;
 
 namespace {
 
-Decimal read(const std::string& text, Error expected = Error::none) {
+Decimal read(const std::string& text, ProgramError expected = ProgramError::none) {
     TextCursor cursor(text);
     Decimal out{-1};
     CAPTURE(text);
@@ -38,13 +38,13 @@ TEST_CASE("numbers are read exactly", "[program][decimal]") {
     CHECK(read("100000000").raw == 100'000'000 * Decimal::one);
     CHECK(read(std::string(300, '0').append(1, '7')).raw == 7 * Decimal::one);
     CHECK(read(std::string("0.").append(300, '3')).raw == 333'333'333);
-    read("", Error::number_invalid);
-    read("-", Error::number_invalid);
-    read(".", Error::number_invalid);
-    read("x", Error::number_invalid);
-    read("--1", Error::number_invalid);
-    read("100000000.1", Error::number_out_of_range);
-    read(std::string(300, '9'), Error::number_out_of_range);
+    read("", ProgramError::number_invalid);
+    read("-", ProgramError::number_invalid);
+    read(".", ProgramError::number_invalid);
+    read("x", ProgramError::number_invalid);
+    read("--1", ProgramError::number_invalid);
+    read("100000000.1", ProgramError::number_out_of_range);
+    read(std::string(300, '9'), ProgramError::number_out_of_range);
 }
 
 TEST_CASE("every decimal of nine digits is read as itself", "[program][decimal]") {

@@ -47,7 +47,7 @@ TEST_CASE("elementary functions against long double", "[program][elementary]") {
         REQUIRE(std::fabs(real(logarithm(positive)) - std::log(real(positive))) < 1.01e-9L);
         const Decimal power_of{static_cast<std::int64_t>(random() % 50'000'000'000U) - 27'000'000'000};
         const Real exact = std::exp(real(power_of));
-        const Result<Decimal> exponent = exponential(power_of);
+        const ProgramResult<Decimal> exponent = exponential(power_of);
         REQUIRE(exponent.has_value() == (exact < 9223372036.854L));
         if (exponent.has_value()) {
             REQUIRE(std::fabs(real(*exponent) - exact) < 0.6e-9L + exact * 1e-15L);
@@ -87,9 +87,9 @@ TEST_CASE("powers", "[program][elementary]") {
     CHECK((*of(10, 9)).raw == 1'000'000'000 * Decimal::one);
     CHECK((*of(2, -1)).raw == Decimal::one / 2);
     CHECK((*of(0, 0)).raw == Decimal::one);
-    CHECK(of(0, -1).error() == Error::division_by_zero);
-    CHECK(of(10, 10).error() == Error::result_out_of_range);
-    CHECK(power(Decimal::from_integer(-2), {Decimal::one / 2}).error() == Error::power_invalid);
+    CHECK(of(0, -1).error() == ProgramError::division_by_zero);
+    CHECK(of(10, 10).error() == ProgramError::result_out_of_range);
+    CHECK(power(Decimal::from_integer(-2), {Decimal::one / 2}).error() == ProgramError::power_invalid);
     CHECK(exponential(Decimal::from_integer(-60)).value().raw == 0);
-    CHECK(exponential(Decimal::from_integer(1000)).error() == Error::result_out_of_range);
+    CHECK(exponential(Decimal::from_integer(1000)).error() == ProgramError::result_out_of_range);
 }

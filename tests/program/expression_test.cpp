@@ -12,11 +12,12 @@ using namespace splinefeed_test;
 namespace {
 
 /// What the text is worth.
-double value_of(GcodeRun<double>& run, const std::string& text, Error expected = Error::none, std::size_t column = 0) {
+double value_of(GcodeRun<double>& run, const std::string& text, ProgramError expected = ProgramError::none,
+                std::size_t column = 0) {
     Expression expression(run.table());
     TextCursor cursor(text);
     Decimal out;
-    const Status status = expression.value(cursor, run.interpreter(), out);
+    const ProgramStatus status = expression.value(cursor, run.interpreter(), out);
     CAPTURE(text, describe(status.error()));
     CHECK(status.error() == expected);
     CHECK(cursor.column() == (column > 0 ? column : cursor.column()));
@@ -139,53 +140,53 @@ TEST_CASE("results at the end of the range, and beyond", "[program][expression]"
     CHECK(value_of(run, "[#2 mod -1]") == 0.0);
     for (const char* const text : {"[#1 + 0.000000001]", "[#2 - 0.000000001]", "[#2 * 1.1]", "[#1 / 0.5]", "exp[22.95]",
                                    "[96000 ** 2]", "[#2 - 20000000]", "[#2 - #1]"}) {
-        value_of(run, text, Error::result_out_of_range);
+        value_of(run, text, ProgramError::result_out_of_range);
     }
     run.table().write(9, {std::numeric_limits<std::int64_t>::min()}); // a memory may hold anything
     for (const char* const text : {"abs[#9]", "fix[#9]", "-#9", "[#9 mod -1]"}) {
-        value_of(run, text, Error::number_out_of_range);
+        value_of(run, text, ProgramError::number_out_of_range);
     }
 }
 
 TEST_CASE("wrong expressions are refused where they are wrong", "[program][expression]") {
     GcodeRun<double> run;
-    value_of(run, "[1+2", Error::bracket_missing, 5);
-    value_of(run, "[1 x 2]", Error::operator_unknown, 4);
-    value_of(run, "[1/0]", Error::division_by_zero, 3);
-    value_of(run, "[1 mod 0]", Error::division_by_zero);
-    value_of(run, "sqrt[-1]", Error::root_of_negative, 1);
-    value_of(run, "ln[0]", Error::logarithm_argument);
-    value_of(run, "asin[1.1]", Error::arc_function_argument);
-    value_of(run, "atan[1]", Error::atan_needs_two);
-    value_of(run, "foo[1]", Error::function_unknown, 1);
-    value_of(run, "sin 3", Error::bracket_missing, 5);
-    value_of(run, "#<none>", Error::parameter_unset, 1);
-    value_of(run, "#<none", Error::parameter_name_invalid);
-    value_of(run, "#0", Error::parameter_out_of_range, 2);
-    value_of(run, "#6000", Error::parameter_out_of_range);
-    value_of(run, "#1.5", Error::parameter_out_of_range);
-    value_of(run, "[100000*100000]", Error::result_out_of_range, 8);
-    value_of(run, "[-2 ** 0.5]", Error::power_invalid);
-    value_of(run, std::string(40, '['), Error::expression_too_deep);
-    value_of(run, std::string(200, '#').append(1, '1'), Error::expression_too_deep);
-    value_of(run, "", Error::number_invalid);
+    value_of(run, "[1+2", ProgramError::bracket_missing, 5);
+    value_of(run, "[1 x 2]", ProgramError::operator_unknown, 4);
+    value_of(run, "[1/0]", ProgramError::division_by_zero, 3);
+    value_of(run, "[1 mod 0]", ProgramError::division_by_zero);
+    value_of(run, "sqrt[-1]", ProgramError::root_of_negative, 1);
+    value_of(run, "ln[0]", ProgramError::logarithm_argument);
+    value_of(run, "asin[1.1]", ProgramError::arc_function_argument);
+    value_of(run, "atan[1]", ProgramError::atan_needs_two);
+    value_of(run, "foo[1]", ProgramError::function_unknown, 1);
+    value_of(run, "sin 3", ProgramError::bracket_missing, 5);
+    value_of(run, "#<none>", ProgramError::parameter_unset, 1);
+    value_of(run, "#<none", ProgramError::parameter_name_invalid);
+    value_of(run, "#0", ProgramError::parameter_out_of_range, 2);
+    value_of(run, "#6000", ProgramError::parameter_out_of_range);
+    value_of(run, "#1.5", ProgramError::parameter_out_of_range);
+    value_of(run, "[100000*100000]", ProgramError::result_out_of_range, 8);
+    value_of(run, "[-2 ** 0.5]", ProgramError::power_invalid);
+    value_of(run, std::string(40, '['), ProgramError::expression_too_deep);
+    value_of(run, std::string(200, '#').append(1, '1'), ProgramError::expression_too_deep);
+    value_of(run, "", ProgramError::number_invalid);
 }
 
 TEST_CASE("parameters change at the end of their block", "[program][expression]") {
     GcodeRun<double> run;
     CHECK(run.last("G0 #3=15 X#3") == "rapid 0 0 0");
     CHECK(run.last("X#3") == "rapid 15 0 0");
-    CHECK(run.push("#5400=1").error == Error::parameter_read_only);
-    CHECK(run.push("#<_x>=1").error == Error::parameter_read_only);
-    CHECK(run.push("#1 3").error == Error::assignment_invalid);
-    CHECK(run.push("#1=2 G1 X5").error == Error::feed_missing);
+    CHECK(run.push("#5400=1").error == ProgramError::parameter_read_only);
+    CHECK(run.push("#<_x>=1").error == ProgramError::parameter_read_only);
+    CHECK(run.push("#1 3").error == ProgramError::assignment_invalid);
+    CHECK(run.push("#1=2 G1 X5").error == ProgramError::feed_missing);
     Decimal one;
     CHECK(!run.table().read(1, one)); // nothing of a wrong block happens
     std::string many;
     for (int i = 0; i < 17; ++i) {
         many += "#1=1";
     }
-    CHECK(run.push(many).error == Error::too_many_assignments);
+    CHECK(run.push(many).error == ProgramError::too_many_assignments);
 }
 
 TEST_CASE("parameters of the control", "[program][expression]") {

@@ -152,7 +152,7 @@ TEST_CASE("splines", "[program][interpreter]") {
     run.run("G1 X0 Y0\nG5.2 X10 Y10\nX20 Y0\nX30 Y5 P2\nX40 Y0\nG5.3");
     CHECK(run.items().size() > 5); // the weight makes it rational: quintics
     CHECK(text_of(run.items().back()) == "feed bezier 40 0 0 degree 5");
-    CHECK(run.push("X50").error == Error::axis_word_unused);
+    CHECK(run.push("X50").error == ProgramError::axis_word_unused);
 }
 
 TEST_CASE("probing", "[program][interpreter]") {
@@ -169,7 +169,7 @@ TEST_CASE("probing", "[program][interpreter]") {
     run.interpreter().report_probe(true, contact, stands);
     CHECK(run.last("G0 X#5061 Y#5070 Z#5063") == "rapid 0 1 -2");
     CHECK(run.run("G38.5 Z-9").back().probe.away);
-    CHECK(run.push("G38.3 Z-9").error == Error::probe_too_short);
+    CHECK(run.push("G38.3 Z-9").error == ProgramError::probe_too_short);
     // As in LinuxCNC the result has the units of the program that probed, and stays as it is.
     run.run("G20 G38.3 Z1\nG21");
     CHECK(run.last("G0 Z#5063") == "rapid 0 1 1");
@@ -228,10 +228,10 @@ TEST_CASE("Marlin's words", "[program][interpreter]") {
     CHECK(run.text("G4 S2\nG4 P500\nM0 S5") == "dwell 2\ndwell 0.5\n" + event(EventKind::pause, " stop 0 0"));
     CHECK(run.interpreter().modal().speed == Decimal::from_integer(1000)); // those are seconds
     CHECK(run.text("N3 G0 X5*" + std::to_string('N' ^ '3' ^ ' ' ^ 'G' ^ '0' ^ ' ' ^ 'X' ^ '5'), 4) == "feed 5 0 0 2");
-    CHECK(run.push("N3 G0 X6*1").error == Error::checksum_wrong);
-    CHECK(run.push("G10").error == Error::firmware_retraction_unsupported);
-    CHECK(run.push("G29").error == Error::bed_levelling_unsupported);
-    CHECK(run.push("G81 X1 Z-1 R1").error == Error::not_in_dialect);
+    CHECK(run.push("N3 G0 X6*1").error == ProgramError::checksum_wrong);
+    CHECK(run.push("G10").error == ProgramError::firmware_retraction_unsupported);
+    CHECK(run.push("G29").error == ProgramError::bed_levelling_unsupported);
+    CHECK(run.push("G81 X1 Z-1 R1").error == ProgramError::not_in_dialect);
 }
 
 TEST_CASE("grbl's words", "[program][interpreter]") {
@@ -240,9 +240,9 @@ TEST_CASE("grbl's words", "[program][interpreter]") {
     GcodeRun<double> run(settings);
     CHECK(run.text("X1") == "rapid 1 0 0"); // G0 at the start
     CHECK(run.text("$H") == "home 0 0 0");
-    CHECK(run.push("$X").error == Error::grbl_command_unsupported);
-    CHECK(run.push("G81 X1 Z-1 R1").error == Error::not_in_dialect);
-    CHECK(run.push("G64 P0.01").error == Error::not_in_dialect);
+    CHECK(run.push("$X").error == ProgramError::grbl_command_unsupported);
+    CHECK(run.push("G81 X1 Z-1 R1").error == ProgramError::not_in_dialect);
+    CHECK(run.push("G64 P0.01").error == ProgramError::not_in_dialect);
 }
 
 TEST_CASE("memory of an interpreter", "[program][interpreter]") {

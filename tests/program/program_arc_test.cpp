@@ -72,13 +72,13 @@ TEST_CASE("radii may differ as in LinuxCNC", "[program][arc]") {
         run.run("F600 G0 X0 Y0");
         return run.push(line).error;
     };
-    CHECK(push("G2 X20.009 I10") == Error::none);                // 0.009 of 10: below 0.1 %
-    CHECK(push("G2 X20.012 I10") == Error::arc_radius_mismatch); // above both
-    CHECK(push("G2 X2.0049 I1") == Error::none);                 // below 0.005 mm
-    CHECK(push("G2 X2.006 I1") == Error::arc_radius_mismatch);
-    CHECK(push("G2 X2000.4 I1000") == Error::none);
-    CHECK(push("G2 X2000.6 I1000") == Error::arc_radius_mismatch); // more than 0.5 mm
-    CHECK(push("G2 X0.1049 I0.05") == Error::none);                // a tenth of the radius: the centre moves
+    CHECK(push("G2 X20.009 I10") == ProgramError::none);                // 0.009 of 10: below 0.1 %
+    CHECK(push("G2 X20.012 I10") == ProgramError::arc_radius_mismatch); // above both
+    CHECK(push("G2 X2.0049 I1") == ProgramError::none);                 // below 0.005 mm
+    CHECK(push("G2 X2.006 I1") == ProgramError::arc_radius_mismatch);
+    CHECK(push("G2 X2000.4 I1000") == ProgramError::none);
+    CHECK(push("G2 X2000.6 I1000") == ProgramError::arc_radius_mismatch); // more than 0.5 mm
+    CHECK(push("G2 X0.1049 I0.05") == ProgramError::none);                // a tenth of the radius: the centre moves
 }
 
 TEST_CASE("an arc that all but closes is a whole turn, one that barely opens is not", "[program][arc]") {
@@ -112,11 +112,11 @@ TEST_CASE("arcs on machines whose axes stand in another order", "[program][arc]"
     settings.letters = {'X', 'A', 'B'};
     GcodeRun<double> turning(settings);
     turning.run("F600");
-    CHECK(turning.push("G2 X1 I1").error == Error::arc_axes_unsuited);
+    CHECK(turning.push("G2 X1 I1").error == ProgramError::arc_axes_unsuited);
 
     settings.axes = 2;
     settings.letters = {'X', 'Y', 'Z'};
     GcodeRun<double> flat(settings);
     CHECK(flat.last("F600 G2 X10 I5", 2) == "feed arc 10 0 about 5 0 0 by -180");
-    CHECK(flat.push("G18 G2 X0 I-5").error == Error::arc_axes_unsuited);
+    CHECK(flat.push("G18 G2 X0 I-5").error == ProgramError::arc_axes_unsuited);
 }

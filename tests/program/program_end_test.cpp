@@ -114,7 +114,7 @@ TEST_CASE("an abort drops the rest of a block", "[program][end]") {
                 ProgramItem<double> item;
                 for (int i = 0; i < taken; ++i) {
                     REQUIRE(interpreter.next(item) == Pull::item);
-                    CHECK(interpreter.push("G0 X0", 10).error == Error::block_pending);
+                    CHECK(interpreter.push("G0 X0", 10).error == ProgramError::block_pending);
                 }
                 if (restarts) {
                     interpreter.restart();

@@ -79,31 +79,31 @@ TEST_CASE("what motion leaves for later blocks is put back, too", "[program][ref
     run.run("F600 G5 X10 Y0 I1 J1 P-2 Q3\nM66 P1");
     run.interpreter().report_input(Decimal::from_integer(1));
     run.run("G38.2 Z-5\nG5 X10 Y0 I1 J1 P-2 Q3");
-    CHECK(run.push("X20 P-9 Q-9 #<full>=1").error == Error::parameter_storage_full);
-    CHECK(run.push("G38.3 X99999").error == Error::move_too_long);
-    CHECK(run.push("#5399=8 #5061=8 #5070=0 #1=8 #<full>=1").error == Error::parameter_storage_full);
+    CHECK(run.push("X20 P-9 Q-9 #<full>=1").error == ProgramError::parameter_storage_full);
+    CHECK(run.push("G38.3 X99999").error == ProgramError::move_too_long);
+    CHECK(run.push("#5399=8 #5061=8 #5070=0 #1=8 #<full>=1").error == ProgramError::parameter_storage_full);
     run.run("X20 Y0 P-2 Q3"); // goes on as the first one ended
     CHECK(run.items().back().element.bezier.points[0][1] == 2.0 * 4096.0);
     CHECK(run.items().back().element.bezier.points[1][1] == -3.0 * 4096.0);
     CHECK(run.last("G0 X#5399 Y#5070 Z#5063") == "rapid 1 1 -5");
     Decimal none;
     CHECK_FALSE(run.table().read(1, none));
-    CHECK(run.push("#1=8 #5221=2000000").error == Error::position_out_of_range);
+    CHECK(run.push("#1=8 #5221=2000000").error == ProgramError::position_out_of_range);
     CHECK_FALSE(run.table().read(1, none));
 }
 
 TEST_CASE("a control point of a refused line is none", "[program][refusals]") {
     GcodeRun<double> run;
     run.run("F600 G5.2 X10 Y10 L3");
-    CHECK(run.push("X99 Y99 P50 #<full>=1").error == Error::parameter_storage_full);
+    CHECK(run.push("X99 Y99 P50 #<full>=1").error == ProgramError::parameter_storage_full);
     run.run("X20 Y0 P0.5");
-    CHECK(run.push("G5.3 #<full>=1").error == Error::parameter_storage_full);
-    CHECK(run.push("G0 X1").error == Error::nurbs_not_ended);
+    CHECK(run.push("G5.3 #<full>=1").error == ProgramError::parameter_storage_full);
+    CHECK(run.push("G0 X1").error == ProgramError::nurbs_not_ended);
     CHECK(run.last("G5.3").find("feed bezier 20 0 0") == 0);
 }
 
 TEST_CASE("a refused first line does not begin the program", "[program][refusals]") {
     GcodeRun<double> run;
-    CHECK(run.push("G1 X1").error == Error::feed_missing);
+    CHECK(run.push("G1 X1").error == ProgramError::feed_missing);
     CHECK(run.text("%\nG0 X1").find("rapid 1 0 0") == 0);
 }

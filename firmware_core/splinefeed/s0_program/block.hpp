@@ -55,10 +55,10 @@ public:
     [[nodiscard]] TextPart text() const noexcept { return text_; }
 
     /// An error at a word of the block.
-    [[nodiscard]] BlockStatus at(Error error, char letter) const noexcept {
+    [[nodiscard]] BlockStatus at(ProgramError error, char letter) const noexcept {
         return {error, 0, static_cast<std::uint16_t>(has(letter) ? columns_[index(letter)] + 1 : 0)};
     }
-    [[nodiscard]] BlockStatus at(Error error, CodeGroup group) const noexcept {
+    [[nodiscard]] BlockStatus at(ProgramError error, CodeGroup group) const noexcept {
         return {error, 0, static_cast<std::uint16_t>(has(group) ? code_columns_[static_cast<unsigned>(group)] + 1 : 0)};
     }
 

@@ -116,7 +116,7 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         return {};
     }
     if (stage_ != all_done || in_pieces_) {
-        return {Error::block_pending, 0, 0};
+        return {ProgramError::block_pending, 0, 0};
     }
     LineKind kind = LineKind::block;
     line_ = line_number;
@@ -150,7 +150,7 @@ BlockStatus BlockInterpreter::execute_percent() noexcept {
         return {};
     }
     if (nurbs_.is_open()) {
-        return {Error::nurbs_not_ended, 1, 1};
+        return {ProgramError::nurbs_not_ended, 1, 1};
     }
     block_.clear();
     ended_ = true;
@@ -174,7 +174,7 @@ BlockStatus BlockInterpreter::execute() noexcept {
     const auto run = [&] {
         status = execute_words(use);
         if (status.ok() && assigns()) {
-            const Status written = evaluator_->commit();
+            const ProgramStatus written = evaluator_->commit();
             status = written.ok() ? BlockStatus{} : BlockStatus{written.error(), 0, 0};
         }
     };
@@ -209,7 +209,7 @@ BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
             const bool belongs =
                 code == CodeGroup::motion ? block_.code(code) == 52 : code == CodeGroup::non_modal && ends;
             if (block_.has(code) && !belongs) {
-                return block_.at(Error::nurbs_not_ended, code);
+                return block_.at(ProgramError::nurbs_not_ended, code);
             }
         }
     }
@@ -241,7 +241,7 @@ BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
         return status;
     }
     const bool ends_within = nurbs_.is_open() && block_.has(CodeGroup::stop); // G5.2 of this block
-    return ends_within ? block_.at(Error::nurbs_not_ended, CodeGroup::stop) : BlockStatus{};
+    return ends_within ? block_.at(ProgramError::nurbs_not_ended, CodeGroup::stop) : BlockStatus{};
 }
 
 } // namespace splinefeed

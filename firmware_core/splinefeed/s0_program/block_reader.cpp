@@ -46,24 +46,24 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         text.remove_suffix(1);
     }
     if (text.size() > longest_line) {
-        return {Error::line_too_long, 0, longest_line + 1};
+        return {ProgramError::line_too_long, 0, longest_line + 1};
     }
     TextCursor cursor(text);
     if (cursor.take('%')) {
         kind = LineKind::percent;
-        return cursor.at_end() ? BlockStatus{} : BlockStatus{Error::character_invalid, 1, cursor.column()};
+        return cursor.at_end() ? BlockStatus{} : BlockStatus{ProgramError::character_invalid, 1, cursor.column()};
     }
     if (settings_->dialect == Dialect::grbl && cursor.peek() == '$') {
         const std::uint16_t column = cursor.column();
         kind = LineKind::homing;
         const bool homing = cursor.take("$h"sv) && cursor.at_end();
-        return homing ? BlockStatus{} : BlockStatus{Error::grbl_command_unsupported, 0, column};
+        return homing ? BlockStatus{} : BlockStatus{ProgramError::grbl_command_unsupported, 0, column};
     }
     if (cursor.take('/') && settings_->block_delete) {
         kind = LineKind::left_out;
         return {};
     }
-    const Status status = read_words(cursor, control, out);
+    const ProgramStatus status = read_words(cursor, control, out);
     if (ignored_word_ && !has_axes(out) && out.code(CodeGroup::non_modal) == 920) { // a printer's G92 E0 without E
         kind = LineKind::left_out;
         return {};
@@ -75,7 +75,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
     return status.ok() ? BlockStatus{} : BlockStatus{status.error(), 0, cursor.column()};
 }
 
-Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
+ProgramStatus BlockReader::read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
     while (!text.at_end()) {
         const char c = text.peek();
         if (c == ';') {
@@ -84,16 +84,16 @@ Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control
         if (c == '*' && settings_->dialect == Dialect::marlin) {
             return read_checksum(text);
         }
-        Status status;
+        ProgramStatus status;
         if (c == '(') {
             status = read_comment(text, out);
         } else if (c == '#') {
-            status =
-                evaluator_ != nullptr ? evaluator_->assignment(text, control) : Status(Error::expression_unsupported);
+            status = evaluator_ != nullptr ? evaluator_->assignment(text, control)
+                                           : ProgramStatus(ProgramError::expression_unsupported);
         } else if (is_letter(c)) {
             status = read_word(text, control, out);
         } else {
-            status = c == '@' || c == '^' ? Error::polar_unsupported : Error::character_invalid;
+            status = c == '@' || c == '^' ? ProgramError::polar_unsupported : ProgramError::character_invalid;
         }
         if (!status.ok()) {
             return status;
@@ -106,17 +106,17 @@ Status BlockReader::read_words(TextCursor& text, const BlockInterpreter& control
     return {};
 }
 
-Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
+ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
     const std::size_t column = text.column();
     const char letter = text.peek();
     if (letter == 'o') {
-        return Error::o_word;
+        return ProgramError::o_word;
     }
     const TextCursor word = text;
     text.step();
     Decimal value;
     const char first = text.peek();
-    if (const Status status = read_value(text, control, value); !status.ok()) {
+    if (const ProgramStatus status = read_value(text, control, value); !status.ok()) {
         if (first != '#' && first != '[' && !is_letter(first)) {
             text = word; // a plain number: the word is wrong; else the place within the expression is
         }
@@ -126,7 +126,7 @@ Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control,
         return {};
     }
     if (letter == 'g' || letter == 'm') {
-        const Status status = add_code(letter, value, column, out);
+        const ProgramStatus status = add_code(letter, value, column, out);
         if (!status.ok()) {
             text = word; // the word is wrong, not what follows it
         }
@@ -138,13 +138,13 @@ Status BlockReader::read_word(TextCursor& text, const BlockInterpreter& control,
     }
     if (out.has(letter)) {
         text = word;
-        return Error::word_repeated;
+        return ProgramError::word_repeated;
     }
     out.set(letter, value, column);
     return {};
 }
 
-Status BlockReader::read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
+ProgramStatus BlockReader::read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
     const char c = text.peek();
     const bool sign = c == '-' || c == '+';
     const char first = sign ? text.peek_second() : c;
@@ -152,60 +152,60 @@ Status BlockReader::read_value(TextCursor& text, const BlockInterpreter& control
         return read_decimal(text, out);
     }
     if (evaluator_ == nullptr) {
-        return is_letter(first) ? Error::number_invalid : Error::expression_unsupported;
+        return is_letter(first) ? ProgramError::number_invalid : ProgramError::expression_unsupported;
     }
     if (sign) {
         text.step();
     }
     const TextCursor start = text;
-    Status status = evaluator_->value(text, control, out);
+    ProgramStatus status = evaluator_->value(text, control, out);
     if (status.ok() && (out.raw > largest_number * Decimal::one || out.raw < -largest_number * Decimal::one)) {
         text = start;
-        status = Error::number_out_of_range;
+        status = ProgramError::number_out_of_range;
     }
     out = c == '-' ? -out : out;
     return status;
 }
 
-Status BlockReader::add_code(char letter, Decimal value, std::size_t column, Block& out) noexcept {
+ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t column, Block& out) noexcept {
     if (is_ignored(upper_case(letter), value)) {
         ignored_code_ = true;
         return {};
     }
     std::int32_t code = 0;
     const bool is_g = letter == 'g';
-    const Error unknown = is_g ? Error::g_code_unknown : Error::m_code_unknown;
+    const ProgramError unknown = is_g ? ProgramError::g_code_unknown : ProgramError::m_code_unknown;
     if (value.raw < 0 || value > Decimal::from_integer(1000) ||
         !to_integer(is_g ? Decimal{value.raw * 10} : value, code)) {
         return unknown;
     }
     const CodeInfo info = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
-    if (info.refusal != Error::none) {
+    if (info.refusal != ProgramError::none) {
         return info.refusal;
     }
     if (info.group == CodeGroup::none) {
         return unknown;
     }
     if (out.has(info.group)) {
-        return Error::modal_group_conflict;
+        return ProgramError::modal_group_conflict;
     }
     out.set_code(info.group, code, column);
     return {};
 }
 
-Status BlockReader::read_comment(TextCursor& text, Block& out) noexcept {
+ProgramStatus BlockReader::read_comment(TextCursor& text, Block& out) noexcept {
     const std::string_view line = text.text();
     const std::size_t begin = text.at() + 1;
     std::size_t end = begin;
     while (end < line.size() && line[end] != ')') {
         if (line[end] == '(') {
             text.go_to(end);
-            return Error::comment_nested;
+            return ProgramError::comment_nested;
         }
         ++end;
     }
     if (end == line.size()) {
-        return Error::comment_not_closed;
+        return ProgramError::comment_not_closed;
     }
     TextCursor inside(text.part(begin, end));
     CommentKind kind = CommentKind::none;
@@ -224,7 +224,7 @@ Status BlockReader::read_comment(TextCursor& text, Block& out) noexcept {
 }
 
 // "*71": the exclusive or of all characters before it.
-Status BlockReader::read_checksum(TextCursor& text) noexcept {
+ProgramStatus BlockReader::read_checksum(TextCursor& text) noexcept {
     unsigned sum = 0;
     for (const char c : text.part(0, text.at())) {
         sum ^= static_cast<unsigned char>(c);
@@ -233,12 +233,12 @@ Status BlockReader::read_checksum(TextCursor& text) noexcept {
     text.step();
     Decimal stated;
     std::int32_t number = 0;
-    const Status status = read_decimal(text, stated);
+    const ProgramStatus status = read_decimal(text, stated);
     if (!status.ok() || !to_integer(stated, number) || number != static_cast<std::int32_t>(sum)) {
         text = start;
-        return Error::checksum_wrong;
+        return ProgramError::checksum_wrong;
     }
-    return text.at_end() || text.peek() == ';' ? Status{} : Status(Error::character_invalid);
+    return text.at_end() || text.peek() == ';' ? ProgramStatus{} : ProgramStatus(ProgramError::character_invalid);
 }
 
 bool BlockReader::is_ignored(char letter, Decimal value) const noexcept {

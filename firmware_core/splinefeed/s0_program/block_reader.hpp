@@ -29,12 +29,12 @@ public:
     BlockStatus read(std::string_view text, const BlockInterpreter& control, Block& out, LineKind& kind) noexcept;
 
 private:
-    Status read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
-    Status read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
-    Status read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept;
-    static Status read_comment(TextCursor& text, Block& out) noexcept;
-    static Status read_checksum(TextCursor& text) noexcept;
-    Status add_code(char letter, Decimal value, std::size_t column, Block& out) noexcept;
+    ProgramStatus read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
+    ProgramStatus read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept;
+    ProgramStatus read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept;
+    static ProgramStatus read_comment(TextCursor& text, Block& out) noexcept;
+    static ProgramStatus read_checksum(TextCursor& text) noexcept;
+    ProgramStatus add_code(char letter, Decimal value, std::size_t column, Block& out) noexcept;
     [[nodiscard]] bool has_axes(const Block& block) const noexcept;
     [[nodiscard]] bool has_others(const Block& block) const noexcept;
     [[nodiscard]] bool is_ignored(char letter, Decimal value) const noexcept;

@@ -18,23 +18,23 @@ constexpr std::int64_t most_pecks = 100000;
 BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal, bool fresh, char normal,
                                     CycleWords& words) noexcept {
     if (fresh && !block.has(normal)) {
-        return block.at(Error::cycle_depth_missing, CodeGroup::motion);
+        return block.at(ProgramError::cycle_depth_missing, CodeGroup::motion);
     }
     if (fresh && !block.has('r')) {
-        return block.at(Error::cycle_radius_missing, CodeGroup::motion);
+        return block.at(ProgramError::cycle_radius_missing, CodeGroup::motion);
     }
     if (dwells() && ((fresh && !block.has('p')) || block.value('p').raw < 0)) {
-        return block.at(Error::cycle_dwell_missing, CodeGroup::motion);
+        return block.at(ProgramError::cycle_dwell_missing, CodeGroup::motion);
     }
     if (pecks() && ((fresh && !block.has('q')) || (block.has('q') && modal.in_mm(block.value('q')).raw < 1000))) {
-        return block.at(Error::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
+        return block.at(ProgramError::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
     }
     repeats_ = 1;
     if (block.has('l') && (!to_integer(block.value('l'), repeats_) || repeats_ < 1 || repeats_ > most_repeats)) {
-        return block.at(Error::cycle_repeats_invalid, 'l');
+        return block.at(ProgramError::cycle_repeats_invalid, 'l');
     }
     if (code_ == 860 && modal.spindle == SpindleState::stopped) {
-        return block.at(Error::cycle_spindle_stopped, CodeGroup::motion);
+        return block.at(ProgramError::cycle_spindle_stopped, CodeGroup::motion);
     }
     words.depth = block.has(normal) ? modal.in_mm(block.value(normal)) : words.depth;
     words.clearance = block.has('r') ? modal.in_mm(block.value('r')) : words.clearance;
@@ -52,7 +52,7 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
     for (unsigned k = 0; k < 3; ++k) {
         axes_[k] = letters.index(plane.axes[k]);
         if (axes_[k] < 0) {
-            return block.at(Error::axis_missing, CodeGroup::motion);
+            return block.at(ProgramError::axis_missing, CodeGroup::motion);
         }
     }
     code_ = modal.motion;
@@ -83,15 +83,15 @@ BlockStatus CannedCycle::begin(const Block& block, const ModalState& modal, cons
         bottom_ += clearance_;
     }
     if (clearance_ < bottom_) {
-        return block.at(Error::cycle_below_depth, block.has('r') ? 'r' : normal);
+        return block.at(ProgramError::cycle_below_depth, block.has('r') ? 'r' : normal);
     }
     for (const Decimal step : {first_step_, second_step_}) {
         if (detail::magnitude(step.raw) > static_cast<std::uint64_t>(largest_position.raw / repeats_)) {
-            return block.at(Error::move_too_long, block.has('l') ? 'l' : plane.axes[0]);
+            return block.at(ProgramError::move_too_long, block.has('l') ? 'l' : plane.axes[0]);
         }
     }
     if (pecks() && (clearance_ - bottom_).raw / words.peck.raw > most_pecks) {
-        return block.at(Error::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
+        return block.at(ProgramError::cycle_peck_invalid, block.has('q') ? 'q' : 'r');
     }
     phase_ = words.initial < clearance_ ? Phase::lift : Phase::across;
     clear_ = modal.retract_to_r || words.initial < clearance_ ? clearance_ : words.initial;

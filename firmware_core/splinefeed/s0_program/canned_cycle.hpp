@@ -31,7 +31,7 @@ struct CycleWords {
 class CannedCycle {
 public:
     /// From the words of a block. @param at  where the machine stands, in program coordinates
-    /// Errors: the Error::cycle_... of a missing or impossible word.
+    /// Errors: the ProgramError::cycle_... of a missing or impossible word.
     BlockStatus begin(const Block& block, const ModalState& modal, const ModalState& before, const AxisLetters& letters,
                       const AxisPoint& at, CycleWords& words) noexcept;
     /// The next step; a move ends at `at`.

@@ -2,9 +2,8 @@
 // code_table: the G and M words of the interpreter, and those that it refuses by name.
 #pragma once
 
+#include "splinefeed/s0_program/program_errors.hpp"
 #include "splinefeed/s0_program/program_settings.hpp"
-
-#include "splinefeed/base/status.hpp"
 
 namespace splinefeed {
 
@@ -39,7 +38,7 @@ inline constexpr unsigned code_groups = static_cast<unsigned>(CodeGroup::none);
 
 struct CodeInfo {
     CodeGroup group = CodeGroup::none;
-    Error refusal = Error::none; ///< why the word is not followed
+    ProgramError refusal = ProgramError::none; ///< why the word is not followed
 };
 
 /// @param tenths  ten times the number: 382 for G38.2

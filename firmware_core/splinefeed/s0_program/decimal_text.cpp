@@ -11,7 +11,7 @@ constexpr bool is_digit(char c) noexcept {
 
 } // namespace
 
-Status read_decimal(TextCursor& text, Decimal& out) noexcept {
+ProgramStatus read_decimal(TextCursor& text, Decimal& out) noexcept {
     const bool negative = text.take('-');
     if (!negative) {
         text.take('+');
@@ -43,14 +43,14 @@ Status read_decimal(TextCursor& text, Decimal& out) noexcept {
         }
     }
     if (!digits) {
-        return Error::number_invalid;
+        return ProgramError::number_invalid;
     }
     if (whole > largest_number) {
-        return Error::number_out_of_range;
+        return ProgramError::number_out_of_range;
     }
     const std::int64_t size = whole * Decimal::one + part;
     if (size > largest_number * Decimal::one) {
-        return Error::number_out_of_range;
+        return ProgramError::number_out_of_range;
     }
     out.raw = negative ? -size : size;
     return {};

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "splinefeed/s0_program/decimal.hpp"
+#include "splinefeed/s0_program/program_errors.hpp"
 #include "splinefeed/s0_program/text_cursor.hpp"
-
-#include "splinefeed/base/status.hpp"
 
 namespace splinefeed {
 
@@ -14,7 +13,7 @@ inline constexpr std::int64_t largest_number = 100'000'000;
 
 /// Reads [+-]digits[.digits], with at least one digit and spaces anywhere. Up to nine decimals are exact; more are
 /// rounded to nine, ties away from zero. Errors: number_invalid (there is no digit), number_out_of_range.
-Status read_decimal(TextCursor& text, Decimal& out) noexcept;
+ProgramStatus read_decimal(TextCursor& text, Decimal& out) noexcept;
 
 /// Whether a value is an integer within 1e-4, as RS274/NGC reads integers, and which one.
 [[nodiscard]] bool to_integer(Decimal value, std::int32_t& out) noexcept;

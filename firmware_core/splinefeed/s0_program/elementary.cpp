@@ -97,10 +97,10 @@ BinaryLogarithm binary_logarithm(std::uint64_t value) noexcept {
 constexpr std::int64_t unit_logarithm_q56 = 1493268676818745395; // ln(1e9): a Decimal counts in units of 1e-9
 
 // e^x of a Q56 number, as a Decimal
-Result<Decimal> exponential_q56(std::int64_t x) noexcept {
+ProgramResult<Decimal> exponential_q56(std::int64_t x) noexcept {
     constexpr std::int64_t ln2_q56 = ln2_q62 >> 6;
     if (x > 24 * (std::int64_t{1} << 56)) {
-        return Error::result_out_of_range;
+        return ProgramError::result_out_of_range;
     }
     if (x < -24 * (std::int64_t{1} << 56)) {
         return Decimal{};
@@ -119,7 +119,7 @@ Result<Decimal> exponential_q56(std::int64_t x) noexcept {
     const int shift = static_cast<int>(62 - power);
     const Wide rounded = shift_right(add(wide, shift_left(Wide{0U, 1U}, shift - 1)), shift);
     if (rounded.high != 0 || (rounded.low >> 63) != 0) {
-        return Error::result_out_of_range;
+        return ProgramError::result_out_of_range;
     }
     return Decimal{static_cast<std::int64_t>(rounded.low)};
 }
@@ -189,10 +189,11 @@ Decimal hypotenuse(Decimal x, Decimal y) noexcept {
     return {static_cast<std::int64_t>(square_root_rounded(add(multiply(a, a), multiply(b, b))))};
 }
 
-Result<Decimal> exponential(Decimal value) noexcept {
+ProgramResult<Decimal> exponential(Decimal value) noexcept {
     constexpr std::int64_t most = 60 * Decimal::one;
     if (value.raw > most || value.raw < -most) {
-        return value.raw > 0 ? Result<Decimal>(Error::result_out_of_range) : Result<Decimal>(Decimal{});
+        return value.raw > 0 ? ProgramResult<Decimal>(ProgramError::result_out_of_range)
+                             : ProgramResult<Decimal>(Decimal{});
     }
     return exponential_q56(
         product_quotient(value.raw, std::int64_t{1} << 56, static_cast<std::uint64_t>(Decimal::one)).raw);
@@ -214,15 +215,16 @@ Decimal logarithm(Decimal value) noexcept {
     return {decimal_of(q56, 56)};
 }
 
-Result<Decimal> power(Decimal base, Decimal exponent) noexcept {
+ProgramResult<Decimal> power(Decimal base, Decimal exponent) noexcept {
     if (exponent.raw == 0) {
         return Decimal{Decimal::one};
     }
     if (base.raw == 0) {
-        return exponent.raw < 0 ? Result<Decimal>(Error::division_by_zero) : Result<Decimal>(Decimal{});
+        return exponent.raw < 0 ? ProgramResult<Decimal>(ProgramError::division_by_zero)
+                                : ProgramResult<Decimal>(Decimal{});
     }
     if (base.raw < 0 && exponent.raw % Decimal::one != 0) {
-        return Error::power_invalid;
+        return ProgramError::power_invalid;
     }
     constexpr std::int64_t most_products = 63;
     if (base.raw % Decimal::one == 0 && exponent.raw % Decimal::one == 0 && exponent.raw > 0 &&
@@ -231,16 +233,18 @@ Result<Decimal> power(Decimal base, Decimal exponent) noexcept {
         for (std::int64_t i = 0; i < exponent.raw / Decimal::one && product.fits; ++i) {
             product = product_quotient(product.raw, base.raw, static_cast<std::uint64_t>(Decimal::one));
         }
-        return product.fits ? Result<Decimal>(Decimal{product.raw}) : Result<Decimal>(Error::result_out_of_range);
+        return product.fits ? ProgramResult<Decimal>(Decimal{product.raw})
+                            : ProgramResult<Decimal>(ProgramError::result_out_of_range);
     }
     const detail::Checked q56 = product_quotient(logarithm_q56(detail::magnitude(base.raw)), exponent.raw,
                                                  static_cast<std::uint64_t>(Decimal::one));
     if (!q56.fits) {
-        return q56.raw > 0 ? Result<Decimal>(Error::result_out_of_range) : Result<Decimal>(Decimal{});
+        return q56.raw > 0 ? ProgramResult<Decimal>(ProgramError::result_out_of_range)
+                           : ProgramResult<Decimal>(Decimal{});
     }
-    const Result<Decimal> size = exponential_q56(q56.raw);
+    const ProgramResult<Decimal> size = exponential_q56(q56.raw);
     const bool negative = base.raw < 0 && (exponent.raw / Decimal::one) % 2 != 0;
-    return size.has_value() && negative ? Result<Decimal>(-*size) : size;
+    return size.has_value() && negative ? ProgramResult<Decimal>(-*size) : size;
 }
 
 } // namespace splinefeed

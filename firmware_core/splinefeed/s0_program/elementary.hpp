@@ -3,8 +3,7 @@
 #pragma once
 
 #include "splinefeed/s0_program/decimal.hpp"
-
-#include "splinefeed/base/status.hpp"
+#include "splinefeed/s0_program/program_errors.hpp"
 
 namespace splinefeed {
 
@@ -34,14 +33,14 @@ struct SineCosine {
 [[nodiscard]] Decimal square_root(Decimal value) noexcept;
 
 /// e^value; relative error below 1e-15, at least 1e-9. Error: result_out_of_range.
-[[nodiscard]] Result<Decimal> exponential(Decimal value) noexcept;
+[[nodiscard]] ProgramResult<Decimal> exponential(Decimal value) noexcept;
 
 /// ln(value) for value > 0. Error below 1e-9.
 [[nodiscard]] Decimal logarithm(Decimal value) noexcept;
 
 /// base^exponent. A negative base needs an integer as exponent. Errors: power_invalid, division_by_zero (a negative
 /// power of 0), result_out_of_range.
-[[nodiscard]] Result<Decimal> power(Decimal base, Decimal exponent) noexcept;
+[[nodiscard]] ProgramResult<Decimal> power(Decimal base, Decimal exponent) noexcept;
 
 /// sqrt(x^2 + y^2) rounded to nearest. @pre both within +-1e18 (raw)
 [[nodiscard]] Decimal hypotenuse(Decimal x, Decimal y) noexcept;

@@ -20,9 +20,9 @@ public:
         : text_(text), system_(control), table_(table) {}
 
     /// A value: a number, #..., [...] or a function, with a sign or without.
-    Status value(Decimal& out, int depth) noexcept {
+    ProgramStatus value(Decimal& out, int depth) noexcept {
         if (depth > Expression::deepest) {
-            return Error::expression_too_deep;
+            return ProgramError::expression_too_deep;
         }
         const char c = text_.peek();
         if (c == '[') {
@@ -39,7 +39,7 @@ public:
             const char next = text_.peek_second();
             if (next == '#' || next == '[' || (next >= 'a' && next <= 'z')) {
                 text_.step();
-                const Status status = value(out, depth + 1);
+                const ProgramStatus status = value(out, depth + 1);
                 if (status.ok() && c == '-') {
                     out = -out;
                 }
@@ -50,14 +50,14 @@ public:
     }
 
     /// #1, ##1, #[...]: the number of the parameter; #<name>: 0 and the name as it is written.
-    Status parameter_name(std::int32_t& number, std::string_view& name, int depth) noexcept {
+    ProgramStatus parameter_name(std::int32_t& number, std::string_view& name, int depth) noexcept {
         number = 0;
         text_.step(); // the #
         if (text_.peek() == '<') {
             const std::size_t begin = text_.at() + 1;
             const std::size_t end = text_.find('>', begin);
             if (end == text_.text().size() || end == begin) {
-                return Error::parameter_name_invalid;
+                return ProgramError::parameter_name_invalid;
             }
             name = text_.part(begin, end);
             text_.go_to(end + 1);
@@ -65,12 +65,12 @@ public:
         }
         Decimal value_of;
         const TextCursor start = text_;
-        if (const Status status = value(value_of, depth + 1); !status.ok()) {
+        if (const ProgramStatus status = value(value_of, depth + 1); !status.ok()) {
             return status;
         }
         if (!to_integer(value_of, number) || number < 1 || number > most_parameters) {
             text_ = start;
-            return Error::parameter_out_of_range;
+            return ProgramError::parameter_out_of_range;
         }
         return {};
     }
@@ -79,16 +79,18 @@ private:
     static constexpr std::int32_t most_parameters = 5602;
 
     // Behind a [, up to its ].
-    Status bracketed(Decimal& out, int depth) noexcept {
-        if (const Status status = level(out, 1, depth + 1); !status.ok()) {
+    ProgramStatus bracketed(Decimal& out, int depth) noexcept {
+        if (const ProgramStatus status = level(out, 1, depth + 1); !status.ok()) {
             return status;
         }
-        return text_.take(']') ? Status{} : Status(text_.at_end() ? Error::bracket_missing : Error::operator_unknown);
+        return text_.take(']')
+                   ? ProgramStatus{}
+                   : ProgramStatus(text_.at_end() ? ProgramError::bracket_missing : ProgramError::operator_unknown);
     }
 
     // A value, and what operators of this level and stronger ones make of it.
-    Status level(Decimal& out, int lowest, int depth) noexcept {
-        Status status = value(out, depth);
+    ProgramStatus level(Decimal& out, int lowest, int depth) noexcept {
+        ProgramStatus status = value(out, depth);
         while (status.ok()) {
             TextCursor ahead = text_;
             const OperatorRow* found = take_operator(ahead);
@@ -109,11 +111,11 @@ private:
         return status;
     }
 
-    Status parameter(Decimal& out, int depth) noexcept {
+    ProgramStatus parameter(Decimal& out, int depth) noexcept {
         const TextCursor start = text_;
         std::int32_t number = 0;
         std::string_view name;
-        if (const Status status = parameter_name(number, name, depth); !status.ok()) {
+        if (const ProgramStatus status = parameter_name(number, name, depth); !status.ok()) {
             return status;
         }
         if (number > 0) {
@@ -124,36 +126,36 @@ private:
             }
         } else if (!system_.read(name, out) && !table_.read(name, out)) {
             text_ = start;
-            return Error::parameter_unset;
+            return ProgramError::parameter_unset;
         }
         if (out.raw > Decimal::largest_raw || out.raw < -Decimal::largest_raw) { // a table may hold anything
             text_ = start;
-            return Error::number_out_of_range;
+            return ProgramError::number_out_of_range;
         }
         return {};
     }
 
-    Status function(Decimal& out, int depth) noexcept {
+    ProgramStatus function(Decimal& out, int depth) noexcept {
         const TextCursor start = text_;
         const FunctionRow* row = take_function(text_);
         if (row == nullptr) {
-            return Error::function_unknown;
+            return ProgramError::function_unknown;
         }
         if (!text_.take('[')) {
-            return Error::bracket_missing;
+            return ProgramError::bracket_missing;
         }
         if (row->name == Function::exists) {
             return exists(out, depth);
         }
         Decimal argument;
-        Status status = bracketed(argument, depth);
+        ProgramStatus status = bracketed(argument, depth);
         if (!status.ok()) {
             return status;
         }
         if (row->name == Function::atan) {
             Decimal other;
             if (!text_.take('/') || !text_.take('[')) {
-                return Error::atan_needs_two;
+                return ProgramError::atan_needs_two;
             }
             status = bracketed(other, depth);
             out = angle_of(other, argument);
@@ -166,19 +168,19 @@ private:
         return status;
     }
 
-    Status exists(Decimal& out, int depth) noexcept {
+    ProgramStatus exists(Decimal& out, int depth) noexcept {
         if (text_.peek() != '#') {
-            return Error::parameter_name_invalid;
+            return ProgramError::parameter_name_invalid;
         }
         std::int32_t number = 0;
         std::string_view name;
-        if (const Status status = parameter_name(number, name, depth); !status.ok()) {
+        if (const ProgramStatus status = parameter_name(number, name, depth); !status.ok()) {
             return status;
         }
         Decimal unused;
         out = truth(number > 0 ? SystemParameters::owns(number) || table_.read(number, unused)
                                : system_.read(name, unused) || table_.read(name, unused));
-        return text_.take(']') ? Status{} : Status(Error::bracket_missing);
+        return text_.take(']') ? ProgramStatus{} : ProgramStatus(ProgramError::bracket_missing);
     }
 
     TextCursor& text_;
@@ -188,24 +190,24 @@ private:
 
 } // namespace
 
-Status Expression::value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
+ProgramStatus Expression::value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
     return Parser(text, control, *table_).value(out, 0);
 }
 
-Status Expression::assignment(TextCursor& text, const BlockInterpreter& control) noexcept {
+ProgramStatus Expression::assignment(TextCursor& text, const BlockInterpreter& control) noexcept {
     const TextCursor start = text;
     if (count_ == most_assignments) {
-        return Error::too_many_assignments;
+        return ProgramError::too_many_assignments;
     }
     Assignment& next = assignments_[static_cast<unsigned>(count_)];
     Parser parser(text, control, *table_);
-    if (const Status status = parser.parameter_name(next.number, next.name, 0); !status.ok()) {
+    if (const ProgramStatus status = parser.parameter_name(next.number, next.name, 0); !status.ok()) {
         return status;
     }
     if (!text.take('=')) {
-        return Error::assignment_invalid;
+        return ProgramError::assignment_invalid;
     }
-    if (const Status status = parser.value(next.value, 0); !status.ok()) {
+    if (const ProgramStatus status = parser.value(next.value, 0); !status.ok()) {
         return status;
     }
     Decimal unused;
@@ -213,11 +215,11 @@ Status Expression::assignment(TextCursor& text, const BlockInterpreter& control)
     if (next.number > 0 ? owned && !SystemParameters::can_write(next.number)
                         : SystemParameters(control).read(next.name, unused)) {
         text = start;
-        return Error::parameter_read_only;
+        return ProgramError::parameter_read_only;
     }
     if (owned && !is_position(next.value)) {
         text = start;
-        return Error::position_out_of_range;
+        return ProgramError::position_out_of_range;
     }
     ++count_;
     return {};
@@ -243,7 +245,7 @@ void Expression::take_back(const Assignment& of) noexcept {
     }
 }
 
-Status Expression::commit() noexcept {
+ProgramStatus Expression::commit() noexcept {
     int done = 0;
     while (done < count_ && write(assignments_[static_cast<unsigned>(done)])) {
         ++done;
@@ -252,7 +254,7 @@ Status Expression::commit() noexcept {
     while (!complete && done > 0) {
         take_back(assignments_[static_cast<unsigned>(--done)]);
     }
-    return complete ? Status{} : Status(Error::parameter_storage_full);
+    return complete ? ProgramStatus{} : ProgramStatus(ProgramError::parameter_storage_full);
 }
 
 void Expression::finish(BlockInterpreter& control) noexcept {

@@ -21,10 +21,10 @@ public:
     /// `table` must outlive it.
     explicit Expression(ParameterTable& table) noexcept : table_(&table) {}
 
-    Status value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept override;
-    Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept override;
+    ProgramStatus value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept override;
+    ProgramStatus assignment(TextCursor& text, const BlockInterpreter& control) noexcept override;
     [[nodiscard]] bool has_assignments() const noexcept override { return count_ > 0; }
-    Status commit() noexcept override;
+    ProgramStatus commit() noexcept override;
     void finish(BlockInterpreter& control) noexcept override;
     void discard() noexcept override { count_ = 0; }
 

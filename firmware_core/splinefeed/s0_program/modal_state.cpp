@@ -47,12 +47,12 @@ BlockStatus ModalState::apply(const Block& block, const ProgramSettings& setting
     }
     if (states_speed(block, settings.dialect)) {
         if (block.value('s').raw < 0) {
-            return block.at(Error::speed_negative, 's');
+            return block.at(ProgramError::speed_negative, 's');
         }
         speed = block.value('s');
     }
     if (block.has('t') && (!to_integer(block.value('t'), selected_tool) || selected_tool < 0)) {
-        return block.at(Error::tool_unknown, 't');
+        return block.at(ProgramError::tool_unknown, 't');
     }
     if (const std::int16_t code = block.code(CodeGroup::spindle); code != Block::no_code) {
         spindle = code == 3   ? SpindleState::clockwise
@@ -87,10 +87,10 @@ BlockStatus ModalState::apply_feed(const Block& block) noexcept {
     }
     const Decimal value = inverse_time ? block.value('f') : in_mm(block.value('f'));
     if (value.raw < 0) {
-        return block.at(Error::feed_negative, 'f');
+        return block.at(ProgramError::feed_negative, 'f');
     }
     if (!inverse_time && value.raw > 0 && value.raw < least_feed) {
-        return block.at(Error::feed_out_of_range, 'f');
+        return block.at(ProgramError::feed_out_of_range, 'f');
     }
     feed = value;
     feed_in_inches = inches && !inverse_time;
@@ -107,7 +107,7 @@ BlockStatus ModalState::apply_path_mode(const Block& block, const ProgramSetting
     chain_tolerance_mm = block.has('q') ? in_mm(block.value('q')) : tolerance_mm;
     for (const char letter : {'p', 'q'}) {
         if (code == 640 && block.has(letter) && (block.value(letter).raw < 0 || in_mm(block.value(letter)) > most)) {
-            return block.at(Error::tolerance_out_of_range, letter);
+            return block.at(ProgramError::tolerance_out_of_range, letter);
         }
     }
     path_mode = code == 611                            ? PathMode::exact_stop

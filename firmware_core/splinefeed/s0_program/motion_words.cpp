@@ -59,7 +59,7 @@ BlockStatus BlockInterpreter::check_reach(const AxisPoint& from, const AxisPoint
         const Decimal way = to[n] - from[n];
         const bool far = !is_position(to[n]);
         if (far || way > longest || way < -longest) {
-            const Error error = far ? Error::position_out_of_range : Error::move_too_long;
+            const ProgramError error = far ? ProgramError::position_out_of_range : ProgramError::move_too_long;
             return has_axis(k) ? block_.at(error, letters_.letter(k)) : BlockStatus{error, 0, 0};
         }
     }
@@ -77,9 +77,9 @@ BlockStatus BlockInterpreter::move_to(const AxisPoint& program, const AxisPoint&
 
 BlockStatus BlockInterpreter::require_feed() const noexcept {
     if (modal_.inverse_time && !block_.has('f')) {
-        return block_.at(Error::inverse_feed_missing, CodeGroup::motion);
+        return block_.at(ProgramError::inverse_feed_missing, CodeGroup::motion);
     }
-    return modal_.feed.raw > 0 ? BlockStatus{} : block_.at(Error::feed_missing, CodeGroup::motion);
+    return modal_.feed.raw > 0 ? BlockStatus{} : block_.at(ProgramError::feed_missing, CodeGroup::motion);
 }
 
 BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState& before) noexcept {
@@ -102,7 +102,7 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     const bool cycle = is_cycle(use.motion);
     cycle_words_.begun = cycle_words_.begun && cycle;
     if (cycle && modal_.inverse_time) {
-        return block_.at(Error::inverse_feed_cycle, CodeGroup::motion);
+        return block_.at(ProgramError::inverse_feed_cycle, CodeGroup::motion);
     }
     const bool rapid = settings_.dialect == Dialect::marlin ? modal_.feed.raw == 0 && use.motion == 0 : use.motion == 0;
     if (is_feed_motion(use.motion) && !rapid) {
@@ -131,10 +131,10 @@ BlockStatus BlockInterpreter::plan_straight() noexcept {
     plan_.kind = PlanKind::line;
     if (modal_.motion >= 382 && modal_.motion <= 385) {
         if (modal_.inverse_time) {
-            return block_.at(Error::probe_inverse_time, CodeGroup::motion);
+            return block_.at(ProgramError::probe_inverse_time, CodeGroup::motion);
         }
         if (machine == place_.machine) {
-            return block_.at(Error::probe_too_short, CodeGroup::motion);
+            return block_.at(ProgramError::probe_too_short, CodeGroup::motion);
         }
         plan_.move = MoveKind::probe;
         plan_.probe = {modal_.motion >= 384, (modal_.motion & 1) == 0};
@@ -153,10 +153,10 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     const int y = letters_.index('y');
     const int z = letters_.index('z');
     if (first < 0 || second < 0 || x > 2 || y > 2 || z > 2) {
-        return block_.at(Error::arc_axes_unsuited, CodeGroup::motion);
+        return block_.at(ProgramError::arc_axes_unsuited, CodeGroup::motion);
     }
     if (!has_axis(first) && !has_axis(second) && block_.has('r')) {
-        return block_.at(Error::arc_end_is_start, 'r');
+        return block_.at(ProgramError::arc_end_is_start, 'r');
     }
     AxisPoint program;
     AxisPoint machine;
@@ -178,7 +178,7 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     plan_.arc = {space(frame_.to_machine(centre)), modal_.plane, arc.sweep_deg};
     for (const Decimal value : plan_.arc.centre) {
         if (!is_position(value)) {
-            return block_.at(Error::position_out_of_range, CodeGroup::motion);
+            return block_.at(ProgramError::position_out_of_range, CodeGroup::motion);
         }
     }
     return move_to(program, machine);

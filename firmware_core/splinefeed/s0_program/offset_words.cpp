@@ -21,15 +21,15 @@ BlockStatus BlockInterpreter::set_tool_length() noexcept {
     } else {
         std::int32_t number = frame_.offsets().tool_number;
         if (block_.has('h') && (!to_integer(block_.value('h'), number) || number < 0)) {
-            return block_.at(Error::tool_unknown, 'h');
+            return block_.at(ProgramError::tool_unknown, 'h');
         }
         ToolOffset found;
         if (number > 0 && settings_.tools == nullptr) {
-            return block_.at(Error::tool_table_missing, CodeGroup::tool_length);
+            return block_.at(ProgramError::tool_table_missing, CodeGroup::tool_length);
         }
         if (number > 0 && !settings_.tools->find(number, found)) {
-            return block_.has('h') ? block_.at(Error::tool_unknown, 'h')
-                                   : block_.at(Error::tool_unknown, CodeGroup::tool_length);
+            return block_.has('h') ? block_.at(ProgramError::tool_unknown, 'h')
+                                   : block_.at(ProgramError::tool_unknown, CodeGroup::tool_length);
         }
         tool = found.offset;
     }
@@ -101,7 +101,7 @@ BlockStatus BlockInterpreter::check_offsets(CodeGroup group) noexcept {
         far = far || is_far(system.origin);
     }
     if (far) {
-        return block_.at(Error::position_out_of_range, group);
+        return block_.at(ProgramError::position_out_of_range, group);
     }
     frame_changed();
     return {};

@@ -29,15 +29,15 @@ constexpr FunctionRow functions[] = {
 };
 
 // Symmetric and below the range of the integers: signs change, and parts are cut off or rounded up, without overflow.
-Status checked(detail::Checked result, Decimal& out) noexcept {
+ProgramStatus checked(detail::Checked result, Decimal& out) noexcept {
     out.raw = result.raw;
     const bool fits = result.fits && result.raw <= Decimal::largest_raw && result.raw >= -Decimal::largest_raw;
-    return fits ? Status{} : Status(Error::result_out_of_range);
+    return fits ? ProgramStatus{} : ProgramStatus(ProgramError::result_out_of_range);
 }
 
-Status divide_rounded(Decimal a, Decimal b, Decimal& out) noexcept {
+ProgramStatus divide_rounded(Decimal a, Decimal b, Decimal& out) noexcept {
     if (b.raw == 0) {
-        return Error::division_by_zero;
+        return ProgramError::division_by_zero;
     }
     const detail::Checked size = product_quotient(a.raw, Decimal::one, detail::magnitude(b.raw));
     return checked({b.raw < 0 ? -size.raw : size.raw, size.fits}, out);
@@ -73,10 +73,10 @@ const FunctionRow* take_function(TextCursor& text) noexcept {
     return nullptr;
 }
 
-Status apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept {
+ProgramStatus apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept {
     switch (name) {
     case Operator::power: {
-        const Result<Decimal> result = power(a, b);
+        const ProgramResult<Decimal> result = power(a, b);
         if (!result.has_value()) {
             return result.error();
         }
@@ -86,7 +86,7 @@ Status apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept {
     case Operator::divided: return divide_rounded(a, b, out);
     case Operator::modulo:
         if (b.raw == 0) {
-            return Error::division_by_zero;
+            return ProgramError::division_by_zero;
         }
         out.raw = a.raw % b.raw;
         out.raw += out.raw < 0 ? static_cast<std::int64_t>(detail::magnitude(b.raw)) : 0;
@@ -104,10 +104,10 @@ Status apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept {
     case Operator::logic_xor: out = truth((a.raw != 0) != (b.raw != 0)); return {};
     case Operator::none: break;
     }
-    return Error::operator_unknown;
+    return ProgramError::operator_unknown;
 }
 
-Status apply(Function name, Decimal x, Decimal& out) noexcept {
+ProgramStatus apply(Function name, Decimal x, Decimal& out) noexcept {
     constexpr Decimal one{Decimal::one};
     switch (name) {
     case Function::sine: out = turned(one, sine_cosine(x).sine); return {};
@@ -115,7 +115,7 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
     case Function::tangent: {
         const SineCosine at = sine_cosine(x);
         if (at.cosine == 0) {
-            return Error::result_out_of_range;
+            return ProgramError::result_out_of_range;
         }
         const detail::Checked size = product_quotient(at.sine, Decimal::one, detail::magnitude(at.cosine));
         return checked({at.cosine < 0 ? -size.raw : size.raw, size.fits}, out);
@@ -123,7 +123,7 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
     case Function::asin:
     case Function::acos: {
         if (x > one || x < -one) {
-            return Error::arc_function_argument;
+            return ProgramError::arc_function_argument;
         }
         // sqrt(1 - x^2) in units of 1e-9, from the exact square
         const std::uint64_t size = detail::magnitude(x.raw);
@@ -138,13 +138,13 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
     }
     case Function::root:
         if (x.raw < 0) {
-            return Error::root_of_negative;
+            return ProgramError::root_of_negative;
         }
         out = square_root(x);
         return {};
     case Function::abs: out.raw = x.raw < 0 ? -x.raw : x.raw; return {};
     case Function::exp: {
-        const Result<Decimal> result = exponential(x);
+        const ProgramResult<Decimal> result = exponential(x);
         if (!result.has_value()) {
             return result.error();
         }
@@ -152,7 +152,7 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
     }
     case Function::ln:
         if (x.raw <= 0) {
-            return Error::logarithm_argument;
+            return ProgramError::logarithm_argument;
         }
         out = logarithm(x);
         return {};
@@ -164,7 +164,7 @@ Status apply(Function name, Decimal x, Decimal& out) noexcept {
     case Function::atan:
     case Function::exists: break;
     }
-    return Error::function_unknown;
+    return ProgramError::function_unknown;
 }
 
 } // namespace splinefeed

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "splinefeed/s0_program/decimal.hpp"
+#include "splinefeed/s0_program/program_errors.hpp"
 #include "splinefeed/s0_program/text_cursor.hpp"
-
-#include "splinefeed/base/status.hpp"
 
 namespace splinefeed {
 
@@ -68,9 +67,9 @@ struct FunctionRow {
 
 /// Arguments and results are within +-Decimal::largest_raw. Errors: division_by_zero, power_invalid,
 /// result_out_of_range.
-Status apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept;
+ProgramStatus apply(Operator name, Decimal a, Decimal b, Decimal& out) noexcept;
 
 /// All but atan and exists. Errors: arc_function_argument, root_of_negative, logarithm_argument, result_out_of_range.
-Status apply(Function name, Decimal x, Decimal& out) noexcept;
+ProgramStatus apply(Function name, Decimal x, Decimal& out) noexcept;
 
 } // namespace splinefeed

@@ -40,12 +40,12 @@ BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlaneP
     const Decimal radius = modal.in_mm(block.value('r'));
     const Decimal chord = plane_distance(from, to);
     if (chord.raw == 0) {
-        return block.at(Error::arc_end_is_start, 'r');
+        return block.at(ProgramError::arc_end_is_start, 'r');
     }
     const std::int64_t half = (chord.raw + 1) / 2;
     const auto arm = static_cast<std::int64_t>(detail::magnitude(radius.raw));
     if (half - arm > free_mismatch.raw || arm < least_radius.raw) {
-        return block.at(Error::arc_radius_too_small, 'r');
+        return block.at(ProgramError::arc_radius_too_small, 'r');
     }
     Decimal apart{}; // of the centre from the chord; a semicircle's is 0
     if (arm > half) {
@@ -64,10 +64,10 @@ BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, Plane
     const char i = letters.offsets[0];
     const char j = letters.offsets[1];
     if (block.has(letters.offsets[2])) {
-        return block.at(Error::arc_offset_unused, letters.offsets[2]);
+        return block.at(ProgramError::arc_offset_unused, letters.offsets[2]);
     }
     if (modal.centre_absolute && !(block.has(i) && block.has(j))) {
-        return block.at(Error::arc_centre_missing, block.has(i) ? i : j);
+        return block.at(ProgramError::arc_centre_missing, block.has(i) ? i : j);
     }
     out = {modal.in_mm(block.value(i)), modal.in_mm(block.value(j))};
     if (!modal.centre_absolute) {
@@ -77,12 +77,12 @@ BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, Plane
     const Decimal start = plane_distance(out, from);
     const Decimal end = plane_distance(out, to);
     if (start < least_radius || end < least_radius) {
-        return block.at(Error::arc_radius_zero, block.has(i) ? i : j);
+        return block.at(ProgramError::arc_radius_zero, block.has(i) ? i : j);
     }
     const Decimal mismatch = size(start - end);
     if (mismatch > most_mismatch ||
         (mismatch > free_mismatch && mismatch.raw > (start > end ? start : end).raw / relative_mismatch)) {
-        return block.at(Error::arc_radius_mismatch, block.has(i) ? i : j);
+        return block.at(ProgramError::arc_radius_mismatch, block.has(i) ? i : j);
     }
     const Decimal chord = plane_distance(from, to);
     if (mismatch.raw > start.raw / core_mismatch && chord.raw > 0) {
@@ -113,12 +113,12 @@ BlockStatus find_arc(const Block& block, const ModalState& modal, PlanePoint fro
     const bool clockwise = modal.motion == 20;
     const bool by_offsets = block.has_any(Block::bits("ijk"));
     if (by_offsets == block.has('r')) {
-        return by_offsets ? block.at(Error::arc_centre_and_radius, 'r')
-                          : block.at(Error::arc_centre_missing, CodeGroup::motion);
+        return by_offsets ? block.at(ProgramError::arc_centre_and_radius, 'r')
+                          : block.at(ProgramError::arc_centre_missing, CodeGroup::motion);
     }
     std::int32_t turns = 1;
     if (block.has('p') && (!to_integer(block.value('p'), turns) || turns < 1 || turns > most_turns)) {
-        return block.at(Error::arc_turns_invalid, 'p');
+        return block.at(ProgramError::arc_turns_invalid, 'p');
     }
     const BlockStatus status = by_offsets ? centre_by_offsets(block, modal, from, to, out.centre)
                                           : centre_by_radius(block, modal, from, to, clockwise, out.centre);

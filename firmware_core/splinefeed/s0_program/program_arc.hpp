@@ -27,7 +27,7 @@ struct PlaneLetters {
 /// From the words of a block, in program coordinates in mm. The centre of an arc whose radii at both ends differ by
 /// more than a 32nd is moved onto the perpendicular bisector. The core's arcs cannot follow such a spiral, and the
 /// centre of so small an arc moves by less than its rounding.
-/// Errors: the Error::arc_... of a wrong centre, radius or number of turns.
+/// Errors: the ProgramError::arc_... of a wrong centre, radius or number of turns.
 BlockStatus find_arc(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
                      ArcGeometry& out) noexcept;
 

@@ -19,24 +19,24 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
     const int x = letters_.index('x');
     const int y = letters_.index('y');
     if (modal_.plane != Plane::xy || x < 0 || y < 0) {
-        return block_.at(Error::spline_plane, CodeGroup::motion);
+        return block_.at(ProgramError::spline_plane, CodeGroup::motion);
     }
     if (block_.has_any(other_axes)) {
-        return block_.at(Error::spline_axis_word, CodeGroup::motion);
+        return block_.at(ProgramError::spline_axis_word, CodeGroup::motion);
     }
     const bool cubic = modal_.motion == 50;
     const bool goes_on = cubic && before.motion == 50;
     const bool has_start = block_.has('i') && block_.has('j');
     if (block_.has('i') != block_.has('j') || (!has_start && !goes_on)) {
-        return block_.at(Error::spline_offset_missing, CodeGroup::motion);
+        return block_.at(ProgramError::spline_offset_missing, CodeGroup::motion);
     }
     if (cubic && !(block_.has('p') && block_.has('q'))) {
-        return block_.at(Error::spline_end_missing, CodeGroup::motion);
+        return block_.at(ProgramError::spline_end_missing, CodeGroup::motion);
     }
     const PlanePoint start = has_start ? PlanePoint{modal_.in_mm(block_.value('i')), modal_.in_mm(block_.value('j'))}
                                        : PlanePoint{-results_.spline_out.first, -results_.spline_out.second};
     if (!cubic && start.first.raw == 0 && start.second.raw == 0) {
-        return block_.at(Error::spline_offset_missing, 'i');
+        return block_.at(ProgramError::spline_offset_missing, 'i');
     }
     AxisPoint program;
     AxisPoint machine;
@@ -65,7 +65,7 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
         for (unsigned k = 0; k < 3; ++k) {
             const Decimal way = spline.points[n][k] - spline.points[0][k];
             if (way > longest_spline || way < -longest_spline) {
-                return block_.at(Error::move_too_long, CodeGroup::motion);
+                return block_.at(ProgramError::move_too_long, CodeGroup::motion);
             }
         }
     }
@@ -76,24 +76,24 @@ BlockStatus BlockInterpreter::plan_nurbs() noexcept {
     const int x = letters_.index('x');
     const int y = letters_.index('y');
     if (modal_.plane != Plane::xy || x < 0 || y < 0) {
-        return block_.at(Error::spline_plane, CodeGroup::motion);
+        return block_.at(ProgramError::spline_plane, CodeGroup::motion);
     }
     if (block_.has_any(other_axes)) {
-        return block_.at(Error::spline_axis_word, CodeGroup::motion);
+        return block_.at(ProgramError::spline_axis_word, CodeGroup::motion);
     }
     const bool fresh = !nurbs_.is_open();
     const bool has_point = block_.has('x') && block_.has('y');
     if (block_.has('x') != block_.has('y') || (!has_point && !fresh)) {
-        return block_.at(Error::nurbs_word, CodeGroup::motion);
+        return block_.at(ProgramError::nurbs_word, CodeGroup::motion);
     }
     const Decimal weight = block_.has('p') ? block_.value('p') : Decimal{Decimal::one};
     if (weight.raw < Decimal::one / 1000000 || weight > heaviest || (!fresh && !nurbs_.accepts(weight))) {
-        return block_.at(Error::nurbs_weight_invalid, 'p');
+        return block_.at(ProgramError::nurbs_weight_invalid, 'p');
     }
     std::int32_t order = fresh ? NurbsCurve::least_order : nurbs_.order();
     if (block_.has('l') && (!to_integer(block_.value('l'), order) || order < NurbsCurve::least_order ||
                             order > NurbsCurve::most_order || (!fresh && order != nurbs_.order()))) {
-        return block_.at(Error::nurbs_order_invalid, 'l');
+        return block_.at(ProgramError::nurbs_order_invalid, 'l');
     }
     if (fresh) {
         series_.emplace<BezierPlan>();
@@ -114,7 +114,7 @@ BlockStatus BlockInterpreter::plan_nurbs() noexcept {
         return status;
     }
     if (!nurbs_.accepts(weight)) {
-        return block_.at(Error::nurbs_weight_invalid, 'p');
+        return block_.at(ProgramError::nurbs_weight_invalid, 'p');
     }
     nurbs_.add(space(machine), weight);
     return {};
@@ -122,13 +122,13 @@ BlockStatus BlockInterpreter::plan_nurbs() noexcept {
 
 BlockStatus BlockInterpreter::end_nurbs() noexcept {
     if (!nurbs_.is_open()) {
-        return block_.at(Error::nurbs_not_begun, CodeGroup::non_modal);
+        return block_.at(ProgramError::nurbs_not_begun, CodeGroup::non_modal);
     }
     if (block_.has(CodeGroup::motion) || block_.has_any(Block::bits("xyzabcuvwlp"))) {
-        return block_.at(Error::nurbs_word, CodeGroup::non_modal);
+        return block_.at(ProgramError::nurbs_word, CodeGroup::non_modal);
     }
     if (!nurbs_.finish()) {
-        return block_.at(Error::nurbs_too_few_points, CodeGroup::non_modal);
+        return block_.at(ProgramError::nurbs_too_few_points, CodeGroup::non_modal);
     }
     const SpacePoint last = nurbs_.last();
     AxisPoint machine = place_.machine;

@@ -3,9 +3,8 @@
 #pragma once
 
 #include "splinefeed/s0_program/parameter_table.hpp"
+#include "splinefeed/s0_program/program_errors.hpp"
 #include "splinefeed/s0_program/text_cursor.hpp"
-
-#include "splinefeed/base/status.hpp"
 
 namespace splinefeed {
 
@@ -17,13 +16,13 @@ class WordEvaluator {
 public:
     /// A value that begins with #, [ or the name of a function. After an error the cursor is at the character that is
     /// wrong.
-    virtual Status value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept = 0;
+    virtual ProgramStatus value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept = 0;
     /// "#1 = value", from the #. It is kept until commit() and finish(): values in a block are those before the block.
-    virtual Status assignment(TextCursor& text, const BlockInterpreter& control) noexcept = 0;
+    virtual ProgramStatus assignment(TextCursor& text, const BlockInterpreter& control) noexcept = 0;
     /// Whether finish() may have something to do, and before it commit().
     [[nodiscard]] virtual bool has_assignments() const noexcept = 0;
     /// Gives the parameters of the program that the block assigns their values. After an error none has its value.
-    virtual Status commit() noexcept = 0;
+    virtual ProgramStatus commit() noexcept = 0;
     /// The same for those of the interpreter, behind the motion of the block: it is made with the offsets before.
     virtual void finish(BlockInterpreter& control) noexcept = 0;
     /// Forgets the assignments of a block that is not executed.

@@ -49,21 +49,21 @@ BlockStatus check_axes(const Block& block, const AxisLetters& letters, Dialect d
     const std::uint32_t missing = block.letters() & axes & ~letters.bits();
     for (char letter = 'a'; letter <= 'z' && missing != 0; ++letter) {
         if ((missing & Block::letter_bit(letter)) != 0) {
-            return block.at(Error::axis_missing, letter);
+            return block.at(ProgramError::axis_missing, letter);
         }
     }
     return {};
 }
 
-BlockStatus require_count(const Block& block, char letter, std::int32_t most, Error missing) noexcept {
+BlockStatus require_count(const Block& block, char letter, std::int32_t most, ProgramError missing) noexcept {
     std::int32_t number = 0;
     if (!block.has(letter)) {
         return {missing, 0, 0};
     }
     if (!to_integer(block.value(letter), number)) {
-        return block.at(Error::integer_needed, letter);
+        return block.at(ProgramError::integer_needed, letter);
     }
-    return number < 0 || number > most ? block.at(Error::count_out_of_range, letter) : BlockStatus{};
+    return number < 0 || number > most ? block.at(ProgramError::count_out_of_range, letter) : BlockStatus{};
 }
 
 BlockStatus check_input(const Block& block) noexcept {
@@ -71,9 +71,9 @@ BlockStatus check_input(const Block& block) noexcept {
     std::int32_t wait = 0;
     if (analog == block.has('p') || (block.has('l') && !to_integer(block.value('l'), wait)) || wait < 0 || wait > 4 ||
         (analog && wait != 0) || block.value('q').raw < 0 || (wait > 0 && block.value('q').raw == 0)) {
-        return block.at(Error::input_word_invalid, CodeGroup::input_output);
+        return block.at(ProgramError::input_word_invalid, CodeGroup::input_output);
     }
-    return require_count(block, analog ? 'e' : 'p', 63, Error::input_word_invalid);
+    return require_count(block, analog ? 'e' : 'p', 63, ProgramError::input_word_invalid);
 }
 
 // Words that a code cannot do without.
@@ -84,7 +84,7 @@ BlockStatus check_needs(const Block& block, Dialect dialect) noexcept {
     if (block.code(CodeGroup::non_modal) == 40) {
         const bool has_time = block.has('p') || (marlin && block.has('s'));
         if (!has_time || block.value('p').raw < 0 || (marlin && block.value('s').raw < 0)) {
-            return block.at(Error::dwell_invalid, CodeGroup::non_modal);
+            return block.at(ProgramError::dwell_invalid, CodeGroup::non_modal);
         }
     }
     if (block.code(CodeGroup::non_modal) == 100) {
@@ -92,18 +92,18 @@ BlockStatus check_needs(const Block& block, Dialect dialect) noexcept {
         std::int32_t system = 0;
         if (!to_integer(block.value('l'), what) || (what != 2 && what != 20) || !block.has('p') ||
             !to_integer(block.value('p'), system) || system < 0 || system > 9 || (what == 20 && block.has('r'))) {
-            return block.at(Error::g10_invalid, CodeGroup::non_modal);
+            return block.at(ProgramError::g10_invalid, CodeGroup::non_modal);
         }
     }
     if (const std::int16_t code = block.code(CodeGroup::input_output); code != Block::no_code) {
         const BlockStatus status =
-            code == 66 ? check_input(block) : require_count(block, 'p', most_outputs, Error::count_out_of_range);
+            code == 66 ? check_input(block) : require_count(block, 'p', most_outputs, ProgramError::count_out_of_range);
         if (!status.ok()) {
             return status.column > 0 ? status : block.at(status.error, CodeGroup::input_output);
         }
     }
     if (block.code(CodeGroup::tool_change) == 61) {
-        return require_count(block, 'q', most_tools, Error::tool_unknown);
+        return require_count(block, 'q', most_tools, ProgramError::tool_unknown);
     }
     return {};
 }
@@ -116,33 +116,34 @@ BlockStatus find_axis_use(const Block& block, const ModalState& modal, bool axes
         tool_offset || modeless == 100 || modeless == 280 || modeless == 300 || modeless == 520 || modeless == 920;
     if (offsets) {
         if (motion != Block::no_code && motion != ModalState::no_motion) {
-            return block.at(Error::axis_words_twice, CodeGroup::motion);
+            return block.at(ProgramError::axis_words_twice, CodeGroup::motion);
         }
         if (tool_offset && modeless != Block::no_code && axes) {
-            return block.at(Error::axis_words_twice, CodeGroup::non_modal);
+            return block.at(ProgramError::axis_words_twice, CodeGroup::non_modal);
         }
         if (!axes && (modeless == 520 || modeless == 920 || tool_offset)) {
-            return block.at(Error::g92_axes_missing, tool_offset ? CodeGroup::tool_length : CodeGroup::non_modal);
+            return block.at(ProgramError::g92_axes_missing,
+                            tool_offset ? CodeGroup::tool_length : CodeGroup::non_modal);
         }
         out.axes = AxisUse::offsets;
         return {};
     }
     if (motion == ModalState::no_motion) {
-        return axes ? block.at(Error::axis_word_unused, CodeGroup::motion) : BlockStatus{};
+        return axes ? block.at(ProgramError::axis_word_unused, CodeGroup::motion) : BlockStatus{};
     }
     if (motion != Block::no_code) {
         const bool free = motion <= 30 || motion == 52;
         if (!axes && !free) {
-            return block.at(Error::axis_words_missing, CodeGroup::motion);
+            return block.at(ProgramError::axis_words_missing, CodeGroup::motion);
         }
         out.motion = motion;
     } else if (axes) {
         out.motion = modal.motion;
         if (modal.motion == ModalState::no_motion && modeless == 530) {
-            return block.at(Error::g53_unsuited, CodeGroup::non_modal);
+            return block.at(ProgramError::g53_unsuited, CodeGroup::non_modal);
         }
         if (modal.motion == ModalState::no_motion) {
-            return {Error::axis_word_unused, 0, 0};
+            return {ProgramError::axis_word_unused, 0, 0};
         }
     } else if ((is_arc(modal.motion) && block.has_any(Block::bits("ijk"))) || (modal.motion == 52 && block.has('p'))) {
         out.motion = modal.motion; // a whole turn by I and J alone; a weight of a NURBS
@@ -158,7 +159,7 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
     if (block.has(CodeGroup::printer)) { // its words are its own
         for (const unsigned group : indices(CodeGroup::printer)) {
             if (block.has(static_cast<CodeGroup>(group))) {
-                return block.at(Error::modal_group_conflict, static_cast<CodeGroup>(group));
+                return block.at(ProgramError::modal_group_conflict, static_cast<CodeGroup>(group));
             }
         }
         return {};
@@ -175,16 +176,16 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
         const bool incremental =
             block.has(CodeGroup::distance) ? block.code(CodeGroup::distance) == 910 : modal.incremental;
         if ((out.motion != 0 && out.motion != 10) || incremental) {
-            return block.at(Error::g53_unsuited, CodeGroup::non_modal);
+            return block.at(ProgramError::g53_unsuited, CodeGroup::non_modal);
         }
     }
     if (is_cycle(out.motion) && block.has_any(no_cycle_bits)) {
-        return block.at(Error::cycle_axis_word, CodeGroup::motion);
+        return block.at(ProgramError::cycle_axis_word, CodeGroup::motion);
     }
     const std::uint32_t unused = block.letters() & ~(axes | letters_used(block, out.motion));
     for (char letter = 'a'; letter <= 'z' && unused != 0; ++letter) {
         if ((unused & Block::letter_bit(letter)) != 0) {
-            return block.at(Error::word_unused, letter);
+            return block.at(ProgramError::word_unused, letter);
         }
     }
     return check_needs(block, dialect);

@@ -17,7 +17,7 @@ bool is_printer_word(std::string_view text) {
         return false;
     }
     const CodeInfo info = find_m_code(static_cast<std::int32_t>(number.raw / Decimal::one), Dialect::marlin);
-    return info.group == CodeGroup::printer && info.refusal == Error::none;
+    return info.group == CodeGroup::printer && info.refusal == ProgramError::none;
 }
 
 /// Whether text begins like a call of a function: a name and a bracket.
@@ -28,21 +28,21 @@ bool is_call(std::string_view text) {
 
 } // namespace
 
-std::string_view dialect_hint(std::string_view text, Error error, Dialect dialect) {
+std::string_view dialect_hint(std::string_view text, ProgramError error, Dialect dialect) {
     const char first = TextCursor(text).peek();
     switch (error) {
-    case Error::m_code_unknown:
-    case Error::user_code_unsupported:
+    case ProgramError::m_code_unknown:
+    case ProgramError::user_code_unsupported:
         return dialect != Dialect::marlin && is_printer_word(text)
                    ? "this dialect does not have the word; --dialect marlin does"
                    : "";
-    case Error::word_unused:
+    case ProgramError::word_unused:
         return dialect != Dialect::marlin && first == 'e'
                    ? "E is the filament of a printer; --dialect marlin has it, and --ignore E leaves it out"
                    : "";
-    case Error::function_unknown:
+    case ProgramError::function_unknown:
         return is_call(text) ? "" : "the letter before it has no number; a word is a letter and a number, like X10";
-    case Error::character_invalid:
+    case ProgramError::character_invalid:
         if (first == ',' && text.size() > 1 && text[1] >= '0' && text[1] <= '9') {
             return "a number has a point, not a comma";
         }

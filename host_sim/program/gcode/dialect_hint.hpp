@@ -2,7 +2,7 @@
 // dialect_hint: what a line means that is not as the dialect has it.
 #pragma once
 
-#include "splinefeed/base/status.hpp"
+#include "splinefeed/s0_program/program_errors.hpp"
 #include "splinefeed/s0_program/program_settings.hpp"
 
 #include <string_view>
@@ -12,6 +12,6 @@ namespace splinefeed::host {
 /// What would be right where a line was refused because it is another control's, has a decimal comma, or is no G-code.
 /// Empty: describe(error) says it.
 /// @param text  of the line, from what is wrong on
-[[nodiscard]] std::string_view dialect_hint(std::string_view text, Error error, Dialect dialect);
+[[nodiscard]] std::string_view dialect_hint(std::string_view text, ProgramError error, Dialect dialect);
 
 } // namespace splinefeed::host

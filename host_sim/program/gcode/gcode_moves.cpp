@@ -6,6 +6,7 @@
 #include "host_sim/program/gcode/dialect_hint.hpp"
 #include "host_sim/program/gcode/impossible_event.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
+#include "host_sim/program/gcode/option_advice.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
 #include "host_sim/program/gcode/problem_list.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
@@ -163,8 +164,10 @@ void GcodeMoves<S>::read_line() {
     const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
     const std::string_view hint =
         dialect_hint(text.substr(std::min(at, text.size())), status.error, settings_->dialect);
-    report({file_, line_.number, std::uint64_t{status.column},
-            in_the_line(status) + (hint.empty() ? describe(status.error) : std::string(hint))});
+    report(
+        {file_, line_.number, std::uint64_t{status.column},
+         in_the_line(status) + (hint.empty() ? fmt::format("{}{}", describe(status.error), option_advice(status.error))
+                                             : std::string(hint))});
 }
 
 // One line at a time: whoever waits for a pipe wants to know after each.

@@ -3,7 +3,7 @@
 
 #include "host_sim/base/input_error.hpp"
 
-#include "splinefeed/base/status.hpp"
+#include "splinefeed/s0_program/program_errors.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ Decimal ProgramFlow::value(std::string_view text, std::size_t& at, const SourceL
     TextCursor cursor(text);
     cursor.go_to(at);
     Decimal out;
-    const Status status = evaluator_->value(cursor, *system_, out);
+    const ProgramStatus status = evaluator_->value(cursor, *system_, out);
     at = cursor.at();
     if (!status.ok()) {
         fail(line, at, describe(status.error()));
