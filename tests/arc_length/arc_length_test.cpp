@@ -64,7 +64,7 @@ void check_cells(const std::vector<Cell<S>>& cells, Worst& worst) {
             quadrature().integrate([&](Real w) { return evaluate(cell, w).speed(axes); }, 0.0L, 1.0L);
         worst.length = std::max(worst.length, std::fabs(length / reference - 1.0L) - noise);
         Real sharpest = 0.0L;
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             sharpest = std::max(sharpest, exact(cell.curvature_max[k]));
         }
         const auto n = static_cast<Real>(cell.degree);
@@ -78,7 +78,7 @@ void check_cells(const std::vector<Cell<S>>& cells, Worst& worst) {
             const Jet jet = evaluate(cell, w);
             worst.fluctuation = std::max(worst.fluctuation, std::fabs(jet.speed(axes) * slope / length - 1.0L) - noise);
             const Direction d = direction_at(cell, j / 24.0L);
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 worst.tangent = std::max(worst.tangent, std::fabs(d.tangent[k]) - exact(cell.tangent_max[k]) - noise);
                 const Real excess = std::fabs(d.curvature[k]) - exact(cell.curvature_max[k]) - bend_noise;
                 if (exact(cell.curvature_max[k]) < static_cast<Real>(PieceMeasure<S>::sharpest)) {
@@ -118,7 +118,7 @@ Real distance_to_curve(const CurveSegment<S>& segment, const Cell<S>& cell, cons
     const Jet middle = evaluate(segment, u + h / 2.0L);
     const Jet on_cell = evaluate(cell, 0.5L);
     Real miss = 0.0L;
-    for (const unsigned k : indices(segment.axes)) {
+    for (const unsigned k : splinefeed::indices(segment.axes)) {
         const Real origin = exact_mm(segment.origin[k]);
         miss = std::max(miss, std::fabs(exact_mm(end[k]) - origin - to.r[k]));
         miss = std::max(miss, std::fabs(exact_mm(cell.origin[k]) - origin + on_cell.r[k] - middle.r[k]));
@@ -155,7 +155,7 @@ void check_path(const BezierPath& path, Worst& worst, double feed = 100.0) {
             PerAxis<Position> end{};
             ends_of(cell, start, end);
             Real gap = 0.0L;
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 gap = std::max(gap, std::fabs(exact_mm(start[k]) - exact_mm(here[k])));
             }
             here = end;
@@ -184,7 +184,7 @@ void check_path(const BezierPath& path, Worst& worst, double feed = 100.0) {
             length_noise += exact(cell.length_mm) * (is_chord(cell) ? 0.0L : slope_noise(cell)) + grid;
         }
         Real miss = 0.0L;
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             miss = std::max(miss, std::fabs(exact_mm(here[k]) - exact_mm(segment.end[k])));
         }
         REQUIRE(miss <= near);

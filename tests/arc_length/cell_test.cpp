@@ -19,7 +19,7 @@ Cell<S> random_cell(Random& random) {
     cell.degree = random.integer(1, max_degree);
     cell.unit_log2 = random.integer(-25, 0);
     cell.length_mm = from_integer<S>(1);
-    for (const unsigned k : indices(cell.axes)) {
+    for (const unsigned k : splinefeed::indices(cell.axes)) {
         cell.origin[k] = position_from_mm(random.between(-1e5, 1e5));
         for (unsigned i = 0; i <= static_cast<unsigned>(cell.degree); ++i) {
             cell.power[k][i] = from_double<S>(random.between(-1.0, 1.0) * (i == 0 ? 0.5 : 6000.0));
@@ -64,7 +64,7 @@ TEMPLATE_TEST_CASE("positions are the offset polynomial at w from the origin", "
         PerAxis<Position> position{};
         cell.position_at(x, position);
         const Jet jet = evaluate(cell, exact(cell.parameter_at(x)));
-        for (const unsigned k : indices(cell.axes)) {
+        for (const unsigned k : splinefeed::indices(cell.axes)) {
             // Per step of Horner's rule a product and a sum below 6000 (degree + 1); Fixed rounds absolutely.
             const Real size = std::same_as<TestType, Fixed> ? 1.0L : 6000.0L * (cell.degree + 1);
             const Real units = 2.0L * cell.degree * size * rounding<TestType>();

@@ -79,7 +79,7 @@ inline std::vector<PvtSegment> steady(int axes, std::size_t count, std::uint32_t
     std::vector<PvtSegment> out(count);
     for (std::size_t i = 0; i < count; ++i) {
         out[i].duration_ticks = ticks;
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             const double way = counts_per_s * (k + 1) * ticks / splinefeed::ticks_per_s;
             out[i].end[k] = std::llround(way * 65536.0) * static_cast<std::int64_t>(first + i + 1);
             out[i].end_velocity[k] = std::llround(way * 65536.0) * 256;
@@ -98,7 +98,7 @@ inline std::vector<PvtSegment> random_segments(std::mt19937_64& random, int axes
     for (PvtSegment& segment : out) {
         segment.duration_ticks = pvt::shortest_ticks + static_cast<std::uint32_t>(random() % 40000);
         segment.rest = &segment == &out.back();
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             at[k] += std::llround(uniform() * reach * 65536.0);
             segment.end[k] = at[k];
             segment.end_velocity[k] = segment.rest ? 0 : std::llround(uniform() * reach * 16777216.0);

@@ -228,6 +228,33 @@ TEST_CASE("Cyclic targets: no shaft jumps, whenever a target takes effect, if it
     }
 }
 
+TEST_CASE("Cyclic targets: a drive may have followed a target that nobody confirmed, where the path turns round") {
+    const Circle circle(wholes);
+    const TrajectoryBuffer track = circle.track();
+    const DriveProfile profile = host::find_profile("cia402-index");
+    constexpr std::uint32_t period_us = 10'000;
+    const auto way_q16 = [&](std::uint64_t at_us) {
+        return std::abs(track.at(1, at_us + period_us).position_q16 - track.at(1, at_us).position_q16);
+    };
+    std::uint64_t middle_us = period_us; // where the axis is fastest
+    for (std::uint64_t at_us = period_us; at_us < track.end_us(); at_us += period_us) {
+        middle_us = way_q16(at_us) > way_q16(middle_us) ? at_us : middle_us;
+    }
+    for (const bool confirmed : {false, true}) {
+        const std::int64_t begins_q16 = track.at(1, middle_us).position_q16;
+        Axis axis("cia402-index", static_cast<double>(begins_q16) / 65536.0, period_us);
+        CyclicStream stream(profile, {1, period_us, period_us, 1e5, Circle::speed_counts_s});
+        stream.begin(begins_q16);
+        axis.send(stream.frame(track, {0, middle_us, middle_us + period_us}));
+        stream.on_arrival(0, confirmed ? 0 : UINT64_MAX);
+        axis.drive.wait_us(period_us);
+        axis.send(stream.frame(track, {period_us, middle_us, middle_us - period_us})); // and back past the start
+        axis.drive.wait_us(0);
+        CHECK(std::fabs(axis.drive.model().axis().reference().velocity_counts_s()) < 1.3 * Circle::speed_counts_s);
+        CHECK(stream.behind());
+    }
+}
+
 TEST_CASE("Blocks on the fly: what arrived late is known when the next one is made") {
     const Circle circle(wholes);
     const TrajectoryBuffer track = circle.track();

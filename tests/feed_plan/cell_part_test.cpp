@@ -19,7 +19,7 @@ Real apart(const Cell<S>& cell, S x, const Cell<S>& part, S xi) {
     cell.position_at(x, a);
     part.position_at(xi, b);
     Real most = 0.0L;
-    for (const unsigned k : indices(cell.axes)) {
+    for (const unsigned k : splinefeed::indices(cell.axes)) {
         most = std::max(most, std::fabs(exact_mm(a[k]) - exact_mm(b[k])));
     }
     return most;
@@ -56,7 +56,7 @@ TEMPLATE_TEST_CASE("a part of a cell is the same curve", "[feed_plan][cell_part]
             // Its end is where the next part starts, to the last digit of the polynomial
             if (to < 1.0) {
                 const Cell<S> next = part_of(cell, CellInterval<S>{stretch.to, from_integer<S>(1)});
-                for (const unsigned k : indices(axes)) {
+                for (const unsigned k : splinefeed::indices(axes)) {
                     REQUIRE(std::fabs(exact_mm(next.origin[k]) - exact_mm(part.end[k])) <=
                             coarse * 4.0L * (exact(cell.length_mm) + 0.01L));
                 }

@@ -29,7 +29,7 @@ TEMPLATE_TEST_CASE("crawling keeps every limit on the worst of paths, and no mor
         const Real segment_s = 1.0L / exact(limits->segments_per_s);
         const Real step = way / ticks; // of a path that turns round at every sample: c = 0, 1, 0, 1
         Real most = 0.0L;
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             const AxisSettings& axis = machine.axis[k];
             most = std::max(most, 2.0L * step / (segment_s * segment_s) / real(axis.max_acceleration_mm_s2));
             most = std::max(most, 4.0L * step / (segment_s * segment_s * segment_s) / real(axis.max_jerk_mm_s3));

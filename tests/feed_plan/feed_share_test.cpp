@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE("the share is the largest there is in the cell", "[feed_plan]
                 Real unused = 0.0L;
                 const Direction d = direction_at(cell, inverse_at(cell, i / 16.0L, unused));
                 Real square = 0.0L;
-                for (const unsigned k : indices(axes)) {
+                for (const unsigned k : splinefeed::indices(axes)) {
                     square += limits.rotary[k] ? 0.0L : d.tangent[k] * d.tangent[k];
                 }
                 most = std::max(most, std::sqrt(square));

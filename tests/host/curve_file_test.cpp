@@ -5,6 +5,8 @@
 #include "refusal.hpp"
 #include "support/catch.hpp"
 
+#include <nlohmann/json.hpp>
+
 using namespace splinefeed;
 using namespace splinefeed::host;
 

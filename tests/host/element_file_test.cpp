@@ -6,6 +6,7 @@
 #include "refusal.hpp"
 #include "support/catch.hpp"
 
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 using namespace splinefeed;

@@ -4,6 +4,8 @@
 #include "host_sim/base/input_error.hpp"
 #include "support/catch.hpp"
 
+#include <nlohmann/json.hpp>
+
 using namespace splinefeed::host;
 
 namespace {

@@ -67,7 +67,7 @@ BezierPath halves(const BezierPath& path) {
         BezierShape left = shape;
         BezierShape right = shape;
         const auto n = static_cast<unsigned>(shape.degree);
-        for (const unsigned k : indices(shape.axes)) {
+        for (const unsigned k : splinefeed::indices(shape.axes)) {
             PerDegree<double> b = shape.offset[k];
             for (unsigned level = 0; level <= n; ++level) {
                 left.offset[k][level] = b[0];

@@ -25,7 +25,7 @@ std::vector<PathInterval> grid_of(const BezierPath& path, const MachineSettings&
 bool room(const MachineSettings& machine, const PerAxis<Real>& q1, const PerAxis<Real>& q2, Real b) {
     Real low = -1e12L;
     Real high = 1e12L;
-    for (const unsigned k : indices(machine.axes)) {
+    for (const unsigned k : splinefeed::indices(machine.axes)) {
         const Real limit = real(machine.axis[k].max_acceleration_mm_s2);
         const Real sign = q1[k] < 0.0L ? -1.0L : 1.0L;
         if (std::fabs(q1[k]) < 1e-15L) {
@@ -56,12 +56,12 @@ TEST_CASE("lengths and travels of the intervals add up to the curve's") {
         PerAxis<double> travel{};
         for (const PathInterval& interval : intervals) {
             sum += interval.length_mm;
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 travel[k] += interval.travel_mm[k];
             }
         }
         CHECK(sum == Approx(static_cast<double>(length)).epsilon(1e-5));
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             const Real to_and_fro = quadrature().adaptive([&](Real u) { return std::fabs(evaluate(segment, u).d1[k]); },
                                                           0.0L, 1.0L, 1e-10L);
             CHECK(travel[k] == Approx(static_cast<double>(to_and_fro)).epsilon(1e-3));
@@ -80,13 +80,13 @@ TEST_CASE("the cap of a node is the largest speed that leaves room for the axes"
         const Jet jet = evaluate(segments_of<double>(path).front(), 0.0L);
         const Real sigma = jet.speed(axes);
         Real along = 0.0L;
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             along += jet.d1[k] * jet.d2[k] / (sigma * sigma);
         }
         PerAxis<Real> q1{};
         PerAxis<Real> q2{};
         Real curvature = 0.0L;
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             q1[k] = jet.d1[k] / sigma;
             q2[k] = (jet.d2[k] - jet.d1[k] * along) / (sigma * sigma);
             curvature += q2[k] * q2[k];
@@ -94,7 +94,7 @@ TEST_CASE("the cap of a node is the largest speed that leaves room for the axes"
         curvature = std::sqrt(curvature);
         const auto allowed = [&](Real b) {
             bool ok = room(machine, q1, q2, b) && b <= real(machine.max_feed_mm_s) * real(machine.max_feed_mm_s);
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 ok = ok && std::fabs(q1[k]) * std::sqrt(b) <= real(machine.axis[k].max_velocity_mm_s);
             }
             const Real period = real(machine.sample_period_us) * 1e-6L;

@@ -48,7 +48,7 @@ Program short_moves(Random& random, int axes) {
         program.points.push_back(point);
         const auto axis = static_cast<unsigned>(random.integer(0, axes - 1));
         const bool alone = random.chance(0.5); // as in a program, along one axis
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             const double way = size * random.decades(0.1, 10.0) * random.between(-1.0, 1.0);
             const double least = k == axis ? 0.001 : 0.0; // points within 0.1 um would be one
             point.mm[k] += alone && k != axis ? 0.0 : std::copysign(std::max(std::fabs(way), least), way);
@@ -114,7 +114,7 @@ std::vector<CurveSegment<S>> path_of(const Program& program) {
     std::vector<Feed<S>> feeds;
     for (const Point& point : program.points) {
         Waypoint<S> waypoint;
-        for (const unsigned k : indices(program.axes)) {
+        for (const unsigned k : splinefeed::indices(program.axes)) {
             waypoint.position[k] = position_from_mm(point.mm[k]);
         }
         waypoint.corner = point.corner;

@@ -14,7 +14,7 @@ namespace {
 double most_seconds(const MachineSettings& machine, double length, double stops, double slowest_feed) {
     double acceleration = 1e9;
     double speed = std::min(machine.max_feed_mm_s, slowest_feed);
-    for (const unsigned k : indices(machine.axes)) {
+    for (const unsigned k : splinefeed::indices(machine.axes)) {
         acceleration = std::min(acceleration, machine.axis[k].max_acceleration_mm_s2);
         speed = std::min(speed, machine.axis[k].max_velocity_mm_s);
     }
@@ -52,7 +52,7 @@ void check_run(std::uint64_t seed, Used& worst) {
     double slowest = 1e9;
     for (std::size_t i = 1; i < points.size(); ++i) {
         double square = 0.0;
-        for (const unsigned k : indices(run.program.axes)) {
+        for (const unsigned k : splinefeed::indices(run.program.axes)) {
             const double move = points[i].mm[k] - points[i - 1].mm[k];
             square += move * move;
         }

@@ -247,7 +247,7 @@ TEMPLATE_TEST_CASE("an averaged motion that cannot wait for its input keeps ever
             any.trajectory(), {}, run, [] {}, UnderrunPolicy::drain);
         require_limits(run, machine);
         REQUIRE(run.finished);
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             REQUIRE(run.segments.back().end[k] == plain.segments.back().end[k]);
         }
     }

@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE("late input is a controlled stop and a clean restart", "[stre
         }
         REQUIRE(trajectory.state() == Pull::finished);
         require_limits(run, machine, std::same_as<S, float> ? 5e-2L : 0.0L);
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             REQUIRE(run.segments.back().end[k] == plain.segments.back().end[k]);
         }
         const Track<S> track(path, machine);

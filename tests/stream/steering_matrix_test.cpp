@@ -80,7 +80,7 @@ std::vector<Feed<S>> feeds_of(const Program& program, bool closed) {
     std::vector<Waypoint<S>> points;
     for (const Point& point : program.points) {
         Waypoint<S> waypoint;
-        for (const unsigned k : indices(program.axes)) {
+        for (const unsigned k : splinefeed::indices(program.axes)) {
             waypoint.position[k] = position_from_mm(point.mm[k]);
         }
         waypoint.feed_mm_s = from_double<S>(point.feed_mm_s);
@@ -182,7 +182,7 @@ std::vector<std::size_t> samples_of(const Emitted& run, std::size_t first) {
 
 Real speed_at(const FeedSegment& segment, const MachineSettings& machine) {
     Real sum = 0.0L;
-    for (const unsigned k : indices(machine.axes)) {
+    for (const unsigned k : splinefeed::indices(machine.axes)) {
         const Real v = static_cast<Real>(segment.start_velocity[k]) * 8e6L /
                        (units_per_mm(machine.axis[k]) * static_cast<Real>(segment.duration_ticks));
         sum += v * v;
@@ -206,7 +206,7 @@ Real stop_bound_s(const Track<S>& track, const typename Track<S>::Place& place, 
         return braking + late;
     }
     Real rise = 0.0L;
-    for (const unsigned k : indices(machine.axes)) {
+    for (const unsigned k : splinefeed::indices(machine.axes)) {
         const AxisSettings& axis = machine.axis[k];
         rise =
             axis.max_jerk_mm_s3 > 0.0 ? std::max(rise, real(axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3)) : rise;
@@ -225,7 +225,7 @@ Real stop_bound_s(const Track<S>& track, const typename Track<S>::Place& place, 
 template <Scalar S>
 Real require_path(const Emitted& run, std::size_t first, const Track<S>& track, const MachineSettings& machine) {
     Real fastest = 0.0L;
-    for (const unsigned k : indices(machine.axes)) {
+    for (const unsigned k : splinefeed::indices(machine.axes)) {
         fastest += real(machine.axis[k].max_velocity_mm_s) * real(machine.axis[k].max_velocity_mm_s);
     }
     const Real segment_s = static_cast<Real>(run.segments[0].duration_ticks) / 8e6L;
@@ -311,7 +311,7 @@ void run_round(const Round& round, Random& random, Tally& tally) {
         waypoint.position = run.position;
         std::vector<Feed<S>> next{{waypoint, Role::path}};
         for (int i = 0; i < 4; ++i) {
-            for (const unsigned k : indices(machine.axes)) {
+            for (const unsigned k : splinefeed::indices(machine.axes)) {
                 waypoint.position[k].raw += position_from_mm(random.between(-5.0, 5.0)).raw;
             }
             next.push_back({waypoint, Role::path});

@@ -43,7 +43,7 @@ void require_on_track(const SteeredRun& run, const Track<S>& track) {
 }
 
 void require_end(const SteeredRun& run, const SteeredRun& plain, int axes) {
-    for (const unsigned k : indices(axes)) {
+    for (const unsigned k : splinefeed::indices(axes)) {
         REQUIRE(run.segments.back().end[k] == plain.segments.back().end[k]);
     }
 }

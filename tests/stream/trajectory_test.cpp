@@ -80,7 +80,7 @@ public:
         const Real x = (v0 + speed) / 2.0L * t / exact(c.cell.length_mm);
         Real unused = 0.0L;
         const Jet jet = evaluate(c.cell, inverse_at(c.cell, std::min(x, 1.0L), unused));
-        for (const unsigned k : indices(c.cell.axes)) {
+        for (const unsigned k : splinefeed::indices(c.cell.axes)) {
             position[k] = exact_mm(c.cell.origin[k]) + jet.r[k];
         }
         return true;
@@ -115,7 +115,7 @@ TEMPLATE_TEST_CASE("the emitted joints follow the planned motion", "[stream][tra
                 continue;
             }
             ++compared;
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 const AxisSettings& axis = machine.axis[k];
                 const Real p = static_cast<Real>(stream.segments[i].start[k]) / units_per_mm(axis);
                 const Real bound = segment_s * segment_s * real(axis.max_acceleration_mm_s2) / 6.0L;

@@ -15,7 +15,7 @@ template <Scalar S>
 Jet evaluate(const Cell<S>& cell, Real w) {
     Jet jet;
     const Real unit = std::ldexp(1.0L, cell.unit_log2);
-    for (const unsigned k : indices(cell.axes)) {
+    for (const unsigned k : splinefeed::indices(cell.axes)) {
         for (unsigned i = static_cast<unsigned>(cell.degree) + 1; i-- > 0;) {
             jet.d2[k] = jet.d2[k] * w + 2.0L * jet.d1[k];
             jet.d1[k] = jet.d1[k] * w + jet.r[k];
@@ -37,11 +37,11 @@ Direction direction_at(const Cell<S>& cell, Real w) {
     const Real sigma = jet.speed(cell.axes);
     Direction d;
     Real slope = 0.0L;
-    for (const unsigned k : indices(cell.axes)) {
+    for (const unsigned k : splinefeed::indices(cell.axes)) {
         d.tangent[k] = jet.d1[k] / sigma;
         slope += d.tangent[k] * jet.d2[k];
     }
-    for (const unsigned k : indices(cell.axes)) {
+    for (const unsigned k : splinefeed::indices(cell.axes)) {
         d.curvature[k] = (jet.d2[k] - d.tangent[k] * slope) / (sigma * sigma);
     }
     return d;

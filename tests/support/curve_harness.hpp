@@ -127,7 +127,7 @@ std::vector<CurveSegment<S>> run_curve(Curve& curve, const std::vector<Feed<S>>&
 template <Scalar S>
 Vec bezier(const CurveSegment<S>& segment, int i) {
     Vec out{};
-    for (const unsigned k : indices(segment.axes)) {
+    for (const unsigned k : splinefeed::indices(segment.axes)) {
         out[k] = std::ldexp(exact(segment.control[k][static_cast<unsigned>(i)]), segment.unit_log2);
     }
     return out;
@@ -137,7 +137,7 @@ Vec bezier(const CurveSegment<S>& segment, int i) {
 template <Scalar S>
 Vec origin_from(const CurveSegment<S>& segment, const PerAxis<Position>& from) {
     Vec out{};
-    for (const unsigned k : indices(segment.axes)) {
+    for (const unsigned k : splinefeed::indices(segment.axes)) {
         out[k] = std::ldexp(static_cast<Real>(segment.origin[k].raw - from[k].raw), -40);
     }
     return out;

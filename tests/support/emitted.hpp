@@ -28,7 +28,7 @@ Used require_limits(const Run& run, const MachineSettings& machine, Real slack =
 template <class Run>
 void require_ends(const Run& run, const MachineSettings& machine, const PerAxis<double>& start,
                   const PerAxis<double>& end) {
-    for (const unsigned k : indices(machine.axes)) {
+    for (const unsigned k : splinefeed::indices(machine.axes)) {
         CAPTURE(k, start[k], end[k], machine.axis[k].steps_per_mm);
         REQUIRE(run.segments.front().start[k] == target_units(start[k], machine.axis[k]));
         REQUIRE(run.segments.back().end[k] == target_units(end[k], machine.axis[k]));
@@ -39,7 +39,7 @@ void require_ends(const Run& run, const MachineSettings& machine, const PerAxis<
 inline const PerAxis<double>& last_apart(const Program& program) {
     const PerAxis<double>* last = &program.points.front().mm;
     for (const auto& point : program.points) {
-        for (const unsigned k : indices(program.axes)) {
+        for (const unsigned k : splinefeed::indices(program.axes)) {
             const std::int64_t move = position_from_mm(point.mm[k]).raw - position_from_mm((*last)[k]).raw;
             if (std::abs(move) >= (std::int64_t{1} << 40) / 10000) {
                 last = &point.mm;

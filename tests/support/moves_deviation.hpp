@@ -12,7 +12,7 @@ namespace splinefeed_test {
 template <Scalar S>
 void point_of(const CurveSegment<S>& segment, Real u, PlaceMm& place, PlaceMm& first, PlaceMm& second) {
     const auto n = static_cast<unsigned>(segment.degree);
-    for (const unsigned k : indices(segment.axes)) {
+    for (const unsigned k : splinefeed::indices(segment.axes)) {
         std::array<Real, 10> row{};
         for (unsigned i = 0; i <= n; ++i) {
             row[i] = std::ldexp(exact(segment.control[k][i]), segment.unit_log2);
@@ -72,7 +72,7 @@ struct SampledSegment {
             least = std::min(least, apart(here, place, axes));
             Real dot = 0.0L;
             Real square = 1e-30L;
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 dot += (place[k] - here[k]) * first[k];
                 square += first[k] * first[k];
             }
@@ -168,11 +168,11 @@ JointJumps jumps(const std::vector<CurveSegment<S>>& segments, Real turn = 1e-4L
         for (unsigned n = 0; n < 2; ++n) {
             speed[n] = apart(first[n], {}, axes);
             Real along = 0.0L;
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 first[n][k] /= speed[n];
                 along += first[n][k] * second[n][k];
             }
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 second[n][k] = (second[n][k] - along * first[n][k]) / (speed[n] * speed[n]);
             }
             bend[n] = apart(second[n], {}, axes);

@@ -16,7 +16,7 @@ Cell<S> random_cell(Random& random, const MotionLimits<S>& limits) {
     cell.axes = limits.axes;
     cell.length_mm = from_double<S>(random.decades(1e-3, 1.0));
     using R = Ratio<S>;
-    for (const unsigned k : indices(limits.axes)) {
+    for (const unsigned k : splinefeed::indices(limits.axes)) {
         const double bend = random.integer(0, 3) == 0 ? 0.0 : random.decades(1e-4, 0.4);
         const double tangent = random.integer(0, 5) == 0 ? 0.0 : random.between(-1.0, 1.0);
         AxisShape<S>& shape = cell.shape[k];
@@ -73,7 +73,7 @@ template <Scalar S>
 std::vector<HalfPlane> half_planes_of(const Cell<S>& cell, const MotionLimits<S>& limits, Real from = 0.0L,
                                       Real to = 1.0L) {
     std::vector<HalfPlane> planes;
-    for (const unsigned k : indices(limits.axes)) {
+    for (const unsigned k : splinefeed::indices(limits.axes)) {
         const AxisShape<S>& shape = cell.shape[k];
         const Real speeding = exact(limits.acceleration_mm_s2[k]);
         const Real braking = exact(limits.braking_mm_s2[k]);
@@ -127,7 +127,7 @@ Real share_of(const Cell<S>& cell, const MotionLimits<S>& limits) {
     std::array<Real, 2> largest{};
     for (unsigned j = 0; j < 4; ++j) {
         std::array<Real, 2> sum{};
-        for (const unsigned k : indices(limits.axes)) {
+        for (const unsigned k : splinefeed::indices(limits.axes)) {
             const AxisShape<S>& shape = cell.shape[k];
             const Real inner = j == 1 ? exact(shape.bend[0]) : j == 2 ? -exact(shape.bend[2]) : 0.0L;
             const Real q1 = exact(shape.tangent[j / 2]) + inner / 6.0L;

@@ -26,7 +26,7 @@ inline Real real_decades(Random& random, double low, double high) {
 
 inline Real apart(const PlaceMm& a, const PlaceMm& b, int axes) {
     Real sum = 0.0L;
-    for (const unsigned k : indices(axes)) {
+    for (const unsigned k : splinefeed::indices(axes)) {
         sum += (a[k] - b[k]) * (a[k] - b[k]);
     }
     return std::sqrt(sum);
@@ -48,14 +48,14 @@ struct ProgrammedMove {
 
     [[nodiscard]] PlaceMm at(Real t, int axes) const {
         PlaceMm out{};
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             out[k] = from[k] + t * (to[k] - from[k]);
         }
         if (shape == splinefeed::MoveShape::bezier) {
             std::vector<PlaceMm> row = points;
             for (std::size_t n = row.size() - 1; n > 0; --n) {
                 for (std::size_t i = 0; i < n; ++i) {
-                    for (const unsigned k : indices(axes)) {
+                    for (const unsigned k : splinefeed::indices(axes)) {
                         row[i][k] += t * (row[i + 1][k] - row[i][k]);
                     }
                 }
@@ -77,7 +77,7 @@ struct ProgrammedMove {
         if (shape == splinefeed::MoveShape::line) {
             Real dot = 0.0L;
             Real square = 0.0L;
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 dot += (place[k] - from[k]) * (to[k] - from[k]);
                 square += (to[k] - from[k]) * (to[k] - from[k]);
             }
@@ -119,7 +119,7 @@ struct ProgrammedMove {
                 const PlaceMm ahead = at(t + h, axes);
                 Real dot = 0.0L;
                 Real square = 1e-30L;
-                for (const unsigned k : indices(axes)) {
+                for (const unsigned k : splinefeed::indices(axes)) {
                     const Real first = (ahead[k] - place_at[k]) / h;
                     dot += (place[k] - place_at[k]) * first;
                     square += first * first;
@@ -206,7 +206,7 @@ struct MoveProgram {
         move.points = {move.from};
         for (const PlaceMm& offset : offsets) {
             PlaceMm point = move.from;
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 point[k] += offset[k];
             }
             move.points.push_back(point);
@@ -220,7 +220,7 @@ struct MoveProgram {
 template <Scalar S>
 PerAxis<Position> position_of(const PlaceMm& place) {
     PerAxis<Position> out{};
-    for (const unsigned k : indices(max_axes)) {
+    for (const unsigned k : splinefeed::indices(max_axes)) {
         out[k] = position_from_mm(static_cast<double>(place[k]));
     }
     return out;
@@ -243,7 +243,7 @@ splinefeed::PathElement<S> element_of(const ProgrammedMove& move, int axes) {
     }
     element.arc.sweep_rad = from_double<S>(static_cast<double>(move.sweep));
     element.bezier.degree = static_cast<int>(move.points.size()) - 1;
-    for (const unsigned k : indices(axes)) {
+    for (const unsigned k : splinefeed::indices(axes)) {
         for (std::size_t i = 0; i < move.points.size(); ++i) {
             element.bezier.points[k][i] =
                 from_double<S>(static_cast<double>((move.points[i][k] - move.from[k]) * 4096.0L));

@@ -76,7 +76,7 @@ inline Program random_program(Random& random, int axes) {
     const double size = random.decades(0.05, 20.0);
     const bool feeds = random.chance(0.5);
     for (int i = 0; i < points; ++i) {
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             point.mm[k] += size * random.decades(0.2, 5.0) * random.between(-0.3, 1.0);
         }
         point.feed_mm_s = feeds && random.chance(0.5) ? random.decades(1.0, 1000.0) : 0.0;
@@ -111,7 +111,7 @@ public:
         for (int i = 0; i < at_once && next_ < program_->points.size() && curve_->has_room(); ++i) {
             const Point& point = program_->points[next_++];
             Waypoint<S> waypoint;
-            for (const unsigned k : indices(program_->axes)) {
+            for (const unsigned k : splinefeed::indices(program_->axes)) {
                 waypoint.position[k] = position_from_mm(point.mm[k]);
             }
             waypoint.feed_mm_s = from_double<S>(point.feed_mm_s);
@@ -144,7 +144,7 @@ constexpr std::size_t most_starvations = 100'000;
 inline double least_seconds(const PerAxis<double>& move_mm, double feed_mm_s, const MachineSettings& machine) {
     double seconds = 0.0;
     double square = 0.0;
-    for (const unsigned k : indices(machine.axes)) {
+    for (const unsigned k : splinefeed::indices(machine.axes)) {
         seconds = std::max(seconds, std::fabs(move_mm[k]) / machine.axis[k].max_velocity_mm_s);
         square += machine.axis[k].rotary ? 0.0 : move_mm[k] * move_mm[k];
     }
@@ -157,7 +157,7 @@ inline double least_seconds(const Program& program, const MachineSettings& machi
     double seconds = 0.0;
     for (std::size_t i = 1; i < program.points.size(); ++i) {
         PerAxis<double> move{};
-        for (const unsigned k : indices(program.axes)) {
+        for (const unsigned k : splinefeed::indices(program.axes)) {
             move[k] = program.points[i].mm[k] - program.points[i - 1].mm[k];
         }
         seconds += least_seconds(move, program.points[i].feed_mm_s, machine);
@@ -170,7 +170,7 @@ double least_seconds(const std::vector<CurveSegment<S>>& segments, const Machine
     double seconds = 0.0;
     for (const CurveSegment<S>& segment : segments) {
         PerAxis<double> move{};
-        for (const unsigned k : indices(segment.axes)) {
+        for (const unsigned k : splinefeed::indices(segment.axes)) {
             const auto& control = segment.control[k];
             const auto last = static_cast<unsigned>(segment.degree);
             move[k] = std::ldexp(to_double(control[last]) - to_double(control[0]), segment.unit_log2);

@@ -13,7 +13,7 @@ template <Scalar S>
 std::vector<splinefeed::Point<S>> random_points(RandomPath& random, int axes, int count, bool short_binary = true) {
     std::vector<splinefeed::Point<S>> points(static_cast<unsigned>(count));
     for (auto& point : points) {
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             const double x = short_binary ? (random.below(1 << 16) - (1 << 15)) * 0x1p-10 : random.between(-32.0, 32.0);
             point[k] = splinefeed::from_double<S>(x);
         }

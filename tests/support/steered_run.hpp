@@ -133,7 +133,7 @@ public:
     /// Finds the sample on the path, at `place` or further on; its distance from the path [mm].
     Real find(const FeedSegment& segment, Place& place) const {
         PerAxis<Real> p{};
-        for (const unsigned k : indices(machine_->axes)) {
+        for (const unsigned k : splinefeed::indices(machine_->axes)) {
             p[k] = sample_units(segment, k) / units_per_mm(machine_->axis[k]);
         }
         Real best = 1e30L;
@@ -179,7 +179,7 @@ private:
         Real unused = 0.0L;
         const Jet jet = evaluate(cell, inverse_at(cell, x, unused));
         Real sum = 0.0L;
-        for (const unsigned k : indices(cell.axes)) {
+        for (const unsigned k : splinefeed::indices(cell.axes)) {
             const Real d = exact_mm(cell.origin[k]) + jet.r[k] - p[k];
             sum += d * d;
         }
@@ -190,7 +190,7 @@ private:
             Real unused = 0.0L;
             const Jet jet = evaluate(cell, inverse_at(cell, x, unused));
             Real sum = 0.0L;
-            for (const unsigned k : indices(cell.axes)) {
+            for (const unsigned k : splinefeed::indices(cell.axes)) {
                 sum += (exact_mm(cell.origin[k]) + jet.r[k] - p[k]) * jet.d1[k];
             }
             return sum;
@@ -217,7 +217,7 @@ private:
         const Real x = std::min(1.0L, (s - start_[i]) / exact(cells_[i].length_mm));
         const Direction d = direction_at(cells_[i], inverse_at(cells_[i], x, unused));
         Real least = -1e30L;
-        for (const unsigned k : indices(machine_->axes)) {
+        for (const unsigned k : splinefeed::indices(machine_->axes)) {
             const Real limit = exact(limits_.acceleration_mm_s2[k]) - unsure_bend(cells_[i], k) * b;
             if (std::fabs(d.tangent[k]) > 1e-12L) {
                 const Real sign = d.tangent[k] > 0.0L ? 1.0L : -1.0L;

@@ -71,7 +71,7 @@ Point direction(Random& random, int axes) {
     double sum = 0.0;
     while (sum < 0.01) {
         sum = 0.0;
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             d[k] = random.between(-1.0, 1.0);
             sum += d[k] * d[k];
         }
@@ -90,7 +90,7 @@ std::vector<Point> make_points(Random& random, int axes) {
     const double spread = random.chance(0.3) ? 1.0 : random.decades(3.0, 100.0); // to either side
     const int shape = random.integer(0, 3);
     Point at{};
-    for (const unsigned k : indices(axes)) {
+    for (const unsigned k : splinefeed::indices(axes)) {
         at[k] = random.between(-50.0, 50.0);
     }
     Point along = direction(random, axes);
@@ -107,7 +107,7 @@ std::vector<Point> make_points(Random& random, int axes) {
         const double way = shape == 3 ? (random.chance(0.5) ? step : -step) : step;
         const Point turn = direction(random, axes);
         if (shape < 3) {
-            for (const unsigned k : indices(axes)) {
+            for (const unsigned k : splinefeed::indices(axes)) {
                 along[k] += much * turn[k];
             }
             double sum = 0.0;
@@ -118,7 +118,7 @@ std::vector<Point> make_points(Random& random, int axes) {
                 x /= std::sqrt(sum);
             }
         }
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             at[k] += way * along[k] + (shape == 3 ? 0.02 * step * turn[k] : 0.0);
         }
     }
@@ -141,7 +141,7 @@ void make_program(Random& random, int axes, bool columns, WildRound& round) {
     round.program = fmt::format("{}\n", fmt::join(header, ","));
     for (const Point& point : make_points(random, axes)) {
         std::vector<std::string> row;
-        for (const unsigned k : indices(axes)) {
+        for (const unsigned k : splinefeed::indices(axes)) {
             row.push_back(fmt::format("{:.6f}", point[k]));
         }
         if (feeds) {
