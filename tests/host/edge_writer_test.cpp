@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/output/edge_writer.hpp"
 
-#include "host_sim/base/input_error.hpp"
 #include "host_sim/config/step_lines.hpp"
-#include "refusal.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 
@@ -52,10 +50,6 @@ std::vector<std::string> written(const MachineDescription& machine) {
     return lines_of(folder.file("e.csv"));
 }
 
-std::string refusal(const MachineDescription& machine) {
-    return refusal_of([&] { static_cast<void>(checked_step_timing(machine)); });
-}
-
 } // namespace
 
 TEST_CASE("Edges are written in order of time, a row a line") {
@@ -87,29 +81,4 @@ TEST_CASE("At a fixed rate every edge is at a tick") {
                                             "740000,x,step,1",      "760000,x,step,0", "1480000,x,dir,0",
                                             "1500000,x,step,1",     "1520000,x,step,0"};
     CHECK(written(machine) == expected);
-}
-
-TEST_CASE("A machine whose lines cannot carry its limits is refused, with the axis and the rate") {
-    CHECK(refusal(machine_of(320.0)) == "accepted");
-    const std::string fast = refusal(machine_of(2400.0));
-    CHECK(fast.find("m.toml: axis x makes 240000 steps/s at 100 mm/s, and its lines carry 235294; ") == 0);
-    MachineDescription machine = machine_of(2400.0);
-    machine.settings.max_feed_mm_s = 90.0; // no linear axis is faster
-    CHECK(refusal(machine) == "accepted");
-    machine.settings.axis[1].rotary = true;
-    CHECK(refusal(machine).find("axis b makes 240000 steps/s") != std::string::npos);
-    machine = machine_of(320.0);
-    machine.step.tick_us = 20.0;
-    CHECK(refusal(machine).find("and its lines carry 24922; lower the velocity or steps_per_mm, or shorten tick_us") !=
-          std::string::npos);
-    machine = machine_of(320.0);
-    machine.settings.axis[1].max_braking_mm_s2 = 1e6;
-    machine.step.direction_hold_us = 80.0;
-    CHECK(refusal(machine).find("axis b needs 87.000 us from a step to one back") != std::string::npos);
-    machine = machine_of(200000.0);
-    machine.settings.max_feed_mm_s = 5.0;
-    machine.step.step_length_us = machine.step.step_space_us = 0.25;
-    machine.step.direction_setup_us = machine.step.direction_hold_us = 0.25;
-    machine.settings.sample_period_us = 100000;
-    CHECK(refusal(machine).find("axis x makes 100000 steps in a sample period") != std::string::npos);
 }

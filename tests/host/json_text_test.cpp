@@ -52,6 +52,7 @@ TEST_CASE("brackets in texts are no depth") {
 
 TEST_CASE("what is no JSON is told with its line") {
     CHECK(refusal("{\n\"a\": 1,\n}").rfind("c.json:3: not JSON: ", 0) == 0);
+    CHECK(refusal("{\"a\": \"\xff\"}").rfind("c.json:1: not JSON: ", 0) == 0);
     CHECK(refusal("[1e999]") == "c.json: a number is out of range; coordinates must lie within +-1048576 mm");
     try {
         static_cast<void>(parse_json("[", "c.json", "write a curve"));

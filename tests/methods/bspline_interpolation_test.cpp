@@ -16,21 +16,6 @@ DescribedCurve made(const json& input, ScalarKind scalar = ScalarKind::float64) 
     return describe_curve("bspline_interpolation", input, scalar);
 }
 
-std::string refusal(const json& input, ScalarKind scalar = ScalarKind::float64) {
-    try {
-        static_cast<void>(made(input, scalar));
-    } catch (const DescriptionError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool says(const std::string& text, const std::string& part) {
-    CAPTURE(text, part);
-    CHECK(text.find(part) != std::string::npos);
-    return text.find(part) != std::string::npos;
-}
-
 const json plain = {{"points", {{0, 0}, {1, 2}, {3, 3}, {5, 2}, {6, 0}, {8, 1}}}};
 
 } // namespace
@@ -99,37 +84,6 @@ TEST_CASE("Interpolation: defaults and spellings", "[methods]") {
     two["points"].push_back({1, 1, 1});
     two.erase("degree");
     CHECK(made(two).pieces.front().degree == 2);
-}
-
-TEST_CASE("Interpolation: sentences for what it cannot do", "[methods]") {
-    const auto with = [](const char* key, const json& value) {
-        json input = plain;
-        input[key] = value;
-        return input;
-    };
-    CHECK(says(refusal(with("degree", 0)), "\"degree\""));
-    CHECK(says(refusal(with("degree", 10)), "\"degree\""));
-    CHECK(says(refusal(with("degree", 6)), "degree 5 at most"));
-    CHECK(says(refusal(with("domain_length", 0)), "\"domain_length\""));
-    CHECK(says(refusal(with("domain_length", -2)), "\"domain_length\""));
-    CHECK(says(refusal(with("derivative_start", {1, 0})), "both"));
-    CHECK(says(refusal(with("parameters", "chrod")), "\"parameters\""));
-    CHECK(says(refusal(with("parameters", {0, 1, 2})), "one a point"));
-    CHECK(says(refusal(with("parameters", {0, 1, 1, 2, 3, 4})), "parameters must increase"));
-    CHECK(says(refusal(with("knots", "midpoints")), "knot rule"));
-    CHECK(says(refusal(with("knots", {0, 0, 0, 0, 5, 5, 5, 5})), "needs 10"));
-    CHECK(says(refusal(with("knots", {0, 0, 0, 0, 3, 2, 5, 5, 5, 5})), "knots must not decrease"));
-    CHECK(says(refusal(with("knots", {0, 0, 0, 0, 0.1, 0.2, 5, 5, 5, 5})), "Schoenberg-Whitney"));
-    json closed = with("closed", true);
-    closed["degree"] = 2;
-    closed["knots"] = "params";
-    CHECK(says(refusal(closed), "even degree"));
-    closed["derivative_start"] = closed["derivative_end"] = {1, 0};
-    CHECK(says(refusal(closed), "no ends"));
-    json twice = plain;
-    twice["points"][2] = twice["points"][1];
-    CHECK(says(refusal(twice), "are the same"));
-    CHECK(says(refusal(twice, ScalarKind::fixed), "are the same"));
 }
 
 TEST_CASE("Interpolation in Fixed finds a unit for what overshoots", "[methods]") {
