@@ -5,6 +5,7 @@
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
 #include <cstdint>
+#include <span>
 
 /// FNV-1a, 64 bits, over the bytes of integers in little-endian order.
 class SegmentHash {
@@ -14,7 +15,7 @@ public:
         add(item.duration_ticks);
         add(item.waypoint);
         for (const auto* values : {&item.start, &item.end, &item.start_velocity, &item.end_velocity}) {
-            for (const std::int64_t value : *values) {
+            for (const std::int64_t value : std::span<const std::int64_t, axes>(values->data(), axes)) {
                 add(static_cast<std::uint64_t>(value));
             }
         }
@@ -22,6 +23,8 @@ public:
     [[nodiscard]] std::uint64_t value() const { return state_; }
 
 private:
+    static constexpr unsigned axes = 3; ///< of the proofs' machines, whatever the capacity is
+
     void add(std::uint64_t value) {
         for (int i = 0; i < 8; ++i) {
             state_ = (state_ ^ (value & 0xffU)) * 0x100000001b3U;
