@@ -146,27 +146,11 @@ TEST_CASE("events that never happened are told") {
     CHECK(tool("run p.csv --events e.csv --quiet").error.empty());
 }
 
-TEST_CASE("a program with other separators is told about commas") {
-    const Tool tool;
-    for (const char* const text : {"x;y\n0;0\n1;1\n", "x\ty\n0\t0\n1\t1\n", "x y\n0 0\n1 1\n", "0;0\n1;1\n"}) {
-        tool.write("p.csv", text);
-        const Call call = tool("plan p.csv --quiet");
-        CAPTURE(text, call.error);
-        CHECK(call.status == 2);
-        CHECK(contains(call.error, "p.csv:1: "));
-        CHECK(contains(call.error, "commas"));
-    }
-}
-
-TEST_CASE("help is -h, too, and a surface is sent to where it belongs") {
+TEST_CASE("help is -h, too") {
     const Tool tool;
     CHECK(tool("-h").output == tool("--help").output);
     CHECK(tool("plan -h").output == tool("plan --help").output);
     CHECK(contains(tool("plan -h").output, "Usage: splinefeed plan"));
-    tool.write("dome.json", R"({"method": "bspline_surface", "input": {"grid": [[[0,0,0]]]}})");
-    const Call call = tool("run dome.json --quiet");
-    CHECK(call.status == 2);
-    CHECK(contains(call.error, "dome.json: this is a surface; splinefeed surface makes a tool path of it"));
 }
 
 TEST_CASE("every reader has a bound") {

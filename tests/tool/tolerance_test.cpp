@@ -194,42 +194,6 @@ TEST_CASE("The path does not depend on overrides, and survives a hold") {
     CHECK(json::parse(tool.read("c.json"))["segments"].size() > 6);
 }
 
-TEST_CASE("What does not go with elements is refused in one line") {
-    const Tool tool;
-    tool.write("part.json", part);
-    const auto refused = [&](const std::string& arguments, const std::string& what) {
-        const Call call = tool("run " + arguments + " --quiet");
-        CAPTURE(call.error);
-        CHECK(call.status == 2);
-        CHECK(call.error.find(what) != std::string::npos);
-        CHECK(std::count(call.error.begin(), call.error.end(), '\n') == 1);
-    };
-    refused("part.json --curve g2", "a curve file says itself which curve it is");
-    refused("part.json --smooth", "a program of elements is smoothed within its tolerance");
-    refused("part.json --tolerance 1000", "--tolerance '1000' is out of range");
-    refused(examples + "butterfly.json' --tolerance 0.01", "a curve is followed exactly");
-    tool.write("narrow.toml", R"(
-[path]
-max_feed_mm_s = 100
-[[axis]]
-name = "x"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-travel_mm = [0, 25]
-[[axis]]
-name = "y"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-[[axis]]
-name = "z"
-max_velocity_mm_s = 100
-max_acceleration_mm_s2 = 1000
-)");
-    refused("part.json -m narrow.toml", "on the way to element 2: axis x goes to");
-    tool.write("still.json", R"({"elements": [{"from": [1, 0, 0], "to": [1, 0, 0]}]})");
-    refused("still.json", "no element moves; a program needs a move");
-}
-
 TEST_CASE("A dwell behind moves that are too short is kept, whether a chain takes them or not") {
     const Tool tool;
     for (const char* const tolerance : {"0", "0.01"}) {
