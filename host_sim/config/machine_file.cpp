@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <toml++/toml.h>
 #include <vector>
 
@@ -25,53 +26,41 @@ constexpr double counter_limit = 2147483647.0;
 constexpr std::array<std::string_view, 12> machine_keys{"name",    "sample_period_us", "drives_at_end", "path",
                                                         "step",    "spindle",          "lines",         "module",
                                                         "coolant", "output",           "input",         "axis"};
-constexpr std::array<std::string_view, 7> step_keys{
-    "engine", "tick_us", "step_length_us", "step_space_us", "direction_setup_us", "direction_hold_us", "step_on_edge"};
-constexpr std::array<std::string_view, 16> axis_keys{"name",
-                                                     "kind",
-                                                     "travel_mm",
-                                                     "travel_end_zone_mm",
-                                                     "travel_end_velocity_mm_s",
-                                                     "max_velocity_mm_s",
-                                                     "max_acceleration_mm_s2",
-                                                     "max_braking_mm_s2",
-                                                     "max_jerk_mm_s3",
-                                                     "steps_per_mm",
-                                                     "invert",
-                                                     "motors",
-                                                     "invert_step",
-                                                     "invert_direction",
-                                                     "drive",
-                                                     "standstill_window_mm"};
+
+/// Keys of a table: those of `numbers`, and others.
+template <class Numbers>
+std::vector<std::string_view> keys_with(const Numbers& numbers, std::initializer_list<std::string_view> others) {
+    std::vector<std::string_view> keys;
+    for (const auto& number : numbers) {
+        keys.emplace_back(number.key);
+    }
+    keys.insert(keys.end(), others);
+    return keys;
+}
 
 /// Those of [path]: its own, and those that other files state.
 std::vector<std::string_view> path_keys() {
-    std::vector<std::string_view> keys{"max_feed_mm_s", "jerk_plan"};
-    for (const SpeedLimit& limit : speed_limits) {
-        keys.insert(keys.end() - 1, limit.key);
-    }
+    std::vector<std::string_view> keys = keys_with(path_numbers, {"jerk_plan"});
     for (const PathToleranceKey& tolerance : path_tolerance_keys) {
         keys.emplace_back(tolerance.key);
     }
     return keys;
 }
 
-// As MotionLimits::make has them: here with the line of the file.
-constexpr NumberRange velocity_range{0.001, 10000.0, "mm/s"};
-constexpr NumberRange acceleration_range{0.1, 1e6, "mm/s^2"};
-constexpr NumberRange zone_range{0.001, 1e6, "mm"};
-constexpr NumberRange steps_range{0.001, 1e6, "counts per mm"};
-constexpr NumberRange jerk_range{1.0, 1e9, "mm/s^3"};
 constexpr NumberRange standstill_range{1e-4, 10.0, "mm"};
 
 /// Reads one file.
 class MachineReader {
 public:
     explicit MachineReader(const std::string& file)
-        : file_(file), path_keys_(path_keys()), check_(file, "docs/reference/files.md") {
-        check_.name_table({"[[axis]]", axis_keys});
+        : file_(file), path_keys_(path_keys()),
+          step_keys_(keys_with(step_times, {"engine", "tick_us", "step_on_edge"})),
+          axis_keys_(keys_with(axis_numbers, {"name", "kind", "travel_mm", "invert", "motors", "invert_step",
+                                              "invert_direction", "drive", "standstill_window_mm"})),
+          check_(file, "docs/reference/files.md") {
+        check_.name_table({"[[axis]]", axis_keys_});
         check_.name_table({"[path]", path_keys_});
-        check_.name_table({"[step]", step_keys});
+        check_.name_table({"[step]", step_keys_});
     }
 
     [[nodiscard]] MachineDescription machine(const toml::table& root) const {
@@ -81,7 +70,8 @@ public:
         if (const toml::node* node = root.get("name")) {
             machine.name = check_.text(*node, "name");
         }
-        check_.take(root, "sample_period_us", {50, 100'000}, machine.settings.sample_period_us);
+        check_.take(root, sample_period.key, {sample_period.low, sample_period.high},
+                    machine.settings.sample_period_us);
         if (const toml::node* node = root.get("drives_at_end")) {
             const std::string end = check_.text(*node, "drives_at_end");
             if (end != "on" && end != "off") {
@@ -111,14 +101,18 @@ private:
         return value;
     }
 
-    [[nodiscard]] double required(const toml::table& table, std::string_view key, const NumberRange& range,
-                                  std::string_view where) const {
-        const toml::node* node = table.get(key);
-        if (node == nullptr) {
-            check_.fail(table, fmt::format("{} has no {}; add a number between {} and {} {}", where, key, range.low,
-                                           range.high, range.unit));
+    /// Reads what a table has of these numbers. @param where  the table, for messages
+    template <class Settings, std::size_t n>
+    void numbers(const toml::table& table, std::string_view where, const MachineNumber<Settings> (&rows)[n],
+                 Settings& out) const {
+        for (const MachineNumber<Settings>& row : rows) {
+            if (const toml::node* node = table.get(row.key)) {
+                out.*row.value = number(*node, row.key, {row.low, row.high, row.unit});
+            } else if (row.without == WithoutKey::refused) {
+                check_.fail(table, fmt::format("{} has no {}; add a number between {} and {} {}", where, row.key,
+                                               row.low, row.high, row.unit));
+            }
         }
-        return number(*node, key, range);
     }
 
     void path(const toml::table& root, MachineSettings& settings, PathTolerances& tolerances) const {
@@ -128,12 +122,7 @@ private:
         }
         const toml::table& table = check_.table(*node, "path");
         check_.require_known(table, path_keys_, "[path]");
-        settings.max_feed_mm_s = required(table, "max_feed_mm_s", velocity_range, "[path]");
-        for (const SpeedLimit& limit : speed_limits) {
-            if (const toml::node* given = table.get(limit.key)) {
-                settings.*limit.value = number(*given, limit.key, {limit.low, limit.high, limit.unit});
-            }
-        }
+        numbers(table, "[path]", path_numbers, settings);
         for (const PathToleranceKey& tolerance : path_tolerance_keys) {
             if (const toml::node* given = table.get(tolerance.key)) {
                 tolerances.*tolerance.value = number(*given, tolerance.key, {0.0, tolerance.high, tolerance.unit});
@@ -162,7 +151,7 @@ private:
             return;
         }
         const toml::table& table = check_.table(*node, "step");
-        check_.require_known(table, step_keys, "[step]");
+        check_.require_known(table, step_keys_, "[step]");
         const toml::node* engine = table.get("engine");
         const std::string kind = engine != nullptr ? check_.text(*engine, "engine") : "intervals";
         if (kind != "intervals" && kind != "fixed-rate") {
@@ -179,15 +168,11 @@ private:
                                                settings.tick_us));
             }
         }
-        const auto time = [&](const char* key, double least_us, double& value) {
-            if (const toml::node* given = table.get(key)) {
-                value = number(*given, key, {least_us, 1000.0, "us"});
+        for (const StepTime& time : step_times) {
+            if (const toml::node* given = table.get(time.key)) {
+                settings.*time.value = number(*given, time.key, {time.least_us, longest_step_time_us, "us"});
             }
-        };
-        time("step_length_us", 0.125, settings.step_length_us);
-        time("step_space_us", 0.125, settings.step_space_us);
-        time("direction_setup_us", 0.0, settings.direction_setup_us);
-        time("direction_hold_us", 0.0, settings.direction_hold_us);
+        }
         if (const toml::node* on_edge = table.get("step_on_edge")) {
             settings.step_on_edge = check_.flag(*on_edge, "step_on_edge");
         }
@@ -249,7 +234,7 @@ private:
     }
 
     void axis(const toml::table& table, std::size_t k, MachineDescription& machine) const {
-        check_.require_known(table, axis_keys, "[[axis]]");
+        check_.require_known(table, axis_keys_, "[[axis]]");
         const toml::node* name = table.get("name");
         if (name == nullptr) {
             check_.fail(table, "[[axis]] has no name; it must be one of x, y, z, a, b, c");
@@ -273,17 +258,7 @@ private:
         if (const toml::node* kind = table.get("kind")) {
             axis.rotary = is_rotary(*kind);
         }
-        axis.max_velocity_mm_s = required(table, "max_velocity_mm_s", velocity_range, where);
-        axis.max_acceleration_mm_s2 = required(table, "max_acceleration_mm_s2", acceleration_range, where);
-        if (const toml::node* braking = table.get("max_braking_mm_s2")) {
-            axis.max_braking_mm_s2 = number(*braking, "max_braking_mm_s2", acceleration_range);
-        }
-        if (const toml::node* jerk = table.get("max_jerk_mm_s3")) { // without: acceleration-limited
-            axis.max_jerk_mm_s3 = number(*jerk, "max_jerk_mm_s3", jerk_range);
-        }
-        if (const toml::node* steps = table.get("steps_per_mm")) { // without: a count is 1 um, as AxisSettings has it
-            axis.steps_per_mm = number(*steps, "steps_per_mm", steps_range);
-        }
+        numbers(table, where, axis_numbers, axis);
         if (const toml::node* window = table.get("standstill_window_mm")) {
             machine.standstill_window_mm[k] = number(*window, "standstill_window_mm", standstill_range);
         }
@@ -336,8 +311,6 @@ private:
                 fmt::format("{} has a travel_end_zone_mm, but no travel_mm; give both, like travel_mm = [-10, 310]",
                             where));
         }
-        axis.travel_end_zone_mm = number(*zone, "travel_end_zone_mm", zone_range);
-        axis.travel_end_velocity_mm_s = number(*velocity, "travel_end_velocity_mm_s", velocity_range);
         axis.travel_low_mm = travel->low;
         axis.travel_high_mm = travel->high;
     }
@@ -363,6 +336,8 @@ private:
 
     const std::string& file_;
     std::vector<std::string_view> path_keys_;
+    std::vector<std::string_view> step_keys_;
+    std::vector<std::string_view> axis_keys_;
     TomlChecker check_;
 };
 

@@ -41,7 +41,7 @@ std::string lost_in_rounding(const MachineDescription& machine) {
             }
         }
     }
-    return describe(Error::period_too_short);
+    return describe(LimitError::period_too_short);
 }
 
 } // namespace
@@ -51,8 +51,8 @@ MotionLimits<S> machine_limits(const MachineDescription& machine) {
     const auto limits = MotionLimits<S>::make(machine.settings);
     if (!limits.has_value()) {
         throw InputError(machine.file, 0,
-                         limits.error() == Error::period_too_short ? lost_in_rounding<S>(machine)
-                                                                   : describe(limits.error()));
+                         limits.error() == LimitError::period_too_short ? lost_in_rounding<S>(machine)
+                                                                        : describe(limits.error()));
     }
     return *limits;
 }

@@ -5,6 +5,7 @@
 #include "support/pipeline.hpp"
 
 #include <limits>
+#include <string>
 
 using namespace splinefeed_test;
 
@@ -14,7 +15,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class S>
-Error error_of(const MachineSettings& machine) {
+LimitError error_of(const MachineSettings& machine) {
     return MotionLimits<S>::make(machine).error();
 }
 
@@ -25,14 +26,14 @@ MachineSettings slow_machine() {
 
 /// A field of the settings within [low, high], and the error outside of it.
 template <class S, class Field>
-void check_range(Field field, double low, double high, Error error) {
+void check_range(Field field, double low, double high, LimitError error) {
     const auto with = [&](double value) {
         MachineSettings machine = slow_machine();
         field(machine) = value;
         return error_of<S>(machine);
     };
-    CHECK(with(low) == Error::none);
-    CHECK(with(high) == Error::none);
+    CHECK(with(low) == LimitError::none);
+    CHECK(with(high) == LimitError::none);
     for (const double bad : {std::nextafter(low, 0.0), std::nextafter(high, infinity), -low, -1.0, not_a_number,
                              infinity, -infinity, 1e300, -1e300, 1e-300}) {
         CAPTURE(bad);
@@ -53,54 +54,65 @@ TEMPLATE_TEST_CASE("segments of a sample are a whole number of ticks, and travel
     };
     for (const int whole : {0, 1, 2, 4, 5, 8}) {
         CAPTURE(whole);
-        CHECK(with(whole, 100000) == Error::none);
+        CHECK(with(whole, 100000) == LimitError::none);
     }
     for (const int broken : {3, 6, 7}) {
-        CHECK(with(broken, 100000) == Error::segments_per_sample_invalid);
+        CHECK(with(broken, 100000) == LimitError::segments_per_sample_invalid);
     }
-    CHECK(with(7, 70000) == Error::none);
+    CHECK(with(7, 70000) == LimitError::none);
     for (const int outside : {-1, 9, 16, 1000}) {
-        CHECK(with(outside, 90000) == Error::segments_per_sample_invalid);
+        CHECK(with(outside, 90000) == LimitError::segments_per_sample_invalid);
     }
     machine = slow_machine();
     machine.axis[1].travel_end_zone_mm = machine.axis[1].travel_end_velocity_mm_s = 10.0;
     machine.axis[1].steps_per_mm = 1e6;
     machine.axis[1].travel_low_mm = -2147.0;
     machine.axis[1].travel_high_mm = 2147.0;
-    CHECK(error_of<S>(machine) == Error::none);
+    CHECK(error_of<S>(machine) == LimitError::none);
     machine.axis[1].travel_high_mm = 2148.0;
-    CHECK(error_of<S>(machine) == Error::counts_out_of_range);
+    CHECK(error_of<S>(machine) == LimitError::counts_out_of_range);
 }
 
 TEMPLATE_TEST_CASE("every number of a machine has a range", "[feed_plan][limits]", double, float, Fixed) {
     using S = TestType;
-    CHECK(error_of<S>({}) == Error::none);
+    CHECK(error_of<S>({}) == LimitError::none);
     check_range<S>([](MachineSettings& m) -> double& { return m.max_feed_mm_s; }, 0.001, 10000.0,
-                   Error::feed_out_of_range);
+                   LimitError::feed_out_of_range);
     check_range<S>([](MachineSettings& m) -> double& { return m.centripetal_mm_s2; }, 0.1, 1e6,
-                   Error::centripetal_out_of_range);
+                   LimitError::centripetal_out_of_range);
     check_range<S>([](MachineSettings& m) -> double& { return m.chord_error_mm; }, 1e-6, 1.0,
-                   Error::chord_error_out_of_range);
+                   LimitError::chord_error_out_of_range);
     for (unsigned k = 0; k < 3; ++k) {
         check_range<S>([k](MachineSettings& m) -> double& { return m.axis[k].max_velocity_mm_s; }, 0.001, 10000.0,
-                       Error::velocity_out_of_range);
+                       LimitError::velocity_out_of_range);
         check_range<S>([k](MachineSettings& m) -> double& { return m.axis[k].steps_per_mm; }, 0.001, 1e6,
-                       Error::steps_out_of_range);
+                       LimitError::steps_out_of_range);
         check_range<S>([k](MachineSettings& m) -> double& { return m.axis[k].max_acceleration_mm_s2; }, 0.1, 1e6,
-                       Error::acceleration_out_of_range);
+                       LimitError::acceleration_out_of_range);
         check_range<S>([k](MachineSettings& m) -> double& { return m.axis[k].max_braking_mm_s2; }, 0.1, 1e6,
-                       Error::braking_out_of_range);
+                       LimitError::braking_out_of_range);
     }
     MachineSettings machine;
     for (const int bad : {0, -1, max_axes + 1, 1000, std::numeric_limits<int>::min()}) {
         machine.axes = bad;
-        CHECK(error_of<S>(machine) == Error::axes_out_of_range);
+        CHECK(error_of<S>(machine) == LimitError::axes_out_of_range);
     }
     machine = {};
     for (const int bad : {0, -1, 49, 100001, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
         machine.sample_period_us = bad;
-        CHECK(error_of<S>(machine) == Error::sample_period_out_of_range);
+        CHECK(error_of<S>(machine) == LimitError::sample_period_out_of_range);
     }
+}
+
+TEST_CASE("every error of limits has a sentence, which names no option of the host", "[feed_plan][limits]") {
+    for (int error = 0; error <= static_cast<int>(LimitError::period_too_short); ++error) {
+        const std::string sentence = describe(static_cast<LimitError>(error));
+        CAPTURE(error, sentence);
+        CHECK(sentence != "unknown error");
+        CHECK(sentence.size() > 7);
+        CHECK(sentence.find("--") == std::string::npos);
+    }
+    CHECK(describe(static_cast<LimitError>(255)) == std::string("unknown error"));
 }
 
 TEMPLATE_TEST_CASE("zero means no such limit", "[feed_plan][limits]", double, float, Fixed) {
@@ -114,16 +126,16 @@ TEMPLATE_TEST_CASE("jerk limits out of range are refused", "[feed_plan][limits]"
     for (const double jerk : {1e-300, 0.999, 1.001e9, -1.0, not_a_number, infinity}) {
         MachineSettings machine;
         machine.axis[2].max_jerk_mm_s3 = jerk;
-        CHECK(error_of<TestType>(machine) == Error::jerk_out_of_range);
+        CHECK(error_of<TestType>(machine) == LimitError::jerk_out_of_range);
         machine.axes = 2; // an axis that the machine does not have says nothing
-        CHECK(error_of<TestType>(machine) == Error::none);
+        CHECK(error_of<TestType>(machine) == LimitError::none);
     }
 }
 
 TEST_CASE("float cannot limit the jerk", "[feed_plan][limits]") {
     MachineSettings machine;
     machine.axis[1].max_jerk_mm_s3 = 3e4;
-    CHECK(error_of<float>(machine) == Error::jerk_in_float);
+    CHECK(error_of<float>(machine) == LimitError::jerk_in_float);
 }
 
 TEMPLATE_TEST_CASE("a jerk limit shortens cells and their grades", "[feed_plan][limits]", double, Fixed) {
@@ -140,25 +152,25 @@ TEMPLATE_TEST_CASE("a jerk limit shortens cells and their grades", "[feed_plan][
     CHECK(to_double(with.jerk_mm_s3[0]) > 1e9); // none
     machine.sample_period_us = 50;              // its rounding would be a jerk of its own
     machine.axis[1].max_jerk_mm_s3 = 1.0;
-    CHECK(error_of<TestType>(machine) == Error::period_too_short);
+    CHECK(error_of<TestType>(machine) == LimitError::period_too_short);
 }
 
 TEMPLATE_TEST_CASE("axes that the machine lacks are not checked", "[feed_plan][limits]", double, float, Fixed) {
     MachineSettings machine;
     machine.axes = 1;
     machine.axis[1] = {not_a_number, not_a_number, not_a_number, not_a_number, not_a_number};
-    CHECK(error_of<TestType>(machine) == Error::none);
+    CHECK(error_of<TestType>(machine) == LimitError::none);
 }
 
 TEMPLATE_TEST_CASE("a period in which rounding exceeds the acceleration is refused", "[feed_plan][limits]", double,
                    float, Fixed) {
     // Positions of 2^-41 mm and counts of 2^-30 in a second difference: 4 e / T^2 against a quarter of the limit
     MachineSettings machine = machine_of(1, 100.0, 10.0, 100.0, 50, 0.001);
-    CHECK(error_of<TestType>(machine) == Error::period_too_short);
+    CHECK(error_of<TestType>(machine) == LimitError::period_too_short);
     machine.sample_period_us = 100000;
-    CHECK(error_of<TestType>(machine) == Error::none);
+    CHECK(error_of<TestType>(machine) == LimitError::none);
     machine = machine_of(1, 100.0, 1e5, 100.0, 1000, 1.0);
-    CHECK(error_of<TestType>(machine) == Error::none);
+    CHECK(error_of<TestType>(machine) == LimitError::none);
 }
 
 TEMPLATE_TEST_CASE("derived numbers", "[feed_plan][limits]", double, float, Fixed) {
@@ -221,7 +233,7 @@ TEMPLATE_TEST_CASE("as many segments per sample as smoothing needs", "[feed_plan
         }
         const auto limits = MotionLimits<TestType>::make(machine);
         if (!limits.has_value()) {
-            REQUIRE(limits.error() == Error::period_too_short);
+            REQUIRE(limits.error() == LimitError::period_too_short);
             continue;
         }
         const int n = limits->segments_per_sample;
@@ -241,7 +253,7 @@ TEST_CASE("limits can be made by the compiler", "[feed_plan][limits]") {
     constexpr auto good = MotionLimits<Fixed>::make({});
     static_assert(good.has_value() && good.value().axes == 3 && good.value().segment_ticks == 8000);
     constexpr auto bad = MotionLimits<double>::make({.axes = 0});
-    static_assert(!bad.has_value() && bad.error() == Error::axes_out_of_range);
+    static_assert(!bad.has_value() && bad.error() == LimitError::axes_out_of_range);
     static_assert(MotionLimits<float>::make({}).has_value());
     REQUIRE(good->steps_per_mm_q32[0] == (std::uint64_t{1000} << 32));
 }

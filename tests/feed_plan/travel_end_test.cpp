@@ -89,12 +89,12 @@ TEMPLATE_TEST_CASE("an end zone has its ranges", "[feed_plan][limits]", double, 
         set_end(machine.axis[1], low, high, zone, velocity);
         return MotionLimits<TestType>::make(machine).error();
     };
-    CHECK(error(0.0, 100.0, 5.0, 10.0) == Error::none);
-    CHECK(error(0.0, 100.0, 500.0, 10.0) == Error::none); // all of the travel
-    CHECK(error(0.0, 0.0, 5.0, 10.0) == Error::travel_end_out_of_range);
-    CHECK(error(0.0, 2e6, 5.0, 10.0) == Error::travel_end_out_of_range);
-    CHECK(error(0.0, 100.0, -5.0, 10.0) == Error::travel_end_out_of_range);
-    CHECK(error(0.0, 100.0, 1e7, 10.0) == Error::travel_end_out_of_range);
-    CHECK(error(0.0, 100.0, 5.0, 0.0) == Error::travel_end_out_of_range);
-    CHECK(error(0.0, 100.0, 5.0, std::nan("")) == Error::travel_end_out_of_range);
+    CHECK(error(0.0, 100.0, 5.0, 10.0) == LimitError::none);
+    CHECK(error(0.0, 100.0, 500.0, 10.0) == LimitError::none); // all of the travel
+    CHECK(error(0.0, 0.0, 5.0, 10.0) == LimitError::travel_end_incomplete);
+    CHECK(error(0.0, 2e6, 5.0, 10.0) == LimitError::travel_end_incomplete);
+    CHECK(error(0.0, 100.0, -5.0, 10.0) == LimitError::travel_end_zone_out_of_range);
+    CHECK(error(0.0, 100.0, 1e7, 10.0) == LimitError::travel_end_zone_out_of_range);
+    CHECK(error(0.0, 100.0, 5.0, 0.0) == LimitError::travel_end_incomplete);
+    CHECK(error(0.0, 100.0, 5.0, std::nan("")) == LimitError::travel_end_velocity_out_of_range);
 }

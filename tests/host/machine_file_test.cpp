@@ -4,6 +4,10 @@
 #include "host_sim/base/input_error.hpp"
 #include "refusal.hpp"
 #include "support/catch.hpp"
+#include "support/places.hpp"
+
+#include <fmt/format.h>
+#include <fstream>
 
 using namespace splinefeed;
 using namespace splinefeed::host;
@@ -38,7 +42,46 @@ std::string refusal(const std::string& text) {
     return splinefeed_test::refusal_of([&] { static_cast<void>(parse_machine(text, "m.toml")); });
 }
 
+/// As people write it: without an exponent.
+std::string plain(double value) {
+    std::string text = fmt::format("{:.6f}", value);
+    text.erase(text.find_last_not_of('0') + 1);
+    return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
+}
+
+/// The line of the example in docs/reference/files.md that has the key.
+std::string line_of_page(const std::string& key) {
+    std::ifstream page(splinefeed::test::source_folder() + "/docs/reference/files.md");
+    for (std::string line; std::getline(page, line);) {
+        if (line.rfind(key + " = ", 0) == 0) {
+            return line;
+        }
+    }
+    return {};
+}
+
+template <class Number>
+void check_texts(const Number& number) {
+    const std::string low = plain(number.low);
+    const std::string high = plain(number.high);
+    CAPTURE(number.key);
+    CHECK(line_of_page(number.key).find(low + " to " + high) != std::string::npos);
+    CHECK(describe(number.error) == std::string(number.sentence));
+    CHECK(std::string(number.sentence).rfind(fmt::format("{} must lie between {} and {}", number.key, low, high), 0) ==
+          0);
+}
+
 } // namespace
+
+TEST_CASE("The page and the sentences have the ranges of the table") {
+    for (const auto& number : path_numbers) {
+        check_texts(number);
+    }
+    for (const auto& number : axis_numbers) {
+        check_texts(number);
+    }
+    check_texts(sample_period);
+}
 
 TEST_CASE("A machine file is read") {
     const MachineDescription machine = parse_machine(good, "m.toml");

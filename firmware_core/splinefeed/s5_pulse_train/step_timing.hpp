@@ -27,6 +27,20 @@ struct StepSettings {
         false; ///< each edge of the line is a step; each level lasts for the longer of step_length_us and step_space_us
 };
 
+/// A time of StepSettings, as machine files name it.
+struct StepTime {
+    const char* key;
+    double StepSettings::*value;
+    double least_us; ///< and at most longest_step_time_us
+};
+inline constexpr double longest_step_time_us = 1000.0;
+inline constexpr StepTime step_times[] = {
+    {"step_length_us", &StepSettings::step_length_us, 0.125},
+    {"step_space_us", &StepSettings::step_space_us, 0.125},
+    {"direction_setup_us", &StepSettings::direction_setup_us, 0.0},
+    {"direction_hold_us", &StepSettings::direction_hold_us, 0.0},
+};
+
 /// In ticks of 1/8 us, rounded up. With the fixed-rate engine rounded up to multiples of its tick, because all edges
 /// are at ticks.
 struct StepTiming {
@@ -80,13 +94,13 @@ struct StepTiming {
 };
 
 constexpr Result<StepTiming> StepTiming::make(const StepSettings& settings) noexcept {
-    constexpr double longest_us = 1000.0;
     constexpr auto in_range = [](double us, double least_us) {
-        return us >= least_us && us <= longest_us;
+        return us >= least_us && us <= longest_step_time_us; // not NaN
     };
-    if (!in_range(settings.step_length_us, 0.125) || !in_range(settings.step_space_us, 0.125) ||
-        !in_range(settings.direction_setup_us, 0.0) || !in_range(settings.direction_hold_us, 0.0)) {
-        return Error::step_times_out_of_range;
+    for (const StepTime& time : step_times) {
+        if (!in_range(settings.*time.value, time.least_us)) {
+            return Error::step_times_out_of_range;
+        }
     }
     StepTiming timing;
     if (settings.tick_us != 0.0) {

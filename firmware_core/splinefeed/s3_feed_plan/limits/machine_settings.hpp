@@ -3,7 +3,6 @@
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
-#include "splinefeed/base/status.hpp"
 
 #include <cstdint>
 
@@ -58,22 +57,6 @@ struct MachineSettings {
     /// 1 to 8, each a whole number of ticks of 1/8 us. 0: chosen so that the smoothing of the path stays below 0.35 um
     int segments_per_sample = 0;
     JerkTier jerk_tier = JerkTier::optimal;
-};
-
-/// A limit of the speed along the path that a machine file may state in [path]: it lies between `low` and `high`, or is
-/// 0.
-struct SpeedLimit {
-    const char* key;
-    double MachineSettings::*value;
-    double low;
-    double high;
-    const char* unit;
-    Error error;
-};
-/// One row per limit: a new one adds its own, with Error::speed_limit_out_of_range.
-inline constexpr SpeedLimit speed_limits[] = {
-    {"centripetal_mm_s2", &MachineSettings::centripetal_mm_s2, 0.1, 1e6, "mm/s^2", Error::centripetal_out_of_range},
-    {"chord_error_mm", &MachineSettings::chord_error_mm, 1e-6, 1.0, "mm", Error::chord_error_out_of_range},
 };
 
 /// What all axes of a machine have together.

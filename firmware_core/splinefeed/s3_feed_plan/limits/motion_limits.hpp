@@ -7,7 +7,7 @@
 #include "splinefeed/base/units.hpp"
 #include "splinefeed/number/scalar.hpp"
 #include "splinefeed/s2_arc_length/arc_length.hpp"
-#include "splinefeed/s3_feed_plan/limits/machine_settings.hpp"
+#include "splinefeed/s3_feed_plan/limits/machine_numbers.hpp"
 
 #include <cstdint>
 
@@ -48,8 +48,8 @@ struct MotionLimits {
         return larger(feed * usable - feed_noise_mm_s, scale2(feed, -1));
     }
 
-    /// Checks every number (Error names the first one that is out of range) and computes the rest.
-    [[nodiscard]] static constexpr Result<MotionLimits> make(const MachineSettings& settings) noexcept;
+    /// Checks every number (the error names the first one that is out of range) and computes the rest.
+    [[nodiscard]] static constexpr Result<MotionLimits, LimitError> make(const MachineSettings& settings) noexcept;
 };
 
 namespace detail {
@@ -184,17 +184,6 @@ constexpr double fastest_path(double feed, double turning_sq) noexcept {
     return root < fastest ? root : fastest;
 }
 
-constexpr bool within(double x, double low, double high) noexcept {
-    return x >= low && x <= high; // false for NaN
-}
-
-/// false for NaN
-constexpr bool travel_end_valid(const AxisSettings& axis) noexcept {
-    return within(axis.travel_end_zone_mm, 0.001, 1e6) && within(axis.travel_end_velocity_mm_s, 0.001, 10000.0) &&
-           position_representable(axis.travel_low_mm) && position_representable(axis.travel_high_mm) &&
-           axis.travel_low_mm < axis.travel_high_mm;
-}
-
 /// The range of full speed. The emitted motion averages the plan over two segments to either side, which the axis
 /// passes at its end velocity. The position deviates by T^2 A / 6. The zone begins earlier by that distance.
 constexpr PositionRange open_travel(const AxisSettings& axis, double segment_s) noexcept {
@@ -216,71 +205,66 @@ constexpr PositionRange countable(const AxisSettings& axis) noexcept {
     return {Position{-reach.raw}, reach};
 }
 
-/// What is wrong with the numbers that belong to no single axis; Error::none if nothing is.
-constexpr Error machine_error(const MachineSettings& settings) noexcept {
-    if (settings.axes < 1 || settings.axes > max_axes) {
-        return Error::axes_out_of_range;
-    }
-    if (!within(settings.max_feed_mm_s, 0.001, 10000.0)) {
-        return Error::feed_out_of_range;
-    }
-    for (const SpeedLimit& limit : speed_limits) {
-        if (const double value = settings.*limit.value; value != 0.0 && !within(value, limit.low, limit.high)) {
-            return limit.error;
+/// The error of the first number that lies outside its range; LimitError::none if none does.
+template <class Settings, std::size_t n>
+constexpr LimitError range_error(const MachineNumber<Settings> (&numbers)[n], const Settings& settings) noexcept {
+    for (const MachineNumber<Settings>& number : numbers) {
+        if (!number.accepts(settings)) {
+            return number.error;
         }
     }
-    if (settings.sample_period_us < 50 || settings.sample_period_us > 100000) {
-        return Error::sample_period_out_of_range;
-    }
-    const int n = settings.segments_per_sample;
-    if (n < 0 || n > 8 || (n > 0 && settings.sample_period_us * ticks_per_us % n != 0)) {
-        return Error::segments_per_sample_invalid;
-    }
-    return Error::none;
+    return LimitError::none;
 }
 
-/// What is wrong with the numbers of an axis; Error::none if nothing is.
+/// What is wrong with the numbers that belong to no single axis.
+constexpr LimitError machine_error(const MachineSettings& settings) noexcept {
+    if (settings.axes < 1 || settings.axes > max_axes) {
+        return LimitError::axes_out_of_range;
+    }
+    if (const LimitError error = range_error(path_numbers, settings); error != LimitError::none) {
+        return error;
+    }
+    if (!sample_period.accepts(settings)) {
+        return sample_period.error;
+    }
+    const int n = settings.segments_per_sample;
+    const bool divides = n >= 0 && n <= 8 && (n == 0 || settings.sample_period_us * ticks_per_us % n == 0);
+    return divides ? LimitError::none : LimitError::segments_per_sample_invalid;
+}
+
+/// What is wrong with the numbers of an axis.
 template <Scalar S>
-constexpr Error axis_error(const AxisSettings& axis) noexcept {
-    if (!within(axis.max_velocity_mm_s, 0.001, 10000.0)) {
-        return Error::velocity_out_of_range;
-    }
-    if (!within(axis.max_acceleration_mm_s2, 0.1, 1e6)) {
-        return Error::acceleration_out_of_range;
-    }
-    if (axis.max_braking_mm_s2 != 0.0 && !within(axis.max_braking_mm_s2, 0.1, 1e6)) {
-        return Error::braking_out_of_range;
-    }
-    if (axis.travel_end_zone_mm != 0.0 && !travel_end_valid(axis)) {
-        return Error::travel_end_out_of_range;
-    }
-    if (axis.max_jerk_mm_s3 != 0.0 && !within(axis.max_jerk_mm_s3, 1.0, 1e9)) {
-        return Error::jerk_out_of_range;
+constexpr LimitError axis_error(const AxisSettings& axis) noexcept {
+    if (const LimitError error = range_error(axis_numbers, axis); error != LimitError::none) {
+        return error;
     }
     if (std::same_as<S, float> && axis.max_jerk_mm_s3 != 0.0) {
-        return Error::jerk_in_float;
+        return LimitError::jerk_in_float;
     }
-    if (!within(axis.steps_per_mm, 0.001, 1e6)) {
-        return Error::steps_out_of_range;
+    if (axis.travel_end_zone_mm == 0.0) {
+        return LimitError::none;
     }
-    if (axis.travel_end_zone_mm != 0.0 && (axis.travel_low_mm * axis.steps_per_mm < -most_counts ||
-                                           axis.travel_high_mm * axis.steps_per_mm > most_counts)) {
-        return Error::counts_out_of_range;
+    if (axis.travel_end_velocity_mm_s == 0.0 || !position_representable(axis.travel_low_mm) ||
+        !position_representable(axis.travel_high_mm) || !(axis.travel_low_mm < axis.travel_high_mm)) {
+        return LimitError::travel_end_incomplete;
     }
-    return Error::none;
+    return axis.travel_low_mm * axis.steps_per_mm < -most_counts ||
+                   axis.travel_high_mm * axis.steps_per_mm > most_counts
+               ? LimitError::counts_out_of_range
+               : LimitError::none;
 }
 
 } // namespace detail
 
 template <Scalar S>
-constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& settings) noexcept {
-    if (const Error error = detail::machine_error(settings); error != Error::none) {
+constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const MachineSettings& settings) noexcept {
+    if (const LimitError error = detail::machine_error(settings); error != LimitError::none) {
         return error;
     }
     MotionLimits limits;
     limits.axes = settings.axes;
     for (const unsigned k : indices(settings.axes)) {
-        if (const Error error = detail::axis_error<S>(settings.axis[k]); error != Error::none) {
+        if (const LimitError error = detail::axis_error<S>(settings.axis[k]); error != LimitError::none) {
             return error;
         }
     }
@@ -307,16 +291,16 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         const double error_mm = longest * parameter_error + 4.6e-13 + 9.4e-10 / axis.steps_per_mm;
         const double noise = detail::acceleration_noise(error_mm, segment_s);
         if (noise > 0.25 * axis.smaller_acceleration_mm_s2()) {
-            return Error::period_too_short;
+            return LimitError::period_too_short;
         }
         const double speed_noise = detail::speed_noise(error_mm, segment_s);
         if (speed_noise > 0.25 * axis.max_velocity_mm_s || speed_noise > 0.25 * settings.max_feed_mm_s) {
-            return Error::period_too_short;
+            return LimitError::period_too_short;
         }
         feed_noise += speed_noise;
         if (axis.travel_end_zone_mm != 0.0) {
             if (speed_noise > 0.25 * axis.travel_end_velocity_mm_s) {
-                return Error::period_too_short;
+                return LimitError::period_too_short;
             }
             limits.end_velocity_mm_s[k] = from_double<S>(axis.travel_end_velocity_mm_s * usable - speed_noise);
             limits.refinement.open[k] = detail::open_travel(axis, segment_s);
@@ -340,7 +324,7 @@ constexpr Result<MotionLimits<S>> MotionLimits<S>::make(const MachineSettings& s
         if (axis.max_jerk_mm_s3 > 0.0) {
             const double jerk_noise = detail::jerk_noise(error_mm, segment_s);
             if (jerk_noise > 0.25 * axis.max_jerk_mm_s3) {
-                return Error::period_too_short;
+                return LimitError::period_too_short;
             }
             limits.jerk_limited = true;
             // The axis with the smallest acceleration limits the others to about this value.
