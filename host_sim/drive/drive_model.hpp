@@ -4,22 +4,13 @@
 
 #include "host_sim/drive/model_faults.hpp"
 
+#include "splinefeed/hal/modbus/pvt_drive/modbus_exception.hpp"
+
 #include <span>
 
 namespace splinefeed::host {
 
-/// Exception codes of the Modbus application protocol.
-enum class ModbusException : std::uint8_t {
-    none = 0,
-    illegal_function = 1,
-    illegal_address = 2,
-    illegal_value = 3,
-    device_failure = 4,
-    acknowledge = 5,
-    busy = 6,
-    gateway_path = 10,
-    gateway_target = 11,
-};
+using hal::modbus::ModbusException;
 
 /// A drive of one or several axes. Its time is that of its own clock, and passes only in advance().
 class DriveModel {

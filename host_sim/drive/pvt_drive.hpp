@@ -5,6 +5,8 @@
 #include "host_sim/drive/drive_model.hpp"
 #include "host_sim/drive/pvt_machine.hpp"
 
+#include "splinefeed/hal/modbus/pvt_drive/pvt_registers.hpp"
+
 namespace splinefeed::host {
 
 struct PvtDriveParameters {
@@ -12,6 +14,22 @@ struct PvtDriveParameters {
     std::uint16_t ring = 512;                                                ///< at least 16
     std::uint32_t boot = 1;           ///< boot number; increases by one with every power cycle
     std::uint64_t clock_start_us = 0; ///< what its clock shows at first, and after a power cycle
+};
+
+/// A machine that says and does what its faults want.
+class FaultyPvtMachine : public PvtMachine {
+public:
+    using PvtMachine::PvtMachine;
+
+    void set_faults(const ModelFaults& faults);
+    [[nodiscard]] hal::modbus::PvtRefusal execute(hal::modbus::PvtCommand command, std::uint32_t argument);
+    /// What it says of itself.
+    [[nodiscard]] hal::modbus::PvtStatus status();
+
+private:
+    ModelFaults faults_;
+    hal::modbus::PvtStatus stuck_; // what it told when the faults began
+    CountNoise noise_;
 };
 
 class PvtDrive final : public DriveModel {
@@ -23,37 +41,22 @@ public:
     [[nodiscard]] ModbusException write(int address, std::span<const std::uint16_t> values) override;
     void power_cycle() override;
     void swap_words() override { swapped_ = !swapped_; }
-    void set_faults(const ModelFaults& faults) override;
+    void set_faults(const ModelFaults& faults) override { machine_.set_faults(faults); }
     void second_master() override;
 
     [[nodiscard]] int axes() const override { return machine_.axes(); }
     [[nodiscard]] double position_counts(int axis) const override { return machine_.shaft(axis).position_counts(); }
 
     [[nodiscard]] PvtMachine& machine() noexcept { return machine_; }
-    [[nodiscard]] hal::modbus::PvtStatus status() const;
+    [[nodiscard]] hal::modbus::PvtStatus status() const { return registers_.completed(machine_.PvtMachine::status()); }
     /// What it says of itself: with its faults.
-    [[nodiscard]] hal::modbus::PvtStatus told_status();
+    [[nodiscard]] hal::modbus::PvtStatus told_status() { return registers_.completed(machine_.status()); }
 
 private:
-    [[nodiscard]] hal::modbus::PvtIdentity identity() const;
-    [[nodiscard]] ModbusException write_configuration(std::size_t at, std::span<const std::uint16_t> values);
-    [[nodiscard]] ModbusException write_block(std::span<const std::uint16_t> registers);
-    [[nodiscard]] hal::modbus::PvtRefusal take(const hal::modbus::PvtBlock& block,
-                                               std::span<const hal::modbus::PvtSegment> segments);
-    [[nodiscard]] hal::modbus::PvtRefusal command(const hal::modbus::PvtBlock& block,
-                                                  std::span<const hal::modbus::PvtSegment> segments);
-
     PvtDriveParameters parameters_;
-    PvtMachine machine_;
-    std::uint32_t boot_;
-    std::uint16_t nonce_ = 0;
-    std::uint16_t last_command_ = 0;
-    std::uint16_t refusals_ = 0;
-    hal::modbus::PvtRefusal refused_ = hal::modbus::PvtRefusal::none;
+    FaultyPvtMachine machine_;
+    hal::modbus::PvtRegisters<FaultyPvtMachine, max_axes> registers_;
     bool swapped_ = false; // a fault: the least significant word comes first
-    ModelFaults faults_;
-    hal::modbus::PvtStatus stuck_; // what it told when the faults began
-    CountNoise noise_;
 };
 
 } // namespace splinefeed::host

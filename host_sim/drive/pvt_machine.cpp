@@ -2,13 +2,15 @@
 #include "host_sim/drive/pvt_machine.hpp"
 
 #include "splinefeed/base/units.hpp"
-
-#include "host_sim/drive/command_states.hpp"
+#include "splinefeed/hal/modbus/pvt_drive/command_states.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace splinefeed::host {
 
+using hal::modbus::fits;
 using hal::modbus::PvtCommand;
 using hal::modbus::PvtConfiguration;
 using hal::modbus::PvtFault;
@@ -19,6 +21,12 @@ using hal::modbus::PvtState;
 namespace {
 
 constexpr std::uint64_t longest_step_us = 125; // a fraction of the loop's time constant, and of a segment
+constexpr double errors_per_count = 65536.0;
+
+std::int32_t in_register(double value) noexcept {
+    constexpr double most = std::numeric_limits<std::int32_t>::max();
+    return static_cast<std::int32_t>(std::clamp(std::nearbyint(value), -most, most));
+}
 
 } // namespace
 
@@ -38,6 +46,22 @@ void PvtMachine::power_cycle(std::uint64_t clock_start_us) {
     fault_ = PvtFault::none;
     fault_axis_ = 0;
     stand(PvtState::disabled);
+}
+
+hal::modbus::PvtStatus PvtMachine::status() const {
+    hal::modbus::PvtStatus status;
+    status.state = state_;
+    status.fault = static_cast<std::uint16_t>(fault_);
+    status.fault_axis = static_cast<std::uint16_t>(fault_axis_);
+    status.next = ring().next();
+    status.executed = ring().executed();
+    status.free = ring().free();
+    status.clock_us = clock_us();
+    for (std::size_t k = 0; k < shafts_.size(); ++k) {
+        status.position[k] = in_register(shafts_[k].position_counts());
+        status.following_error[k] = in_register(shafts_[k].following_error_counts() * errors_per_count);
+    }
+    return status;
 }
 
 // Commands.

@@ -37,6 +37,9 @@ public:
     [[nodiscard]] MotorAxis& shaft(int axis) noexcept { return shafts_[static_cast<unsigned>(axis)]; }
 
     [[nodiscard]] int axes() const noexcept { return static_cast<int>(axes_.size()); }
+    [[nodiscard]] std::uint16_t ring_capacity() const noexcept { return ring().capacity(); }
+    /// What PvtRegisters does not count itself.
+    [[nodiscard]] hal::modbus::PvtStatus status() const;
     [[nodiscard]] const MotorAxis& shaft(int axis) const noexcept { return shafts_[static_cast<unsigned>(axis)]; }
     [[nodiscard]] hal::modbus::PvtState state() const noexcept { return state_; }
     [[nodiscard]] hal::modbus::PvtFault fault() const noexcept { return fault_; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/drive/command_states.hpp"
+#include "splinefeed/hal/modbus/pvt_drive/command_states.hpp"
+
 #include "support/catch.hpp"
 #include "support/places.hpp"
 
@@ -7,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-using namespace splinefeed::host;
+using splinefeed::hal::modbus::fits;
 using splinefeed::hal::modbus::PvtCommand;
 using splinefeed::hal::modbus::PvtState;
 

@@ -2,7 +2,7 @@
 // DriveBench: the drive of examples/firmware/drive on a host: interrupt, main loop and a master, on a clock of its own.
 #pragma once
 
-#include "drive/pvt_registers.hpp"
+#include "drive/pvt_drive.hpp"
 #include "drive/rtu_frame.hpp"
 
 #include <memory>

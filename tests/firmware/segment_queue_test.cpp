@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "drive/segment_queue.hpp"
+#include "splinefeed/hal/modbus/pvt_drive/segment_queue.hpp"
 
 #include <array>
 #include <support/catch.hpp>
 #include <vector>
 
-using firmware::SegmentQueue;
+using splinefeed::hal::modbus::SegmentQueue;
 using Segment = SegmentQueue::Segment;
 using Refusal = SegmentQueue::Refusal;
 

@@ -3,7 +3,7 @@
 //
 //   host ── UART ── RtuLine ── PvtRegisters ── PvtDrive ── slots ── StepGenerator ── pins
 //                   (tick)     └──── main loop ───┘                  (tick)
-#include "drive/pvt_registers.hpp"
+#include "drive/pvt_drive.hpp"
 #include "drive/rtu_line.hpp"
 #include "startup.hpp"
 

@@ -4,11 +4,13 @@
 
 #include "drive/drive_settings.hpp"
 #include "drive/path_rate.hpp"
-#include "drive/segment_queue.hpp"
 
+#include "splinefeed/hal/modbus/pvt_drive/segment_queue.hpp"
 #include "splinefeed/s5_pulse_train/axis_cubic.hpp"
 
 namespace firmware {
+
+using splinefeed::hal::modbus::SegmentQueue;
 
 /// Where the axes are at the end of a slot: positions in units of a feed segment, velocities in units per slot.
 struct AxisPlaces {

@@ -4,11 +4,13 @@
 #include "drive/axis_stop.hpp"
 
 #include "splinefeed/base/units.hpp"
+#include "splinefeed/hal/modbus/pvt_drive/command_states.hpp"
 #include "splinefeed/s5_pulse_train/step.hpp"
 
 namespace firmware {
 
 using splinefeed::ticks_per_us;
+using splinefeed::hal::modbus::fits;
 
 namespace {
 
@@ -18,33 +20,6 @@ constexpr std::uint32_t longest_watchdog_us = 65'535 * us_per_ms;
 /// How far an instant lies ahead of another one; both wrap.
 constexpr std::int32_t ahead_us(std::uint32_t instant, std::uint32_t now) noexcept {
     return static_cast<std::int32_t>(instant - now);
-}
-
-constexpr unsigned bit(PvtState state) noexcept {
-    return 1U << static_cast<unsigned>(state);
-}
-
-/// The states that a command fits: the table "Commands" of docs/reference/pvt_map.md.
-constexpr unsigned states_of(PvtCommand command) noexcept {
-    switch (command) {
-    case PvtCommand::none:
-    case PvtCommand::quick_stop: return ~0U;
-    case PvtCommand::enable: return bit(PvtState::disabled) | bit(PvtState::standing);
-    case PvtCommand::disable: return bit(PvtState::disabled) | bit(PvtState::standing) | bit(PvtState::held);
-    case PvtCommand::begin: return bit(PvtState::standing) | bit(PvtState::held);
-    case PvtCommand::start:
-    case PvtCommand::preset_position: return bit(PvtState::standing);
-    case PvtCommand::hold:
-    case PvtCommand::end: return bit(PvtState::running) | bit(PvtState::stopping) | bit(PvtState::held);
-    case PvtCommand::resume: return bit(PvtState::held);
-    case PvtCommand::fault_reset: return bit(PvtState::fault) | bit(PvtState::disabled);
-    case PvtCommand::home: return 0; // there is no switch to find
-    }
-    return 0;
-}
-
-constexpr bool fits(PvtCommand command, PvtState state) noexcept {
-    return (states_of(command) & bit(state)) != 0;
 }
 
 } // namespace
@@ -74,8 +49,24 @@ PvtRefusal PvtDrive::execute(PvtCommand command, std::uint32_t argument) noexcep
         fault_axis_ = 0;
         stand(PvtState::disabled);
         return PvtRefusal::none;
+    case PvtCommand::home: return PvtRefusal::state; // there is no switch to find
     default: return PvtRefusal::none;
     }
+}
+
+PvtStatus PvtDrive::status() const noexcept {
+    PvtStatus status;
+    status.state = state_;
+    status.fault = static_cast<std::uint16_t>(fault_);
+    status.fault_axis = static_cast<std::uint16_t>(fault_axis_);
+    status.next = queue_.next();
+    status.executed = queue_.executed();
+    status.free = queue_.free();
+    status.clock_us = clock_us();
+    for (unsigned k = 0; k < drive_axes; ++k) {
+        status.position[k] = steps_.count(k);
+    }
+    return status;
 }
 
 PvtRefusal PvtDrive::begin(std::uint16_t session, std::uint32_t first) noexcept {

@@ -5,6 +5,8 @@
 
 #include "drive/slot_maker.hpp"
 
+#include "splinefeed/hal/modbus/pvt_drive/pvt_registers.hpp"
+
 #include <array>
 #include <optional>
 
@@ -16,6 +18,7 @@ using splinefeed::hal::modbus::PvtFault;
 using splinefeed::hal::modbus::PvtRefusal;
 using splinefeed::hal::modbus::PvtSegment;
 using splinefeed::hal::modbus::PvtState;
+using splinefeed::hal::modbus::PvtStatus;
 
 /// Belongs to the main loop; the interrupt makes the steps of the slots. The drive's clock is the count of the ticks.
 /// It has no encoders: where the axes are is what was stepped, and there is no following error. It has no reference
@@ -40,14 +43,16 @@ public:
 
     void configure(const PvtConfiguration& configuration) noexcept { configuration_ = configuration; }
     [[nodiscard]] const PvtConfiguration& configuration() const noexcept { return configuration_; }
+    [[nodiscard]] static constexpr int axes() noexcept { return static_cast<int>(drive_axes); }
+    [[nodiscard]] std::uint16_t ring_capacity() const noexcept { return queue_.capacity(); }
+    /// What PvtRegisters does not count itself.
+    [[nodiscard]] PvtStatus status() const noexcept;
     [[nodiscard]] PvtState state() const noexcept { return state_; }
     [[nodiscard]] PvtFault fault() const noexcept { return fault_; }
     [[nodiscard]] unsigned fault_axis() const noexcept { return fault_axis_; }
     /// Nothing after power-up and after the ring was lost.
     [[nodiscard]] std::optional<std::uint16_t> session() const noexcept { return session_; }
-    [[nodiscard]] const SegmentQueue& queue() const noexcept { return queue_; }
     [[nodiscard]] std::uint32_t clock_us() const noexcept { return steps_.ticks() * drive_tick_us; }
-    [[nodiscard]] std::int32_t position_counts(unsigned axis) const noexcept { return steps_.count(axis); }
     /// Whether the motors shall have power.
     [[nodiscard]] bool powered() const noexcept {
         return state_ != PvtState::disabled && fault_ != PvtFault::emergency_stop;
@@ -106,5 +111,7 @@ private:
     bool on_limit_ = false;
     bool leaving_ = false; // it was pressed without a motion along the ring: one may leave it
 };
+
+using PvtRegisters = splinefeed::hal::modbus::PvtRegisters<PvtDrive, static_cast<int>(drive_axes)>;
 
 } // namespace firmware

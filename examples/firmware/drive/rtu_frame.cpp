@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "drive/rtu_frame.hpp"
 
-#include "drive/pvt_registers.hpp"
-
 namespace firmware {
 
 namespace {
 
 using namespace rtu;
+using splinefeed::hal::modbus::ModbusException;
 
 constexpr std::size_t most_read = 125;
 constexpr std::size_t most_written = 123;

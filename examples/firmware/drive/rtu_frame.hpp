@@ -3,14 +3,14 @@
 // "MODBUS Application Protocol Specification V1.1b3", "MODBUS over Serial Line V1.02" (modbus.org).
 #pragma once
 
+#include "drive/pvt_drive.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace firmware {
-
-class PvtRegisters;
 
 inline constexpr std::uint8_t rtu_broadcast = 0;
 using RtuBytes = std::array<std::uint8_t, 256>; ///< the longest frame

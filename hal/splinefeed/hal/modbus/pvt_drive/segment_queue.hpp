@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <span>
 
-namespace firmware {
+namespace splinefeed::hal::modbus {
 
 /// Sequence numbers count modulo 2^32. A segment is begun when its motion is computed, and executed when it has been
 /// made; until then it occupies its place.
 class SegmentQueue {
 public:
-    using Segment = splinefeed::hal::modbus::PvtSegment;
-    using Refusal = splinefeed::hal::modbus::PvtRefusal;
+    using Segment = PvtSegment;
+    using Refusal = PvtRefusal;
 
     /// What would be left if the segments from some number on were dropped.
     struct Left {
@@ -23,7 +23,7 @@ public:
         bool rests = false;      ///< one of them has the rest mark
     };
 
-    /// @pre storage.size() >= 16
+    /// `storage` must outlive it. @pre it is not empty
     SegmentQueue(std::span<Segment> storage, int axes) noexcept : segment_(storage), axes_(axes) {}
 
     /// Makes the queue empty; the next segment is `first`.
@@ -69,4 +69,4 @@ private:
     std::uint64_t ticks_ = 0;
 };
 
-} // namespace firmware
+} // namespace splinefeed::hal::modbus

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "drive/segment_queue.hpp"
+#include "splinefeed/hal/modbus/pvt_drive/segment_queue.hpp"
 
-namespace firmware {
-
-namespace pvt = splinefeed::hal::modbus::pvt;
+namespace splinefeed::hal::modbus {
 
 void SegmentQueue::begin(std::uint32_t first) noexcept {
     origin_ = executed_ = front_ = next_ = first;
@@ -85,4 +83,4 @@ void SegmentQueue::pass() noexcept {
     }
 }
 
-} // namespace firmware
+} // namespace splinefeed::hal::modbus
