@@ -168,6 +168,7 @@ TEST_CASE("every reader has a bound") {
     deep("m.toml", "head -c 200000 /dev/zero | sed 's/\\x0/a./g'; echo 'a = 1'");
     deep("m.toml", "printf '['; head -c 200000 /dev/zero | sed 's/\\x0/a./g'; echo 'a]'");
     deep("w.csv", "head -c 5000 /dev/zero | tr '\\0' ','");
+    // Five million rows: seconds with sanitizers
     const Call closed = tool.shell("yes 1,1 | '" + splinefeed::test::tool_path() + "' plan - --closed --quiet");
     CHECK(closed.status == 2);
     CHECK(contains(closed.error, "-:4000001: a closed curve is kept in memory as a whole"));
