@@ -185,7 +185,7 @@ void StepPort::follow_clock(std::uint64_t now_ns) noexcept {
 void StepPort::pursue(std::uint64_t now_ns) noexcept {
     const bool some = edges_.gather(lines_, asked(complete_bit));
     follow_clock(now_ns);
-    if (!some && edges_.exhausted() && whole()) {
+    if (axes_move(phases_.phase()) && !some && edges_.exhausted() && whole()) {
         take(StepEvent::exhausted);
     }
     const bool moves = axes_move(phases_.phase());
