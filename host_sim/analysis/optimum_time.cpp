@@ -46,8 +46,8 @@ double axis_time(double travel, double w0, double w1, double most, double speedi
 
 } // namespace
 
-OptimumTime::OptimumTime(const MachineSettings& machine, double direction_jump, std::size_t window)
-    : grid_(machine, direction_jump), axes_(static_cast<unsigned>(machine.axes)), window_(window) {
+OptimumTime::OptimumTime(const MachineSettings& machine, double direction_jump, ScalarKind scalar, std::size_t window)
+    : grid_(machine, direction_jump, scalar), axes_(static_cast<unsigned>(machine.axes)), window_(window) {
     assert(window >= 4);
     for (unsigned k = 0; k < axes_; ++k) {
         speeding_[k] = machine.axis[k].max_acceleration_mm_s2;
@@ -55,8 +55,7 @@ OptimumTime::OptimumTime(const MachineSettings& machine, double direction_jump, 
     }
 }
 
-template <Scalar S>
-void OptimumTime::segment(const CurveSegment<S>& segment) {
+void OptimumTime::segment(const CurveSegment<double>& segment) {
     const Stopwatch stopwatch(spent_);
     fresh_.clear();
     grid_.append(segment, fresh_);
@@ -155,9 +154,5 @@ void OptimumTime::advance(double end_sq, std::size_t count) {
     }
     stages_.erase(stages_.begin(), stages_.begin() + static_cast<std::ptrdiff_t>(count));
 }
-
-template void OptimumTime::segment(const CurveSegment<double>& segment);
-template void OptimumTime::segment(const CurveSegment<float>& segment);
-template void OptimumTime::segment(const CurveSegment<Fixed>& segment);
 
 } // namespace splinefeed::host

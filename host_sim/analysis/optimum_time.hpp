@@ -31,11 +31,12 @@ public:
     static constexpr std::size_t usual_window = 4096; ///< 1 MB
 
     /// @param direction_jump  Refinement::direction_jump of the plan
+    /// @param scalar  of the plan
     /// @pre window >= 4
-    OptimumTime(const MachineSettings& machine, double direction_jump, std::size_t window = usual_window);
+    OptimumTime(const MachineSettings& machine, double direction_jump, ScalarKind scalar = ScalarKind::float64,
+                std::size_t window = usual_window);
 
-    template <Scalar S>
-    void segment(const CurveSegment<S>& segment);
+    void segment(const CurveSegment<double>& segment);
 
     /// The curve ends here, at standstill. A second call has no effect.
     void finish();

@@ -297,8 +297,7 @@ void PathDeviation::accept(std::size_t kept, std::uint64_t last) {
     }
 }
 
-template <Scalar S>
-void PathDeviation::segment(const CurveSegment<S>& segment) {
+void PathDeviation::segment(const CurveSegment<double>& segment) {
     const Stopwatch stopwatch(spent_);
     const std::uint64_t known = oldest_ + moves_.size();
     if (known == 0) {
@@ -328,9 +327,5 @@ std::string describe(const PathDeviation::Excess& excess, const std::string& nam
     return fmt::format("the path is {:.9g} {} from {}; its tolerance allows {:.9g} {}", excess.place.distance, unit,
                        name, excess.allowed, unit);
 }
-
-template void PathDeviation::segment(const CurveSegment<double>&);
-template void PathDeviation::segment(const CurveSegment<float>&);
-template void PathDeviation::segment(const CurveSegment<Fixed>&);
 
 } // namespace splinefeed::host

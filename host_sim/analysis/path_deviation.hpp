@@ -44,8 +44,7 @@ public:
     void start(const PerAxis<Position>& position);
     void move(const PathElement<double>& move, std::uint64_t line);
     /// @param segment  with the index of the move in `waypoint`, modulo 2^32, as the path delivers it
-    template <Scalar S>
-    void segment(const CurveSegment<S>& segment);
+    void segment(const CurveSegment<double>& segment);
     /// The path is complete: what is left of the moves is measured. Without this call moves that the path did not reach
     /// are not. A path without a segment stands at its start.
     void finish();

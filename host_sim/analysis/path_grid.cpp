@@ -28,10 +28,8 @@ constexpr int deepest = 20;
 constexpr double cusp_cosine = 0.5; // a sharper turn that no halving resolves is a cusp
 
 // What the plan's arithmetic adds to a direction.
-template <Scalar S>
 constexpr double direction_error = 1e-9;
-template <>
-constexpr double direction_error<float> = 1e-6;
+constexpr double direction_error_of_float = 1e-6;
 
 // Rounding of a difference of two positions.
 constexpr double travel_noise_mm = 1e-12;
@@ -39,8 +37,10 @@ constexpr double relative_noise = 1e-15;
 
 } // namespace
 
-PathGrid::PathGrid(const MachineSettings& machine, double direction_jump)
-    : machine_(machine), axes_(static_cast<unsigned>(machine.axes)), direction_jump_(direction_jump) {
+PathGrid::PathGrid(const MachineSettings& machine, double direction_jump, ScalarKind scalar)
+    : machine_(machine), axes_(static_cast<unsigned>(machine.axes)), direction_jump_(direction_jump),
+      direction_error_(scalar == ScalarKind::float32 ? direction_error_of_float : direction_error),
+      negligible_units_(scalar == ScalarKind::float32 ? to_double(negligible_units<float>) : negligible_units<double>) {
     const double period_s = machine.sample_period_us * 1e-6;
     chord_mm_s2_ = 8.0 * machine.chord_error_mm / (period_s * period_s);
     softest_mm_s2_ = machine.axis[0].smaller_acceleration_mm_s2();
@@ -257,8 +257,7 @@ bool PathGrid::jumps(const PerAxis<double>& in, const PerAxis<double>& out, doub
     return !(in_sq > 0.0) || !(out_sq > 0.0) || jump > direction_jump_ + slack;
 }
 
-template <Scalar S>
-void PathGrid::append(const CurveSegment<S>& segment, std::vector<PathInterval>& out) {
+void PathGrid::append(const CurveSegment<double>& segment, std::vector<PathInterval>& out) {
     degree_ = static_cast<unsigned>(segment.degree);
     size_mm_ = 0.0;
     // Direction of the first and last leg of the control polygon; zero where that is next to nothing.
@@ -269,7 +268,7 @@ void PathGrid::append(const CurveSegment<S>& segment, std::vector<PathInterval>&
     for (unsigned k = 0; k < axes_; ++k) {
         PerDegree<double> control{};
         for (unsigned i = 0; i <= degree_; ++i) {
-            control[i] = k < static_cast<unsigned>(segment.axes) ? to_double(segment.control[k][i]) : 0.0;
+            control[i] = k < static_cast<unsigned>(segment.axes) ? segment.control[k][i] : 0.0;
         }
         start[k] = control[1] - control[0];
         end[k] = control[degree_] - control[degree_ - 1];
@@ -289,12 +288,12 @@ void PathGrid::append(const CurveSegment<S>& segment, std::vector<PathInterval>&
     const auto normalise = [this](PerAxis<double>& direction, double norm_sq) {
         const double norm = std::sqrt(norm_sq);
         for (unsigned k = 0; k < axes_; ++k) {
-            direction[k] = norm < to_double(negligible_units<S>) ? 0.0 : direction[k] / norm;
+            direction[k] = norm < negligible_units_ ? 0.0 : direction[k] / norm;
         }
     };
     normalise(start, start_sq);
     normalise(end, end_sq);
-    const double programmed = to_double(segment.block_feed_mm_s());
+    const double programmed = segment.block_feed_mm_s();
     const double feed = programmed > 0.0 ? std::min(programmed, machine_.max_feed_mm_s) : machine_.max_feed_mm_s;
     feed_sq_ = feed * feed;
     bool linear_moves = false;
@@ -314,15 +313,11 @@ void PathGrid::append(const CurveSegment<S>& segment, std::vector<PathInterval>&
     }
     const double quarter = feed_sq_ / (8.0 * softest_mm_s2_);
     least_level_ = chord_sq > quarter * quarter ? least_level_of_long : least_level;
-    stop_ = any_ && (stop_ || jumps(last_direction_, start, direction_error<S>));
+    stop_ = any_ && (stop_ || jumps(last_direction_, start, direction_error_));
     append_pieces(out);
     any_ = true;
     stop_ = segment.stop_at_end;
     last_direction_ = end;
 }
-
-template void PathGrid::append(const CurveSegment<double>& segment, std::vector<PathInterval>& out);
-template void PathGrid::append(const CurveSegment<float>& segment, std::vector<PathInterval>& out);
-template void PathGrid::append(const CurveSegment<Fixed>& segment, std::vector<PathInterval>& out);
 
 } // namespace splinefeed::host

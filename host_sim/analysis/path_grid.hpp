@@ -2,6 +2,7 @@
 // PathGrid: the exact curve, divided into short intervals, with the limits of the speed at their ends.
 #pragma once
 
+#include "host_sim/base/scalar_kind.hpp"
 #include "host_sim/config/machine_description.hpp"
 
 #include "splinefeed/s1_curve/curve_segment.hpp"
@@ -38,11 +39,11 @@ struct PathInterval {
 class PathGrid {
 public:
     /// @param direction_jump  Refinement::direction_jump of the plan
-    PathGrid(const MachineSettings& machine, double direction_jump);
+    /// @param scalar  of the plan
+    PathGrid(const MachineSettings& machine, double direction_jump, ScalarKind scalar = ScalarKind::float64);
 
     /// Appends the intervals of a segment. @pre segments come in travel order
-    template <Scalar S>
-    void append(const CurveSegment<S>& segment, std::vector<PathInterval>& out);
+    void append(const CurveSegment<double>& segment, std::vector<PathInterval>& out);
 
 private:
     struct Node {
@@ -69,7 +70,9 @@ private:
     MachineSettings machine_;
     unsigned axes_;
     double direction_jump_;
-    double chord_mm_s2_; ///< largest kappa v^2 for the chord error; 0: no limit
+    double direction_error_;  // of the plan's arithmetic
+    double negligible_units_; // a shorter tangent is none
+    double chord_mm_s2_;      ///< largest kappa v^2 for the chord error; 0: no limit
     double softest_mm_s2_;
     double turning_sq_ = 0.0; ///< of all rotary axes at their velocity limits
     // The segment that is being divided.

@@ -45,8 +45,7 @@ PathStrand::PathStrand(const PerAxis<Position>& from, const PathElement<double>&
     prepare();
 }
 
-template <Scalar S>
-PathStrand::PathStrand(const CurveSegment<S>& segment, int detail) : axes_(segment.axes), degree_(segment.degree) {
+PathStrand::PathStrand(const CurveSegment<double>& segment, int detail) : axes_(segment.axes), degree_(segment.degree) {
     for (const unsigned k : indices(axes_)) {
         for (unsigned i = 0; i <= static_cast<unsigned>(degree_); ++i) {
             control_[k][i] = segment.control_mm(static_cast<int>(k), static_cast<int>(i));
@@ -294,9 +293,5 @@ double PathStrand::distance(const PerAxis<double>& point, const AxisSet& set, do
     }
     return std::sqrt(foot.distance_sq);
 }
-
-template PathStrand::PathStrand(const CurveSegment<double>&, int);
-template PathStrand::PathStrand(const CurveSegment<float>&, int);
-template PathStrand::PathStrand(const CurveSegment<Fixed>&, int);
 
 } // namespace splinefeed::host

@@ -23,8 +23,7 @@ public:
     /// A programmed move from a place.
     PathStrand(const PerAxis<Position>& from, const PathElement<double>& move, int axes);
     /// @param detail  number of places per turn of the curve: more for a long segment through many moves
-    template <Scalar S>
-    PathStrand(const CurveSegment<S>& segment, int detail);
+    PathStrand(const CurveSegment<double>& segment, int detail);
 
     [[nodiscard]] bool straight() const noexcept { return !arc_ && degree_ == 1; }
     /// The place at t, 0 to 1. [mm]

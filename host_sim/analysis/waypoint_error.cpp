@@ -123,15 +123,14 @@ void WaypointError::waypoint(std::uint32_t index, const PerAxis<Position>& posit
     pending_.push_back({index, position, 0.0});
 }
 
-template <Scalar S>
-void WaypointError::segment(const CurveSegment<S>& segment) {
+void WaypointError::segment(const CurveSegment<double>& segment) {
     Piece piece;
     piece.axes = segment.axes;
     piece.degree = segment.degree;
     piece.origin = segment.origin;
     for (const unsigned k : indices(segment.axes)) {
         for (unsigned i = 0; i <= static_cast<unsigned>(segment.degree); ++i) {
-            piece.offset[k][i] = scale2(to_double(segment.control[k][i]), segment.unit_log2);
+            piece.offset[k][i] = scale2(segment.control[k][i], segment.unit_log2);
         }
     }
     advance(piece, segment.waypoint);
@@ -159,9 +158,5 @@ double WaypointError::largest_mm() const noexcept {
     // The last one reached waits for the segment after it, which may come nearer.
     return std::max(largest_mm_, last_.distance_mm(pending_.front().position) + pending_.front().merged_mm);
 }
-
-template void WaypointError::segment(const CurveSegment<double>& segment);
-template void WaypointError::segment(const CurveSegment<float>& segment);
-template void WaypointError::segment(const CurveSegment<Fixed>& segment);
 
 } // namespace splinefeed::host

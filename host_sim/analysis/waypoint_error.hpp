@@ -20,8 +20,7 @@ public:
     /// Index as in CurveSegment::waypoint, increasing modulo 2^32.
     void waypoint(std::uint32_t index, const PerAxis<Position>& position);
 
-    template <Scalar S>
-    void segment(const CurveSegment<S>& segment);
+    void segment(const CurveSegment<double>& segment);
 
     /// Largest distance of the waypoints that the curve has reached so far. 0 without waypoints.
     [[nodiscard]] double largest_mm() const noexcept;

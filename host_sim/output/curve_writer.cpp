@@ -23,8 +23,7 @@ void CurveWriter::number(double value, int axis, int point) {
     file_->format("{}{:.17g}", before, value);
 }
 
-template <Scalar S>
-void CurveWriter::segment(const CurveSegment<S>& segment) {
+void CurveWriter::segment(const CurveSegment<double>& segment) {
     open_segment(segment.degree);
     for (int i = 0; i <= segment.degree; ++i) {
         for (int axis = 0; axis < segment.axes; ++axis) {
@@ -80,9 +79,5 @@ void CurveWriter::finish(const nlohmann::ordered_json& results) {
     }
     file_->append("}\n");
 }
-
-template void CurveWriter::segment(const CurveSegment<double>& segment);
-template void CurveWriter::segment(const CurveSegment<float>& segment);
-template void CurveWriter::segment(const CurveSegment<Fixed>& segment);
 
 } // namespace splinefeed::host

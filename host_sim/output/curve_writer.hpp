@@ -18,8 +18,7 @@ public:
     /// Writes the beginning. The caller commits the file, which must outlive the writer.
     CurveWriter(OutputFile& file, std::string_view method, bool closed = false);
 
-    template <Scalar S>
-    void segment(const CurveSegment<S>& segment);
+    void segment(const CurveSegment<double>& segment);
     /// Writes all segments of a complete curve, with the numbers as computed. Segments of a description also have their
     /// interval, if the curve has its own parameter, and samples.
     void segments(const CurveFile& curve);

@@ -24,8 +24,7 @@ PathLimits::PathLimits(const MachineDescription& machine) : axes_(machine.settin
     }
 }
 
-template <Scalar S>
-std::optional<std::string> PathLimits::violation(const CurveSegment<S>& segment) const {
+std::optional<std::string> PathLimits::violation(const CurveSegment<double>& segment) const {
     const auto degree = static_cast<unsigned>(segment.degree);
     for (const unsigned k : indices(axes_)) {
         const Axis& axis = axis_[k];
@@ -49,9 +48,5 @@ std::optional<std::string> PathLimits::violation(const CurveSegment<S>& segment)
     }
     return std::nullopt;
 }
-
-template std::optional<std::string> PathLimits::violation(const CurveSegment<double>&) const;
-template std::optional<std::string> PathLimits::violation(const CurveSegment<float>&) const;
-template std::optional<std::string> PathLimits::violation(const CurveSegment<Fixed>&) const;
 
 } // namespace splinefeed::host

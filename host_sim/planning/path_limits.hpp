@@ -19,8 +19,7 @@ public:
     explicit PathLimits(const MachineDescription& machine);
 
     /// If the segment leaves the limits, one sentence that says where.
-    template <Scalar S>
-    [[nodiscard]] std::optional<std::string> violation(const CurveSegment<S>& segment) const;
+    [[nodiscard]] std::optional<std::string> violation(const CurveSegment<double>& segment) const;
 
 private:
     struct Axis {

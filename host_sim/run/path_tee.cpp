@@ -2,6 +2,7 @@
 #include "host_sim/run/path_tee.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/curve/segment_cast.hpp"
 
 #include <fmt/format.h>
 
@@ -26,10 +27,11 @@ Pull PathTee<S>::next(CurveSegment<S>& out) noexcept {
 
 template <Scalar S>
 void PathTee<S>::look(CurveSegment<S>& segment) {
+    const CurveSegment<double>& seen = in_double(segment);
     const std::uint32_t index = segment.waypoint;
     const std::uint32_t row = feeder_->row_of(index);
     if (observers_.limits != nullptr) {
-        if (const auto violation = observers_.limits->violation(segment)) {
+        if (const auto violation = observers_.limits->violation(seen)) {
             const std::uint64_t line = feeder_->line_of_row(row);
             throw InputError(*file_, line,
                              line > 0 ? *violation
@@ -37,19 +39,19 @@ void PathTee<S>::look(CurveSegment<S>& segment) {
         }
     }
     if (observers_.error != nullptr) {
-        observers_.error->segment(segment);
+        observers_.error->segment(seen);
     }
     if (observers_.deviation != nullptr) {
-        observers_.deviation->segment(segment);
+        observers_.deviation->segment(seen);
     }
     if (observers_.writer != nullptr) {
-        observers_.writer->segment(segment);
+        observers_.writer->segment(seen);
     }
     if (observers_.optimum != nullptr) {
-        observers_.optimum->segment(segment);
+        observers_.optimum->segment(seen);
     }
     if (observers_.share != nullptr) {
-        observers_.share->programmed(row, to_double(segment.block_feed_mm_s()));
+        observers_.share->programmed(row, seen.block_feed_mm_s());
     }
     segment.waypoint = row;
     ++segments_;

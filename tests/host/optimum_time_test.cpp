@@ -5,6 +5,7 @@
 
 #include "host_sim/base/text_file.hpp"
 #include "host_sim/curve/bezier_source.hpp"
+#include "host_sim/curve/segment_cast.hpp"
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"
 #include "support/places.hpp"
@@ -12,7 +13,9 @@
 
 using namespace splinefeed_test;
 using splinefeed::host::BezierSource;
+using splinefeed::host::in_double;
 using splinefeed::host::OptimumTime;
+using splinefeed::host::ScalarKind;
 
 namespace {
 
@@ -21,9 +24,11 @@ constexpr double pi = 3.14159265358979323846;
 template <Scalar S = double>
 double optimum(const std::vector<CurveSegment<S>>& path, const MachineSettings& machine,
                std::size_t window = OptimumTime::usual_window) {
-    OptimumTime time(machine, to_double(MotionLimits<S>::make(machine).value().refinement.direction_jump), window);
+    const ScalarKind scalar = std::same_as<S, float> ? ScalarKind::float32 : ScalarKind::float64;
+    OptimumTime time(machine, to_double(MotionLimits<S>::make(machine).value().refinement.direction_jump), scalar,
+                     window);
     for (const CurveSegment<S>& segment : path) {
-        time.segment(segment);
+        time.segment(in_double(segment));
     }
     time.finish();
     return time.seconds();

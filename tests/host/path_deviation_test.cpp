@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/analysis/path_deviation.hpp"
+#include "host_sim/curve/segment_cast.hpp"
 #include "host_sim/program/element_cast.hpp"
 
 #include "host_sim/program/element_file.hpp"
@@ -60,7 +61,7 @@ void require_kept(const ElementProgram& program, int axes, double joint_mm) {
     for (Pull pull = Pull::starved; pull != Pull::finished;) {
         pull = path.next(segment);
         if (pull == Pull::item) {
-            deviation.segment(segment);
+            deviation.segment(in_double(segment));
         } else if (pull == Pull::starved && pushed < program.moves()) {
             const PathElement<double> move = program.element(pushed);
             CAPTURE(pushed);

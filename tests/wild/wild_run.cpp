@@ -63,7 +63,8 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
         const auto axes = static_cast<std::size_t>(machine.settings.axes);
         PathInput input(arguments.path, PathUse::executed,
                         {machine.axis_name.begin(), machine.axis_name.begin() + axes});
-        OptimumTime optimum(machine.settings, to_double(limits->refinement.direction_jump));
+        OptimumTime optimum(machine.settings, to_double(limits->refinement.direction_jump),
+                            std::same_as<S, float> ? ScalarKind::float32 : ScalarKind::float64);
         CurveFeeder<S> feeder(input);
         PathTee<S> tee(feeder, input.name(), {.optimum = &optimum});
         PlannedTrajectory<S> planner(tee, *limits, arguments.motion.window_cells);
