@@ -1,66 +1,57 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/planning/element_feeder.hpp"
 
+#include "host_sim/planning/move_sources.hpp"
+
 #include <algorithm>
 #include <utility>
 
 namespace splinefeed::host {
 
-template <Scalar S>
-ElementFeeder<S>::ElementFeeder(PathInput& input)
-    : input_(&input), program_(move_source<S>(input)),
-      path_(static_cast<int>(input.axes().size()), from_double<S>(input.tolerances().joint_mm),
-            {from_double<S>(input.tolerances().sharpest.curvature_1_mm),
-             from_double<S>(input.tolerances().sharpest.fading)}) {}
+ElementFeeder::ElementFeeder(PathInput& input, PathSink& sink)
+    : input_(&input), sink_(&sink), program_(move_source(input, input.scalar())) {}
 
 // A move that turns a rotary axis keeps the smaller number: then the path is nowhere farther off, in mm and in degrees.
-template <Scalar S>
-void ElementFeeder<S>::limit_tolerance(SourceStep<S>& step) const {
+void ElementFeeder::limit_tolerance(SourceStep& step) const {
     const PathTolerances& tolerances = input_->tolerances();
     for (unsigned k = 0; k < max_axes; ++k) {
-        const auto& points = step.element.bezier.points[k];
-        const bool bends = step.element.shape == MoveShape::bezier &&
-                           std::any_of(points.begin(), points.end(), [](S offset) { return absolute(offset) > S{}; });
-        if (tolerances.rotary[k] && (step.element.to[k] != here_[k] || bends) &&
-            step.programmed.tolerance_mm > tolerances.rotary_deg) {
-            step.programmed.tolerance_mm = tolerances.rotary_deg;
-            step.element.tolerance_mm = from_double<S>(tolerances.rotary_deg);
+        const auto& points = step.move.bezier.points[k];
+        const bool bends = step.move.shape == MoveShape::bezier &&
+                           std::any_of(points.begin(), points.end(), [](double offset) { return offset != 0.0; });
+        if (tolerances.rotary[k] && (step.move.to[k] != here_[k] || bends)) {
+            step.move.tolerance_mm = std::min(step.move.tolerance_mm, tolerances.rotary_deg);
         }
     }
 }
 
 // A move that is too short is none for the path: the machine cannot stand at its end, but at the end of the one before.
-template <Scalar S>
-bool ElementFeeder<S>::has_length(const SourceStep<S>& step) const {
-    const auto length = BlendedPath<S>::length_of(here_, step.element, static_cast<int>(input_->axes().size()));
+bool ElementFeeder::has_length(const SourceStep& step) const {
+    const Result<bool> length = sink_->has_length(here_, step);
     if (!length.has_value()) {
         throw program_->refusal(step, describe(length.error()));
     }
-    return *length > S{};
+    return *length;
 }
 
-template <Scalar S>
-void ElementFeeder<S>::push(SourceStep<S>& step, Pushed& pushed) {
-    if (const Status status = path_.push(step.element); !status.ok()) {
+void ElementFeeder::push(SourceStep& step, Pushed& pushed) {
+    if (const Status status = sink_->push(step); !status.ok()) {
         throw program_->refusal(step, describe(status.error()));
     }
     program_->pushed(step);
     std::swap(pushed_, step);
     pushed.move = &pushed_;
-    pushed.position = pushed_.element.to;
+    pushed.position = pushed_.move.to;
     ++moves_;
 }
 
 // Then its steps are due: the path does not leave the end of the move before it has the next one.
-template <Scalar S>
-void ElementFeeder<S>::push_held(Pushed& pushed) {
+void ElementFeeder::push_held(Pushed& pushed) {
     holds_ = false;
     push(held_, pushed);
     due_ = behind_.size();
 }
 
-template <Scalar S>
-void ElementFeeder<S>::take_due(Pushed& pushed) {
+void ElementFeeder::take_due(Pushed& pushed) {
     step_ = std::move(behind_.front().step);
     pushed.row = behind_.front().row;
     pushed.step = &step_;
@@ -69,8 +60,7 @@ void ElementFeeder<S>::take_due(Pushed& pushed) {
 }
 
 // The next step of the program; false: it has ended.
-template <Scalar S>
-bool ElementFeeder<S>::take(Pushed& pushed) {
+bool ElementFeeder::take(Pushed& pushed) {
     if (due_ > 0) {
         take_due(pushed);
         return true;
@@ -84,7 +74,7 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
         return true;
     }
     if (holds_ && (step_.stops || behind_.size() == most_behind)) {
-        held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+        held_.move.stop_at_end = true;
     }
     if (step_.kind != StepKind::move) {
         if (!holds_) {
@@ -92,7 +82,7 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
             return true;
         }
         behind_.push_back({std::move(step_), row_});
-        if (held_.element.stop_at_end) {
+        if (held_.move.stop_at_end) {
             push_held(pushed);
             take_due(pushed);
         }
@@ -101,7 +91,7 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
     limit_tolerance(step_);
     const bool moves = has_length(step_);
     if (program_->knows_stops()) {
-        here_ = step_.element.to;
+        here_ = step_.move.to;
         push(step_, pushed);
         const std::uint32_t row = program_->row_of(moves_ - 1U);
         row_ = moves ? row : row_;
@@ -109,12 +99,12 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
         return true;
     }
     if (!moves) {
-        if (step_.element.stop_at_end && holds_) {
-            held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+        if (step_.move.stop_at_end && holds_) {
+            held_.move.stop_at_end = true;
         }
         return true;
     }
-    here_ = step_.element.to;
+    here_ = step_.move.to;
     if (holds_) {
         push_held(pushed);
     }
@@ -124,29 +114,26 @@ bool ElementFeeder<S>::take(Pushed& pushed) {
     return true;
 }
 
-template <Scalar S>
-bool ElementFeeder<S>::release(Pushed& pushed) {
+bool ElementFeeder::release(Pushed& pushed) {
     pushed = {};
     if (!holds_ || due_ > 0) {
         return false;
     }
-    held_.element.stop_at_end = held_.programmed.stop_at_end = true;
+    held_.move.stop_at_end = true;
     push_held(pushed);
     return true;
 }
 
-template <Scalar S>
-void ElementFeeder<S>::finish() {
+void ElementFeeder::finish() {
     finished_ = true;
-    if (const Status status = path_.finish(); !status.ok()) {
+    if (const Status status = sink_->finish(); !status.ok()) {
         if (const std::string text = program_->without_moves(status.error()); !text.empty()) {
             throw InputError(input_->name(), 0, text);
         }
     }
 }
 
-template <Scalar S>
-bool ElementFeeder<S>::more(Pushed& pushed) {
+bool ElementFeeder::more(Pushed& pushed) {
     pushed = {};
     if (finished_) {
         return false;
@@ -161,7 +148,7 @@ bool ElementFeeder<S>::more(Pushed& pushed) {
                 finish();
                 return false;
             }
-            if (const Status status = path_.start(here_); !status.ok()) {
+            if (const Status status = sink_->start(here_); !status.ok()) {
                 throw program_->refusal(step_, describe(status.error()));
             }
             pushed.start = true;
@@ -185,14 +172,10 @@ bool ElementFeeder<S>::more(Pushed& pushed) {
         }
         if (!finished_) {
             finished_ = true;
-            static_cast<void>(path_.finish());
+            static_cast<void>(sink_->finish());
         }
         throw;
     }
 }
-
-template class ElementFeeder<double>;
-template class ElementFeeder<float>;
-template class ElementFeeder<Fixed>;
 
 } // namespace splinefeed::host

@@ -2,79 +2,63 @@
 // ElementFeeder: the moves of a program into a path within their tolerance.
 #pragma once
 
-#include "host_sim/planning/move_sources.hpp"
-
-#include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "host_sim/planning/path_feeder.hpp"
 
 #include <deque>
 #include <exception>
-#include <memory>
-#include <optional>
 
 namespace splinefeed::host {
 
-/// Owns the path. more() takes one step of the program at a time, so nothing is read before the path needs it. If a
-/// program does not say in advance where the machine has to stand, a move waits here until the next step that says so
-/// is known, and with it up to most_behind steps that happen behind it and do not say it: a message before a dwell, for
-/// example.
-template <Scalar S>
-class ElementFeeder {
+/// If a program does not say in advance where the machine has to stand, a move waits here until the next step that says
+/// so is known, and with it up to most_behind steps that happen behind it and do not say it: a message before a dwell,
+/// for example.
+class ElementFeeder final : public PathFeeder {
 public:
     static constexpr std::size_t most_behind = 64;
 
-    /// `input` must outlive it. @pre input.within_tolerance()
-    explicit ElementFeeder(PathInput& input);
+    /// Both must outlive it. @pre input.within_tolerance()
+    ElementFeeder(PathInput& input, PathSink& sink);
 
-    [[nodiscard]] CurveSource<S>& source() noexcept { return path_; }
-    [[nodiscard]] const TolerancePath<S>& path() const noexcept { return path_; }
-    [[nodiscard]] MoveSource<S>& program() noexcept { return *program_; }
-    [[nodiscard]] const MoveSource<S>& program() const noexcept { return *program_; }
-
-    /// What more() did.
-    struct Pushed {
-        bool start = false;           ///< it told where the first move begins
-        PerAxis<Position> position{}; ///< there, or at the end of the last move
-        const SourceStep<S>* move{};  ///< it pushed this move; null: none; valid until the next call
-        const SourceStep<S>* step{};  ///< a dwell or an event behind the moves so far; null: none; valid as above
-        std::optional<std::uint32_t>
-            row{};                    ///< of the last move before the step that has a length; none: there was none
-        std::uint32_t short_rows = 0; ///< rows behind that one: moves without a length, of which a chain may take some
-    };
-    /// Takes the start or the next step, or finishes the path; false if there is none. Throws InputError; the path then
-    /// ends with the moves before. @pre the path is starved
-    bool more(Pushed& pushed);
-    /// The machine needs what there is, and the input pauses: a move that waits is pushed, with a stop at its end.
-    /// false: none waits. @pre the path is starved
-    bool release(Pushed& pushed);
+    bool more(Pushed& pushed) override;
+    bool release(Pushed& pushed) override;
     /// MoveSource::awaits_answer(), once everything before is delivered.
-    [[nodiscard]] bool awaits_answer() const noexcept {
+    [[nodiscard]] bool awaits_answer() const noexcept override {
         return !finished_ && failure_ == nullptr && due_ == 0 && program_->awaits_answer();
     }
-    [[nodiscard]] bool wait_for_row(typename MoveSource<S>::Patience patience) {
+    [[nodiscard]] bool wait_for_row(Patience patience) override {
         return finished_ || failure_ != nullptr || due_ > 0 || program_->wait(patience);
     }
+    [[nodiscard]] MoveSource* program() const noexcept override { return program_.get(); }
+
+    [[nodiscard]] std::uint64_t rows() const noexcept override { return program_->rows(); }
+    [[nodiscard]] std::uint32_t row_of(std::uint32_t index) const noexcept override { return program_->row_of(index); }
+    [[nodiscard]] std::uint64_t line_of_row(std::uint32_t row) const noexcept override {
+        return program_->line_of_row(whole_row(row));
+    }
+    [[nodiscard]] std::string name_of_row(std::uint32_t row) const override { return program_->name_of_row(row); }
+    void passed(std::uint32_t row) override { program_->passed(whole_row(row)); }
 
 private:
     bool take(Pushed& pushed);
     void take_due(Pushed& pushed);
     void push_held(Pushed& pushed);
-    void push(SourceStep<S>& step, Pushed& pushed);
-    void limit_tolerance(SourceStep<S>& step) const;
-    [[nodiscard]] bool has_length(const SourceStep<S>& step) const;
+    void push(SourceStep& step, Pushed& pushed);
+    void limit_tolerance(SourceStep& step) const;
+    [[nodiscard]] bool has_length(const SourceStep& step) const;
     void finish();
 
     const PathInput* input_;
-    std::unique_ptr<MoveSource<S>> program_;
-    TolerancePath<S> path_;
-    SourceStep<S> step_; // read last
-    SourceStep<S> held_; // a move that waits for what comes behind it
+    PathSink* sink_;
+    std::unique_ptr<MoveSource> program_;
+    SourceStep step_; // read last
+    SourceStep held_; // a move that waits for what comes behind it
     struct Behind {
-        SourceStep<S> step;
+        SourceStep step;
         std::optional<std::uint32_t> row;
     };
     std::deque<Behind> behind_;        // dwells and events behind the move that waits, or one that was pushed
     std::size_t due_ = 0;              // so many of them are behind moves that were pushed
-    SourceStep<S> pushed_;             // the move that was pushed last
+    SourceStep pushed_;                // the move that was pushed last
     PerAxis<Position> here_{};         // where the last move so far ends, held or not
     std::optional<std::uint32_t> row_; // of the last move with a length
     std::uint32_t short_rows_ = 0;     // behind it

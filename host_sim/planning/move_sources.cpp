@@ -7,19 +7,14 @@
 
 namespace splinefeed::host {
 
-template <Scalar S>
-std::unique_ptr<MoveSource<S>> move_source(PathInput& input) {
+std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar) {
     if (const ElementProgram* const program = input.elements()) {
-        return std::make_unique<ElementMoves<S>>(*program, input.name());
+        return std::make_unique<ElementMoves>(*program, input.name());
     }
     if (const GcodeSettings* const settings = input.gcode()) {
-        return gcode_moves<S>(*settings, input.name(), input.lines());
+        return gcode_moves(*settings, input.name(), input.lines(), scalar);
     }
-    return std::make_unique<RowMoves<S>>(input);
+    return std::make_unique<RowMoves>(input);
 }
-
-template std::unique_ptr<MoveSource<double>> move_source(PathInput& input);
-template std::unique_ptr<MoveSource<float>> move_source(PathInput& input);
-template std::unique_ptr<MoveSource<Fixed>> move_source(PathInput& input);
 
 } // namespace splinefeed::host

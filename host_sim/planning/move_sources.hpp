@@ -10,7 +10,7 @@
 namespace splinefeed::host {
 
 /// The program from its beginning. `input` must outlive it. @pre input.within_tolerance()
-template <Scalar S>
-[[nodiscard]] std::unique_ptr<MoveSource<S>> move_source(PathInput& input);
+/// @param scalar  in which a program in G-code is computed
+[[nodiscard]] std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar);
 
 } // namespace splinefeed::host

@@ -41,6 +41,7 @@ public:
     PlannedTrajectory& operator=(const PlannedTrajectory&) = delete;
 
     [[nodiscard]] Trajectory<S>& trajectory() noexcept { return trajectory_; }
+    [[nodiscard]] const Trajectory<S>& trajectory() const noexcept { return trajectory_; }
     /// Null if the plan is acceleration-limited or averaged.
     [[nodiscard]] const JerkPlan<S>* jerk_plan() const noexcept { return optimal_ ? &optimal_->plan() : nullptr; }
     /// Memory of the planning, without that of the segment stream.

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/program/element_moves.hpp"
 
-#include "host_sim/program/element_cast.hpp"
-
 #include <fmt/format.h>
 
 namespace splinefeed::host {
 
-template <Scalar S>
-bool ElementMoves<S>::start(PerAxis<Position>& position) {
+bool ElementMoves::start(PerAxis<Position>& position) {
     position = program_->start();
     return true;
 }
 
-template <Scalar S>
-bool ElementMoves<S>::next(SourceStep<S>& out) {
+bool ElementMoves::next(SourceStep& out) {
     out = {};
     const bool all = moves_ == program_->moves();
     const std::uint32_t element = all ? static_cast<std::uint32_t>(program_->elements()) : program_->element_of(moves_);
@@ -28,40 +24,30 @@ bool ElementMoves<S>::next(SourceStep<S>& out) {
         return false;
     }
     out.line = program_->line_of(element);
-    out.programmed = program_->element(moves_);
-    out.element = element_cast<S>(out.programmed);
+    out.move = program_->element(moves_);
     rows_ = element + std::uint64_t{1};
     ++moves_;
     return true;
 }
 
-template <Scalar S>
-std::uint64_t ElementMoves<S>::number_of_move(std::uint64_t move) const noexcept {
+std::uint64_t ElementMoves::number_of_move(std::uint64_t move) const noexcept {
     return program_->element_of(move) + std::uint64_t{1};
 }
 
-template <Scalar S>
-std::string ElementMoves<S>::name_of_move(std::uint64_t move, std::uint64_t line) const {
+std::string ElementMoves::name_of_move(std::uint64_t move, std::uint64_t line) const {
     return element_name(number_of_move(move) - 1, static_cast<std::uint32_t>(line));
 }
 
-template <Scalar S>
-std::string ElementMoves<S>::name_of_row(std::uint32_t row) const {
+std::string ElementMoves::name_of_row(std::uint32_t row) const {
     return element_name(row, program_->line_of(row));
 }
 
-template <Scalar S>
-InputError ElementMoves<S>::refusal(const SourceStep<S>& /*step*/, std::string_view text) const {
+InputError ElementMoves::refusal(const SourceStep& /*step*/, std::string_view text) const {
     return {*file_, 0, fmt::format("{}: {}", name_of_row(static_cast<std::uint32_t>(rows_ - 1)), text)};
 }
 
-template <Scalar S>
-std::string ElementMoves<S>::without_moves(Error /*error*/) const {
+std::string ElementMoves::without_moves(Error /*error*/) const {
     return "no element moves; a program needs a move";
 }
-
-template class ElementMoves<double>;
-template class ElementMoves<float>;
-template class ElementMoves<Fixed>;
 
 } // namespace splinefeed::host

@@ -7,15 +7,14 @@
 
 namespace splinefeed::host {
 
-template <Scalar S>
-class ElementMoves final : public MoveSource<S> {
+class ElementMoves final : public MoveSource {
 public:
     /// Both must outlive it.
     /// @param file  its name, for messages
     ElementMoves(const ElementProgram& program, const std::string& file) : program_(&program), file_(&file) {}
 
     bool start(PerAxis<Position>& position) override;
-    bool next(SourceStep<S>& out) override;
+    bool next(SourceStep& out) override;
 
     [[nodiscard]] std::uint64_t rows() const noexcept override { return rows_; }
     [[nodiscard]] std::uint32_t row_of(std::uint32_t move) const noexcept override {
@@ -25,7 +24,7 @@ public:
     [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override;
     [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const override;
     [[nodiscard]] std::string name_of_row(std::uint32_t row) const override;
-    [[nodiscard]] InputError refusal(const SourceStep<S>& step, std::string_view text) const override;
+    [[nodiscard]] InputError refusal(const SourceStep& step, std::string_view text) const override;
     [[nodiscard]] std::string without_moves(Error error) const override;
 
 private:

@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace splinefeed::host {
@@ -19,13 +20,13 @@ namespace splinefeed::host {
 enum class StepKind : std::uint8_t { move, dwell, event, nothing };
 
 /// Only the members of its kind are meaningful.
-template <Scalar S>
 struct SourceStep {
     StepKind kind = StepKind::move;
     std::uint64_t line = 0; ///< of its source; 0: unknown
 
-    PathElement<S> element{};
-    PathElement<double> programmed{}; ///< the same move, for those who measure
+    PathElement<double> move{};
+    /// Of a Bezier segment from an interpreter in Fixed: its points, which may have more digits than double.
+    std::optional<BezierShape<Fixed>> exact_points{};
     bool rapid = false;
 
     bool stops = false;   ///< the machine stands at the end of the moves before it
@@ -35,7 +36,6 @@ struct SourceStep {
 };
 
 /// Every method that reads throws InputError.
-template <Scalar S>
 class MoveSource {
 public:
     using Patience = std::chrono::steady_clock::duration;
@@ -48,7 +48,7 @@ public:
     /// Where the first move begins. Call it once, before next(); false: there is nothing. May wait for the input.
     virtual bool start(PerAxis<Position>& position) = 0;
     /// The next step, which may be nothing; false: there are no more. May wait for the input.
-    virtual bool next(SourceStep<S>& out) = 0;
+    virtual bool next(SourceStep& out) = 0;
     /// Whether start() or next() would return without waiting; waits for that up to the given time.
     [[nodiscard]] virtual bool wait(Patience /*patience*/) { return true; }
 
@@ -63,7 +63,7 @@ public:
     /// Whether a move says itself that the machine has to stand at its end, before the step that needs it is known.
     [[nodiscard]] virtual bool knows_stops() const noexcept { return true; }
     /// The path has taken a move. Not all are: some have no length.
-    virtual void pushed(const SourceStep<S>& /*step*/) {}
+    virtual void pushed(const SourceStep& /*step*/) {}
     /// Number of waypoints, elements or lines so far.
     [[nodiscard]] virtual std::uint64_t rows() const noexcept = 0;
     /// Of a move, from 0, as they were delivered: the index of its waypoint, element or move, modulo 2^32.
@@ -76,7 +76,7 @@ public:
     /// For messages that do not begin with a line.
     [[nodiscard]] virtual std::string name_of_row(std::uint32_t row) const = 0;
     /// An error of the move that was delivered last.
-    [[nodiscard]] virtual InputError refusal(const SourceStep<S>& step, std::string_view text) const = 0;
+    [[nodiscard]] virtual InputError refusal(const SourceStep& step, std::string_view text) const = 0;
     /// An error of a program that has no move; empty: it needs none.
     [[nodiscard]] virtual std::string without_moves(Error error) const { return std::string(describe(error)); }
     /// The motion has come to this row: nobody asks for those before it any more.

@@ -31,7 +31,7 @@ bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
 PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes,
                      const PathTolerances& tolerances)
     : name_(arguments.input), path_(arguments.input), tolerances_(tolerances), format_(arguments.format),
-      read_ahead_(use == PathUse::followed) {
+      scalar_(arguments.scalar), read_ahead_(use == PathUse::followed) {
     if (format_->is_curve()) {
         open_description(arguments, use, machine_axes);
         return;

@@ -44,6 +44,8 @@ public:
               const PathTolerances& tolerances = {});
 
     [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
+    /// In which the path is planned.
+    [[nodiscard]] ScalarKind scalar() const noexcept { return scalar_; }
     /// The curve's name for files and reports.
     [[nodiscard]] std::string_view curve_name() const noexcept {
         return gcode_                   ? "gcode"
@@ -105,6 +107,7 @@ private:
     std::vector<std::string> axes_;
     std::unique_ptr<WaypointRows> opened_;
     std::uint64_t points_read_ = 0;
+    ScalarKind scalar_;
     bool repeatable_ = true;
     bool read_ahead_ = false;
     bool lines_within_tolerance_ = false;

@@ -10,15 +10,14 @@
 
 namespace splinefeed::host {
 
-template <Scalar S>
-class RowMoves final : public MoveSource<S> {
+class RowMoves final : public MoveSource {
 public:
     /// Reads the rows of the input, which must outlive it.
     explicit RowMoves(PathInput& input);
 
     bool start(PerAxis<Position>& position) override;
-    bool next(SourceStep<S>& out) override;
-    [[nodiscard]] bool wait(typename MoveSource<S>::Patience patience) override { return rows_->wait(patience); }
+    bool next(SourceStep& out) override;
+    [[nodiscard]] bool wait(Patience patience) override { return rows_->wait(patience); }
 
     [[nodiscard]] std::uint64_t rows() const noexcept override { return rows_read_; }
     [[nodiscard]] std::uint32_t row_of(std::uint32_t move) const noexcept override { return move + 1U; }
@@ -26,7 +25,7 @@ public:
     [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override { return move + 2; }
     [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const override;
     [[nodiscard]] std::string name_of_row(std::uint32_t row) const override;
-    [[nodiscard]] InputError refusal(const SourceStep<S>& step, std::string_view text) const override;
+    [[nodiscard]] InputError refusal(const SourceStep& step, std::string_view text) const override;
 
 private:
     static constexpr std::size_t remembered = 1024; ///< number of lines that are remembered

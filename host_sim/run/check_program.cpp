@@ -4,8 +4,8 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_output.hpp"
 #include "host_sim/output/program_report_text.hpp"
+#include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/move_sources.hpp"
-#include "host_sim/run/machine_limits.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include <fmt/format.h>
@@ -26,16 +26,16 @@ public:
 
     void read(PathInput& input) {
         input.collect_problems(&problems_);
-        const auto program = move_source<double>(input);
+        const auto program = move_source(input, ScalarKind::float64);
         PerAxis<Position> here{};
         static_cast<void>(program->start(here));
         report_.start(here);
         try {
-            for (SourceStep<double> step; problems_.size() < most_problems && program->next(step);) {
+            for (SourceStep step; problems_.size() < most_problems && program->next(step);) {
                 if (step.kind == StepKind::move) {
                     require_travel(here, step);
-                    report_.move(step.programmed, step.rapid, step.line);
-                    here = step.programmed.to;
+                    report_.move(step.move, step.rapid, step.line);
+                    here = step.move.to;
                 }
             }
         } catch (const InputError& error) { // the rest cannot be read
@@ -48,14 +48,14 @@ public:
     [[nodiscard]] const std::vector<std::string>& problems() const noexcept { return problems_; }
 
 private:
-    void require_travel(const PerAxis<Position>& from, const SourceStep<double>& step) {
+    void require_travel(const PerAxis<Position>& from, const SourceStep& step) {
         AxisBox box;
-        add_extent(from, step.programmed, machine_->settings.axes, box);
+        add_extent(from, step.move, machine_->settings.axes, box);
         for (const unsigned k : indices(machine_->settings.axes)) {
             const auto& travel = machine_->travel[k];
             if (travel && (box.low[k] < travel->low || box.high[k] > travel->high) &&
                 outside_.emplace(step.line, k).second) {
-                const double end = to_mm(step.programmed.to[k]);
+                const double end = to_mm(step.move.to[k]);
                 const bool below = box.low[k] < travel->low && !(end > travel->high);
                 problems_.push_back(
                     fmt::format("{}:{}: axis {} goes to {:.4f} mm, {} the end of its travel at {:.4f} mm", *file_,
@@ -72,10 +72,11 @@ private:
     std::set<std::pair<std::uint64_t, unsigned>> outside_; // lines and axes that are among the problems
 };
 
-template <Scalar S>
-int check_with(const RunArguments& arguments) {
+} // namespace
+
+int check_program(const RunArguments& arguments) {
     const RunMachine of(arguments.machine, *arguments.path.format);
-    const MotionLimits<S> limits = machine_limits<S>(of.machine);
+    const PlanFigures figures = plan_figures(arguments.path.scalar, of.machine);
     PathInput input(arguments.path, PathUse::executed, of.axes, of.tolerances);
     if (input.gcode() == nullptr) {
         throw UsageError("check takes a program in G-code; for other inputs: splinefeed plan");
@@ -102,24 +103,13 @@ int check_with(const RunArguments& arguments) {
     motion_arguments.report = &report;
     const PathLimits path_limits(of.machine);
     Outputs outputs(arguments.outputs, input.curve_name(), false, of.machine);
-    Motion<S> motion(motion_arguments, of.machine, limits, input, path_limits, outputs);
+    Motion motion(motion_arguments, of.machine, figures, input, path_limits, outputs);
     const std::string stopped = motion.run(std::nullopt);
     print_whole(text(report, of.machine,
                      stopped.empty() ? std::vector<std::string>{} : std::vector<std::string>{stopped},
                      motion.summary().cycle_time_s),
                 "the report");
     return stopped.empty() ? 0 : 1;
-}
-
-} // namespace
-
-int check_program(const RunArguments& arguments) {
-    switch (arguments.path.scalar) {
-    case ScalarKind::fixed: return check_with<Fixed>(arguments);
-    case ScalarKind::float32: return check_with<float>(arguments);
-    case ScalarKind::float64: return check_with<double>(arguments);
-    }
-    return 1;
 }
 
 } // namespace splinefeed::host

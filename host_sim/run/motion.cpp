@@ -11,38 +11,32 @@ namespace splinefeed::host {
 
 namespace {
 
-/// Of a path, as a part of a move: double and Fixed have digits enough.
-template <Scalar S>
-constexpr double rounding_of = std::same_as<S, float> ? 1e-6 : 0.0;
+constexpr double float_rounding = 1e-6; // of a path, as a part of a move; double and Fixed have digits enough
 
 constexpr std::chrono::milliseconds wait_slice{1}; // for input, before the target is looked at again
 
 } // namespace
 
-template <Scalar S>
-Motion<S>::Motion(const MotionArguments& arguments, const MachineDescription& description,
-                  const MotionLimits<S>& limits, PathInput& input, const PathLimits& path_limits, Outputs& outputs,
-                  Supervision* target)
-    : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), limits_(&limits),
+Motion::Motion(const MotionArguments& arguments, const MachineDescription& description, const PlanFigures& figures,
+               PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target)
+    : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), figures_(&figures),
       input_(&input), outputs_(&outputs), state_(arguments.state), start_(arguments.start), report_(arguments.report),
-      target_(target), deviation_(description.settings, input.tolerances().joint_mm, rounding_of<S>),
-      exact_stop_(description.settings), optimum_(description.settings, to_double(limits.refinement.direction_jump),
-                                                  std::same_as<S, float> ? ScalarKind::float32 : ScalarKind::float64),
-      share_(description.settings), steps_(limits, !arguments.quiet, target, arguments.terminal),
-      program_(outputs.elements(), arguments.report), feeder_(input),
-      tee_(feeder_, input.name(),
-           {.limits = &path_limits,
-            .writer = outputs.curve(),
-            .error = &error_,
-            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
-            .optimum = &optimum_,
-            .share = &share_}),
-      planner_(tee_, limits, arguments.window_cells), trajectory_(planner_.trajectory()),
-      machine_(description, limits.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
+      target_(target), deviation_(description.settings, input.tolerances().joint_mm,
+                                  input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
+      exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
+      share_(description.settings), steps_(figures, !arguments.quiet, target, arguments.terminal),
+      program_(outputs.elements(), arguments.report),
+      watch_(input.name(), {.limits = &path_limits,
+                            .writer = outputs.curve(),
+                            .error = &error_,
+                            .deviation = input.within_tolerance() ? &deviation_ : nullptr,
+                            .optimum = &optimum_,
+                            .share = &share_}),
+      path_(plan_path(input, description, watch_, arguments.window_cells)), feeder_(path_->feeder()),
+      machine_(description, figures.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
       events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {}
 
-template <Scalar S>
-void Motion<S>::execute_all() {
+void Motion::execute_all() {
     FeedSegment segment;
     for (;;) {
         operate();
@@ -76,22 +70,21 @@ void Motion<S>::execute_all() {
                 report_->moved(segment.waypoint, segment.duration_ticks / (ticks_per_us * 1e6), share_.bound());
             }
             show_progress();
-        } else if (trajectory_.state() == Pull::held) {
+        } else if (path_->state() == Pull::held) {
             if (!stand()) {
                 break;
             }
-        } else if (trajectory_.state() != Pull::finished &&
+        } else if (path_->state() != Pull::finished &&
                    feeder_.wait_for_row(late_ ? Clock::duration::zero() : wait_slice)) {
             read();
-        } else if (trajectory_.state() == Pull::finished || !wait()) {
+        } else if (path_->state() == Pull::finished || !wait()) {
             break;
         }
     }
 }
 
 // Of a real machine what it has done, not what is planned.
-template <Scalar S>
-void Motion<S>::show_progress() {
+void Motion::show_progress() {
     if (!progress_ || !progress_->due()) {
         return;
     }
@@ -104,22 +97,20 @@ void Motion<S>::show_progress() {
     for (const RunTarget::AxisPlace& at : reached.places) {
         place += at.known() ? fmt::format(" {}={:.3f}", description_->axis_name[at.axis], *at.known()) : std::string();
     }
-    const double segment_s = limits_->segment_ticks / (ticks_per_us * 1e6);
+    const double segment_s = figures_->segment_ticks / (ticks_per_us * 1e6);
     progress_->show({reached.moves, reached.line, static_cast<double>(target_->executed()) * segment_s, true, place});
 }
 
 // The input pauses: a machine that moves cannot wait, one that stands does for a while.
-template <Scalar S>
-bool Motion<S>::late() const {
+bool Motion::late() const {
     return paused_ && target_->room() &&
            (moves_ || feeder_.awaits_answer() || Clock::now() > *paused_ + std::chrono::milliseconds(pause_ms));
 }
 
 // All that is known is travelled. False where nothing will ever move the machine.
-template <Scalar S>
-bool Motion<S>::wait() {
+bool Motion::wait() {
     paused_ = paused_.value_or(Clock::now());
-    typename CurveFeeder<S>::Pushed pushed;
+    PathFeeder::Pushed pushed;
     if (late_ && feeder_.release(pushed)) {
         measure(pushed);
         return true;
@@ -129,46 +120,43 @@ bool Motion<S>::wait() {
             return true;
         }
         FeedSegment segment;
-        return !trajectory_.stand(segment) || execute(segment); // drives that wait for more before they begin get it
+        return !path_->stand(segment) || execute(segment); // drives that wait for more before they begin get it
     }
     return false;
 }
 
-template <Scalar S>
-bool Motion<S>::pull(FeedSegment& segment) {
+bool Motion::pull(FeedSegment& segment) {
     const Clock::time_point start = Clock::now();
     late_ = late();
-    const bool item = trajectory_.next(segment, late_ ? UnderrunPolicy::drain : UnderrunPolicy::wait) == Pull::item;
+    const bool item = path_->next(segment, late_ ? UnderrunPolicy::drain : UnderrunPolicy::wait) == Pull::item;
     planning_ += Clock::now() - start;
-    if (item && segments_ == 0 && tee_.failure()) { // nothing has moved yet
-        std::rethrow_exception(tee_.failure());
+    if (item && segments_ == 0 && path_->failure()) { // nothing has moved yet
+        std::rethrow_exception(path_->failure());
     }
     return item;
 }
 
 // What the operator does up to now. An event between two segments acts with the second.
-template <Scalar S>
-void Motion<S>::operate() {
+void Motion::operate() {
     constexpr double same_s = 1e-9;
     for (; operated_ < events_.size() && events_[operated_].time_s <= machine_.cycle_time_s() + same_s; ++operated_) {
         switch (events_[operated_].operation) {
-        case Operation::hold: trajectory_.hold(); break;
-        case Operation::resume: trajectory_.resume(); break;
-        case Operation::abort: trajectory_.abort(); break;
-        case Operation::override_feed: trajectory_.override_feed(from_double<S>(events_[operated_].value)); break;
+        case Operation::hold: path_->hold(); break;
+        case Operation::resume: path_->resume(); break;
+        case Operation::abort: path_->abort(); break;
+        case Operation::override_feed: path_->override_feed(events_[operated_].value); break;
         }
     }
 }
 
 // Switches and the user's signals, in real time.
-template <Scalar S>
-void Motion<S>::obey_target() {
+void Motion::obey_target() {
     if (target_ == nullptr) {
         return;
     }
     if (!held_by_target_ && target_->hold_asked()) {
         held_by_target_ = true;
-        trajectory_.hold();
+        path_->hold();
     }
     const UserSteering steering = target_->take_steering();
     switch (steering) {
@@ -177,7 +165,7 @@ void Motion<S>::obey_target() {
     case UserSteering::suspend:
     case UserSteering::held:
         held_by_user_ = true;
-        trajectory_.hold();
+        path_->hold();
         if (steering == UserSteering::suspend) {
             suspend_.ask();
         } else if (steering == UserSteering::held && !SignalWatch::interrupted()) {
@@ -189,7 +177,7 @@ void Motion<S>::obey_target() {
         suspend_.forget();
         held_by_user_ = false;
         if (!held_by_target_) {
-            trajectory_.resume();
+            path_->resume();
         }
         break;
     }
@@ -197,38 +185,35 @@ void Motion<S>::obey_target() {
 }
 
 // Time passes while the machine is held; false where nothing will ever move it.
-template <Scalar S>
-bool Motion<S>::stand() {
+bool Motion::stand() {
     if (held_by_target_ || (operated_ == events_.size() && !held_by_user_)) {
         return false;
     }
     FeedSegment segment;
-    return trajectory_.stand(segment) && execute(segment);
+    return path_->stand(segment) && execute(segment);
 }
 
 // Whether the program wants the machine to stand for another segment.
-template <Scalar S>
-bool Motion<S>::dwell(FeedSegment& segment) {
+bool Motion::dwell(FeedSegment& segment) {
     if (moves_ || held_by_target_ || steps_.empty()) {
         return false;
     }
     const bool stands = steps_.stands(machine_.position_mm(), machine_.cycle_time_s());
     if (const auto answer = steps_.take_answer()) {
-        feeder_.program().answer(*answer);
+        feeder_.program()->answer(*answer);
     }
     if (!stands) {
         return false;
     }
     if (steps_.moved()) {
-        return trajectory_.stand(segment);
+        return path_->stand(segment);
     }
     steps_.at_start(segment);
     return true;
 }
 
 // The motion comes to a row: what is known of those before it can be forgotten.
-template <Scalar S>
-void Motion<S>::pass(std::uint32_t row) {
+void Motion::pass(std::uint32_t row) {
     if (row == row_) {
         return;
     }
@@ -239,8 +224,7 @@ void Motion<S>::pass(std::uint32_t row) {
 }
 
 // A line of a program.
-template <Scalar S>
-void Motion<S>::come_to(std::uint64_t line) {
+void Motion::come_to(std::uint64_t line) {
     if (input_->gcode() == nullptr) {
         return;
     }
@@ -251,14 +235,13 @@ void Motion<S>::come_to(std::uint64_t line) {
 }
 
 // Gives the curve one more waypoint, or tells it that there are none.
-template <Scalar S>
-void Motion<S>::read() {
+void Motion::read() {
     paused_.reset();
     if (read_all_) {
         throw std::logic_error("the curve asks for waypoints after its end");
     }
     try {
-        typename CurveFeeder<S>::Pushed pushed;
+        PathFeeder::Pushed pushed;
         read_all_ = !feeder_.more(pushed);
         if (!read_all_ && pushed.on_path) {
             error_.waypoint(pushed.index, pushed.position);
@@ -273,13 +256,12 @@ void Motion<S>::read() {
 }
 
 // Executes a segment; before the first one the machine comes to where it begins.
-template <Scalar S>
-bool Motion<S>::execute_first(FeedSegment& segment) {
+bool Motion::execute_first(FeedSegment& segment) {
     if (segments_ > 0 || start_ == nullptr) {
         return execute(segment);
     }
     PerAxis<double> to{};
-    for (const unsigned k : indices(limits_->axes)) {
+    for (const unsigned k : indices(figures_->axes)) {
         to[k] = static_cast<double>(segment.start[k]) / static_cast<double>(units_per_count) /
                 description_->settings.axis[k].steps_per_mm;
     }
@@ -288,8 +270,7 @@ bool Motion<S>::execute_first(FeedSegment& segment) {
 }
 
 // A straight line at the machine's limits, before the path. False: it was held, or the run is over.
-template <Scalar S>
-bool Motion<S>::move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to) {
+bool Motion::move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to) {
     way_.emplace(*description_, from, to, description_->settings.max_feed_mm_s);
     FeedSegment segment;
     for (;;) {
@@ -315,8 +296,7 @@ bool Motion<S>::move_to(FeedSegment& first, const PerAxis<double>& from, const P
     return true;
 }
 
-template <Scalar S>
-bool Motion<S>::execute(FeedSegment& segment) {
+bool Motion::execute(FeedSegment& segment) {
     segment.index = segments_; // standstill before the first move is none of the trajectory's
     try {
         outputs_->segment(segment);
@@ -324,7 +304,7 @@ bool Motion<S>::execute(FeedSegment& segment) {
         failure_ = std::current_exception(); // the drives need it all the same
     }
     const bool begins_at_rest = segment.start_velocity == PerAxis<std::int64_t>{};
-    const bool rest = trajectory_.activity() == Activity::running && segment.ends_at_rest() && !begins_at_rest;
+    const bool rest = path_->activity() == Activity::running && segment.ends_at_rest() && !begins_at_rest;
     rests_ += rest ? 1U : 0U;
     // The machine executes one segment a poll, in virtual time: it is never behind.
     const bool done = machine_.submit(segment) && machine_.poll().phase != hal::PortPhase::fault;
@@ -343,22 +323,16 @@ bool Motion<S>::execute(FeedSegment& segment) {
 }
 
 // Moves of a program that the path follows within a tolerance.
-template <Scalar S>
-void Motion<S>::measure(const typename CurveFeeder<S>::Pushed& pushed) {
-    const auto& program = pushed.program;
-    steps_.add(program);
-    program_.see(program);
-    if (program.start) {
-        deviation_.start(program.position);
-        exact_stop_.start(program.position);
-    } else if (program.move != nullptr) {
-        deviation_.move(program.move->programmed, program.move->line);
-        exact_stop_.move(program.move->programmed);
+void Motion::measure(const PathFeeder::Pushed& pushed) {
+    steps_.add(pushed);
+    program_.see(pushed);
+    if (pushed.start) {
+        deviation_.start(pushed.position);
+        exact_stop_.start(pushed.position);
+    } else if (pushed.move != nullptr) {
+        deviation_.move(pushed.move->move, pushed.move->line);
+        exact_stop_.move(pushed.move->move);
     }
 }
-
-template class Motion<double>;
-template class Motion<float>;
-template class Motion<Fixed>;
 
 } // namespace splinefeed::host

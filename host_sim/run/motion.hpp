@@ -7,10 +7,10 @@
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/progress.hpp"
 #include "host_sim/output/summary.hpp"
-#include "host_sim/planning/planned_trajectory.hpp"
+#include "host_sim/planning/planned_path.hpp"
 #include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/program/event_file.hpp"
-#include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/path_watch.hpp"
 #include "host_sim/run/program_observer.hpp"
 #include "host_sim/run/program_steps.hpp"
 #include "host_sim/run/run_start.hpp"
@@ -45,13 +45,12 @@ struct MotionArguments {
 /// Without a target the run waits for its input. With a target, a moving machine cannot wait: while the target needs
 /// segments, the motion continues along the known path, stops at its end, and starts again when more input comes. At
 /// standstill it starts with the known path when the input has paused for pause_ms.
-template <Scalar S>
 class Motion {
 public:
     static constexpr int pause_ms = 100;
 
     /// All arguments must outlive it.
-    Motion(const MotionArguments& arguments, const MachineDescription& description, const MotionLimits<S>& limits,
+    Motion(const MotionArguments& arguments, const MachineDescription& description, const PlanFigures& figures,
            PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target = nullptr);
     Motion(const Motion&) = delete;
     Motion& operator=(const Motion&) = delete;
@@ -89,7 +88,7 @@ private:
     [[nodiscard]] bool execute_first(FeedSegment& segment);
     [[nodiscard]] bool move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to);
     void keep_failure(const std::exception_ptr& failure);
-    void measure(const typename CurveFeeder<S>::Pushed& pushed);
+    void measure(const PathFeeder::Pushed& pushed);
     void pass(std::uint32_t row);
     void come_to(std::uint64_t line);
     void keep_state();
@@ -101,7 +100,7 @@ private:
     bool quiet_;
     bool enforce_;
     const MachineDescription* description_;
-    const MotionLimits<S>* limits_;
+    const PlanFigures* figures_;
     PathInput* input_;
     Outputs* outputs_;
     StateKeeper* state_;                // null: nothing is kept
@@ -114,12 +113,11 @@ private:
     ExactStopTime exact_stop_;
     OptimumTime optimum_;
     LimitShare share_;
-    ProgramSteps<S> steps_;
-    ProgramObserver<S> program_;
-    CurveFeeder<S> feeder_;
-    PathTee<S> tee_;
-    PlannedTrajectory<S> planner_;
-    Trajectory<S>& trajectory_; // the trajectory of the planner
+    ProgramSteps steps_;
+    ProgramObserver program_;
+    PathWatch watch_;
+    std::unique_ptr<PlannedPath> path_;
+    PathFeeder& feeder_; // of the path
     SimulatedMachine machine_;
     std::vector<OperatorEvent> events_;
     std::size_t operated_ = 0; // events that have acted so far

@@ -17,8 +17,7 @@ constexpr std::chrono::milliseconds look_slice{1};
 
 } // namespace
 
-template <Scalar S>
-std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
+std::string Motion::run(std::optional<std::uint64_t> waypoints) {
     progress_.emplace(ProgressOptions{.quiet = quiet_, .all = waypoints});
     try {
         execute_all();
@@ -49,16 +48,15 @@ std::string Motion<S>::run(std::optional<std::uint64_t> waypoints) {
 // The drives come to rest on the path, whatever ended the run: by the plan where it is sound, without outputs and
 // without a look at the input; else by themselves. Whether all that was planned is executed.
 // @param broken  what the simulated machine says is wrong with the plan
-template <Scalar S>
-bool Motion<S>::come_to_rest(const std::string& broken) {
+bool Motion::come_to_rest(const std::string& broken) {
     const bool held = failure_ != nullptr && broken.empty() && moves_;
     const auto next = [this](FeedSegment& out) {
-        return way_ ? way_->next(out) : trajectory_.next(out, UnderrunPolicy::drain) == Pull::item;
+        return way_ ? way_->next(out) : path_->next(out, UnderrunPolicy::drain) == Pull::item;
     };
     if (held && way_) {
         way_->hold();
     } else if (held) {
-        trajectory_.hold();
+        path_->hold();
     }
     FeedSegment segment;
     while (held && moves_ && next(segment) && machine_.submit(segment) &&
@@ -77,8 +75,7 @@ bool Motion<S>::come_to_rest(const std::string& broken) {
 }
 
 // What went wrong beside the motion. Before the first move it is thrown; after it, it is why the machine stopped.
-template <Scalar S>
-void Motion<S>::require_end() {
+void Motion::require_end() {
     if (failure_ == nullptr) {
         try {
             machine_.finish(); // the last row of the trace
@@ -89,14 +86,14 @@ void Motion<S>::require_end() {
     if (failure_) {
         fail();
     }
-    if (tee_.failure()) {
-        keep_failure(tee_.failure());
-    } else if (const Status status = trajectory_.status(); !status.ok()) {
+    if (path_->failure()) {
+        keep_failure(path_->failure());
+    } else if (const Status status = path_->status(); !status.ok()) {
         keep_failure(std::make_exception_ptr(InputError(input_->name(), 0, describe(status.error()))));
     }
-    if (trajectory_.activity() == Activity::aborted) {
+    if (path_->activity() == Activity::aborted) {
         stopped_ = "aborted by an event";
-    } else if (trajectory_.activity() == Activity::held && trajectory_.state() == Pull::held && !held_by_target_) {
+    } else if (path_->activity() == Activity::held && path_->state() == Pull::held && !held_by_target_) {
         stopped_ = "held, and no event resumes it";
     }
     optimum_.finish();
@@ -104,8 +101,7 @@ void Motion<S>::require_end() {
 }
 
 // Nobody would know where the drives are, did the message not say it.
-template <Scalar S>
-void Motion<S>::fail() const {
+void Motion::fail() const {
     if (target_ == nullptr || segments_ == 0) {
         std::rethrow_exception(failure_);
     }
@@ -122,8 +118,7 @@ void Motion<S>::fail() const {
 
 // Offsets as the motion has come to them, and where the machine stands. Drives are behind the plan as long as they
 // move.
-template <Scalar S>
-void Motion<S>::keep_state() {
+void Motion::keep_state() {
     if (state_ == nullptr) {
         return;
     }
@@ -136,12 +131,11 @@ void Motion<S>::keep_state() {
 }
 
 // A path that is too far from its moves is a fault, whatever else happened.
-template <Scalar S>
-void Motion<S>::require_tolerance() {
+void Motion::require_tolerance() {
     if (!input_->within_tolerance()) {
         return;
     }
-    if (trajectory_.state() == Pull::finished && stopped_.empty()) {
+    if (path_->state() == Pull::finished && stopped_.empty()) {
         deviation_.finish();
     }
     if (enforce_ && stopped_.empty()) {
@@ -150,8 +144,7 @@ void Motion<S>::require_tolerance() {
 }
 
 // Before the first move what is wrong is thrown; after it, it is why the machine stopped.
-template <Scalar S>
-void Motion<S>::keep_failure(const std::exception_ptr& failure) {
+void Motion::keep_failure(const std::exception_ptr& failure) {
     try {
         std::rethrow_exception(failure);
     } catch (const InputError& error) {
@@ -165,23 +158,13 @@ void Motion<S>::keep_failure(const std::exception_ptr& failure) {
     }
 }
 
-template <Scalar S>
-std::string Motion<S>::where() const {
+std::string Motion::where() const {
     PlaceText place("; the machine stands at", 6);
     const PerAxis<double> position = machine_.position_mm();
-    for (const unsigned k : indices(limits_->axes)) {
+    for (const unsigned k : indices(figures_->axes)) {
         place.add(description_->axis_name[k], position[k]);
     }
     return place.text() + fmt::format(", {:.6f} s after its start", machine_.cycle_time_s()) + on_line(line_);
 }
-
-#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
-    template std::string Motion<S>::run(std::optional<std::uint64_t>);                                                 \
-    template void Motion<S>::keep_state();                                                                             \
-    template void Motion<S>::keep_failure(const std::exception_ptr&);
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
-#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed::host

@@ -9,18 +9,17 @@
 namespace splinefeed::host {
 
 // Where the path is too far from its moves; empty: nowhere.
-template <Scalar S>
-std::string Motion<S>::excess() const {
+std::string Motion::excess() const {
     const auto& excess = deviation_.excess();
-    return excess ? describe(*excess, feeder_.name_of_move(excess->place.move, excess->place.line)) : std::string();
+    return excess ? describe(*excess, feeder_.program()->name_of_move(excess->place.move, excess->place.line))
+                  : std::string();
 }
 
-template <Scalar S>
-ToleranceSummary Motion<S>::tolerance_summary() const {
+ToleranceSummary Motion::tolerance_summary() const {
     ToleranceSummary out;
     const auto place = [&](const PathDeviation::Place& of) {
-        return of.distance > 0.0 ? ToleranceSummary::Place{of.distance, feeder_.number_of_move(of.move), of.line,
-                                                           feeder_.name_of_move(of.move, of.line)}
+        return of.distance > 0.0 ? ToleranceSummary::Place{of.distance, feeder_.program()->number_of_move(of.move),
+                                                           of.line, feeder_.program()->name_of_move(of.move, of.line)}
                                  : ToleranceSummary::Place{};
     };
     out.deviation = place(deviation_.linear());
@@ -28,7 +27,8 @@ ToleranceSummary Motion<S>::tolerance_summary() const {
         out.rotary_deviation = place(deviation_.rotary());
     }
     out.excess = excess();
-    const PathCounts counts = feeder_.tolerance_path()->counts();
+    const PlannedPath::Statistics path = path_->statistics();
+    const PathCounts& counts = path.counts;
     out.blended = counts.joints.blended;
     // The path knows the stops that it asks for. Where the motion stands at a kink that is too sharp to be passed, that
     // is found when the arc length is measured.
@@ -38,24 +38,24 @@ ToleranceSummary Motion<S>::tolerance_summary() const {
     out.through = unrounded - out.stopped;
     out.chains = counts.chains;
     out.elements = feeder_.rows() - (input_->lines_within_tolerance() && feeder_.rows() > 0 ? 1U : 0U);
-    out.pieces = tee_.segments();
+    out.pieces = path.curve_segments;
     out.exact_stop_s = exact_stop_.seconds() + steps_.summary().dwell_s;
     return out;
 }
 
-template <Scalar S>
-Summary Motion<S>::summary() const {
+Summary Motion::summary() const {
     Summary summary;
+    const PlannedPath::Statistics path = path_->statistics();
     summary.cycle_time_s = machine_.cycle_time_s();
-    summary.length_mm = length_to_mm(trajectory_.arc_length().travelled());
+    summary.length_mm = path.length_mm;
     summary.waypoints = feeder_.rows();
-    summary.curve_segments = tee_.segments();
+    summary.curve_segments = path.curve_segments;
     summary.feed_segments = segments_;
-    summary.scalar = scalar_name<S>();
+    summary.scalar = path.scalar;
     summary.curve = input_->curve_name();
     summary.max_speed_mm_s = machine_.max_path_speed_mm_s();
     double acceleration_sq = 0.0;
-    for (int k = 0; k < limits_->axes; ++k) {
+    for (int k = 0; k < figures_->axes; ++k) {
         const LimitUse& use = machine_.use(k);
         const AxisSettings& axis = description_->settings.axis[static_cast<unsigned>(k)];
         const bool has_jerk = axis.max_jerk_mm_s3 > 0.0;
@@ -77,15 +77,13 @@ Summary Motion<S>::summary() const {
     summary.program.line = target_ != nullptr && target_->line() > 0 ? target_->line() : line_;
     summary.limit_share = share_.shares();
     summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
-    summary.memory_bytes = {feeder_.bytes(), planner_.bytes(), sizeof(SegmentStream<S>)};
+    summary.memory_bytes = {path.curve_bytes, path.plan_bytes, path.stream_bytes};
     summary.stopped = !stopped_.empty();
     summary.events = operated_;
     summary.events_not_reached = events_.size() - operated_;
-    if (!limits_->jerk_limited) { // else that counts the window of the plan that another one refines
-        summary.window_limited = trajectory_.feed_plan().window_limited();
-    }
+    summary.window_limited = path.window_limited;
     summary.stops = rests_ > 0 ? rests_ - 1 : 0;
-    const double duration_s = limits_->segment_ticks / (ticks_per_us * 1e6);
+    const double duration_s = figures_->segment_ticks / (ticks_per_us * 1e6);
     summary.smoothing_bound_mm = duration_s * duration_s * std::sqrt(acceleration_sq) / 6.0;
     if (target_ != nullptr) {
         target_->describe(summary);
@@ -96,14 +94,5 @@ Summary Motion<S>::summary() const {
     }
     return summary;
 }
-
-#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
-    template std::string Motion<S>::excess() const;                                                                    \
-    template ToleranceSummary Motion<S>::tolerance_summary() const;                                                    \
-    template Summary Motion<S>::summary() const;
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
-#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed::host

@@ -21,8 +21,7 @@ constexpr int units_per_control = 6;
 
 } // namespace
 
-template <Scalar S>
-void ProgramSteps<S>::add(const typename ElementFeeder<S>::Pushed& pushed) {
+void ProgramSteps::add(const PathFeeder::Pushed& pushed) {
     if (pushed.start) {
         start_ = place_ = pushed.position;
     }
@@ -32,7 +31,7 @@ void ProgramSteps<S>::add(const typename ElementFeeder<S>::Pushed& pushed) {
     if (pushed.step == nullptr) {
         return;
     }
-    const SourceStep<S>& step = *pushed.step;
+    const SourceStep& step = *pushed.step;
     const bool dwells = step.kind == StepKind::dwell;
     if (dwells) {
         ++summary_.dwells;
@@ -42,8 +41,7 @@ void ProgramSteps<S>::add(const typename ElementFeeder<S>::Pushed& pushed) {
                   pushed.short_rows});
 }
 
-template <Scalar S>
-void ProgramSteps<S>::happen(double time_s) {
+void ProgramSteps::happen(double time_s) {
     const PendingStep step = pending_.take();
     left_ticks_ = 0;
     if (step.kind != StepKind::event) {
@@ -71,8 +69,7 @@ void ProgramSteps<S>::happen(double time_s) {
     }
 }
 
-template <Scalar S>
-void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
+void ProgramSteps::begin(const FeedSegment& segment, double time_s) {
     while (const PendingStep* const step = pending_.passed(segment.waypoint)) {
         if (step->stops) {
             throw std::logic_error(fmt::format("the motion has passed line {} without standing for it", step->line));
@@ -84,8 +81,7 @@ void ProgramSteps<S>::begin(const FeedSegment& segment, double time_s) {
 
 // The machine stands until it has come to the step's place, the spindle turns as the step says, the input has answered,
 // and the user wants to go on.
-template <Scalar S>
-bool ProgramSteps<S>::waits_for_order(const PendingStep& step) {
+bool ProgramSteps::waits_for_order(const PendingStep& step) {
     const bool asks = host::waits_for_user(step.action.kind);
     const bool reads = step.action.kind == EventKind::input_wait;
     if (orders_ == nullptr || !(step.action.spindle || asks || reads)) {
@@ -100,8 +96,7 @@ bool ProgramSteps<S>::waits_for_order(const PendingStep& step) {
 }
 
 // Nobody shall reach for a tool that turns.
-template <Scalar S>
-bool ProgramSteps<S>::waits_for_user(const PendingStep& step) {
+bool ProgramSteps::waits_for_user(const PendingStep& step) {
     const ProgramAction& action = step.action;
     const bool tool = action.kind == EventKind::tool_change;
     const std::string what = tool ? fmt::format("line {}: M6, change to tool {}", step.line, action.number)
@@ -123,9 +118,8 @@ bool ProgramSteps<S>::waits_for_user(const PendingStep& step) {
     return !pause_.answered();
 }
 
-template <Scalar S>
-bool ProgramSteps<S>::stands(const PerAxis<double>& position_mm, double time_s) {
-    while (const PendingStep* const step = pending_.reached(row_, position_mm, limits_->axes)) {
+bool ProgramSteps::stands(const PerAxis<double>& position_mm, double time_s) {
+    while (const PendingStep* const step = pending_.reached(row_, position_mm, figures_->axes)) {
         if (left_ticks_ > 0) {
             return true;
         }
@@ -145,8 +139,7 @@ bool ProgramSteps<S>::stands(const PerAxis<double>& position_mm, double time_s) 
     return false;
 }
 
-template <Scalar S>
-void ProgramSteps<S>::stood(const FeedSegment& segment) {
+void ProgramSteps::stood(const FeedSegment& segment) {
     if (ordered_) {
         return;
     }
@@ -156,18 +149,13 @@ void ProgramSteps<S>::stood(const FeedSegment& segment) {
     }
 }
 
-template <Scalar S>
-void ProgramSteps<S>::at_start(FeedSegment& segment) const noexcept {
+void ProgramSteps::at_start(FeedSegment& segment) const noexcept {
     segment = {};
-    segment.duration_ticks = limits_->segment_ticks;
-    for (const unsigned k : indices(limits_->axes)) {
-        segment.start[k] = units_per_control * scaled(start_[k], limits_->steps_per_mm_q32[k], control_shift);
+    segment.duration_ticks = figures_->segment_ticks;
+    for (const unsigned k : indices(figures_->axes)) {
+        segment.start[k] = units_per_control * scaled(start_[k], figures_->steps_per_mm_q32[k], control_shift);
         segment.end[k] = segment.start[k];
     }
 }
-
-template class ProgramSteps<double>;
-template class ProgramSteps<float>;
-template class ProgramSteps<Fixed>;
 
 } // namespace splinefeed::host

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "host_sim/output/program_summary.hpp"
-#include "host_sim/planning/element_feeder.hpp"
+#include "host_sim/planning/machine_limits.hpp"
+#include "host_sim/planning/path_feeder.hpp"
 #include "host_sim/run/pending_steps.hpp"
 #include "host_sim/run/program_orders.hpp"
 #include "host_sim/run/user_pause.hpp"
 
-#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
 
 #include <utility>
@@ -17,18 +17,17 @@ namespace splinefeed::host {
 
 /// A dwell is standstill, segment by segment, so it takes the machine's time on every target. Events happen at the
 /// begin of the segment after their place.
-template <Scalar S>
 class ProgramSteps {
 public:
     /// @param tells  messages of the program go to standard error
-    /// `limits` must outlive it.
+    /// `figures` must outlive it.
     /// @param orders  gets what is for real outputs; null: there are none, and nobody waits for a user
     /// @param terminal  of the user, as in UserPause
-    ProgramSteps(const MotionLimits<S>& limits, bool tells, ProgramOrders* orders = nullptr, int terminal = -1)
-        : limits_(&limits), orders_(orders), pause_(terminal), tells_(tells) {}
+    ProgramSteps(const PlanFigures& figures, bool tells, ProgramOrders* orders = nullptr, int terminal = -1)
+        : figures_(&figures), orders_(orders), pause_(terminal), tells_(tells) {}
 
     /// What the feeder has read.
-    void add(const typename ElementFeeder<S>::Pushed& pushed);
+    void add(const PathFeeder::Pushed& pushed);
 
     /// Whether nothing is waiting.
     [[nodiscard]] bool empty() const noexcept { return pending_.empty(); }
@@ -64,7 +63,7 @@ private:
     [[nodiscard]] bool waits_for_order(const PendingStep& step);
     [[nodiscard]] bool waits_for_user(const PendingStep& step);
 
-    const MotionLimits<S>* limits_;
+    const PlanFigures* figures_;
     ProgramOrders* orders_;
     std::optional<int> answer_;
     bool ordered_ = false; // the machine stands for the first step's order

@@ -9,12 +9,13 @@
 #include "host_sim/base/standard_streams.hpp"
 #include "host_sim/output/outputs.hpp"
 #include "host_sim/output/summary.hpp"
+#include "host_sim/planning/machine_limits.hpp"
+#include "host_sim/planning/planned_path.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/ports/target_table.hpp"
-#include "host_sim/run/machine_limits.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/output_table.hpp"
-#include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/path_watch.hpp"
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/run_start.hpp"
 #include "host_sim/run/supervision.hpp"
@@ -30,31 +31,10 @@ namespace splinefeed::host {
 
 namespace {
 
-constexpr int most_answers = 100; // that are taken for granted before a run
-
-/// The whole curve, to those who look at it; nothing moves. Inputs of a real machine answer as the program expects: a
-/// loop may wait for another answer, so the look ends at the M66 behind most_answers of them. Returns the number of
-/// waypoints; nothing: it depends on inputs.
-template <Scalar S>
-std::optional<std::uint64_t> pass(PathInput& input, const PathObservers& observers) {
-    CurveFeeder<S> feeder(input);
-    PathTee<S> tee(feeder, input.name(), observers);
-    CurveSegment<S> segment;
-    int answers = 0;
-    for (Pull pull = Pull::starved; pull != Pull::finished && answers <= most_answers; pull = tee.next(segment)) {
-        typename CurveFeeder<S>::Pushed ignored;
-        if (pull == Pull::starved && feeder.awaits_answer()) {
-            feeder.program().answer(feeder.program().expected_answer());
-            ++answers;
-        }
-        if (pull == Pull::starved) {
-            static_cast<void>(feeder.more(ignored));
-        }
-    }
-    if (tee.failure()) {
-        std::rethrow_exception(tee.failure());
-    }
-    return answers == 0 ? std::optional(feeder.rows()) : std::nullopt;
+/// The whole curve of a file, to those who look at it, before anything moves.
+std::optional<std::uint64_t> look(PathInput& input, const PathObservers& observers) {
+    PathWatch watch(input.name(), observers);
+    return look_through(input, watch);
 }
 
 /// Input that is valid, but whose curve is hardly what was meant.
@@ -65,25 +45,6 @@ void warn(const PathInput& input, bool quiet) {
     for (const std::string& warning : input.segments()->warnings) {
         tell("{}: warning: {}\n", printable(input.name()), warning);
     }
-}
-
-template <Scalar S>
-int draw_curve(const RunArguments& arguments) {
-    PathInput input(arguments.path, PathUse::drawn, {});
-    warn(input, arguments.motion.quiet);
-    if (const CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
-        Outputs outputs(arguments.outputs, input.curve_name(), curve->closed);
-        outputs.curve()->segments(*curve);
-        outputs.commit(curve->results.get());
-        return 0;
-    }
-    if (input.repeatable()) {
-        static_cast<void>(pass<S>(input, {}));
-    }
-    Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed);
-    static_cast<void>(pass<S>(input, {.writer = outputs.curve()}));
-    outputs.commit();
-    return 0;
 }
 
 /// Events that never happened: as a rule a time that was mistyped, or a run that was shorter than thought.
@@ -110,40 +71,38 @@ void print(const Summary& summary, SummaryKind kind) {
 
 /// The limits with segments that the lines carry: those of the machine file, or longer ones. Then nothing is lost but
 /// smoothness in space, which the summary states.
-template <Scalar S>
-MotionLimits<S> fitted(MachineDescription& machine, const RunTarget& target, bool quiet) {
+PlanFigures fitted(MachineDescription& machine, ScalarKind scalar, const RunTarget& target, bool quiet) {
     constexpr int longest_us = 100'000;
     constexpr int step_us = 50;
     const int asked_us = machine.settings.sample_period_us;
     const std::string lowered = target.fit(machine);
-    MotionLimits<S> limits = machine_limits<S>(machine);
+    PlanFigures figures = plan_figures(scalar, machine);
     for (const std::string& note : {lowered, target.note()}) {
         if (!note.empty() && !quiet) {
             tell("splinefeed: note: {}\n", printable(note));
         }
     }
-    if (limits.segment_ticks >= target.least_segment_us() * ticks_per_us) {
-        return limits;
+    if (figures.segment_ticks >= target.least_segment_us() * ticks_per_us) {
+        return figures;
     }
     const int period_us = step_us * static_cast<int>(std::ceil(target.least_segment_us() / step_us));
     if (!target.resamples() || period_us > longest_us) {
         throw UsageError(fmt::format("the drives' lines carry a segment every {:.2f} ms at most often, and the machine "
                                      "file asks for one every {:.2f} ms; raise sample_period_us, or take a faster line",
-                                     target.least_segment_us() * 1e-3, limits.segment_ticks * 1e-3 / ticks_per_us));
+                                     target.least_segment_us() * 1e-3, figures.segment_ticks * 1e-3 / ticks_per_us));
     }
     machine.settings.sample_period_us = std::max(period_us, asked_us);
     machine.settings.segments_per_sample = 1;
-    limits = machine_limits<S>(machine);
+    figures = plan_figures(scalar, machine);
     if (!quiet) {
         tell("splinefeed: note: the drives' lines carry a segment every {:.2f} ms at most often: segments and "
              "samples are {:.2f} ms long, not {:.2f} ms; what that smoothes the path is in the summary\n",
              target.least_segment_us() * 1e-3, machine.settings.sample_period_us * 1e-3, asked_us * 1e-3);
     }
-    return limits;
+    return figures;
 }
 
 /// Where the machine stands. A program in G-code that nobody told it begins there.
-template <Scalar S>
 RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarget& target, PathInput& input,
                     MachineState& begins, const PathLimits& limits) {
     RunStart start(of.machine, arguments.options, target.standing());
@@ -154,7 +113,7 @@ RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarg
         if (begins.position_mm != told) {
             input.begin_at(begins);
             if (input.repeatable()) { // it may leave the travel from there
-                static_cast<void>(pass<S>(input, {.limits = &limits}));
+                static_cast<void>(look(input, {.limits = &limits}));
             }
         }
     }
@@ -164,8 +123,9 @@ RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarg
     return start;
 }
 
-template <Scalar S>
-int move_machine(const RunArguments& arguments) {
+} // namespace
+
+int run(const RunArguments& arguments) {
     // First of all: threads that are started later have the same signals blocked.
     std::optional<SignalWatch> signals;
     if (arguments.target != "sim") {
@@ -173,7 +133,8 @@ int move_machine(const RunArguments& arguments) {
     }
     RunMachine of(arguments.machine, *arguments.path.format);
     MachineDescription& machine = of.machine;
-    MotionLimits<S> limits = machine_limits<S>(machine);
+    const ScalarKind scalar = arguments.path.scalar;
+    PlanFigures figures = plan_figures(scalar, machine);
     PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
     input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
     input.use_outputs(machine.spindle, machine.lines);
@@ -188,7 +149,7 @@ int move_machine(const RunArguments& arguments) {
     const PathLimits path_limits(machine);
     std::optional<std::uint64_t> waypoints;
     if (input.repeatable()) {
-        waypoints = pass<S>(input, {.limits = &path_limits});
+        waypoints = look(input, {.limits = &path_limits});
     }
     std::unique_ptr<RunTarget, DeleteInTime> target;
     std::unique_ptr<ProgramOutputs, DeleteInTime> program_outputs;
@@ -197,9 +158,9 @@ int move_machine(const RunArguments& arguments) {
     std::optional<RunStart> start;
     if (signals) {
         target.reset(target_kind(arguments.target).make(arguments.target, machine, arguments.options).release());
-        limits = fitted<S>(machine, *target, arguments.motion.quiet);
-        target->check(machine, limits.segment_ticks / static_cast<double>(ticks_per_us));
-        start = find_start<S>(arguments, of, *target, input, motion_arguments.begins, path_limits);
+        figures = fitted(machine, scalar, *target, arguments.motion.quiet);
+        target->check(machine, figures.segment_ticks / static_cast<double>(ticks_per_us));
+        start = find_start(arguments, of, *target, input, motion_arguments.begins, path_limits);
         motion_arguments.start = &*start;
         program_outputs.reset(input.gcode() != nullptr ? make_outputs(machine, arguments.target).release() : nullptr);
     }
@@ -214,8 +175,8 @@ int move_machine(const RunArguments& arguments) {
         tell("splinefeed: note: this is a simulation; to move the drives of {}, add --target modbus\n",
              printable(machine.file));
     }
-    Motion<S> motion(motion_arguments, machine, limits, input, path_limits, outputs,
-                     supervision ? &*supervision : nullptr);
+    Motion motion(motion_arguments, machine, figures, input, path_limits, outputs,
+                  supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
     const Summary summary = motion.summary();
@@ -229,25 +190,22 @@ int move_machine(const RunArguments& arguments) {
     return 1;
 }
 
-/// In the scalar that was asked for.
-template <class Work>
-int with_scalar(ScalarKind scalar, const Work& work) {
-    switch (scalar) {
-    case ScalarKind::fixed: return work(Fixed{});
-    case ScalarKind::float32: return work(float{});
-    case ScalarKind::float64: return work(double{});
-    }
-    return 1;
-}
-
-} // namespace
-
-int run(const RunArguments& arguments) {
-    return with_scalar(arguments.path.scalar, [&]<class S>(S /*zero*/) { return move_machine<S>(arguments); });
-}
-
 int draw(const RunArguments& arguments) {
-    return with_scalar(arguments.path.scalar, [&]<class S>(S /*zero*/) { return draw_curve<S>(arguments); });
+    PathInput input(arguments.path, PathUse::drawn, {});
+    warn(input, arguments.motion.quiet);
+    if (const CurveFile* const curve = input.segments(); curve != nullptr && !input.choice().smooth) {
+        Outputs outputs(arguments.outputs, input.curve_name(), curve->closed);
+        outputs.curve()->segments(*curve);
+        outputs.commit(curve->results.get());
+        return 0;
+    }
+    if (input.repeatable()) {
+        static_cast<void>(look(input, {}));
+    }
+    Outputs outputs(arguments.outputs, input.curve_name(), input.choice().closed);
+    static_cast<void>(look(input, {.writer = outputs.curve()}));
+    outputs.commit();
+    return 0;
 }
 
 } // namespace splinefeed::host

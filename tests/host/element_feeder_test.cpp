@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/planning/element_feeder.hpp"
 
+#include "host_sim/planning/path_curve.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 
@@ -21,13 +22,14 @@ std::string steps_of(const std::string& program, std::size_t release_at = 1000) 
     arguments.input = folder.file("p.ngc");
     arguments.format = input_format("gcode");
     PathInput input(arguments, PathUse::executed, {"x", "y", "z"});
-    ElementFeeder<double> feeder(input);
-    ElementFeeder<double>::Pushed pushed;
+    PathCurve<double> curve(input);
+    ElementFeeder feeder(input, curve);
+    PathFeeder::Pushed pushed;
     std::string out;
     CurveSegment<double> segment;
     for (;;) {
         if (out.size() == release_at && feeder.release(pushed)) {
-            out += pushed.move->element.stop_at_end ? 'R' : 'r';
+            out += pushed.move->move.stop_at_end ? 'R' : 'r';
         }
         if (!feeder.more(pushed)) {
             return out;
@@ -36,7 +38,7 @@ std::string steps_of(const std::string& program, std::size_t release_at = 1000) 
             out += 'S';
         }
         if (pushed.move != nullptr) {
-            out += pushed.move->element.stop_at_end ? 'M' : 'm';
+            out += pushed.move->move.stop_at_end ? 'M' : 'm';
         }
         if (pushed.step != nullptr) {
             out += pushed.step->kind == StepKind::dwell ? 'd' : 'e';
@@ -44,7 +46,7 @@ std::string steps_of(const std::string& program, std::size_t release_at = 1000) 
         if (!pushed.start && pushed.move == nullptr && pushed.step == nullptr) {
             out += '.';
         }
-        while (feeder.source().next(segment) == Pull::item) {
+        while (curve.source().next(segment) == Pull::item) {
         }
     }
 }

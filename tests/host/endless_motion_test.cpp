@@ -5,6 +5,8 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/planning/scalar_path.hpp"
+#include "host_sim/planning/waypoint_feeder.hpp"
 #include "support/catch.hpp"
 #include "support/counter_seam.hpp"
 #include "temporary_folder.hpp"
@@ -36,15 +38,18 @@ Outcome run(const std::string& program, bool old, const MachineDescription& mach
     arguments.outputs.trace = folder.file("t.csv");
     arguments.motion.quiet = true;
     std::ofstream(arguments.path.input) << program;
-    const auto limits = MotionLimits<Fixed>::make(machine.settings).value();
+    const PlanFigures figures = plan_figures(ScalarKind::fixed, machine);
     const auto axes = static_cast<std::size_t>(machine.settings.axes);
     PathInput input(arguments.path, PathUse::executed, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
     const PathLimits path_limits(machine);
     Outputs outputs(arguments.outputs, input.curve_name(), false, machine);
-    Motion<Fixed> motion(arguments.motion, machine, limits, input, path_limits, outputs);
+    Motion motion(arguments.motion, machine, figures, input, path_limits, outputs);
     if (old) {
-        CounterSeam::travelled(CounterSeam::trajectory(motion), far_length, far_segments, far_segments);
-        CounterSeam::ran(motion, far_ticks, far_segments, far_rows);
+        auto& path = dynamic_cast<ScalarPath<Fixed>&>(CounterSeam::path(motion));
+        CounterSeam::travelled(path.trajectory(), far_length, far_segments, far_segments);
+        CounterSeam::ran(motion, far_ticks, far_segments);
+        CounterSeam::read(dynamic_cast<WaypointFeeder&>(path.feeder()), far_rows);
+        CounterSeam::pushed(path.curve().waypoints(), static_cast<std::uint32_t>(far_rows));
     }
     Outcome result;
     result.stopped = motion.run({});

@@ -24,11 +24,11 @@ public:
 };
 
 struct Bench {
-    Bench() : limits(*MotionLimits<double>::make(default_machine().settings)), steps(limits, false, &orders) {}
+    Bench() : figures(plan_figures(ScalarKind::float64, default_machine())), steps(figures, false, &orders) {}
 
     /// An event behind the move of a row that ends at x.
     void add(EventKind kind, std::uint32_t row, double x_mm, bool stops) {
-        SourceStep<double> step;
+        SourceStep step;
         step.kind = StepKind::event;
         step.stops = stops;
         step.line = row + 1;
@@ -36,9 +36,9 @@ struct Bench {
         if (stops && !waits_for_user(kind) && kind != EventKind::input_wait) {
             step.action.spindle = SpindleTurn{1, 1000.0};
         }
-        SourceStep<double> move;
+        SourceStep move;
         move.line = row + 1;
-        ElementFeeder<double>::Pushed pushed;
+        PathFeeder::Pushed pushed;
         pushed.move = &move;
         pushed.position[0] = position_from_mm(x_mm);
         pushed.step = &step;
@@ -51,9 +51,9 @@ struct Bench {
         steps.begin(segment, 0.0);
     }
 
-    MotionLimits<double> limits;
+    PlanFigures figures;
     Orders orders;
-    ProgramSteps<double> steps;
+    ProgramSteps steps;
 };
 
 } // namespace

@@ -18,20 +18,23 @@ struct CounterSeam {
         planner.arc_length_->segments_ = curve_segments;
         planner.stream_->index_ = feed_segments;
     }
-    /// A host's Motion: ticks and feed segments that its machine has executed, and rows that were read.
+    /// A host's Motion: ticks and feed segments that its machine has executed.
     template <class Motion>
-    static void ran(Motion& motion, std::uint64_t ticks, std::uint64_t segments, std::uint64_t rows) {
+    static void ran(Motion& motion, std::uint64_t ticks, std::uint64_t segments) {
         motion.machine_.elapsed_ticks_ = ticks;
         motion.machine_.executed_ = segments;
         motion.segments_ = segments;
-        motion.feeder_.rows_read_ = rows;
-        motion.feeder_.pushed_ = rows;
-        pushed(*motion.feeder_.waypoints_, static_cast<std::uint32_t>(rows));
     }
-    /// Its trajectory.
+    /// Its path.
     template <class Motion>
-    static auto& trajectory(Motion& motion) {
-        return motion.trajectory_;
+    static auto& path(Motion& motion) {
+        return *motion.path_;
+    }
+    /// Rows that a WaypointFeeder has read.
+    template <class Feeder>
+    static void read(Feeder& feeder, std::uint64_t rows) {
+        feeder.rows_read_ = rows;
+        feeder.pushed_ = rows;
     }
     /// Index of the next waypoint of a WaypointCurve.
     template <class Curve>

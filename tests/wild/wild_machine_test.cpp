@@ -13,8 +13,8 @@
 #include <iterator>
 
 using namespace splinefeed_test;
-using splinefeed::Fixed;
 using splinefeed::host::RunArguments;
+using splinefeed::host::ScalarKind;
 
 namespace {
 
@@ -23,23 +23,27 @@ constexpr std::uint64_t slow_rounds[] = {1607,
                                          1811}; // of an averaged motion beside hairpins (docs/explanation/feed.md)
 constexpr std::uint64_t most_segments = 15'000; // of a run in double: then it is left
 
+const char* name_of(ScalarKind scalar) {
+    return scalar == ScalarKind::fixed ? "fixed" : scalar == ScalarKind::float32 ? "float" : "double";
+}
+
 /// @return  what the run was; false: it was refused
-template <class S>
-WildRun checked(const RunArguments& arguments, std::uint64_t most = most_segments) {
-    INFO(printed(arguments, splinefeed::scalar_name<S>()));
-    const WildRun run = wild_run<S>(arguments, most);
+WildRun checked(ScalarKind scalar, const RunArguments& arguments, std::uint64_t most = most_segments) {
+    INFO(printed(arguments, name_of(scalar)));
+    RunArguments in_scalar = arguments;
+    in_scalar.path.scalar = scalar;
+    const WildRun run = wild_run(in_scalar, most);
     CHECK(run.fault == "");
     return run;
 }
 
 /// The same run as one in double. @return  how much longer it takes; 1 where either was refused or left
-template <class S>
-double ratio(const RunArguments& arguments, const WildRun& wanted) {
-    const WildRun run = checked<S>(arguments, wanted.ended ? 20 * wanted.segments + 100 : most_segments);
+double ratio(ScalarKind scalar, const RunArguments& arguments, const WildRun& wanted) {
+    const WildRun run = checked(scalar, arguments, wanted.ended ? 20 * wanted.segments + 100 : most_segments);
     if (!wanted.ended || !run.refused.empty()) {
         return 1.0;
     }
-    INFO(printed(arguments, splinefeed::scalar_name<S>()));
+    INFO(printed(arguments, name_of(scalar)));
     CHECK(run.ended);
     return (run.seconds - 4.0 * run.sample_s) / wanted.seconds;
 }
@@ -56,7 +60,7 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
         for (const WildPlan plan : {WildPlan::acceleration, WildPlan::optimal, WildPlan::bounded}) {
             const bool plain = plan == WildPlan::acceleration;
             const RunArguments arguments = write_wild(wild, plan, 0.0, folder.file(""));
-            const WildRun run = checked<double>(arguments);
+            const WildRun run = checked(ScalarKind::float64, arguments);
             if (!run.refused.empty()) {
                 continue;
             }
@@ -68,18 +72,18 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
                 CHECK((!slow || (known && plan == WildPlan::bounded)));
                 CHECK((!run.ended || !plain || run.short_window ||
                        run.seconds <= 3.0 * run.least_s + 20.0 * run.sample_s));
-                CHECK(ratio<Fixed>(arguments, run) <= (plain ? 1.02 : 1.6));
+                CHECK(ratio(ScalarKind::fixed, arguments, run) <= (plain ? 1.02 : 1.6));
             }
             if (plain && run.ended) {
                 ++compared;
-                slow_in_float += ratio<float>(arguments, run) > 1.2 ? 1 : 0;
+                slow_in_float += ratio(ScalarKind::float32, arguments, run) > 1.2 ? 1 : 0;
             }
             if (wild.orders && run.ended) {
                 const RunArguments steered = write_wild(wild, plan, run.seconds, folder.file(""));
-                static_cast<void>(checked<double>(steered, 4 * most_segments));
-                static_cast<void>(checked<Fixed>(steered, 4 * most_segments));
+                static_cast<void>(checked(ScalarKind::float64, steered, 4 * most_segments));
+                static_cast<void>(checked(ScalarKind::fixed, steered, 4 * most_segments));
                 if (plain) {
-                    static_cast<void>(checked<float>(steered, 4 * most_segments));
+                    static_cast<void>(checked(ScalarKind::float32, steered, 4 * most_segments));
                 }
             }
         }
@@ -89,25 +93,25 @@ TEST_CASE("wild machines keep every limit, in every plan and scalar", "[wild]") 
     CHECK(slow_in_float <= 1 + compared / 10);
 }
 
-TEMPLATE_TEST_CASE("an axis that turns round next to a sharp bend brakes within its limit", "[wild][braking]", double,
-                   float, Fixed) {
+TEST_CASE("an axis that turns round next to a sharp bend brakes within its limit", "[wild][braking]") {
+    const ScalarKind scalar = GENERATE(ScalarKind::float64, ScalarKind::float32, ScalarKind::fixed);
     // What it had for accelerating was used for braking within the same segment: up to 1.16 of the limit
     const TemporaryFolder folder;
     for (const int round : {7, 22, 54, 79, 225, 294, 330, 5075, 5078, 5089}) {
         CAPTURE(round);
-        static_cast<void>(checked<TestType>(
-            write_wild(wild_round(static_cast<std::uint64_t>(round)), WildPlan::acceleration, 0.0, folder.file(""))));
+        static_cast<void>(checked(scalar, write_wild(wild_round(static_cast<std::uint64_t>(round)),
+                                                     WildPlan::acceleration, 0.0, folder.file(""))));
     }
 }
 
-TEMPLATE_TEST_CASE("a hairpin of a nanometre is passed within every limit of an averaged motion", "[wild]", double,
-                   Fixed) {
+TEST_CASE("a hairpin of a nanometre is passed within every limit of an averaged motion", "[wild]") {
+    const ScalarKind scalar = GENERATE(ScalarKind::float64, ScalarKind::fixed);
     // No plan is slower than 1 um/s away from a stop, and at that the jerk was 1.4 times what the axis allows
     const TemporaryFolder folder;
     RunArguments arguments;
     arguments.path.curve.method = "catmull-rom-modified";
     arguments.path.curve.corner_angle = "180";
-    const WildRun run = checked<TestType>(write_texts(arguments, R"(
+    const WildRun run = checked(scalar, write_texts(arguments, R"(
 sample_period_us = 1000
 [path]
 max_feed_mm_s = 800
@@ -130,28 +134,30 @@ max_velocity_mm_s = 49
 max_acceleration_mm_s2 = 956
 max_jerk_mm_s3 = 16030
 )",
-                                                      "35.194105,40.189781,-37.127340\n35.194022,40.189519,-37.127068\n"
-                                                      "35.197188,40.199264,-37.136493\n35.196496,40.196994,-37.134226\n"
-                                                      "35.203530,40.218528,-37.155149\n",
-                                                      "", folder.file("")));
+                                                    "35.194105,40.189781,-37.127340\n35.194022,40.189519,-37.127068\n"
+                                                    "35.197188,40.199264,-37.136493\n35.196496,40.196994,-37.134226\n"
+                                                    "35.203530,40.218528,-37.155149\n",
+                                                    "", folder.file("")));
     CHECK(run.ended);
 }
 
-TEMPLATE_TEST_CASE("an override that comes between the end of acceleration and what it asks for waits for its sign",
-                   "[wild][steering]", double, Fixed) {
+TEST_CASE("an override that comes between the end of acceleration and what it asks for waits for its sign",
+          "[wild][steering]") {
+    const ScalarKind scalar = GENERATE(ScalarKind::float64, ScalarKind::fixed);
     // It braked before the mean had left the acceleration behind: 1.14 of the jerk limit
     const TemporaryFolder folder;
     const WildRound wild = wild_round(1155);
-    const WildRun run = checked<TestType>(write_wild(wild, WildPlan::bounded, 0.0, folder.file("")));
+    const WildRun run = checked(scalar, write_wild(wild, WildPlan::bounded, 0.0, folder.file("")));
     REQUIRE(run.ended);
     static_cast<void>(
-        checked<TestType>(write_wild(wild, WildPlan::bounded, run.seconds, folder.file("")), 4 * most_segments));
+        checked(scalar, write_wild(wild, WildPlan::bounded, run.seconds, folder.file("")), 4 * most_segments));
 }
 
-TEMPLATE_TEST_CASE("a way too short for a speed is crawled along within every limit", "[wild]", double, Fixed) {
+TEST_CASE("a way too short for a speed is crawled along within every limit", "[wild]") {
+    const ScalarKind scalar = GENERATE(ScalarKind::float64, ScalarKind::fixed);
     // One tick was taken for it: 1.08 of the jerk limit
     const TemporaryFolder folder;
-    static_cast<void>(checked<TestType>(write_wild(wild_round(237), WildPlan::bounded, 0.0, folder.file(""))));
+    static_cast<void>(checked(scalar, write_wild(wild_round(237), WildPlan::bounded, 0.0, folder.file(""))));
 }
 
 TEST_CASE("a bend too sharp for Fixed is a stop", "[wild]") {
@@ -160,7 +166,7 @@ TEST_CASE("a bend too sharp for Fixed is a stop", "[wild]") {
     RunArguments arguments;
     arguments.path.curve.method = "g2";
     arguments.motion.window_cells = 24;
-    const WildRun run = checked<Fixed>(write_texts(arguments, R"(
+    const WildRun run = checked(ScalarKind::fixed, write_texts(arguments, R"(
 sample_period_us = 2000
 [path]
 max_feed_mm_s = 15.6846
@@ -178,11 +184,11 @@ max_acceleration_mm_s2 = 417.662
 steps_per_mm = 666.497
 max_jerk_mm_s3 = 879.853
 )",
-                                                   "x,y,corner\n10.897864,20.450732,\n7.888008,16.989284,\n"
-                                                   "10.897941,20.450999,0\n10.897941,20.450999,\n"
-                                                   "7.874706,16.961706,\n11.001300,20.309303,0\n"
-                                                   "14.044241,23.818947,0\n",
-                                                   "", folder.file("")));
+                                                               "x,y,corner\n10.897864,20.450732,\n7.888008,16.989284,\n"
+                                                               "10.897941,20.450999,0\n10.897941,20.450999,\n"
+                                                               "7.874706,16.961706,\n11.001300,20.309303,0\n"
+                                                               "14.044241,23.818947,0\n",
+                                                               "", folder.file("")));
     CHECK(run.ended);
     CHECK(run.seconds < 14.0); // 10.9 in double
 }
@@ -191,9 +197,9 @@ TEST_CASE("a bend that Fixed has few digits for is passed as fast as in double",
     // It was a stop in each of its 340 cells of a nanometre
     const TemporaryFolder folder;
     const RunArguments arguments = write_wild(wild_round(seed + 501), WildPlan::bounded, 0.0, folder.file(""));
-    const WildRun wanted = checked<double>(arguments);
+    const WildRun wanted = checked(ScalarKind::float64, arguments);
     REQUIRE(wanted.ended);
-    CHECK(ratio<Fixed>(arguments, wanted) < 1.05);
+    CHECK(ratio(ScalarKind::fixed, arguments, wanted) < 1.05);
 }
 
 TEST_CASE("float arrives at the ends of long moves without a step", "[wild][float]") {
@@ -221,7 +227,7 @@ max_acceleration_mm_s2 = 44.8076
 )";
     const std::string program = "36.884463,-49.106353,-30.856842\n63.769175,-41.608288,-60.826221\n";
     const RunArguments written = write_texts(arguments, machine, program, "", folder.file(""));
-    CHECK(checked<float>(written, 400'000).ended);
+    CHECK(checked(ScalarKind::float32, written, 400'000).ended);
 }
 
 TEST_CASE("float is nearly as fast as double where a soft axis moves along a long segment", "[wild][float]") {
@@ -249,9 +255,9 @@ max_acceleration_mm_s2 = 47
 )";
     const RunArguments written =
         write_texts(arguments, machine, "0,0,0\n-4,7,1\n3,15,-1.3\n7,27,3\n5,43,0.7\n", "", folder.file(""));
-    const WildRun wanted = checked<double>(written);
+    const WildRun wanted = checked(ScalarKind::float64, written);
     REQUIRE(wanted.ended);
-    CHECK(ratio<float>(written, wanted) < 1.05);
+    CHECK(ratio(ScalarKind::float32, written, wanted) < 1.05);
 }
 
 TEST_CASE("float is as fast as double where a soft axis hardly moves", "[wild][float]") {
@@ -282,7 +288,7 @@ max_acceleration_mm_s2 = 3592
     const RunArguments written = write_texts(
         arguments, machine, "13.730051,47.100598,40.223821,20.434744\n-4.799827,46.619125,41.241539,-0.004341\n", "",
         folder.file(""));
-    const WildRun wanted = checked<double>(written);
+    const WildRun wanted = checked(ScalarKind::float64, written);
     REQUIRE(wanted.ended);
-    CHECK(ratio<float>(written, wanted) < 1.05);
+    CHECK(ratio(ScalarKind::float32, written, wanted) < 1.05);
 }

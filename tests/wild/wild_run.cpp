@@ -5,10 +5,10 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/machine_file.hpp"
 #include "host_sim/machine/simulated_machine.hpp"
-#include "host_sim/planning/curve_feeder.hpp"
-#include "host_sim/planning/planned_trajectory.hpp"
+#include "host_sim/planning/machine_limits.hpp"
+#include "host_sim/planning/planned_path.hpp"
 #include "host_sim/program/event_file.hpp"
-#include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/path_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +20,12 @@ using namespace splinefeed::host;
 
 namespace {
 
-template <Scalar S>
-void obey(Trajectory<S>& trajectory, const OperatorEvent& event) {
+void obey(PlannedPath& path, const OperatorEvent& event) {
     switch (event.operation) {
-    case Operation::hold: trajectory.hold(); break;
-    case Operation::resume: trajectory.resume(); break;
-    case Operation::abort: trajectory.abort(); break;
-    case Operation::override_feed: trajectory.override_feed(from_double<S>(event.value)); break;
+    case Operation::hold: path.hold(); break;
+    case Operation::resume: path.resume(); break;
+    case Operation::abort: path.abort(); break;
+    case Operation::override_feed: path.override_feed(event.value); break;
     }
 }
 
@@ -50,26 +49,18 @@ double from_rest_to_rest(const MachineSettings& machine, double length_mm, doubl
 
 } // namespace
 
-template <Scalar S>
 WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
     WildRun run;
     const MachineDescription machine = read_machine_file(arguments.machine);
-    const auto limits = MotionLimits<S>::make(machine.settings);
-    if (!limits.has_value()) {
-        run.refused = describe(limits.error());
-        return run;
-    }
     try {
+        const PlanFigures figures = plan_figures(arguments.path.scalar, machine);
         const auto axes = static_cast<std::size_t>(machine.settings.axes);
         PathInput input(arguments.path, PathUse::executed,
                         {machine.axis_name.begin(), machine.axis_name.begin() + axes});
-        OptimumTime optimum(machine.settings, to_double(limits->refinement.direction_jump),
-                            std::same_as<S, float> ? ScalarKind::float32 : ScalarKind::float64);
-        CurveFeeder<S> feeder(input);
-        PathTee<S> tee(feeder, input.name(), {.optimum = &optimum});
-        PlannedTrajectory<S> planner(tee, *limits, arguments.motion.window_cells);
-        Trajectory<S>& trajectory = planner.trajectory();
-        SimulatedMachine simulated(machine, limits->segments_per_sample);
+        OptimumTime optimum(machine.settings, figures.direction_jump, arguments.path.scalar);
+        PathWatch watch(input.name(), {.optimum = &optimum});
+        const auto path = plan_path(input, machine, watch, arguments.motion.window_cells);
+        SimulatedMachine simulated(machine, figures.segments_per_sample);
         const auto events =
             arguments.motion.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.motion.events);
         std::size_t obeyed = 0;
@@ -77,20 +68,20 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
         run.sample_s = machine.settings.sample_period_us * 1e-6;
         while (run.segments < most_segments && run.fault.empty() && !run.ended) {
             for (; obeyed < events.size() && events[obeyed].time_s <= simulated.cycle_time_s() + 1e-9; ++obeyed) {
-                obey(trajectory, events[obeyed]);
+                obey(*path, events[obeyed]);
             }
-            const bool moves = trajectory.next(segment) == Pull::item;
-            if (!moves && trajectory.state() == Pull::held) {
-                if (obeyed == events.size() || !trajectory.stand(segment)) {
+            const bool moves = path->next(segment, UnderrunPolicy::wait) == Pull::item;
+            if (!moves && path->state() == Pull::held) {
+                if (obeyed == events.size() || !path->stand(segment)) {
                     run.fault = "held without an order, or where it has not begun";
                     break;
                 }
-            } else if (!moves && trajectory.state() == Pull::finished) {
+            } else if (!moves && path->state() == Pull::finished) {
                 run.ended = true;
                 break;
             } else if (!moves) {
-                typename CurveFeeder<S>::Pushed ignored;
-                static_cast<void>(feeder.more(ignored));
+                PathFeeder::Pushed ignored;
+                static_cast<void>(path->feeder().more(ignored));
                 continue;
             }
             ++run.segments;
@@ -101,9 +92,10 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
         optimum.finish();
         run.seconds = simulated.cycle_time_s();
         run.least_s = optimum.seconds();
-        run.most_s = from_rest_to_rest(machine.settings, length_to_mm(trajectory.arc_length().travelled()),
-                                       static_cast<double>(tee.segments()));
-        run.short_window = trajectory.feed_plan().window_limited() > 0;
+        const PlannedPath::Statistics statistics = path->statistics();
+        run.most_s =
+            from_rest_to_rest(machine.settings, statistics.length_mm, static_cast<double>(statistics.curve_segments));
+        run.short_window = statistics.window_limited.value_or(0) > 0;
     } catch (const InputError& error) {
         run.refused = error.what();
     } catch (const UsageError& error) {
@@ -111,9 +103,5 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
     }
     return run;
 }
-
-template WildRun wild_run<double>(const RunArguments& arguments, std::uint64_t most_segments);
-template WildRun wild_run<float>(const RunArguments& arguments, std::uint64_t most_segments);
-template WildRun wild_run<Fixed>(const RunArguments& arguments, std::uint64_t most_segments);
 
 } // namespace splinefeed_test

@@ -4,8 +4,6 @@
 
 #include "host_sim/run/runner.hpp"
 
-#include "splinefeed/number/scalar.hpp"
-
 #include <cstdint>
 #include <string>
 
@@ -23,7 +21,7 @@ struct WildRun {
     double sample_s = 0.0;
 };
 
-template <splinefeed::Scalar S>
+/// In the scalar of the arguments.
 [[nodiscard]] WildRun wild_run(const splinefeed::host::RunArguments& arguments, std::uint64_t most_segments);
 
 } // namespace splinefeed_test

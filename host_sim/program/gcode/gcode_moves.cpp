@@ -2,7 +2,6 @@
 #include "host_sim/program/gcode/gcode_moves.hpp"
 
 #include "host_sim/config/decimal_number.hpp"
-#include "host_sim/program/element_cast.hpp"
 #include "host_sim/program/gcode/dialect_hint.hpp"
 #include "host_sim/program/gcode/impossible_event.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
@@ -10,10 +9,10 @@
 #include "host_sim/program/gcode/parameter_memory.hpp"
 #include "host_sim/program/gcode/problem_list.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
+#include "host_sim/program/gcode/program_items.hpp"
 #include "host_sim/program/gcode/program_spindle.hpp"
 
 #include "splinefeed/s0_program/expression.hpp"
-#include "splinefeed/s0_program/interpreter.hpp"
 #include "splinefeed/s0_program/text_cursor.hpp"
 
 #include <algorithm>
@@ -60,21 +59,20 @@ std::string_view without_comment(std::string_view text, std::size_t longest) {
     return text;
 }
 
-template <Scalar S>
-class GcodeMoves final : public MoveSource<S> {
+class GcodeMoves final : public MoveSource {
 public:
-    GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines);
+    GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines, ScalarKind scalar);
 
     bool start(PerAxis<Position>& position) override;
-    bool next(SourceStep<S>& out) override;
-    [[nodiscard]] bool wait(typename MoveSource<S>::Patience patience) override;
+    bool next(SourceStep& out) override;
+    [[nodiscard]] bool wait(Patience patience) override;
     [[nodiscard]] bool awaits_answer() const noexcept override { return asked_.has_value(); }
     void answer(int value) override;
     [[nodiscard]] int expected_answer() const noexcept override {
         return asked_ == InputWait::rise || asked_ == InputWait::high ? 1 : 0;
     }
     [[nodiscard]] bool knows_stops() const noexcept override { return false; }
-    void pushed(const SourceStep<S>& step) override { history_.add(step.line); }
+    void pushed(const SourceStep& step) override { history_.add(step.line); }
 
     [[nodiscard]] std::uint64_t rows() const noexcept override { return history_.moves(); }
     [[nodiscard]] std::uint32_t row_of(std::uint32_t move) const noexcept override { return move; }
@@ -82,7 +80,7 @@ public:
     [[nodiscard]] std::uint64_t number_of_move(std::uint64_t move) const noexcept override { return move + 1; }
     [[nodiscard]] std::string name_of_move(std::uint64_t move, std::uint64_t line) const override;
     [[nodiscard]] std::string name_of_row(std::uint32_t row) const override;
-    [[nodiscard]] InputError refusal(const SourceStep<S>& step, std::string_view text) const override;
+    [[nodiscard]] InputError refusal(const SourceStep& step, std::string_view text) const override;
     [[nodiscard]] std::string without_moves(Error /*error*/) const override { return {}; }
     void passed(std::uint64_t row) noexcept override { history_.forget_before(row); }
 
@@ -90,11 +88,11 @@ private:
     void read_line();
     /// Throws, unless problems are collected.
     void report(const InputError& error) { problems_.add(error); }
-    void take(SourceStep<S>& out);
-    void take_move(SourceStep<S>& out) const;
-    void take_event(SourceStep<S>& out);
-    void take_input(SourceStep<S>& out);
-    void take_spindle(SourceStep<S>& out, EventKind kind);
+    void take(SourceStep& out);
+    void take_move(SourceStep& out) const;
+    void take_event(SourceStep& out);
+    void take_input(SourceStep& out);
+    void take_spindle(SourceStep& out, EventKind kind);
     void require_possible(MoveKind kind) const;
     [[nodiscard]] std::string in_the_line(const BlockStatus& status) const;
 
@@ -105,26 +103,28 @@ private:
     std::optional<MachineTools> tools_;
     ParameterMemory parameters_;
     Expression expression_{parameters_};
-    Interpreter<S> interpreter_;
+    std::unique_ptr<ProgramItems> items_;
+    BlockInterpreter& interpreter_; // theirs
     ProgramFlow flow_;
     SourceLine line_;
-    ProgramItem<S> item_;
+    ProgramItem<double> item_;
     LineHistory history_;
     ProgramSpindle spindle_;
     bool pending_ = false;           // the block has more items
     std::optional<InputWait> asked_; // nothing is interpreted before the input has answered
 };
 
-template <Scalar S>
-GcodeMoves<S>::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines)
+GcodeMoves::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines,
+                       ScalarKind scalar)
     : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(settings.problems),
       tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
                             : std::nullopt),
-      interpreter_(program_settings(settings, tools_ ? &*tools_ : nullptr), &expression_),
+      items_(program_items(scalar, program_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
+                           settings.max_feed_mm_s)),
+      interpreter_(items_->interpreter()),
       flow_(*lines_, file_, expression_, interpreter_, parameters_, settings.problems) {}
 
-template <Scalar S>
-bool GcodeMoves<S>::start(PerAxis<Position>& position) {
+bool GcodeMoves::start(PerAxis<Position>& position) {
     position = settings_->start;
     if (settings_->offsets) {
         interpreter_.restore(*settings_->offsets);
@@ -133,8 +133,7 @@ bool GcodeMoves<S>::start(PerAxis<Position>& position) {
     return true;
 }
 
-template <Scalar S>
-bool GcodeMoves<S>::wait(typename MoveSource<S>::Patience patience) {
+bool GcodeMoves::wait(Patience patience) {
     if (asked_) {
         std::this_thread::sleep_for(patience);
         return false;
@@ -142,8 +141,7 @@ bool GcodeMoves<S>::wait(typename MoveSource<S>::Patience patience) {
     return pending_ || flow_.in_memory() || interpreter_.has_ended() || lines_->wait(patience);
 }
 
-template <Scalar S>
-std::string GcodeMoves<S>::in_the_line(const BlockStatus& status) const {
+std::string GcodeMoves::in_the_line(const BlockStatus& status) const {
     const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
     if (status.length == 0 || at >= line_.text.size()) {
         return {};
@@ -151,12 +149,11 @@ std::string GcodeMoves<S>::in_the_line(const BlockStatus& status) const {
     return in_quotes(std::string_view(line_.text).substr(at, status.length)) + ": ";
 }
 
-template <Scalar S>
-void GcodeMoves<S>::read_line() {
+void GcodeMoves::read_line() {
     if (line_.number > std::numeric_limits<std::uint32_t>::max()) {
         throw InputError(file_, line_.number, "the program has more than 2^32 lines; split it");
     }
-    const std::string_view text = without_comment(line_.text, Interpreter<S>::longest_line);
+    const std::string_view text = without_comment(line_.text, BlockInterpreter::longest_line);
     const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
     if (status.ok()) {
         return;
@@ -171,8 +168,7 @@ void GcodeMoves<S>::read_line() {
 }
 
 // One line at a time: whoever waits for a pipe wants to know after each.
-template <Scalar S>
-bool GcodeMoves<S>::next(SourceStep<S>& out) {
+bool GcodeMoves::next(SourceStep& out) {
     out.kind = StepKind::nothing;
     if (asked_) {
         return true;
@@ -188,15 +184,14 @@ bool GcodeMoves<S>::next(SourceStep<S>& out) {
         }
         read_line();
     }
-    pending_ = interpreter_.next(item_) == Pull::item;
+    pending_ = items_->next(item_, out.exact_points) == Pull::item;
     if (pending_) {
         take(out);
     }
     return true;
 }
 
-template <Scalar S>
-void GcodeMoves<S>::take(SourceStep<S>& out) {
+void GcodeMoves::take(SourceStep& out) {
     const bool ends = item_.kind == ItemKind::event &&
                       (item_.event.kind == EventKind::program_end || item_.event.kind == EventKind::offsets_changed);
     if (!line_.whole && !ends) {
@@ -221,23 +216,15 @@ void GcodeMoves<S>::take(SourceStep<S>& out) {
     }
 }
 
-template <Scalar S>
-void GcodeMoves<S>::take_move(SourceStep<S>& out) const {
+void GcodeMoves::take_move(SourceStep& out) const {
     if (!settings_->simulated) {
         require_possible(item_.move);
     }
-    out.element = item_.element;
+    out.move = item_.element;
     out.rapid = item_.move == MoveKind::rapid || item_.move == MoveKind::home;
-    if (out.rapid) {
-        out.element.feed_mm_s = S{}; // the limits of the axes
-    } else {
-        out.element.max_feed_mm_s = from_double<S>(settings_->max_feed_mm_s);
-    }
-    out.programmed = element_cast<double>(out.element);
 }
 
-template <Scalar S>
-void GcodeMoves<S>::take_event(SourceStep<S>& out) {
+void GcodeMoves::take_event(SourceStep& out) {
     const ProgramEvent& event = item_.event;
     if (const std::string why = settings_->simulated ? std::string() : impossible(event, *settings_); !why.empty()) {
         throw InputError(file_, line_.number, std::uint64_t{0}, why);
@@ -260,8 +247,7 @@ void GcodeMoves<S>::take_event(SourceStep<S>& out) {
 }
 
 // Inputs of the simulated machine are low, and stay so. Those of a real one are asked where it stands.
-template <Scalar S>
-void GcodeMoves<S>::take_input(SourceStep<S>& out) {
+void GcodeMoves::take_input(SourceStep& out) {
     const ProgramEvent& event = item_.event;
     if (!settings_->simulated) {
         out.action.wait = event.wait;
@@ -278,15 +264,13 @@ void GcodeMoves<S>::take_input(SourceStep<S>& out) {
     interpreter_.report_input(met ? Decimal{} : Decimal::from_integer(-1));
 }
 
-template <Scalar S>
-void GcodeMoves<S>::answer(int value) {
+void GcodeMoves::answer(int value) {
     interpreter_.report_input(Decimal::from_integer(value));
     asked_.reset();
 }
 
 // A real spindle is waited for at standstill; the simulated one takes its time.
-template <Scalar S>
-void GcodeMoves<S>::take_spindle(SourceStep<S>& out, EventKind kind) {
+void GcodeMoves::take_spindle(SourceStep& out, EventKind kind) {
     if (settings_->spindle == nullptr) {
         return;
     }
@@ -306,8 +290,7 @@ void GcodeMoves<S>::take_spindle(SourceStep<S>& out, EventKind kind) {
 }
 
 // A probe and a switch that nobody watches would be run into.
-template <Scalar S>
-void GcodeMoves<S>::require_possible(MoveKind kind) const {
+void GcodeMoves::require_possible(MoveKind kind) const {
     if (kind == MoveKind::probe) {
         const int number = 2 + (item_.probe.away ? 2 : 0) + (item_.probe.required ? 0 : 1);
         throw InputError(file_, item_.line, std::uint64_t{0},
@@ -324,36 +307,24 @@ void GcodeMoves<S>::require_possible(MoveKind kind) const {
     }
 }
 
-template <Scalar S>
-std::string GcodeMoves<S>::name_of_move(std::uint64_t /*move*/, std::uint64_t line) const {
+std::string GcodeMoves::name_of_move(std::uint64_t /*move*/, std::uint64_t line) const {
     return fmt::format("line {}", line);
 }
 
-template <Scalar S>
-std::string GcodeMoves<S>::name_of_row(std::uint32_t row) const {
+std::string GcodeMoves::name_of_row(std::uint32_t row) const {
     const std::uint64_t line = history_.line_of(row);
     return line > 0 ? fmt::format("line {}", line) : fmt::format("move {}", row + std::uint64_t{1});
 }
 
-template <Scalar S>
-InputError GcodeMoves<S>::refusal(const SourceStep<S>& step, std::string_view text) const {
+InputError GcodeMoves::refusal(const SourceStep& step, std::string_view text) const {
     return {file_, step.line, text};
 }
 
 } // namespace
 
-template <Scalar S>
-std::unique_ptr<MoveSource<S>> gcode_moves(const GcodeSettings& settings, std::string file,
-                                           std::unique_ptr<SourceLines> lines) {
-    return std::make_unique<GcodeMoves<S>>(settings, std::move(file), std::move(lines));
+std::unique_ptr<MoveSource> gcode_moves(const GcodeSettings& settings, std::string file,
+                                        std::unique_ptr<SourceLines> lines, ScalarKind scalar) {
+    return std::make_unique<GcodeMoves>(settings, std::move(file), std::move(lines), scalar);
 }
-
-#define SPLINEFEED_INSTANTIATE(S)                                                                                      \
-    template std::unique_ptr<MoveSource<S>> gcode_moves(const GcodeSettings&, std::string,                             \
-                                                        std::unique_ptr<SourceLines>);
-SPLINEFEED_INSTANTIATE(double)
-SPLINEFEED_INSTANTIATE(float)
-SPLINEFEED_INSTANTIATE(Fixed)
-#undef SPLINEFEED_INSTANTIATE
 
 } // namespace splinefeed::host

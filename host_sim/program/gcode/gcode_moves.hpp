@@ -2,6 +2,7 @@
 // gcode_moves: a program in G-code as steps.
 #pragma once
 
+#include "host_sim/base/scalar_kind.hpp"
 #include "host_sim/program/gcode_settings.hpp"
 #include "host_sim/program/move_source.hpp"
 #include "host_sim/program/source_line.hpp"
@@ -15,8 +16,8 @@ namespace splinefeed::host {
 /// line and the column.
 /// @param settings  must outlive it
 /// @param file      for messages
-template <Scalar S>
-[[nodiscard]] std::unique_ptr<MoveSource<S>> gcode_moves(const GcodeSettings& settings, std::string file,
-                                                         std::unique_ptr<SourceLines> lines);
+/// @param scalar    in which lengths and feeds of moves are computed
+[[nodiscard]] std::unique_ptr<MoveSource> gcode_moves(const GcodeSettings& settings, std::string file,
+                                                      std::unique_ptr<SourceLines> lines, ScalarKind scalar);
 
 } // namespace splinefeed::host

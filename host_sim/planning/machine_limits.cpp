@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/run/machine_limits.hpp"
+#include "host_sim/planning/machine_limits.hpp"
 
 #include "host_sim/base/input_error.hpp"
 
@@ -44,6 +44,12 @@ std::string lost_in_rounding(const MachineDescription& machine) {
     return describe(LimitError::period_too_short);
 }
 
+template <Scalar S>
+PlanFigures figures_of(const MotionLimits<S>& limits) {
+    return {limits.axes, limits.segment_ticks, limits.segments_per_sample, to_double(limits.refinement.direction_jump),
+            limits.steps_per_mm_q32};
+}
+
 } // namespace
 
 template <Scalar S>
@@ -55,6 +61,15 @@ MotionLimits<S> machine_limits(const MachineDescription& machine) {
                                                                         : describe(limits.error()));
     }
     return *limits;
+}
+
+PlanFigures plan_figures(ScalarKind scalar, const MachineDescription& machine) {
+    switch (scalar) {
+    case ScalarKind::fixed: return figures_of(machine_limits<Fixed>(machine));
+    case ScalarKind::float32: return figures_of(machine_limits<float>(machine));
+    case ScalarKind::float64: break;
+    }
+    return figures_of(machine_limits<double>(machine));
 }
 
 template MotionLimits<double> machine_limits(const MachineDescription&);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // What of a curve reaches the machine, and what those that look at it see.
-#include "host_sim/run/path_tee.hpp"
+#include "host_sim/run/path_watch.hpp"
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/config/machine_file.hpp"
+#include "host_sim/planning/path_curve.hpp"
+#include "host_sim/planning/path_tee.hpp"
 #include "support/catch.hpp"
 #include "temporary_folder.hpp"
 
@@ -27,8 +29,10 @@ struct Teed {
     /// The waypoints of the segments that were passed on, until there is none any more.
     std::vector<std::uint32_t> passed(const PathObservers& observers) {
         PathInput input(arguments, PathUse::executed, {"x", "y", "z"});
-        CurveFeeder<double> feeder(input);
-        PathTee<double> tee(feeder, arguments.input, observers);
+        PathCurve<double> curve(input);
+        const auto feeder = make_feeder(input, curve);
+        PathWatch watch(arguments.input, observers);
+        PathTee<double> tee(curve.source(), *feeder, watch);
         std::vector<std::uint32_t> waypoints;
         CurveSegment<double> segment;
         for (;;) {
@@ -38,8 +42,8 @@ struct Teed {
             } else if (pull == Pull::finished) {
                 break;
             } else {
-                CurveFeeder<double>::Pushed pushed;
-                static_cast<void>(feeder.more(pushed));
+                PathFeeder::Pushed pushed;
+                static_cast<void>(feeder->more(pushed));
             }
         }
         CHECK(tee.next(segment) == Pull::finished);
@@ -63,7 +67,7 @@ struct Teed {
 
 } // namespace
 
-TEST_CASE("a curve is passed on with the rows of its waypoints, whoever looks at it", "[path_tee]") {
+TEST_CASE("a curve is passed on with the rows of its waypoints, whoever looks at it", "[path_watch]") {
     Teed teed("x,y,z,feed\n0,0,0,\n10,0,0,5\n20,10,0,\n30,10,0,8\n");
     const std::vector<std::uint32_t> rows{1, 2, 3};
     CHECK(teed.passed({}) == rows);
@@ -76,7 +80,7 @@ TEST_CASE("a curve is passed on with the rows of its waypoints, whoever looks at
     CHECK(teed.failure.empty());
 }
 
-TEST_CASE("a curve ends before the segment that leaves the limits, with the line of its waypoint", "[path_tee]") {
+TEST_CASE("a curve ends before the segment that leaves the limits, with the line of its waypoint", "[path_watch]") {
     Teed teed("0,0,0\n40,0,0\n60,0,0\n20,0,0\n");
     const PathLimits limits(teed.machine);
     CHECK(teed.passed({.limits = &limits}) == std::vector<std::uint32_t>{1});

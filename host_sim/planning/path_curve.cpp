@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/planning/path_curve.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/program/element_cast.hpp"
+
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+namespace {
+
+template <Scalar S>
+void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerAxis<S>& out) {
+    if (!given) {
+        return;
+    }
+    if (given->components > axes) {
+        throw UsageError(
+            fmt::format("an end tangent has {} components, but the path has {} axes; give one for each axis",
+                        given->components, axes));
+    }
+    has = true;
+    for (unsigned k = 0; k < static_cast<unsigned>(given->components); ++k) {
+        out[k] = from_double<S>(given->value[k]);
+    }
+}
+
+void require_smoothable(const CurveFile& file) {
+    for (const CurveFile::Segment& segment : file.segments) {
+        if (segment.degree > 5) {
+            throw UsageError(
+                fmt::format("--smooth takes segments up to degree 5; there is one of degree {}", segment.degree));
+        }
+    }
+}
+
+template <Scalar S>
+PathElement<S> element_of(const SourceStep& step) {
+    auto element = element_cast<S>(step.move);
+    if constexpr (std::same_as<S, Fixed>) {
+        if (step.exact_points && element.shape == MoveShape::bezier) {
+            element.bezier = *step.exact_points;
+        }
+    }
+    return element;
+}
+
+} // namespace
+
+template <Scalar S>
+PathCurve<S>::PathCurve(const PathInput& input) : axes_(static_cast<int>(input.axes().size())) {
+    const CurveChoice& choice = input.choice();
+    EndTangents<S> tangents;
+    take_tangent(choice.start_tangent, axes_, tangents.has_start, tangents.start);
+    take_tangent(choice.end_tangent, axes_, tangents.has_end, tangents.end);
+    if (input.within_tolerance()) {
+        const PathTolerances& tolerances = input.tolerances();
+        source_ = &curve_.template emplace<TolerancePath<S>>(
+            axes_, from_double<S>(tolerances.joint_mm),
+            SharpestBlend<S>{from_double<S>(tolerances.sharpest.curvature_1_mm),
+                             from_double<S>(tolerances.sharpest.fading)});
+        return;
+    }
+    Seam seam = choice.closed ? Seam::repeated : Seam::open;
+    if (const CurveFile* const file = input.segments()) {
+        auto& segments = curve_.template emplace<BezierSource<S>>(*file, axes_, choice.smooth);
+        seam = segments.repeats_seam() ? Seam::repeated : Seam::open;
+        source_ = &segments;
+        if (choice.smooth) {
+            require_smoothable(*file);
+        }
+    } else {
+        CurveOptions<S> options;
+        options.axes = axes_;
+        options.parameterization = choice.parameterization;
+        options.corner_cosine = from_double<S>(corner_cosine(choice.corner_angle_deg));
+        options.seam_segments = choice.smooth && choice.closed;
+        source_ = curve_.template emplace<StreamedCurve<S>>(streamed_curve(choice, options, tangents)).curve.get();
+    }
+    if (choice.smooth) {
+        source_ = &smoothed_.emplace(*source_, seam);
+    }
+}
+
+template <Scalar S>
+PathCounts PathCurve<S>::counts() const noexcept {
+    const auto* const path = std::get_if<TolerancePath<S>>(&curve_);
+    return path != nullptr ? path->counts() : PathCounts{};
+}
+
+template <Scalar S>
+std::size_t PathCurve<S>::bytes() const noexcept {
+    const auto* const streamed = std::get_if<StreamedCurve<S>>(&curve_);
+    return streamed != nullptr                                ? streamed->bytes
+           : std::holds_alternative<TolerancePath<S>>(curve_) ? sizeof(TolerancePath<S>)
+                                                              : sizeof(BezierSource<S>);
+}
+
+template <Scalar S>
+Status PathCurve<S>::push(const Waypoint<double>& waypoint, Role role) {
+    Waypoint<S> out;
+    out.position = waypoint.position;
+    out.feed_mm_s = from_double<S>(waypoint.feed_mm_s);
+    out.max_feed_mm_s = from_double<S>(waypoint.max_feed_mm_s);
+    out.corner = waypoint.corner;
+    return waypoints().push(out, role);
+}
+
+template <Scalar S>
+Status PathCurve<S>::push(const SourceStep& step) {
+    return path().push(element_of<S>(step));
+}
+
+template <Scalar S>
+Result<bool> PathCurve<S>::has_length(const PerAxis<Position>& from, const SourceStep& step) const {
+    const Result<S> length = BlendedPath<S>::length_of(from, element_of<S>(step), axes_);
+    if (!length.has_value()) {
+        return length.error();
+    }
+    return *length > S{};
+}
+
+template <Scalar S>
+Status PathCurve<S>::finish() {
+    return std::holds_alternative<TolerancePath<S>>(curve_) ? path().finish() : waypoints().finish();
+}
+
+template class PathCurve<double>;
+template class PathCurve<float>;
+template class PathCurve<Fixed>;
+
+} // namespace splinefeed::host

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/planning/planned_path.hpp"
+
+#include "host_sim/planning/scalar_path.hpp"
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr int most_answers = 100; // that are taken for granted before a run
+
+template <Scalar S>
+std::optional<std::uint64_t> look(PathInput& input, CurveWatch& watch) {
+    WatchedCurve<S> watched(input, watch);
+    PathFeeder& feeder = *watched.feeder;
+    CurveSegment<S> segment;
+    int answers = 0;
+    for (Pull pull = Pull::starved; pull != Pull::finished && answers <= most_answers;
+         pull = watched.tee.next(segment)) {
+        PathFeeder::Pushed ignored;
+        if (pull == Pull::starved && feeder.awaits_answer()) {
+            feeder.program()->answer(feeder.program()->expected_answer());
+            ++answers;
+        }
+        if (pull == Pull::starved) {
+            static_cast<void>(feeder.more(ignored));
+        }
+    }
+    if (watched.tee.failure()) {
+        std::rethrow_exception(watched.tee.failure());
+    }
+    return answers == 0 ? std::optional(feeder.rows()) : std::nullopt;
+}
+
+} // namespace
+
+template <Scalar S>
+PlannedPath::Statistics ScalarPath<S>::statistics() const {
+    Statistics out;
+    const Trajectory<S>& trajectory = planner_.trajectory();
+    out.scalar = scalar_name<S>();
+    out.length_mm = length_to_mm(trajectory.arc_length().travelled());
+    out.curve_segments = watched_.tee.segments();
+    out.counts = watched_.curve.counts();
+    if (!limits_.jerk_limited) { // else that counts the window of the plan that another one refines
+        out.window_limited = trajectory.feed_plan().window_limited();
+    }
+    out.curve_bytes = watched_.curve.bytes();
+    out.plan_bytes = planner_.bytes();
+    out.stream_bytes = sizeof(SegmentStream<S>);
+    return out;
+}
+
+std::unique_ptr<PlannedPath> plan_path(PathInput& input, const MachineDescription& machine, CurveWatch& watch,
+                                       std::size_t window_cells) {
+    switch (input.scalar()) {
+    case ScalarKind::fixed: return std::make_unique<ScalarPath<Fixed>>(input, machine, watch, window_cells);
+    case ScalarKind::float32: return std::make_unique<ScalarPath<float>>(input, machine, watch, window_cells);
+    case ScalarKind::float64: break;
+    }
+    return std::make_unique<ScalarPath<double>>(input, machine, watch, window_cells);
+}
+
+std::optional<std::uint64_t> look_through(PathInput& input, CurveWatch& watch) {
+    switch (input.scalar()) {
+    case ScalarKind::fixed: return look<Fixed>(input, watch);
+    case ScalarKind::float32: return look<float>(input, watch);
+    case ScalarKind::float64: break;
+    }
+    return look<double>(input, watch);
+}
+
+} // namespace splinefeed::host

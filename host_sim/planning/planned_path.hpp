@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// PlannedPath: an input as a motion within a machine's limits, segment by segment, whatever scalar and planner make it.
+#pragma once
+
+#include "host_sim/config/machine_description.hpp"
+#include "host_sim/planning/curve_watch.hpp"
+#include "host_sim/planning/path_feeder.hpp"
+#include "host_sim/program/path_input.hpp"
+
+#include "splinefeed/s1_blended_path/tolerance_path.hpp"
+#include "splinefeed/s3_feed_plan/motion_plan.hpp"
+#include "splinefeed/s3_feed_plan/steering/steering.hpp"
+#include "splinefeed/s4_segment_stream/feed_segment.hpp"
+
+#include <exception>
+#include <memory>
+#include <optional>
+
+namespace splinefeed::host {
+
+/// The only door between the scalar of a plan and what lies behind it: one virtual call a segment. Steering and answers
+/// are those of Trajectory.
+class PlannedPath {
+public:
+    struct Statistics {
+        const char* scalar = "";
+        double length_mm = 0.0;                      ///< that was travelled
+        std::uint64_t curve_segments = 0;            ///< that were passed to the plan
+        PathCounts counts;                           ///< of a path within a tolerance
+        std::optional<std::uint64_t> window_limited; ///< FeedPlan::window_limited(); none: another plan refines that
+        std::size_t curve_bytes = 0;                 ///< memory of the stages
+        std::size_t plan_bytes = 0;
+        std::size_t stream_bytes = 0;
+    };
+
+    PlannedPath() = default;
+    PlannedPath(const PlannedPath&) = delete;
+    PlannedPath& operator=(const PlannedPath&) = delete;
+    virtual ~PlannedPath() = default;
+
+    /// What has to be fed when next() says `starved`.
+    [[nodiscard]] virtual PathFeeder& feeder() noexcept = 0;
+
+    virtual Pull next(FeedSegment& out, UnderrunPolicy underrun) = 0;
+    [[nodiscard]] virtual Pull state() const noexcept = 0;
+    [[nodiscard]] virtual Activity activity() const noexcept = 0;
+    [[nodiscard]] virtual Status status() const noexcept = 0;
+    virtual bool stand(FeedSegment& out) = 0;
+
+    virtual void hold() noexcept = 0;
+    virtual void resume() noexcept = 0;
+    virtual void abort() noexcept = 0;
+    virtual void override_feed(double ratio) noexcept = 0;
+
+    /// Why the curve ended before its end: what the watch has thrown; null: nothing.
+    [[nodiscard]] virtual const std::exception_ptr& failure() const noexcept = 0;
+    [[nodiscard]] virtual Statistics statistics() const = 0;
+};
+
+/// The input in its scalar, with the planner that the machine's limits need. Throws InputError where the limits do not
+/// go together, and UsageError where the curve cannot be what was chosen. The arguments must outlive it, but for
+/// `machine`.
+/// @param window_cells  look-ahead of the feed plan
+[[nodiscard]] std::unique_ptr<PlannedPath> plan_path(PathInput& input, const MachineDescription& machine,
+                                                     CurveWatch& watch, std::size_t window_cells);
+
+/// The whole curve, to the watch; nothing is planned. Inputs of a real machine answer as the program expects: a loop
+/// may wait for another answer, so the look ends at the M66 behind a hundred of them. Throws what the watch throws.
+/// Returns the number of waypoints; nothing: it depends on inputs.
+std::optional<std::uint64_t> look_through(PathInput& input, CurveWatch& watch);
+
+} // namespace splinefeed::host

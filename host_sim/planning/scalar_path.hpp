@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// ScalarPath: a PlannedPath in one scalar.
+#pragma once
+
+#include "host_sim/planning/machine_limits.hpp"
+#include "host_sim/planning/path_curve.hpp"
+#include "host_sim/planning/path_tee.hpp"
+#include "host_sim/planning/planned_path.hpp"
+#include "host_sim/planning/planned_trajectory.hpp"
+
+namespace splinefeed::host {
+
+/// The curve of an input, with what feeds it and who looks at it.
+template <Scalar S>
+struct WatchedCurve {
+    WatchedCurve(PathInput& input, CurveWatch& watch)
+        : curve(input), feeder(make_feeder(input, curve)), tee(curve.source(), *feeder, watch) {}
+
+    PathCurve<S> curve;
+    std::unique_ptr<PathFeeder> feeder;
+    PathTee<S> tee;
+};
+
+template <Scalar S>
+class ScalarPath final : public PlannedPath {
+public:
+    /// plan_path().
+    ScalarPath(PathInput& input, const MachineDescription& machine, CurveWatch& watch, std::size_t window_cells)
+        : limits_(machine_limits<S>(machine)), watched_(input, watch), planner_(watched_.tee, limits_, window_cells) {}
+
+    [[nodiscard]] PathCurve<S>& curve() noexcept { return watched_.curve; }
+    [[nodiscard]] Trajectory<S>& trajectory() noexcept { return planner_.trajectory(); }
+
+    [[nodiscard]] PathFeeder& feeder() noexcept override { return *watched_.feeder; }
+    Pull next(FeedSegment& out, UnderrunPolicy underrun) override { return trajectory().next(out, underrun); }
+    [[nodiscard]] Pull state() const noexcept override { return planner_.trajectory().state(); }
+    [[nodiscard]] Activity activity() const noexcept override { return planner_.trajectory().activity(); }
+    [[nodiscard]] Status status() const noexcept override { return planner_.trajectory().status(); }
+    bool stand(FeedSegment& out) override { return trajectory().stand(out); }
+    void hold() noexcept override { trajectory().hold(); }
+    void resume() noexcept override { trajectory().resume(); }
+    void abort() noexcept override { trajectory().abort(); }
+    void override_feed(double ratio) noexcept override { trajectory().override_feed(from_double<S>(ratio)); }
+    [[nodiscard]] const std::exception_ptr& failure() const noexcept override { return watched_.tee.failure(); }
+    [[nodiscard]] Statistics statistics() const override;
+
+private:
+    MotionLimits<S> limits_;
+    WatchedCurve<S> watched_;
+    PlannedTrajectory<S> planner_;
+};
+
+} // namespace splinefeed::host

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// PathWatch: shows the curve to the objects that check, measure and write it.
+#pragma once
+
+#include "host_sim/analysis/limit_share.hpp"
+#include "host_sim/analysis/optimum_time.hpp"
+#include "host_sim/analysis/path_deviation.hpp"
+#include "host_sim/analysis/waypoint_error.hpp"
+#include "host_sim/output/curve_writer.hpp"
+#include "host_sim/planning/curve_watch.hpp"
+#include "host_sim/planning/path_feeder.hpp"
+#include "host_sim/planning/path_limits.hpp"
+
+namespace splinefeed::host {
+
+/// The objects that see the curve; null: not used.
+struct PathObservers {
+    const PathLimits* limits = nullptr;
+    CurveWriter* writer = nullptr;
+    WaypointError* error = nullptr;
+    PathDeviation* deviation = nullptr;
+    OptimumTime* optimum = nullptr;
+    LimitShare* share = nullptr;
+};
+
+/// Refuses a segment that leaves the limits, or cannot be written: InputError, OutputError.
+class PathWatch final : public CurveWatch {
+public:
+    /// `file`: the name of the input for messages. All arguments must outlive it.
+    PathWatch(const std::string& file, const PathObservers& observers) noexcept : file_(&file), observers_(observers) {}
+
+    void segment(const CurveSegment<double>& segment, std::uint32_t row, const PathFeeder& feeder) override;
+
+private:
+    const std::string* file_;
+    PathObservers observers_;
+};
+
+} // namespace splinefeed::host
