@@ -7,12 +7,12 @@
 
 namespace splinefeed::host {
 
-std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar) {
+std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar, std::vector<std::string>* problems) {
     if (const ElementProgram* const program = input.elements()) {
         return std::make_unique<ElementMoves>(*program, input.name());
     }
     if (const GcodeSettings* const settings = input.gcode()) {
-        return gcode_moves(*settings, input.name(), input.lines(), scalar);
+        return gcode_moves(*settings, input.name(), input.lines(), scalar, problems);
     }
     return std::make_unique<RowMoves>(input);
 }

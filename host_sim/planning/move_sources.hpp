@@ -10,7 +10,9 @@
 namespace splinefeed::host {
 
 /// The program from its beginning. `input` must outlive it. @pre input.within_tolerance()
-/// @param scalar  in which a program in G-code is computed
-[[nodiscard]] std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar);
+/// @param scalar    in which a program in G-code is computed
+/// @param problems  of a program in G-code: wrong lines are left out, and told to them; null: they end the program
+[[nodiscard]] std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar,
+                                                      std::vector<std::string>* problems = nullptr);
 
 } // namespace splinefeed::host

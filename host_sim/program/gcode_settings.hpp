@@ -31,18 +31,16 @@ struct GcodeSettings {
     std::optional<ToolRows> tools; ///< none: G43 and G43 H are refused
     bool block_delete = false;
     bool optional_stop = false;
-    bool simulated = true;                        ///< a simulated machine has a spindle, coolant, and everything else
-    const SpindleDescription* spindle = nullptr;  ///< of the machine; null: its file says nothing of one
-    const ProgramLines* lines = nullptr;          ///< coolant and outputs of the machine; null: it has none
-    double tolerance_mm = 0.01;                   ///< of G64 without P
-    double rapid_tolerance_mm = 0.1;              ///< between rapids
-    double max_feed_mm_s = 0.0;                   ///< of moves with a feed, along the linear axes; 0: none
-    std::uint32_t rotary_axes = 0;                ///< bit k: axis k of the machine is rotary
-    std::vector<std::string> axes;                ///< names: x, y, z, a, b, c
-    std::vector<std::string>* problems = nullptr; ///< gets what is wrong with lines, which are left out; null: the
-                                                  ///< first one ends the program
-    std::optional<WorkOffsets> offsets{};         ///< of a state file
-    PerAxis<Position> start{};                    ///< where the machine stands, in its own coordinates
+    bool simulated = true;                       ///< a simulated machine has a spindle, coolant, and everything else
+    const SpindleDescription* spindle = nullptr; ///< of the machine; null: its file says nothing of one
+    const ProgramLines* lines = nullptr;         ///< coolant and outputs of the machine; null: it has none
+    double tolerance_mm = 0.01;                  ///< of G64 without P
+    double rapid_tolerance_mm = 0.1;             ///< between rapids
+    double max_feed_mm_s = 0.0;                  ///< of moves with a feed, along the linear axes; 0: none
+    std::uint32_t rotary_axes = 0;               ///< bit k: axis k of the machine is rotary
+    std::vector<std::string> axes;               ///< names: x, y, z, a, b, c
+    std::optional<WorkOffsets> offsets{};        ///< of a state file
+    PerAxis<Position> start{};                   ///< where the machine stands, in its own coordinates
 };
 
 /// The names of --dialect.

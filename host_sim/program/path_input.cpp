@@ -28,51 +28,54 @@ bool merged(const PerAxis<double>& a, const PerAxis<double>& b) {
 
 } // namespace
 
-PathInput::PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes,
-                     const PathTolerances& tolerances)
-    : name_(arguments.input), path_(arguments.input), tolerances_(tolerances), format_(arguments.format),
-      scalar_(arguments.scalar), read_ahead_(use == PathUse::followed) {
+PathInput::PathInput(const PathArguments& arguments, PathUse use, const PathMachine& machine)
+    : name_(arguments.input), path_(arguments.input), tolerances_(machine.tolerances), format_(arguments.format),
+      machine_axes_(machine.axes), scalar_(arguments.scalar), read_ahead_(use == PathUse::followed),
+      content_(open(arguments, use, machine)) {}
+
+PathInput::Content PathInput::open(const PathArguments& arguments, PathUse use, const PathMachine& machine) {
     if (format_->is_curve()) {
-        open_description(arguments, use, machine_axes);
-        return;
+        return open_description(arguments, use);
     }
     if (const std::string_view option = first_option(arguments.gcode); !option.empty() && !format_->is_gcode()) {
         throw UsageError(fmt::format("{}: only a program in G-code has it; leave the option out", option));
     }
     if (format_->is_gcode()) {
-        open_gcode(arguments, use, machine_axes);
-        return;
+        return open_gcode(arguments, use, machine);
     }
+    return open_waypoints(arguments, use);
+}
+
+PathInput::Content PathInput::open_waypoints(const PathArguments& arguments, PathUse use) {
     choice_ = choose_curve(arguments.curve);
     if (path_ == "-" && is_regular_file("/dev/stdin")) {
         path_ = "/dev/stdin"; // it can be read twice
     }
     repeatable_ = is_regular_file(path_);
-    machine_axes_ = machine_axes;
     OpenedRows opened = format_->open(path_, name_, machine_axes_);
     axes_ = std::move(opened.axes);
-    opened_ = std::move(opened.rows);
-    lines_within_tolerance_ = choice_.tolerance_mm > 0.0 || opened.has_tolerances;
+    const bool within_tolerance = choice_.tolerance_mm > 0.0 || opened.has_tolerances;
     if (opened.has_tolerances && choice_.method != "polyline") {
         throw InputError(name_, 0,
                          fmt::format("there is a column tolerance, and --curve {} has none; add --curve polyline, or "
                                      "leave the column out",
                                      choice_.method));
     }
-    if (lines_within_tolerance_ && choice_.closed) {
+    if (within_tolerance && choice_.closed) {
         throw InputError(name_, 0,
                          "a column tolerance and --closed exclude each other; repeat the first waypoint at the end "
                          "instead");
     }
     if (const PointsMethod* const method = points_method(choice_.method)) {
-        compute_from_points(*method, arguments.scalar, use);
+        return compute_from_points(*method, *opened.rows, use);
     }
+    return Waypoints{std::move(opened.rows), within_tolerance};
 }
 
-void PathInput::compute_from_points(const PointsMethod& method, ScalarKind scalar, PathUse use) {
+CurveFile PathInput::compute_from_points(const PointsMethod& method, WaypointRows& rows, PathUse use) {
     std::vector<PerAxis<double>> points;
     WaypointRow row;
-    while (opened_->next(row)) {
+    while (rows.next(row)) {
         if (points_read_ == most_points) {
             throw InputError(name_, row.line,
                              fmt::format("--curve {} is made of all points at once, and takes at most {}; take another "
@@ -93,50 +96,48 @@ void PathInput::compute_from_points(const PointsMethod& method, ScalarKind scala
     if (choice_.closed && points.size() > 1 && merged(points.front(), points.back())) {
         points.pop_back();
     }
-    opened_.reset();
     const int axes = static_cast<int>(axes_.size());
     try {
-        file_ = compute_curve(method.description, method.input(choice_, points, axes), scalar, name_);
+        CurveFile file = compute_curve(method.description, method.input(choice_, points, axes), scalar_, name_);
+        if (use != PathUse::drawn) {
+            require_executable(file, name_);
+        }
+        return file;
     } catch (const DescriptionError& error) {
         throw InputError(name_, 0, error.what());
     }
-    if (use != PathUse::drawn) {
-        require_executable(file_, name_);
-    }
 }
 
-void PathInput::open_description(const PathArguments& arguments, PathUse use,
-                                 const std::vector<std::string>& machine_axes) {
+PathInput::Content PathInput::open_description(const PathArguments& arguments, PathUse use) {
     if (const std::string_view option = first_option(arguments.curve); !option.empty()) {
         throw UsageError(fmt::format("{}: a curve file says itself which curve it is; leave the option out", option));
     }
     const nlohmann::json document = parse_json(read_text_file(name_, largest_curve_file), name_);
     if (has_elements(document)) {
-        open_elements(arguments, document, machine_axes);
-        return;
+        return open_elements(arguments, document);
     }
     if (arguments.curve.tolerance) {
         throw UsageError("--tolerance: a curve is followed exactly; leave the option out, or take a file of elements");
     }
-    file_ = curve_of(document, name_, arguments.scalar);
-    if (file_.described && use != PathUse::drawn) {
-        require_executable(file_, name_);
+    CurveFile file = curve_of(document, name_, arguments.scalar);
+    if (file.described && use != PathUse::drawn) {
+        require_executable(file, name_);
     }
     choice_.method = "bezier";
-    choice_.closed = file_.closed;
+    choice_.closed = file.closed;
     choice_.smooth = arguments.curve.smooth;
-    const auto count = static_cast<std::size_t>(file_.axes);
-    axes_ = machine_axes.empty() ? std::vector<std::string>(every_axis.begin(), every_axis.begin() + file_.axes)
-                                 : machine_axes;
+    const auto count = static_cast<std::size_t>(file.axes);
+    axes_ = machine_axes_.empty() ? std::vector<std::string>(every_axis.begin(), every_axis.begin() + file.axes)
+                                  : machine_axes_;
     if (count > axes_.size()) {
         throw InputError(name_, 0,
                          fmt::format("the points have {} coordinates; the machine has {} axes: {}", count, axes_.size(),
                                      fmt::join(axes_, ", ")));
     }
+    return file;
 }
 
-void PathInput::open_elements(const PathArguments& arguments, const nlohmann::json& document,
-                              const std::vector<std::string>& machine_axes) {
+ElementProgram PathInput::open_elements(const PathArguments& arguments, const nlohmann::json& document) {
     if (arguments.curve.smooth) {
         throw UsageError("--smooth: a program of elements is smoothed within its tolerance; leave the option out");
     }
@@ -144,11 +145,11 @@ void PathInput::open_elements(const PathArguments& arguments, const nlohmann::js
         tolerances_.programmed_mm = read_tolerance(*arguments.curve.tolerance);
     }
     choice_.method = "elements";
-    axes_ = machine_axes.empty() ? axes_of_elements(document) : machine_axes;
-    elements_ = read_elements(document, name_, axes_, tolerances_);
+    axes_ = machine_axes_.empty() ? axes_of_elements(document) : machine_axes_;
+    return read_elements(document, name_, axes_, tolerances_);
 }
 
-void PathInput::open_gcode(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes) {
+GcodeSettings PathInput::open_gcode(const PathArguments& arguments, PathUse use, const PathMachine& machine) {
     if (const std::string_view option = first_option(arguments.curve); !option.empty()) {
         throw UsageError(
             fmt::format("{}: a program in G-code says itself what its path is; leave the option out", option));
@@ -160,48 +161,32 @@ void PathInput::open_gcode(const PathArguments& arguments, PathUse use, const st
         tolerances_.programmed_mm = read_tolerance(*arguments.curve.tolerance);
     }
     choice_.method = "gcode";
-    axes_ = machine_axes.empty() ? std::vector<std::string>{"x", "y", "z"} : machine_axes;
+    axes_ = machine.axes.empty() ? std::vector<std::string>{"x", "y", "z"} : machine.axes;
     if (path_ == "-" && is_regular_file("/dev/stdin")) {
         path_ = "/dev/stdin"; // it can be read twice
     }
     repeatable_ = is_regular_file(path_);
-    gcode_ = read_gcode_arguments(arguments.gcode);
-    gcode_->simulated = use != PathUse::followed;
-    gcode_->tolerance_mm = tolerances_.programmed_mm;
-    gcode_->rapid_tolerance_mm = tolerances_.rapid_mm;
-    gcode_->axes = axes_;
-    if (!repeatable_) {
-        return;
+    GcodeSettings out = read_gcode_arguments(arguments.gcode);
+    out.simulated = use != PathUse::followed;
+    out.tolerance_mm = tolerances_.programmed_mm;
+    out.rapid_tolerance_mm = tolerances_.rapid_mm;
+    out.axes = axes_;
+    out.max_feed_mm_s = machine.max_feed_mm_s;
+    out.rotary_axes = machine.rotary_axes;
+    out.spindle = machine.spindle;
+    out.lines = machine.lines;
+    if (repeatable_) {
+        static_cast<void>(LineReader(path_, name_)); // it can be opened
     }
-    static_cast<void>(LineReader(path_, name_)); // it can be opened
-}
-
-void PathInput::limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noexcept {
-    if (gcode_) {
-        gcode_->max_feed_mm_s = max_feed_mm_s;
-        gcode_->rotary_axes = rotary_axes;
-    }
-}
-
-void PathInput::use_outputs(const std::optional<SpindleDescription>& spindle, const ProgramLines& lines) noexcept {
-    if (gcode_) {
-        gcode_->spindle = spindle ? &*spindle : nullptr;
-        gcode_->lines = &lines;
-    }
+    return out;
 }
 
 void PathInput::begin_at(const MachineState& state) {
-    if (gcode_) {
-        gcode_->offsets = state.offsets;
+    if (auto* const program = std::get_if<GcodeSettings>(&content_)) {
+        program->offsets = state.offsets;
         for (unsigned k = 0; k < axes_.size(); ++k) {
-            gcode_->start[k] = position_from_mm(state.position_mm[k].value_or(0.0));
+            program->start[k] = position_from_mm(state.position_mm[k].value_or(0.0));
         }
-    }
-}
-
-void PathInput::collect_problems(std::vector<std::string>* problems) noexcept {
-    if (gcode_) {
-        gcode_->problems = problems;
     }
 }
 
@@ -211,7 +196,8 @@ std::unique_ptr<SourceLines> PathInput::lines() {
 }
 
 std::unique_ptr<WaypointRows> PathInput::rows() {
-    std::unique_ptr<WaypointRows> rows = opened_ ? std::move(opened_) : format_->open(path_, name_, machine_axes_).rows;
+    auto& opened = std::get<Waypoints>(content_).opened;
+    std::unique_ptr<WaypointRows> rows = opened ? std::move(opened) : format_->open(path_, name_, machine_axes_).rows;
     return read_ahead_ ? std::make_unique<RowQueue>(std::move(rows)) : std::move(rows);
 }
 

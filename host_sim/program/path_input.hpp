@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace splinefeed::host {
@@ -34,47 +35,49 @@ enum class PathUse {
     followed, ///< executed by a real machine: a thread reads its waypoints ahead
 };
 
+/// The machine as a path is planned for it. What it refers to must outlive the input.
+struct PathMachine {
+    std::vector<std::string> axes; ///< names; empty: the path has the axes of the input
+    PathTolerances tolerances{};
+    double max_feed_mm_s = 0.0;    ///< of a program in G-code: the largest feed of its moves that are no rapids
+    std::uint32_t rotary_axes = 0; ///< bit k: axis k is rotary
+    const SpindleDescription* spindle = nullptr; ///< null: its file says nothing of one
+    const ProgramLines* lines = nullptr;         ///< coolant and outputs; null: it has none
+};
+
 struct PointsMethod;
 
 class PathInput {
 public:
     /// Opens the input and reads until its axes are known. Throws InputError and UsageError.
-    /// @param machine_axes  names; empty: the path has the axes of the input
-    PathInput(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes,
-              const PathTolerances& tolerances = {});
+    PathInput(const PathArguments& arguments, PathUse use, const PathMachine& machine);
 
     [[nodiscard]] const CurveChoice& choice() const noexcept { return choice_; }
     /// In which the path is planned.
     [[nodiscard]] ScalarKind scalar() const noexcept { return scalar_; }
     /// The curve's name for files and reports.
     [[nodiscard]] std::string_view curve_name() const noexcept {
-        return gcode_                   ? "gcode"
-               : elements_              ? "elements"
-               : file_.segments.empty() ? choice_.method
-                                        : std::string_view(file_.method);
+        return segments() != nullptr ? std::string_view(segments()->method) : choice_.method;
     }
     [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
     /// Bezier segments that are executed unchanged: from a curve file, from a description, or computed from all
     /// waypoints. Null: there are waypoints, and the method streams.
-    [[nodiscard]] const CurveFile* segments() const noexcept { return file_.segments.empty() ? nullptr : &file_; }
+    [[nodiscard]] const CurveFile* segments() const noexcept { return std::get_if<CurveFile>(&content_); }
     /// A program of elements. Null: there is none.
-    [[nodiscard]] const ElementProgram* elements() const noexcept { return elements_ ? &*elements_ : nullptr; }
+    [[nodiscard]] const ElementProgram* elements() const noexcept { return std::get_if<ElementProgram>(&content_); }
     /// A program in G-code. Null: there is none.
-    [[nodiscard]] const GcodeSettings* gcode() const noexcept { return gcode_ ? &*gcode_ : nullptr; }
-    /// Of a program in G-code: the largest feed of its moves that are no rapids. @param rotary_axes  bit k: axis k
-    /// of the machine is rotary
-    void limit_feed(double max_feed_mm_s, std::uint32_t rotary_axes) noexcept;
+    [[nodiscard]] const GcodeSettings* gcode() const noexcept { return std::get_if<GcodeSettings>(&content_); }
     /// Of a program in G-code: where the machine stands, and its offsets. A place that is not known is taken for 0.
     void begin_at(const MachineState& state);
-    /// Of a program in G-code: the machine's spindle and lines, which must outlive this. Call it before anything is
-    /// read.
-    void use_outputs(const std::optional<SpindleDescription>& spindle, const ProgramLines& lines) noexcept;
-    /// Of a program in G-code: wrong lines are left out, and told to `problems` (null: they end the program).
-    void collect_problems(std::vector<std::string>* problems) noexcept;
     /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.
-    [[nodiscard]] bool lines_within_tolerance() const noexcept { return lines_within_tolerance_; }
+    [[nodiscard]] bool lines_within_tolerance() const noexcept {
+        const auto* const waypoints = std::get_if<Waypoints>(&content_);
+        return waypoints != nullptr && waypoints->within_tolerance;
+    }
     /// Whether the path follows moves within a tolerance: such lines, elements or a program in G-code.
-    [[nodiscard]] bool within_tolerance() const noexcept { return gcode_ || elements_ || lines_within_tolerance_; }
+    [[nodiscard]] bool within_tolerance() const noexcept {
+        return gcode() != nullptr || elements() != nullptr || lines_within_tolerance();
+    }
     [[nodiscard]] const PathTolerances& tolerances() const noexcept { return tolerances_; }
     /// Number of waypoints from which the segments were computed; 0: none, or not known.
     [[nodiscard]] std::uint64_t points_read() const noexcept { return points_read_; }
@@ -89,28 +92,31 @@ public:
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
 private:
-    void open_description(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
-    void open_elements(const PathArguments& arguments, const nlohmann::json& document,
-                       const std::vector<std::string>& machine_axes);
-    void open_gcode(const PathArguments& arguments, PathUse use, const std::vector<std::string>& machine_axes);
-    void compute_from_points(const PointsMethod& method, ScalarKind scalar, PathUse use);
+    struct Waypoints {
+        std::unique_ptr<WaypointRows> opened; // rows() takes it; null: it opens the input again
+        bool within_tolerance = false;
+    };
+    using Content = std::variant<Waypoints, CurveFile, ElementProgram, GcodeSettings>;
+
+    [[nodiscard]] Content open(const PathArguments& arguments, PathUse use, const PathMachine& machine);
+    [[nodiscard]] Content open_waypoints(const PathArguments& arguments, PathUse use);
+    [[nodiscard]] Content open_description(const PathArguments& arguments, PathUse use);
+    [[nodiscard]] ElementProgram open_elements(const PathArguments& arguments, const nlohmann::json& document);
+    [[nodiscard]] GcodeSettings open_gcode(const PathArguments& arguments, PathUse use, const PathMachine& machine);
+    [[nodiscard]] CurveFile compute_from_points(const PointsMethod& method, WaypointRows& rows, PathUse use);
 
     std::string name_;
     std::string path_; // the path that is opened: /dev/stdin for a file that is standard input
     CurveChoice choice_;
     PathTolerances tolerances_;
-    CurveFile file_;
-    std::optional<ElementProgram> elements_;
-    std::optional<GcodeSettings> gcode_;
     const InputFormat* format_;
     std::vector<std::string> machine_axes_;
     std::vector<std::string> axes_;
-    std::unique_ptr<WaypointRows> opened_;
     std::uint64_t points_read_ = 0;
     ScalarKind scalar_;
     bool repeatable_ = true;
     bool read_ahead_ = false;
-    bool lines_within_tolerance_ = false;
+    Content content_; // the last one: what opens it writes the members before
 };
 
 } // namespace splinefeed::host

@@ -25,8 +25,7 @@ public:
         : machine_(&machine), file_(&file), report_(machine) {}
 
     void read(PathInput& input) {
-        input.collect_problems(&problems_);
-        const auto program = move_source(input, ScalarKind::float64);
+        const auto program = move_source(input, ScalarKind::float64, &problems_);
         PerAxis<Position> here{};
         static_cast<void>(program->start(here));
         report_.start(here);
@@ -41,7 +40,6 @@ public:
         } catch (const InputError& error) { // the rest cannot be read
             problems_.emplace_back(error.what());
         }
-        input.collect_problems(nullptr);
     }
 
     [[nodiscard]] const ProgramReport& report() const noexcept { return report_; }
@@ -77,15 +75,13 @@ private:
 int check_program(const RunArguments& arguments) {
     const RunMachine of(arguments.machine, *arguments.path.format);
     const PlanFigures figures = plan_figures(arguments.path.scalar, of.machine);
-    PathInput input(arguments.path, PathUse::executed, of.axes, of.tolerances);
+    PathInput input(arguments.path, PathUse::executed, of.path());
     if (input.gcode() == nullptr) {
         throw UsageError("check takes a program in G-code; for other inputs: splinefeed plan");
     }
     if (!input.repeatable()) {
         throw UsageError("check reads the program twice; give it a file");
     }
-    input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
-    input.use_outputs(of.machine.spindle, of.machine.lines);
     MachineState begins = of.state(arguments.state, arguments.position);
     of.settle_places(begins, arguments.state);
     input.begin_at(begins);

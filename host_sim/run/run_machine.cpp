@@ -30,18 +30,26 @@ double fastest_rapid_mm_s(const MachineSettings& machine) {
 RunMachine::RunMachine(const std::string& file, const InputFormat& format)
     : machine(file.empty() ? default_machine() : read_machine_file(file)),
       max_feed_mm_s(machine.settings.max_feed_mm_s),
-      axes(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes),
-      tolerances(machine.tolerances) {
-    for (unsigned k = 0; k < axes.size(); ++k) {
-        rotary_axes |= machine.settings.axis[k].rotary ? std::uint32_t{1} << k : 0U;
-    }
+      axes(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes) {
     if (format.is_gcode()) {
         machine.settings.max_feed_mm_s = fastest_rapid_mm_s(machine.settings);
     }
+}
+
+PathMachine RunMachine::path() const {
+    PathMachine out{.axes = axes,
+                    .tolerances = machine.tolerances,
+                    .max_feed_mm_s = max_feed_mm_s,
+                    .spindle = machine.spindle ? &*machine.spindle : nullptr,
+                    .lines = &machine.lines};
+    for (unsigned k = 0; k < axes.size(); ++k) {
+        out.rotary_axes |= machine.settings.axis[k].rotary ? std::uint32_t{1} << k : 0U;
+    }
     // Without a jerk limit a jump of the curvature costs nothing: exact paths stay as they are.
     if (!(axis_totals(machine.settings).smoothest > 0.0)) {
-        tolerances.joint_mm = 0.0;
+        out.tolerances.joint_mm = 0.0;
     }
+    return out;
 }
 
 void RunMachine::settle_places(MachineState& state, const std::string& file) const {

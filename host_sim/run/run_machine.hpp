@@ -4,7 +4,7 @@
 
 #include "host_sim/config/machine_description.hpp"
 #include "host_sim/config/state_file.hpp"
-#include "host_sim/program/input_format.hpp"
+#include "host_sim/program/path_input.hpp"
 
 #include <string>
 #include <vector>
@@ -27,11 +27,12 @@ struct RunMachine {
     /// @param file  of the state, for messages
     void settle_places(MachineState& state, const std::string& file) const;
 
+    /// As an input is planned for it; refers to this.
+    [[nodiscard]] PathMachine path() const;
+
     MachineDescription machine;
-    double max_feed_mm_s = 0.0;    ///< as the file states it
-    std::uint32_t rotary_axes = 0; ///< bit k: axis k is rotary
+    double max_feed_mm_s = 0.0; ///< as the file states it
     std::vector<std::string> axes;
-    PathTolerances tolerances;
 };
 
 } // namespace splinefeed::host

@@ -135,9 +135,7 @@ int run(const RunArguments& arguments) {
     MachineDescription& machine = of.machine;
     const ScalarKind scalar = arguments.path.scalar;
     PlanFigures figures = plan_figures(scalar, machine);
-    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.axes, of.tolerances);
-    input.limit_feed(of.max_feed_mm_s, of.rotary_axes);
-    input.use_outputs(machine.spindle, machine.lines);
+    PathInput input(arguments.path, signals ? PathUse::followed : PathUse::executed, of.path());
     MotionArguments motion_arguments = arguments.motion;
     motion_arguments.terminal = arguments.path.input == "-" ? -1 : STDIN_FILENO;
     motion_arguments.begins = of.state(arguments.state, arguments.position, arguments.options.home);

@@ -21,7 +21,7 @@ std::string steps_of(const std::string& program, std::size_t release_at = 1000) 
     PathArguments arguments;
     arguments.input = folder.file("p.ngc");
     arguments.format = input_format("gcode");
-    PathInput input(arguments, PathUse::executed, {"x", "y", "z"});
+    PathInput input(arguments, PathUse::executed, {.axes = {"x", "y", "z"}});
     PathCurve<double> curve(input);
     ElementFeeder feeder(input, curve);
     PathFeeder::Pushed pushed;

@@ -40,7 +40,8 @@ Outcome run(const std::string& program, bool old, const MachineDescription& mach
     std::ofstream(arguments.path.input) << program;
     const PlanFigures figures = plan_figures(ScalarKind::fixed, machine);
     const auto axes = static_cast<std::size_t>(machine.settings.axes);
-    PathInput input(arguments.path, PathUse::executed, {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+    PathInput input(arguments.path, PathUse::executed,
+                    {.axes = {machine.axis_name.begin(), machine.axis_name.begin() + axes}});
     const PathLimits path_limits(machine);
     Outputs outputs(arguments.outputs, input.curve_name(), false, machine);
     Motion motion(arguments.motion, machine, figures, input, path_limits, outputs);

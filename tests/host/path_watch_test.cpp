@@ -28,7 +28,7 @@ struct Teed {
     }
     /// The waypoints of the segments that were passed on, until there is none any more.
     std::vector<std::uint32_t> passed(const PathObservers& observers) {
-        PathInput input(arguments, PathUse::executed, {"x", "y", "z"});
+        PathInput input(arguments, PathUse::executed, {.axes = {"x", "y", "z"}});
         PathCurve<double> curve(input);
         const auto feeder = make_feeder(input, curve);
         PathWatch watch(arguments.input, observers);

@@ -56,7 +56,7 @@ WildRun wild_run(const RunArguments& arguments, std::uint64_t most_segments) {
         const PlanFigures figures = plan_figures(arguments.path.scalar, machine);
         const auto axes = static_cast<std::size_t>(machine.settings.axes);
         PathInput input(arguments.path, PathUse::executed,
-                        {machine.axis_name.begin(), machine.axis_name.begin() + axes});
+                        {.axes = {machine.axis_name.begin(), machine.axis_name.begin() + axes}});
         OptimumTime optimum(machine.settings, figures.direction_jump, arguments.path.scalar);
         PathWatch watch(input.name(), {.optimum = &optimum});
         const auto path = plan_path(input, machine, watch, arguments.motion.window_cells);

@@ -61,7 +61,8 @@ std::string_view without_comment(std::string_view text, std::size_t longest) {
 
 class GcodeMoves final : public MoveSource {
 public:
-    GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines, ScalarKind scalar);
+    GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines, ScalarKind scalar,
+               std::vector<std::string>* problems);
 
     bool start(PerAxis<Position>& position) override;
     bool next(SourceStep& out) override;
@@ -115,14 +116,13 @@ private:
 };
 
 GcodeMoves::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines,
-                       ScalarKind scalar)
-    : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(settings.problems),
+                       ScalarKind scalar, std::vector<std::string>* problems)
+    : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(problems),
       tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
                             : std::nullopt),
       items_(program_items(scalar, program_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
                            settings.max_feed_mm_s)),
-      interpreter_(items_->interpreter()),
-      flow_(*lines_, file_, expression_, interpreter_, parameters_, settings.problems) {}
+      interpreter_(items_->interpreter()), flow_(*lines_, file_, expression_, interpreter_, parameters_, problems) {}
 
 bool GcodeMoves::start(PerAxis<Position>& position) {
     position = settings_->start;
@@ -323,8 +323,9 @@ InputError GcodeMoves::refusal(const SourceStep& step, std::string_view text) co
 } // namespace
 
 std::unique_ptr<MoveSource> gcode_moves(const GcodeSettings& settings, std::string file,
-                                        std::unique_ptr<SourceLines> lines, ScalarKind scalar) {
-    return std::make_unique<GcodeMoves>(settings, std::move(file), std::move(lines), scalar);
+                                        std::unique_ptr<SourceLines> lines, ScalarKind scalar,
+                                        std::vector<std::string>* problems) {
+    return std::make_unique<GcodeMoves>(settings, std::move(file), std::move(lines), scalar, problems);
 }
 
 } // namespace splinefeed::host

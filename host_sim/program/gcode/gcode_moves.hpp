@@ -17,7 +17,9 @@ namespace splinefeed::host {
 /// @param settings  must outlive it
 /// @param file      for messages
 /// @param scalar    in which lengths and feeds of moves are computed
+/// @param problems  gets what is wrong with lines, which are left out; null: the first one ends the program
 [[nodiscard]] std::unique_ptr<MoveSource> gcode_moves(const GcodeSettings& settings, std::string file,
-                                                      std::unique_ptr<SourceLines> lines, ScalarKind scalar);
+                                                      std::unique_ptr<SourceLines> lines, ScalarKind scalar,
+                                                      std::vector<std::string>* problems = nullptr);
 
 } // namespace splinefeed::host
