@@ -19,7 +19,7 @@ template <Scalar S>
     out.unit_log2 = segment.unit_log2;
     out.origin = segment.origin;
     out.end = segment.end;
-    for (unsigned k = 0; k < static_cast<unsigned>(segment.axes); ++k) {
+    for (const unsigned k : indices(segment.axes)) {
         for (unsigned i = 0; i <= static_cast<unsigned>(segment.degree); ++i) {
             out.control[k][i] = to_double(segment.control[k][i]);
         }

@@ -21,7 +21,7 @@ void take_tangent(const std::optional<Tangent>& given, int axes, bool& has, PerA
                         given->components, axes));
     }
     has = true;
-    for (unsigned k = 0; k < static_cast<unsigned>(given->components); ++k) {
+    for (const unsigned k : indices(given->components)) {
         out[k] = from_double<S>(given->value[k]);
     }
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double same_point_mm = 1e-4; // as the core merges waypoints
 
 bool same_point(const WaypointRow& a, const WaypointRow& b) {
-    for (unsigned k = 0; k < static_cast<unsigned>(max_axes); ++k) {
+    for (const unsigned k : indices(max_axes)) {
         if (!(std::fabs(a.position[k] - b.position[k]) < same_point_mm)) {
             return false;
         }

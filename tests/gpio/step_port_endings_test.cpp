@@ -48,7 +48,7 @@ TEST_CASE("a motion that ends in its middle is braked on the path, within the ax
     for (std::size_t kind = 0; kind < endings.size(); ++kind) {
         for (std::uint64_t round = 0; round < static_cast<std::uint64_t>(rounds(8, 80)); ++round) {
             RandomPath random(seed + 1000 * kind + round);
-            const double at_ms = random.between(20.0, 2200.0); // the motion has begun
+            const double at_ms = random.between(100.0, 2200.0); // the motion has begun
             const Ending& ending = endings[kind];
             CAPTURE(ending.name, seed, round, at_ms);
             PortRig rig;
