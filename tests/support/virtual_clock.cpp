@@ -153,7 +153,8 @@ std::unique_ptr<splinefeed::hal::ClockThread> VirtualClock::start(std::function<
     const auto address = reinterpret_cast<std::uintptr_t>(&fiber);
     makecontext(&fiber.context, reinterpret_cast<void (*)()>(&VirtualClock::enter), 2,
                 static_cast<unsigned>(address >> half_bits), static_cast<unsigned>(address));
-    fiber.context.uc_stack = {}; // where AddressSanitizer knows it, it maps its shadow anew at each switch: most of a test's time
+    fiber.context.uc_stack =
+        {}; // where AddressSanitizer knows it, it maps its shadow anew at each switch: most of a test's time
     return std::make_unique<VirtualThread>(*this, fiber);
 }
 
