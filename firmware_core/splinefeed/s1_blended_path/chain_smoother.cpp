@@ -145,12 +145,10 @@ bool ChainSmoother<S>::may_leave_out(const PathElement<S>& element) const noexce
     }
     PerAxis<S> direction{};
     const S length = length_to(element.to, direction);
-    S along{};
     for (const unsigned k : indices(points_.axes())) {
         out[k] = far * out[k];
-        along += out[k] * direction[k];
     }
-    along = larger(S{}, smaller(along, length));
+    const S along = larger(S{}, smaller(dot(out, direction, points_.axes()), length));
     for (const unsigned k : indices(points_.axes())) {
         out[k] = out[k] - along * direction[k];
     }
