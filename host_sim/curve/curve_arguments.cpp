@@ -40,13 +40,14 @@ const CurveMethod& known_method(std::string_view name) {
     throw UsageError(fmt::format("--curve {}: there is no such method; available are {}", in_quotes(name), available));
 }
 
-Parameterization read_parameterization(std::string_view text) {
-    constexpr std::array<std::string_view, 3> names{"uniform", "chordal", "centripetal"};
-    const auto* const found = std::find(names.begin(), names.end(), text);
-    if (found == names.end()) {
-        throw UsageError(fmt::format("--parameterization {}: it must be one of {}", in_quotes(text), listed(names)));
+template <std::size_t count>
+std::size_t read_word(std::string_view option, std::string_view text,
+                      const std::array<std::string_view, count>& words) {
+    const auto* const found = std::find(words.begin(), words.end(), text);
+    if (found == words.end()) {
+        throw UsageError(fmt::format("{} {}: it must be one of {}", option, in_quotes(text), listed(words)));
     }
-    return static_cast<Parameterization>(found - names.begin());
+    return static_cast<std::size_t>(found - words.begin());
 }
 
 // A direction in units of the end chord; or, for methods of all points, the derivative itself, which may be zero: a
@@ -73,6 +74,93 @@ Tangent read_tangent(std::string_view option, std::string_view text, bool deriva
         throw UsageError(fmt::format("{} {} has no direction; give a vector like 1,0,0", option, in_quotes(text)));
     }
     return tangent;
+}
+
+void must_take(const CurveMethod& method, unsigned what, std::string_view option) {
+    if ((method.takes & what) == 0) {
+        throw UsageError(fmt::format("--curve {} has no option {}; leave it out", method.name, option));
+    }
+}
+
+void choose_tolerance(const CurveArguments& arguments, const CurveMethod& method, CurveChoice& choice) {
+    if (!arguments.tolerance) {
+        return;
+    }
+    if ((method.takes & takes_tolerance) == 0) {
+        throw UsageError(fmt::format("--curve {} has no option --tolerance; it goes with --curve polyline, or with "
+                                     "a file of elements (.json)",
+                                     method.name));
+    }
+    choice.tolerance_mm = read_tolerance(*arguments.tolerance);
+    if (choice.closed && choice.tolerance_mm > 0.0) {
+        throw UsageError("--tolerance and --closed exclude each other; repeat the first waypoint at the end instead");
+    }
+}
+
+void choose_words(const CurveArguments& arguments, const CurveMethod& method, CurveChoice& choice) {
+    if (arguments.smooth) {
+        must_take(method, takes_smooth, "--smooth");
+    }
+    if (arguments.parameterization) {
+        must_take(method, takes_parameterization, "--parameterization");
+        choice.parameterization = static_cast<Parameterization>(
+            read_word<3>("--parameterization", *arguments.parameterization, {"uniform", "chordal", "centripetal"}));
+    }
+    if (arguments.knots) {
+        must_take(method, takes_knots, "--knots");
+        static_cast<void>(read_word<2>("--knots", *arguments.knots, {"uniform", "averaged"}));
+        choice.knots = arguments.knots;
+    }
+    if (arguments.factor) {
+        must_take(method, takes_factor, "--factor");
+        choice.constant_factor = read_word<2>("--factor", *arguments.factor, {"chord", "constant"}) == 1;
+    }
+}
+
+void choose_numbers(const CurveArguments& arguments, const CurveMethod& method, CurveChoice& choice) {
+    if (arguments.degree) {
+        must_take(method, takes_degree, "--degree");
+        choice.degree = read_option_integer("--degree", *arguments.degree, method.lowest_degree, method.highest_degree);
+    }
+    if (arguments.curvature_sign) {
+        must_take(method, takes_joints, "--curvature-sign");
+        choice.curvature_sign.reset();
+        if (*arguments.curvature_sign != "auto") {
+            choice.curvature_sign = read_option_integer("--curvature-sign", *arguments.curvature_sign, -1, 1);
+        }
+        if (choice.curvature_sign == 0) {
+            throw UsageError("--curvature-sign 0: it must be 1, -1 or auto");
+        }
+    }
+    const auto take = [&method](const std::optional<std::string>& text, unsigned what, std::string_view option,
+                                double low, double high, std::string_view name, auto& out) {
+        if (text) {
+            must_take(method, what, option);
+            out = read_option_number(option, *text, low, high, name);
+        }
+    };
+    take(arguments.tension, takes_tension, "--tension", 0.0, method.highest_tension, "the tension", choice.tension);
+    take(arguments.beta1, takes_betas, "--beta1", 1e-3, 1e3, "the bias", choice.beta1);
+    take(arguments.beta2, takes_betas, "--beta2", method.lowest_beta2, 1e3, "the tension", choice.beta2);
+    // What FergusonJoint takes in every scalar.
+    take(arguments.lambda, takes_joints, "--lambda", 0.0625, 16.0, "lambda", choice.lambda);
+    if (!arguments.mu || *arguments.mu != "auto") {
+        take(arguments.mu, takes_joints, "--mu", -65536.0, 65536.0, "mu", choice.mu);
+    }
+    take(arguments.corner_angle, takes_corners, "--corner-angle", 0.0, 180.0, "the corner angle in degrees",
+         choice.corner_angle_deg);
+}
+
+void choose_tangent(const std::optional<std::string>& text, std::string_view option, const CurveMethod& method,
+                    const CurveChoice& choice, std::optional<Tangent>& out) {
+    if (!text) {
+        return;
+    }
+    must_take(method, takes_tangents, option);
+    if (choice.closed) {
+        throw UsageError(fmt::format("{} and --closed exclude each other: a closed curve has no ends", option));
+    }
+    out = read_tangent(option, *text, points_method(choice.method) != nullptr);
 }
 
 } // namespace
@@ -102,90 +190,11 @@ CurveChoice choose_curve(const CurveArguments& arguments) {
     choice.parameterization = row.usual;
     choice.corner_angle_deg = row.usual_corner_angle_deg;
     choice.tension = row.usual_tension;
-    const auto require = [&row](unsigned what, std::string_view option) {
-        if ((row.takes & what) == 0) {
-            throw UsageError(fmt::format("--curve {} has no option {}; leave it out", row.name, option));
-        }
-    };
-    if (arguments.tolerance) {
-        if ((row.takes & takes_tolerance) == 0) {
-            throw UsageError(fmt::format("--curve {} has no option --tolerance; it goes with --curve polyline, or with "
-                                         "a file of elements (.json)",
-                                         row.name));
-        }
-        choice.tolerance_mm = read_tolerance(*arguments.tolerance);
-        if (choice.closed && choice.tolerance_mm > 0.0) {
-            throw UsageError(
-                "--tolerance and --closed exclude each other; repeat the first waypoint at the end instead");
-        }
-    }
-    // Reads an option that was given.
-    const auto take = [&require](const std::optional<std::string>& text, unsigned what, std::string_view option,
-                                 double low, double high, std::string_view name, auto& out) {
-        if (text) {
-            require(what, option);
-            out = read_option_number(option, *text, low, high, name);
-        }
-    };
-    if (arguments.smooth) {
-        require(takes_smooth, "--smooth");
-    }
-    if (arguments.parameterization) {
-        require(takes_parameterization, "--parameterization");
-        choice.parameterization = read_parameterization(*arguments.parameterization);
-    }
-    if (arguments.knots) {
-        require(takes_knots, "--knots");
-        if (*arguments.knots != "uniform" && *arguments.knots != "averaged") {
-            throw UsageError(
-                fmt::format("--knots {}: it must be one of uniform, averaged", in_quotes(*arguments.knots)));
-        }
-        choice.knots = arguments.knots;
-    }
-    if (arguments.factor) {
-        require(takes_factor, "--factor");
-        if (*arguments.factor != "chord" && *arguments.factor != "constant") {
-            throw UsageError(
-                fmt::format("--factor {}: it must be one of chord, constant", in_quotes(*arguments.factor)));
-        }
-        choice.constant_factor = *arguments.factor == "constant";
-    }
-    if (arguments.degree) {
-        require(takes_degree, "--degree");
-        choice.degree = read_option_integer("--degree", *arguments.degree, row.lowest_degree, row.highest_degree);
-    }
-    if (arguments.curvature_sign) {
-        require(takes_joints, "--curvature-sign");
-        choice.curvature_sign.reset();
-    }
-    if (arguments.curvature_sign && *arguments.curvature_sign != "auto") {
-        choice.curvature_sign = read_option_integer("--curvature-sign", *arguments.curvature_sign, -1, 1);
-        if (choice.curvature_sign == 0) {
-            throw UsageError("--curvature-sign 0: it must be 1, -1 or auto");
-        }
-    }
-    take(arguments.tension, takes_tension, "--tension", 0.0, row.highest_tension, "the tension", choice.tension);
-    take(arguments.beta1, takes_betas, "--beta1", 1e-3, 1e3, "the bias", choice.beta1);
-    take(arguments.beta2, takes_betas, "--beta2", row.lowest_beta2, 1e3, "the tension", choice.beta2);
-    // What FergusonJoint takes in every scalar.
-    take(arguments.lambda, takes_joints, "--lambda", 0.0625, 16.0, "lambda", choice.lambda);
-    if (!arguments.mu || *arguments.mu != "auto") {
-        take(arguments.mu, takes_joints, "--mu", -65536.0, 65536.0, "mu", choice.mu);
-    }
-    take(arguments.corner_angle, takes_corners, "--corner-angle", 0.0, 180.0, "the corner angle in degrees",
-         choice.corner_angle_deg);
-    for (const auto& [text, option, tangent] :
-         {std::tuple{&arguments.start_tangent, "--start-tangent", &choice.start_tangent},
-          std::tuple{&arguments.end_tangent, "--end-tangent", &choice.end_tangent}}) {
-        if (!*text) {
-            continue;
-        }
-        require(takes_tangents, option);
-        if (choice.closed) {
-            throw UsageError(fmt::format("{} and --closed exclude each other: a closed curve has no ends", option));
-        }
-        *tangent = read_tangent(option, **text, points_method(choice.method) != nullptr);
-    }
+    choose_tolerance(arguments, row, choice);
+    choose_words(arguments, row, choice);
+    choose_numbers(arguments, row, choice);
+    choose_tangent(arguments.start_tangent, "--start-tangent", row, choice, choice.start_tangent);
+    choose_tangent(arguments.end_tangent, "--end-tangent", row, choice, choice.end_tangent);
     return choice;
 }
 
