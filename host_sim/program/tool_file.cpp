@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t largest_table = 1U << 20U;
 constexpr double farthest_mm = 1e6;
 constexpr std::int32_t largest_tool = 99999;
+constexpr std::int32_t largest_orientation = 9;
 
 class ToolLine {
 public:
@@ -36,11 +37,10 @@ public:
             } else if (letter == 'D') {
                 out.diameter = decimal_of(value);
             } else if (letter == 'T') {
-                if (!(value >= 0.0 && value <= largest_tool) || value != std::floor(value)) {
-                    refuse(fmt::format("T{} is no tool; its number is 0 to {}", value, largest_tool));
-                }
-                tool = static_cast<std::int32_t>(value);
-            } else if (std::string_view("PIJQ").find(letter) == std::string_view::npos) {
+                tool = whole(letter, "tool", value, largest_tool);
+            } else if (letter == 'Q') {
+                out.orientation = whole(letter, "orientation of a tip", value, largest_orientation);
+            } else if (std::string_view("PIJ").find(letter) == std::string_view::npos) {
                 refuse(fmt::format("'{}' is no letter of a tool; a line is like T1 P1 Z12.5 D6 ;remark", letter));
             }
             any_ = true;
@@ -54,6 +54,12 @@ public:
     [[noreturn]] void refuse(const std::string& text) const { throw InputError(file_, line_, text); }
 
 private:
+    [[nodiscard]] std::int32_t whole(char letter, std::string_view what, double value, std::int32_t most) const {
+        if (!(value >= 0.0 && value <= most) || value != std::floor(value)) {
+            refuse(fmt::format("{}{} is no {}; its number is 0 to {}", letter, value, what, most));
+        }
+        return static_cast<std::int32_t>(value);
+    }
     void skip() {
         while (!text_.empty() && (text_.front() == ' ' || text_.front() == '\t' || text_.front() == '\r')) {
             text_.remove_prefix(1);
@@ -105,6 +111,7 @@ bool MachineTools::find(std::int32_t tool, ToolOffset& out) const noexcept {
     }
     out = {};
     out.diameter = found->second.diameter;
+    out.orientation = found->second.orientation;
     for (std::size_t k = 0; k < axes_->size(); ++k) {
         const char letter = upper_case((*axes_)[k].front());
         if (const std::size_t at = ToolRow::letters.find(letter); at != std::string_view::npos) {

@@ -28,6 +28,7 @@ TEST_CASE("A table of tools is read as LinuxCNC writes it") {
     const ToolRows rows = table.rows();
     REQUIRE(rows.size() == 3);
     CHECK(rows.at(1).diameter == Decimal{125'000'000});
+    CHECK(rows.at(3).orientation == 2);
     const std::vector<std::string> axes{"x", "z", "a"};
     const MachineTools tools(rows, axes);
     ToolOffset found;

@@ -77,7 +77,7 @@ TEST_CASE("wrong text is refused at its place", "[program][reader]") {
     CHECK(refused("G-1 X1") == said(ProgramError::g_code_unknown, 1, 1));
     CHECK(refused("G1000000 X1") == said(ProgramError::g_code_unknown, 1, 8));
     CHECK(refused("M12") == said(ProgramError::m_code_unknown, 1, 3));
-    CHECK(refused("X1 G41 D3") == said(ProgramError::cutter_radius_unsupported, 4, 3));
+    CHECK(refused("X1 G43.2 H3") == said(ProgramError::tool_offset_sum_unsupported, 4, 5));
     CHECK(refused("G1 X1e3") == said(ProgramError::word_unused, 6, 2));
     CHECK(refused(std::string("G1 X").append(300, '1')) == said(ProgramError::line_too_long, 257, 1));
     CHECK(refused(std::string("G1 X").append(200, '1')) == said(ProgramError::number_out_of_range, 4, 201));

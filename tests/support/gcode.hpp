@@ -63,13 +63,14 @@ private:
     std::map<std::string, Decimal> names_;
 };
 
-/// Tools 1 to 20, 10 mm longer each, 1 mm aside.
+/// Tools 1 to 20, 10 mm longer and 1 mm thicker each, 1 mm aside.
 class TenTools final : public ToolTable {
 public:
     [[nodiscard]] bool find(std::int32_t tool, ToolOffset& out) const noexcept override {
         out = {};
         out.offset[0] = Decimal::from_integer(1);
         out.offset[2] = Decimal::from_integer(10 * tool);
+        out.diameter = Decimal::from_integer(tool);
         return tool >= 1 && tool <= 20;
     }
 };

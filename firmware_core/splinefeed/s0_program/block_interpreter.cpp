@@ -55,6 +55,7 @@ void BlockInterpreter::restart() noexcept {
 // What is left of the block, and a NURBS that has not been ended.
 void BlockInterpreter::drop_block() noexcept {
     nurbs_.abandon();
+    cutter_.clear();
     plan_.clear();
     stage_ = all_done;
     in_pieces_ = false;
@@ -115,9 +116,10 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
     if (ended_) {
         return {};
     }
-    if (stage_ != all_done || in_pieces_) {
+    if (has_steps() || in_pieces_) {
         return {ProgramError::block_pending, 0, 0};
     }
+    cutter_.drop_plan();
     LineKind kind = LineKind::block;
     line_ = line_number;
     BlockStatus status = reader_.read(text, *this, block_, kind);
@@ -152,10 +154,22 @@ BlockStatus BlockInterpreter::execute_percent() noexcept {
     if (nurbs_.is_open()) {
         return {ProgramError::nurbs_not_ended, 1, 1};
     }
+    if (const ProgramStatus status = cutter_.plan_end(); !status.ok()) {
+        return {status.error(), 1, 1};
+    }
+    cutter_.keep_plan();
     block_.clear();
     ended_ = true;
     stage_ = 0;
     return {};
+}
+
+BlockStatus BlockInterpreter::end_of_input() noexcept {
+    const ProgramStatus status = cutter_.plan_end();
+    if (status.ok()) {
+        cutter_.keep_plan();
+    }
+    return {status.error(), 0, 0};
 }
 
 BlockStatus BlockInterpreter::execute() noexcept {
@@ -195,6 +209,7 @@ BlockStatus BlockInterpreter::execute() noexcept {
         nurbs_.go_back(nurbs);
         return status;
     }
+    cutter_.keep_plan();
     any_block_ = true;
     stage_ = 0;
     return {};
@@ -225,6 +240,9 @@ BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
         offsets_changed_ = offsets_changed_ || offsets.tool_number != tool;
         offsets.tool_number = tool;
     }
+    if (const BlockStatus status = set_cutter(); !status.ok()) {
+        return status;
+    }
     if (const BlockStatus status = set_tool_length(); !status.ok()) {
         return status;
     }
@@ -237,7 +255,11 @@ BlockStatus BlockInterpreter::execute_words(const BlockUse& use) noexcept {
     if (const BlockStatus status = set_offsets(); !status.ok()) {
         return status;
     }
+    const AxisPoint from = place_.machine;
     if (const BlockStatus status = plan_motion(use, before); !status.ok()) {
+        return status;
+    }
+    if (const BlockStatus status = plan_contour(from); !status.ok()) {
         return status;
     }
     const bool ends_within = nurbs_.is_open() && block_.has(CodeGroup::stop); // G5.2 of this block

@@ -4,6 +4,7 @@
 
 #include "splinefeed/s0_program/block_reader.hpp"
 #include "splinefeed/s0_program/canned_cycle.hpp"
+#include "splinefeed/s0_program/cutter_path.hpp"
 #include "splinefeed/s0_program/nurbs_curve.hpp"
 #include "splinefeed/s0_program/program_arc.hpp"
 #include "splinefeed/s0_program/program_step.hpp"
@@ -42,6 +43,8 @@ public:
     /// Cost, with the items: about 0.25 us on x86-64 for a line, 0.5 us for an arc (bench/gcode_bench). On a Cortex-M4F
     /// 5,000 to 6,000 instructions for a line, 14,000 for an arc (tests/arm/gcode_proof.sh).
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
+    /// The input has ended without M2: next() gives what cutter compensation holds back. Error: cutter_gouge.
+    BlockStatus end_of_input() noexcept;
     /// Whether M2, M30 or the closing % has been executed: of M2 and M30, when next() has given the motion of the
     /// block.
     [[nodiscard]] bool has_ended() const noexcept { return ended_; }
@@ -56,16 +59,16 @@ public:
 
 protected:
     /// Whether the block has steps left, or may have.
-    [[nodiscard]] bool has_steps() const noexcept { return stage_ != all_done; }
+    [[nodiscard]] bool has_steps() const noexcept { return stage_ != all_done || cutter_.gives(); }
     [[nodiscard]] Pull next_step(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] const AxisLetters& letters() const noexcept { return letters_; }
-    [[nodiscard]] const MoveManner& manner() const noexcept { return plan_.manner; }
+    [[nodiscard]] const MoveManner& manner() const noexcept { return *manner_; }
     [[nodiscard]] const WorkFrame& frame() const noexcept { return frame_; }
     [[nodiscard]] bool plan_counts(int axis) const noexcept {
         return (settings_.rotary_axes >> static_cast<unsigned>(axis) & 1U) == 0;
     }
     [[nodiscard]] Decimal rapid_tolerance() const noexcept { return settings_.rapid_tolerance_mm; }
-    [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
+    [[nodiscard]] std::uint32_t line() const noexcept { return item_line_; }
 
 private:
     friend class SystemParameters;
@@ -97,6 +100,22 @@ private:
     BlockStatus plan_reference_move() noexcept;
     void frame_changed() noexcept;
 
+    // Cutter compensation: cutter_words.cpp.
+    BlockStatus set_cutter() noexcept;
+    BlockStatus find_tool(CutterOffset& out) const noexcept;
+    BlockStatus check_cutter() const noexcept;
+    BlockStatus plan_contour(const AxisPoint& from) noexcept;
+    BlockStatus check_room() noexcept;
+    void count_by_length(const ContourElement& element, const AxisPoint& from) noexcept;
+    [[nodiscard]] bool ends_program() const noexcept;
+    [[nodiscard]] std::array<unsigned, 3> plane_axes(Plane plane) const noexcept;
+    // And: cutter_steps.cpp.
+    void set_tool(AxisPoint& point, PlanePoint to) const noexcept;
+    void give_held(ProgramStep& out, ProgramEvent& event) noexcept;
+    void fill_tool_arc(ProgramStep& out, PlanePoint centre, Decimal sweep_deg) noexcept;
+    void fill_corner(ProgramStep& out) noexcept;
+    [[nodiscard]] bool hold_back(const ProgramStep& step, const ProgramEvent& event) noexcept;
+
     // Motion: motion_words.cpp.
     BlockStatus plan_motion(const BlockUse& use, const ModalState& before) noexcept;
     BlockStatus plan_straight() noexcept;
@@ -118,7 +137,9 @@ private:
     void set_probe(bool contact, const AxisPoint& program) noexcept;
 
     // Steps: block_steps.cpp.
+    [[nodiscard]] Pull next_of_block(ProgramStep& out, ProgramEvent& event) noexcept;
     [[nodiscard]] bool event_is_due() noexcept;
+    [[nodiscard]] int count_events() noexcept;
     void fill_event(ProgramEvent& event) const noexcept;
     [[nodiscard]] bool finish_assignments() noexcept;
     [[nodiscard]] bool end_program() noexcept;
@@ -136,6 +157,10 @@ private:
     Block block_{};
     BlockMotion plan_{};
     AxisPoint emitted_{}; // where the moves that next() has given end
+    CutterPath cutter_{};
+    ArcPlan tool_arc_{};
+    const MoveManner* manner_ = &plan_.manner; // of the item that next() gives
+    std::uint32_t item_line_ = 0;
     CycleWords cycle_words_{};
     NurbsCurve nurbs_{};
     std::variant<CannedCycle, BezierPlan> series_{}; // of plan_: a cycle, or a spline

@@ -43,6 +43,7 @@ struct BlockMotion {
     ProbeCondition probe{};
     bool stops_before = false; ///< the move before it ends at rest
     bool stop_at_end = false;
+    bool is_contour = false; ///< the contour of cutter compensation goes on
     std::uint32_t home_axes = 0;
     MoveManner manner{};
     AxisPoint way{}; ///< of line_by_way: where the first line ends
@@ -54,7 +55,7 @@ struct BlockMotion {
         kind = PlanKind::none;
         move = MoveKind::feed;
         probe = {};
-        stops_before = stop_at_end = false;
+        stops_before = stop_at_end = is_contour = false;
         home_axes = 0;
     }
 };

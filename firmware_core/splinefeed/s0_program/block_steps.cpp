@@ -105,6 +105,16 @@ bool BlockInterpreter::event_is_due() noexcept {
     }
 }
 
+// Of the block, at most.
+int BlockInterpreter::count_events() noexcept {
+    int count = 1; // assignments may change offsets
+    for (stage_ = 0; stage_ < motion; ++stage_) {
+        count += event_is_due() || (stage_ == dwell && block_.code(CodeGroup::non_modal) == 40) ? 1 : 0;
+    }
+    stage_ = all_done;
+    return count + (block_.has(CodeGroup::stop) ? 1 : 0);
+}
+
 void BlockInterpreter::fill_event(ProgramEvent& event) const noexcept {
     event = {};
     event.stops = true;
@@ -189,7 +199,28 @@ bool BlockInterpreter::end_program() noexcept {
 }
 
 Pull BlockInterpreter::next_step(ProgramStep& out, ProgramEvent& event) noexcept {
+    for (;;) {
+        if (cutter_.gives()) {
+            give_held(out, event);
+            return Pull::item;
+        }
+        manner_ = &plan_.manner;
+        item_line_ = line_;
+        const Pull pull = next_of_block(out, event);
+        if (pull != Pull::item || !hold_back(out, event)) {
+            return pull;
+        }
+        out = {};
+    }
+}
+
+Pull BlockInterpreter::next_of_block(ProgramStep& out, ProgramEvent& event) noexcept {
     for (; stage_ <= stop; ++stage_) {
+        if (stage_ == ending && cutter_.holds() && ends_program()) {
+            cutter_.leave();
+            give_held(out, event);
+            return Pull::item;
+        }
         if (stage_ == motion) {
             if (next_motion(out, event)) {
                 if (plan_.kind == PlanKind::none && !block_.has(CodeGroup::stop) && !assigns()) {
@@ -252,12 +283,14 @@ bool BlockInterpreter::next_motion(ProgramStep& out, ProgramEvent& event) noexce
         }
         return true;
     case PlanKind::line:
-        fill_move(out, plan_.to);
-        plan_.kind = PlanKind::none;
-        return true;
     case PlanKind::arc:
+        if (plan_.is_contour && cutter_.goes_around() && sub_step_ == 0) {
+            fill_corner(out);
+            return true;
+        }
         fill_move(out, plan_.to);
-        out.shape = MoveShape::arc;
+        out.is_contour = plan_.is_contour;
+        out.shape = plan_.kind == PlanKind::arc ? MoveShape::arc : MoveShape::line;
         out.arc = &plan_.arc;
         plan_.kind = PlanKind::none;
         return true;

@@ -17,7 +17,7 @@ enum class CodeGroup : std::uint8_t {
     centre_distance, ///< G90.1 G91.1
     feed_mode,       ///< G93 G94
     units,           ///< G20 G21
-    cutter_radius,   ///< G40
+    cutter_radius,   ///< G40 G41 G41.1 G42 G42.1
     tool_length,     ///< G43 G43.1 G49
     retract,         ///< G98 G99
     work_system,     ///< G54 to G59.3

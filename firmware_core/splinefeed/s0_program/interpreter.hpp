@@ -21,7 +21,7 @@ namespace splinefeed {
 /// Moves that the program states as rapids have feed_mm_s 0. Items with stops_before need the machine at rest: whoever
 /// passes moves on sets stop_at_end of the move before them. Moves without length occur; TolerancePath drops them.
 /// All decisions are made by integers, so they are the same for every S and on every target.
-/// Memory: 2 KB with three axes, 3 KB with six.
+/// Memory: 3.5 KB with three axes, 4 KB with six.
 template <Scalar S>
 class Interpreter : public BlockInterpreter {
 public:

@@ -22,6 +22,8 @@ void ModalState::end_program(const ProgramSettings& settings) noexcept {
     plane = Plane::xy;
     incremental = false;
     inverse_time = false;
+    needs_straight = false;
+    cutter = {};
     feed = {};
     feed_in_inches = false;
     motion = settings.dialect == Dialect::grbl ? std::int16_t{0} : std::int16_t{10};

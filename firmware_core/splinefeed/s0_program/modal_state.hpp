@@ -3,15 +3,13 @@
 #pragma once
 
 #include "splinefeed/s0_program/block.hpp"
+#include "splinefeed/s0_program/contour_element.hpp"
 
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
 namespace splinefeed {
 
 enum class SpindleState : std::uint8_t { stopped, clockwise, counterclockwise };
-
-/// Plane by its normal: x (G19), y (G18), z (G17).
-enum class Plane : std::uint8_t { yz, zx, xy };
 
 struct ModalState {
     static constexpr std::int16_t no_motion = 800; ///< G80
@@ -25,6 +23,8 @@ struct ModalState {
     bool inverse_time = false;         ///< G93
     bool feed_in_inches = false;       ///< F was
     bool retract_to_r = false;         ///< G99
+    bool needs_straight = false;       ///< behind G40 the tool is beside the programmed point
+    CutterOffset cutter{};             ///< G41, G42
     PathMode path_mode = PathMode::continuous;
     SpindleState spindle = SpindleState::stopped;
     std::int32_t selected_tool = 0;

@@ -31,10 +31,6 @@ PlanePoint beside(PlanePoint from, PlanePoint to, Decimal distance, Decimal chor
             {from.second.raw + y.raw / 2 + product_quotient(x.raw, distance.raw, length).raw}};
 }
 
-Decimal plane_distance(PlanePoint a, PlanePoint b) noexcept {
-    return hypotenuse(b.first - a.first, b.second - a.second);
-}
-
 BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
                              bool clockwise, PlanePoint& out) noexcept {
     const Decimal radius = modal.in_mm(block.value('r'));

@@ -3,14 +3,9 @@
 #pragma once
 
 #include "splinefeed/s0_program/modal_state.hpp"
+#include "splinefeed/s0_program/plane_vector.hpp"
 
 namespace splinefeed {
-
-/// A point of the arc's plane: its first and its second axis, by the right-hand rule (X Y, Z X, Y Z).
-struct PlanePoint {
-    Decimal first{};
-    Decimal second{};
-};
 
 struct ArcGeometry {
     PlanePoint centre{};

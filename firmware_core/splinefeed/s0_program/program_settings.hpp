@@ -21,6 +21,7 @@ enum class Dialect : std::uint8_t {
 struct ToolOffset {
     PerAxis<Decimal> offset{}; ///< [mm or degrees]
     Decimal diameter{};
+    std::int32_t orientation = 0; ///< of a lathe tool's tip, 1 to 9 as LinuxCNC has it; 0: a mill
 };
 
 /// The tool table of the machine.
@@ -60,7 +61,7 @@ struct ProgramSettings {
     Decimal rapid_tolerance_mm{Decimal::one / 10};    ///< between two rapids in G64
     const IgnoredWord* ignored = nullptr;
     std::size_t ignored_count = 0;
-    const ToolTable* tools = nullptr; ///< none: G43 and G43 H are refused
+    const ToolTable* tools = nullptr; ///< none: G43, G41 and G42 are refused
 };
 
 } // namespace splinefeed

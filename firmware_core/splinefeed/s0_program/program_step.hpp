@@ -14,6 +14,7 @@ struct ProgramStep {
     ProbeCondition probe{};
     bool stops_before = false;
     bool stop_at_end = false;
+    bool is_contour = false; // cutter compensation holds it back
     std::uint32_t home_axes = 0;
     AxisPoint from{};
     AxisPoint to{};

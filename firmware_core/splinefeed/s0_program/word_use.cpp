@@ -36,6 +36,7 @@ std::uint32_t letters_used(const Block& block, std::int16_t motion) noexcept {
     used |= modeless == 40 ? Block::bits("p") : modeless == 100 ? Block::bits("lpr") : 0;
     used |= block.code(CodeGroup::path_mode) == 640 ? Block::bits("pq") : 0;
     used |= block.code(CodeGroup::tool_length) == 430 ? Block::bits("h") : 0;
+    used |= block.code(CodeGroup::cutter_radius) > 400 ? Block::bits("dl") : 0;
     used |= block.code(CodeGroup::override_mode) >= 50 ? Block::bits("p") : 0;
     used |= block.code(CodeGroup::tool_change) == 61 ? Block::bits("q") : 0;
     if (input_output != Block::no_code) {

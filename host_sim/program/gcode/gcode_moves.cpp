@@ -112,6 +112,7 @@ private:
     LineHistory history_;
     ProgramSpindle spindle_;
     bool pending_ = false;           // the block has more items
+    bool is_last_ = false;           // there are no more lines
     std::optional<InputWait> asked_; // nothing is interpreted before the input has answered
 };
 
@@ -178,17 +179,21 @@ bool GcodeMoves::next(SourceStep& out) {
             return false;
         }
         switch (flow_.next(line_)) {
-        case ProgramFlow::Step::end: return false;
+        case ProgramFlow::Step::end:
+            if (const BlockStatus status = interpreter_.end_of_input(); !status.ok()) {
+                report({file_, line_.number, std::uint64_t{0}, describe(status.error)});
+            }
+            is_last_ = true;
+            break;
         case ProgramFlow::Step::nothing: return true;
-        case ProgramFlow::Step::line: break;
+        case ProgramFlow::Step::line: read_line(); break;
         }
-        read_line();
     }
     pending_ = items_->next(item_, out.exact_points) == Pull::item;
     if (pending_) {
         take(out);
     }
-    return true;
+    return pending_ || !is_last_;
 }
 
 void GcodeMoves::take(SourceStep& out) {
@@ -227,7 +232,7 @@ void GcodeMoves::take_move(SourceStep& out) const {
 void GcodeMoves::take_event(SourceStep& out) {
     const ProgramEvent& event = item_.event;
     if (const std::string why = settings_->simulated ? std::string() : impossible(event, *settings_); !why.empty()) {
-        throw InputError(file_, line_.number, std::uint64_t{0}, why);
+        throw InputError(file_, item_.line, std::uint64_t{0}, why);
     }
     out.action.kind = event.kind;
     out.action.number = event.number;
@@ -256,7 +261,7 @@ void GcodeMoves::take_input(SourceStep& out) {
     }
     if (!event.analog && settings_->lines != nullptr && !settings_->lines->inputs.empty()) {
         if (const std::string why = impossible(event, *settings_); !why.empty()) {
-            report({file_, line_.number, std::uint64_t{0}, why});
+            report({file_, item_.line, std::uint64_t{0}, why});
         }
     }
     const bool met = event.wait == InputWait::now || event.wait == InputWait::low;
@@ -276,7 +281,7 @@ void GcodeMoves::take_spindle(SourceStep& out, EventKind kind) {
     }
     const std::string problem = spindle_.take(kind, out.action.value, *settings_->spindle);
     if (!problem.empty()) {
-        report(InputError(file_, line_.number, std::uint64_t{0}, problem));
+        report(InputError(file_, item_.line, std::uint64_t{0}, problem));
     }
     if (!problem.empty() || !spindle_.turn()) {
         return;
