@@ -48,6 +48,23 @@ TEST_CASE("Tool lengths come from the table of --tools") {
     CHECK(tool("plan lengths.ngc --quiet").error.find("; --tools gives one") != std::string::npos);
 }
 
+TEST_CASE("A contour with cutter compensation ends with its file") {
+    const Tool tool;
+    tool.write("tool.tbl", "T3 P3 D4\n");
+    tool.write("contour.ngc", "G21 G90 F600\nG42 D3 G1 X10\nX20\nY9\n");
+    const Call call = tool("plan contour.ngc --tools tool.tbl --elements e.json --quiet");
+    CAPTURE(call.error);
+    REQUIRE(call.status == 0);
+    const json elements = json::parse(tool.read("e.json"))["elements"];
+    REQUIRE(elements.size() == 4);
+    CHECK(elements[2]["type"] == "arc");
+    CHECK(elements[3]["to"][0].get<double>() == Approx(22.0));
+    CHECK(elements[3]["line_number"] == 4);
+    tool.write("contour.ngc", "G21 G90 F600\nG41 D3 G1 X10\nX20\nY1\n");
+    CHECK(tool("check contour.ngc --tools tool.tbl").error.find("contour.ngc:4: the tool would gouge") !=
+          std::string::npos);
+}
+
 TEST_CASE("The examples in G-code run within their tolerance") {
     const Tool tool;
     const std::string machine = " -m " + examples + "three_axis.toml' --quiet --summary json";
@@ -341,6 +358,12 @@ TEST_CASE("A real target refuses inputs that the machine file does not name befo
           "the word to --ignore\n");
     CHECK(error_of(tool, "G1 X10 F3000\nM66 E0 L0\nM2\n", target)
               .rfind("part.ngc:2: input_wait: M66 E reads an analog", 0) == 0);
+}
+
+TEST_CASE("Analog outputs are of the simulated machine") {
+    const Tool tool;
+    CHECK(error_of(tool, "G1 X10 F3000\nM67 E1 Q2\nX20\nM2\n", "--target modbus-tcp://127.0.0.1:1")
+              .rfind("part.ngc:2: analog_output_with_motion: only the simulated machine does this so far", 0) == 0);
 }
 
 TEST_CASE("A dwell behind a message takes its time") {
