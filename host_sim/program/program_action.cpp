@@ -34,6 +34,8 @@ const char* action_name(EventKind kind) noexcept {
     case EventKind::pallet_pause: return "pallet_stop";
     case EventKind::program_end: return "end";
     case EventKind::printer: return "printer";
+    case EventKind::analog_output_with_motion: return "analog_output_with_motion";
+    case EventKind::analog_output: return "analog_output";
     case EventKind::offsets_changed: return "offsets_changed";
     }
     return "unknown";

@@ -188,6 +188,8 @@ TEST_CASE("events, in the order of execution", "[program][interpreter]") {
               "\n" + event(EventKind::offsets_changed) + "\nrapid 1 0 0");
     CHECK(run.text("M62 P3 G0 X2") == event(EventKind::output_on_with_motion, " 3 0") + "\nrapid 2 0 0");
     CHECK(run.text("M65 P0") == event(EventKind::output_off));
+    CHECK(run.text("M67 E2 Q-1.5 G0 X2\nM68 E0 Q3") == event(EventKind::analog_output_with_motion, " 2 -1.5") +
+                                                           "\nrapid 2 0 0\n" + event(EventKind::analog_output, " 0 3"));
     CHECK(run.text("M66 P1 L3 Q2.5") == event(EventKind::input_wait, " stop 1 2.5"));
     CHECK(run.items().back().event.wait == InputWait::high);
     run.interpreter().report_input(Decimal::from_integer(-1));

@@ -39,6 +39,14 @@ void fill_input_output(const Block& block, ProgramEvent& event) noexcept {
     case 63: event.kind = EventKind::output_off_with_motion; break;
     case 64: event.kind = EventKind::output_on; break;
     case 65: event.kind = EventKind::output_off; break;
+    case 67:
+    case 68:
+        event.kind =
+            block.code(CodeGroup::input_output) == 67 ? EventKind::analog_output_with_motion : EventKind::analog_output;
+        event.stops = false;
+        event.number = integer_of(block, 'e');
+        event.value = block.value('q');
+        return;
     default:
         event.kind = EventKind::input_wait;
         event.analog = block.has('e');

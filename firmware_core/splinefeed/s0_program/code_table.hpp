@@ -26,7 +26,7 @@ enum class CodeGroup : std::uint8_t {
     lathe_diameter,  ///< G8
     // M
     stop,          ///< M0 M1 M2 M30 M60
-    input_output,  ///< M62 to M66
+    input_output,  ///< M62 to M68
     tool_change,   ///< M6 M61
     spindle,       ///< M3 M4 M5
     coolant,       ///< M7 M8 M9

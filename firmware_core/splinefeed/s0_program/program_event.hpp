@@ -14,31 +14,33 @@ enum class EventKind : std::uint8_t {
     debug,             ///< (DEBUG,text): the same, to the operator
     spindle_speed,     ///< S: `value` in revolutions per minute; behind M5, if that is in the block
     spindle_clockwise, ///< M3; `value`: the speed [1/min]. Motion waits until it is reached
-    spindle_counterclockwise, ///< M4
-    spindle_stop,             ///< M5
-    tool_select,              ///< T: `number`
-    tool_change,              ///< M6: `number` is the tool that T selected
-    tool_set,                 ///< M61 Q: tool `number` is in the spindle; nothing moves
-    mist_on,                  ///< M7
-    flood_on,                 ///< M8
-    coolant_off,              ///< M9
-    output_on_with_motion,    ///< M62 P: output `number`, with the start of the next move, without a stop
-    output_off_with_motion,   ///< M63 P
-    output_on,                ///< M64 P: at once
-    output_off,               ///< M65 P
-    input_wait,               ///< M66: see InputWait; call Interpreter::report_input with the result
-    overrides_on,             ///< M48: feed and spindle override
-    overrides_off,            ///< M49
-    feed_override,            ///< M50: `number` 1 on, 0 off
-    spindle_override,         ///< M51
-    adaptive_feed,            ///< M52
-    feed_hold,                ///< M53: the input for a feed hold
-    pause,                    ///< M0
-    optional_pause,           ///< M1, only where settings say so
-    pallet_pause,             ///< M60
-    program_end,              ///< M2 (`number` 2), M30 (30) or the closing % (0)
-    printer,                  ///< a heater or a fan: M104 M106 M107 M109 M140 M190 ...: `number`, its S as `value`
-    offsets_changed,          ///< G10, G28.1, G55, G92, M2 ...: Interpreter::offsets() is to be stored
+    spindle_counterclockwise,  ///< M4
+    spindle_stop,              ///< M5
+    tool_select,               ///< T: `number`
+    tool_change,               ///< M6: `number` is the tool that T selected
+    tool_set,                  ///< M61 Q: tool `number` is in the spindle; nothing moves
+    mist_on,                   ///< M7
+    flood_on,                  ///< M8
+    coolant_off,               ///< M9
+    output_on_with_motion,     ///< M62 P: output `number`, with the start of the next move, without a stop
+    output_off_with_motion,    ///< M63 P
+    output_on,                 ///< M64 P: at once
+    output_off,                ///< M65 P
+    input_wait,                ///< M66: see InputWait; call Interpreter::report_input with the result
+    overrides_on,              ///< M48: feed and spindle override
+    overrides_off,             ///< M49
+    feed_override,             ///< M50: `number` 1 on, 0 off
+    spindle_override,          ///< M51
+    adaptive_feed,             ///< M52
+    feed_hold,                 ///< M53: the input for a feed hold
+    pause,                     ///< M0
+    optional_pause,            ///< M1, only where settings say so
+    pallet_pause,              ///< M60
+    program_end,               ///< M2 (`number` 2), M30 (30) or the closing % (0)
+    printer,                   ///< a heater or a fan: M104 M106 M107 M109 M140 M190 ...: `number`, its S as `value`
+    offsets_changed,           ///< G10, G28.1, G55, G92, M2 ...: Interpreter::offsets() is to be stored
+    analog_output_with_motion, ///< M67: output `number` (E) becomes `value` (Q) with the start of the next move
+    analog_output,             ///< M68: the same at once
 };
 
 /// How M66 waits.

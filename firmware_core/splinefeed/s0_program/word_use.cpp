@@ -40,7 +40,7 @@ std::uint32_t letters_used(const Block& block, std::int16_t motion) noexcept {
     used |= block.code(CodeGroup::override_mode) >= 50 ? Block::bits("p") : 0;
     used |= block.code(CodeGroup::tool_change) == 61 ? Block::bits("q") : 0;
     if (input_output != Block::no_code) {
-        used |= input_output == 66 ? Block::bits("elpq") : Block::bits("p");
+        used |= input_output == 66 ? Block::bits("elpq") : input_output > 66 ? Block::bits("eq") : Block::bits("p");
     }
     return used;
 }
@@ -98,7 +98,10 @@ BlockStatus check_needs(const Block& block, Dialect dialect) noexcept {
     }
     if (const std::int16_t code = block.code(CodeGroup::input_output); code != Block::no_code) {
         const BlockStatus status =
-            code == 66 ? check_input(block) : require_count(block, 'p', most_outputs, ProgramError::count_out_of_range);
+            code == 66       ? check_input(block)
+            : code <= 65     ? require_count(block, 'p', most_outputs, ProgramError::count_out_of_range)
+            : block.has('q') ? require_count(block, 'e', most_outputs, ProgramError::analog_output_invalid)
+                             : BlockStatus{ProgramError::analog_output_invalid, 0, 0};
         if (!status.ok()) {
             return status.column > 0 ? status : block.at(status.error, CodeGroup::input_output);
         }
