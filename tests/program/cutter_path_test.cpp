@@ -58,7 +58,9 @@ struct Piece {
 };
 
 Piece piece_of(const ProgramItem<double>& item, Point from) {
-    Piece out{from, {to_mm(item.element.to[0]), to_mm(item.element.to[1])}};
+    Piece out;
+    out.from = from;
+    out.to = {to_mm(item.element.to[0]), to_mm(item.element.to[1])};
     out.is_arc = item.element.shape == MoveShape::arc;
     if (out.is_arc) {
         out.centre = {to_mm(item.element.arc.centre[0]), to_mm(item.element.arc.centre[1])};

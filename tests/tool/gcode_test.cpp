@@ -61,7 +61,7 @@ TEST_CASE("A contour with cutter compensation ends with its file") {
     CHECK(elements[3]["to"][0].get<double>() == Approx(22.0));
     CHECK(elements[3]["line_number"] == 4);
     tool.write("contour.ngc", "G21 G90 F600\nG41 D3 G1 X10\nX20\nY1\n");
-    CHECK(tool("check contour.ngc --tools tool.tbl").error.find("contour.ngc:4: the tool would gouge") !=
+    CHECK(tool("check contour.ngc --tools tool.tbl").output.find("contour.ngc:4: the tool would gouge") !=
           std::string::npos);
 }
 

@@ -113,6 +113,7 @@ private:
     ProgramSpindle spindle_;
     bool pending_ = false;           // the block has more items
     bool is_last_ = false;           // there are no more lines
+    std::uint64_t last_line_ = 0;    // the number of the newest one
     std::optional<InputWait> asked_; // nothing is interpreted before the input has answered
 };
 
@@ -181,12 +182,15 @@ bool GcodeMoves::next(SourceStep& out) {
         switch (flow_.next(line_)) {
         case ProgramFlow::Step::end:
             if (const BlockStatus status = interpreter_.end_of_input(); !status.ok()) {
-                report({file_, line_.number, std::uint64_t{0}, describe(status.error)});
+                report({file_, last_line_, std::uint64_t{0}, describe(status.error)});
             }
             is_last_ = true;
             break;
         case ProgramFlow::Step::nothing: return true;
-        case ProgramFlow::Step::line: read_line(); break;
+        case ProgramFlow::Step::line:
+            last_line_ = line_.number;
+            read_line();
+            break;
         }
     }
     pending_ = items_->next(item_, out.exact_points) == Pull::item;
