@@ -4,19 +4,7 @@ import math
 
 # Okabe and Ito's colours, which colour-blind people can tell apart.
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILLION, PURPLE = "#000000", "#e69f00", "#56b4e9", "#009e73", "#0072b2", "#d55e00", "#cc79a7"
-AXES = {"x": BLUE, "y": VERMILLION, "z": GREEN, "a": PURPLE, "b": ORANGE, "c": SKY}
 GREY, FRAME, GRID = "#555555", "#999999", "#e4e4e4"
-# From dark to light, as lightness alone tells the order (viridis, every eighth).
-RAMP = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"]
-
-
-def shade(fraction):
-    """The colour of the ramp at 0 to 1."""
-    place = min(1.0, max(0.0, fraction)) * (len(RAMP) - 1)
-    low = min(int(place), len(RAMP) - 2)
-    part = place - low
-    ends = [[int(c[i:i + 2], 16) for i in (1, 3, 5)] for c in RAMP[low:low + 2]]
-    return "#" + "".join(f"{round(a + part * (b - a)):02x}" for a, b in zip(*ends))
 
 
 def document(width, height, body):

@@ -7,11 +7,9 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-FIRST_POINTS = "0,0\n10,5\n20,0\n30,5\n40,0\n"  # those of docs/tutorial/first_path.md
 TOLERANCE = 0.11
 
 
@@ -19,18 +17,8 @@ def drawn(script, *arguments):
     return subprocess.run([sys.executable, HERE / script, *arguments], cwd=ROOT, check=True, capture_output=True, text=True).stdout
 
 
-def run_picture(tool, program, machine, folder):
-    trace = folder / "trace.csv"
-    subprocess.run([tool, "run", program, "-m", machine, "--trace", trace, "--quiet"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    return drawn("run.py", "--trace", trace, "--machine", machine, "--waypoints", program)
-
-
-def pictures(tool, folder):
+def pictures(tool):
     """(name, drawing) of each."""
-    first = folder / "part.csv"
-    first.write_text(FIRST_POINTS)
-    yield "path61.svg", run_picture(tool, "examples/path61.csv", "examples/three_axis.toml", folder)
-    yield "first_path.svg", run_picture(tool, first, "examples/three_axis.toml", folder)
     yield "curves.svg", drawn("curves.py", tool)
     yield "binding.svg", drawn("binding.py", "--tool", tool, "--machine", "examples/jerk_limited.toml", "--end", "2.6",
                                "examples/butterfly.json")
@@ -50,14 +38,13 @@ def main():
     check = "--check" in sys.argv[1:]
     build = pathlib.Path([a for a in sys.argv[1:] if a != "--check"][0]).resolve()
     stale, names = [], set()
-    with tempfile.TemporaryDirectory() as folder:
-        for name, made in pictures(build / "bin" / "splinefeed", pathlib.Path(folder)):
-            names.add(name)
-            file = HERE / name
-            if not check:
-                file.write_text(made)
-            elif not file.exists() or not same(made, file.read_text()):
-                stale.append(f"docs/pictures/{name} is not what is drawn today; docs/pictures/make.py {sys.argv[-1]} makes it anew")
+    for name, made in pictures(build / "bin" / "splinefeed"):
+        names.add(name)
+        file = HERE / name
+        if not check:
+            file.write_text(made)
+        elif not file.exists() or not same(made, file.read_text()):
+            stale.append(f"docs/pictures/{name} is not what is drawn today; docs/pictures/make.py {sys.argv[-1]} makes it anew")
     stale += [f"docs/pictures/{file.name}: nothing makes it" for file in HERE.glob("*.svg") if file.name not in names]
     print("\n".join(stale) or f"{len(names)} pictures: {'as drawn today' if check else 'made'}")
     return 1 if stale else 0

@@ -35,7 +35,12 @@ void LimitShare::segment(const FeedSegment& segment) {
     const std::uint64_t ticks = segment.duration_ticks;
     bool bound = false;
     bound_ = {};
-    const auto count = [&](std::uint64_t& share, double value, double limit) {
+    most_used_ = 0.0;
+    const auto count = [&](std::uint64_t& share, double value, double limit, BindingLimit which) {
+        if (limit > 0.0 && value > most_used_ * limit) {
+            most_used_ = value / limit;
+            most_ = which;
+        }
         const bool binds = limit > 0.0 && value >= binding * limit;
         share += binds ? ticks : 0U;
         bound = bound || binds;
@@ -55,25 +60,30 @@ void LimitShare::segment(const FeedSegment& segment) {
         const double acceleration = (m1 - m0) * per_s / duration_s;
         const double jerk = (6.0 * (m0 + m1) - 12.0 * distance) * per_s / (duration_s * duration_s);
         const AxisSettings& limits = machine_.axis[k];
-        bound_.velocity |= count(axis.velocity, std::fabs(velocity), limits.max_velocity_mm_s);
+        const auto of = [k](LimitKind kind) {
+            return BindingLimit{kind, static_cast<std::uint8_t>(k)};
+        };
+        bound_.velocity |= count(axis.velocity, std::fabs(velocity), limits.max_velocity_mm_s, of(LimitKind::velocity));
         bound_.acceleration |=
             count(axis.acceleration, std::fabs(acceleration),
-                  velocity * acceleration < 0.0 ? limits.braking_mm_s2() : limits.max_acceleration_mm_s2);
-        bound_.acceleration |= count(axis.jerk, std::fabs(jerk), limits.max_jerk_mm_s3);
+                  velocity * acceleration < 0.0 ? limits.braking_mm_s2() : limits.max_acceleration_mm_s2,
+                  of(LimitKind::acceleration));
+        bound_.acceleration |= count(axis.jerk, std::fabs(jerk), limits.max_jerk_mm_s3, of(LimitKind::jerk));
         speed_sq += velocity * velocity;
         linear_sq += limits.rotary ? 0.0 : velocity * velocity;
         acceleration_sq += acceleration * acceleration;
         power += velocity * acceleration;
     }
-    const double feed = feeds_.empty() ? machine_.max_feed_mm_s : feeds_.front().mm_s;
-    bound_.feed = count(feed_, std::sqrt(linear_sq > 0.0 ? linear_sq : speed_sq), feed);
+    const double feed = feed_mm_s();
+    bound_.feed = count(feed_, std::sqrt(linear_sq > 0.0 ? linear_sq : speed_sq), feed,
+                        {feed < machine_.max_feed_mm_s ? LimitKind::feed : LimitKind::machine_feed});
     if (bound_.feed && feed < machine_.max_feed_mm_s) {
         programmed_ += ticks;
     }
     const double across_sq = speed_sq > 0.0 ? acceleration_sq - power * power / speed_sq : 0.0;
     const double across = std::sqrt(std::max(across_sq, 0.0));
-    bound_.acceleration |= count(centripetal_, across, machine_.centripetal_mm_s2);
-    bound_.acceleration |= count(chord_, across, chord_mm_s2_);
+    bound_.acceleration |= count(centripetal_, across, machine_.centripetal_mm_s2, {LimitKind::centripetal});
+    bound_.acceleration |= count(chord_, across, chord_mm_s2_, {LimitKind::chord});
     none_ += bound ? 0U : ticks;
     total_ += ticks;
 }

@@ -2,6 +2,7 @@
 // LimitShare: which limits bound, and for which share of the time, measured on the emitted segments.
 #pragma once
 
+#include "host_sim/analysis/limit_kind.hpp"
 #include "host_sim/config/machine_description.hpp"
 
 #include "splinefeed/s4_segment_stream/feed_segment.hpp"
@@ -55,6 +56,12 @@ public:
 
     /// Of the last segment.
     [[nodiscard]] const BoundLimits& bound() const noexcept { return bound_; }
+    /// The limit that the last segment used most, if it bound.
+    [[nodiscard]] BindingLimit binding_limit() const noexcept { return most_used_ >= binding ? most_ : BindingLimit{}; }
+    /// The feed that is wanted of the last segment: the program's, or the machine's where that is lower.
+    [[nodiscard]] double feed_mm_s() const noexcept {
+        return feeds_.empty() ? machine_.max_feed_mm_s : feeds_.front().mm_s;
+    }
     [[nodiscard]] LimitShares shares() const;
 
 private:
@@ -75,6 +82,8 @@ private:
     PerAxis<Axis> axis_{};
     std::deque<Feed> feeds_;
     BoundLimits bound_{};
+    BindingLimit most_{};
+    double most_used_ = 0.0;
     std::uint64_t feed_ = 0;
     std::uint64_t programmed_ = 0;
     std::uint64_t centripetal_ = 0;

@@ -221,6 +221,9 @@ double PathDeviation::from_segments(const PerAxis<double>& point, const AxisSet&
 
 void PathDeviation::found(unsigned set, const Found& found) {
     const Place place{found.distance, found.move, of(found.move).line};
+    if (set == 0 && listener_) {
+        listener_(found.move, found.distance);
+    }
     if (found.distance > largest_[set].distance) {
         largest_[set] = place;
     }

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <string>
 
 namespace splinefeed::host {
@@ -40,6 +41,9 @@ public:
     /// @param joint_mm  tolerance of joints where the programmed path is exact
     /// @param rounding  of the scalar, as a part of the largest coordinate of a move
     PathDeviation(const MachineSettings& settings, double joint_mm, double rounding);
+
+    /// Who is told of every distance of linear axes that is measured, with its move.
+    void tell(std::function<void(std::uint64_t move, double mm)> listener) { listener_ = std::move(listener); }
 
     void start(const PerAxis<Position>& position);
     void move(const PathElement<double>& move, std::uint64_t line);
@@ -110,6 +114,7 @@ private:
     std::uint64_t run_before_ = 0; // last move of the run before
     std::uint64_t run_ = 0;        // of the run of the last segment
     std::array<Place, 2> largest_{};
+    std::function<void(std::uint64_t, double)> listener_;
     std::uint64_t last_whole_ = 0;  // index of the last move that is not negligible
     PerAxis<Position> whole_end_{}; // its end
     double left_out_ = 0.0;         // how far the moves behind it led away from there

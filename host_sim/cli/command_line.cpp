@@ -172,6 +172,7 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
     }
     files.emplace_back("--curve-out", &job.run.outputs.curve);
     files.emplace_back("--elements", &job.run.outputs.elements);
+    files.emplace_back("--report", &job.run.outputs.report);
     const char* on_stdout = nullptr;
     std::error_code ignored;
     for (std::size_t i = 0; i < files.size(); ++i) {

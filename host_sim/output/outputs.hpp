@@ -34,6 +34,7 @@ struct OutputNames {
     std::string trace;
     std::string curve;
     std::string elements;
+    std::string report; ///< of RunReport, which is none of Outputs
     std::vector<std::string> of_segments = std::vector<std::string>(segment_output_kinds().size()); ///< of each kind
     bool prints_summary = true; ///< on standard output
 };

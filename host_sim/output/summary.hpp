@@ -34,6 +34,13 @@ struct ToleranceSummary {
     double exact_stop_s = 0.0;
 };
 
+/// A limit that was raised by a tenth, alone.
+struct RaisedLimit {
+    std::string limit;         ///< for people
+    double cycle_time_s = 0.0; ///< then
+    double gain = 0.0;         ///< part of the cycle time that is saved
+};
+
 struct Summary {
     /// Largest use of an axis's limits on the emitted segments, 1 = at the limit.
     struct AxisUse {
@@ -74,9 +81,11 @@ struct Summary {
     std::uint64_t peak_rss_bytes = 0;          ///< memory of the process; 0: unknown
     std::optional<LimitShares> limit_share;    ///< which limit bound; axes as in limit_use
     std::optional<ToleranceSummary> tolerance; ///< for elements, and lines within a tolerance
-    ProgramSummary program;                    ///< dwells and events
-    std::optional<LinkSummary> link;           ///< for a run on Modbus drives
-    std::optional<GpioSummary> gpio;           ///< for a run on lines of GPIO chips
+    /// The largest gain first; nothing: the program was not planned again.
+    std::optional<std::vector<RaisedLimit>> what_would_help;
+    ProgramSummary program;          ///< dwells and events
+    std::optional<LinkSummary> link; ///< for a run on Modbus drives
+    std::optional<GpioSummary> gpio; ///< for a run on lines of GPIO chips
 };
 
 /// One JSON object, with a line end. An axis without a jerk limit is omitted under limit_use.jerk and limit_share.jerk.

@@ -6,6 +6,7 @@
 #include "host_sim/output/program_report_text.hpp"
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/move_sources.hpp"
+#include "host_sim/report/run_report.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include <fmt/format.h>
@@ -21,19 +22,26 @@ constexpr std::size_t most_problems = 1000;
 /// Every line once: what is wrong with it, and whether its moves stay within the travel.
 class Survey {
 public:
-    Survey(const MachineDescription& machine, const std::string& file)
-        : machine_(&machine), file_(&file), report_(machine) {}
+    /// @param record  gets the moves, too; null: nobody does
+    Survey(const MachineDescription& machine, const std::string& file, MotionRecord* record = nullptr)
+        : machine_(&machine), file_(&file), record_(record), report_(machine) {}
 
     void read(PathInput& input) {
         const auto program = move_source(input, ScalarKind::float64, &problems_);
         PerAxis<Position> here{};
         static_cast<void>(program->start(here));
         report_.start(here);
+        if (record_ != nullptr) {
+            record_->start(here);
+        }
         try {
             for (SourceStep step; problems_.size() < most_problems && program->next(step);) {
                 if (step.kind == StepKind::move) {
                     require_travel(here, step);
                     report_.move(step.move, step.rapid, step.line);
+                    if (record_ != nullptr) {
+                        record_->move(step.move, step.rapid, step.line);
+                    }
                     here = step.move.to;
                 }
             }
@@ -65,6 +73,7 @@ private:
 
     const MachineDescription* machine_;
     const std::string* file_;
+    MotionRecord* record_;
     ProgramReport report_;
     std::vector<std::string> problems_;
     std::set<std::pair<std::uint64_t, unsigned>> outside_; // lines and axes that are among the problems
@@ -88,6 +97,17 @@ int check_program(const RunArguments& arguments) {
     const auto text = arguments.summary == SummaryKind::json ? check_json : check_text;
     Survey survey(of.machine, input.name());
     survey.read(input);
+    if (!survey.problems().empty() && !arguments.outputs.report.empty()) {
+        // The program cannot be planned: the page shows it, and what is wrong.
+        RunReport page(arguments.outputs.report, of.machine, figures.segment_ticks);
+        Survey(of.machine, input.name(), &page.record()).read(input);
+        const Summary summary;
+        page.write({.program = input.name(),
+                    .text_file = arguments.path.input,
+                    .unit = "line",
+                    .stopped = fmt::format("{}", fmt::join(survey.problems(), "\n")),
+                    .summary = &summary});
+    }
     if (!survey.problems().empty()) {
         print_whole(text(survey.report(), of.machine, survey.problems(), 0.0), "the report");
         return 1;
@@ -98,12 +118,24 @@ int check_program(const RunArguments& arguments) {
     motion_arguments.quiet = true;
     motion_arguments.report = &report;
     const PathLimits path_limits(of.machine);
+    std::optional<RunReport> page;
+    if (!arguments.outputs.report.empty()) {
+        motion_arguments.record = &page.emplace(arguments.outputs.report, of.machine, figures.segment_ticks).record();
+    }
     Outputs outputs(arguments.outputs, input.curve_name(), false, of.machine);
     Motion motion(motion_arguments, of.machine, figures, input, path_limits, outputs);
     const std::string stopped = motion.run(std::nullopt);
+    const Summary summary = motion.summary();
+    if (page) {
+        page->write({.program = input.name(),
+                     .text_file = arguments.path.input,
+                     .unit = "line",
+                     .stopped = stopped,
+                     .summary = &summary});
+    }
     print_whole(text(report, of.machine,
                      stopped.empty() ? std::vector<std::string>{} : std::vector<std::string>{stopped},
-                     motion.summary().cycle_time_s),
+                     summary.cycle_time_s),
                 "the report");
     return stopped.empty() ? 0 : 1;
 }

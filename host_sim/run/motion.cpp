@@ -21,11 +21,12 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
                PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target)
     : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), figures_(&figures),
       input_(&input), outputs_(&outputs), state_(arguments.state), start_(arguments.start), report_(arguments.report),
-      target_(target), deviation_(description.settings, input.tolerances().joint_mm,
-                                  input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
+      record_(arguments.record), target_(target),
+      deviation_(description.settings, input.tolerances().joint_mm,
+                 input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
       share_(description.settings), steps_(figures, !arguments.quiet, target, arguments.terminal),
-      program_(outputs.elements(), arguments.report),
+      program_(outputs.elements(), arguments.report, arguments.record),
       watch_(input.name(), {.limits = &path_limits,
                             .writer = outputs.curve(),
                             .error = &error_,
@@ -34,7 +35,13 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
                             .share = &share_}),
       path_(plan_path(input, description, watch_, arguments.window_cells)), feeder_(path_->feeder()),
       machine_(description, figures.segments_per_sample, {.enforce = arguments.enforce, .trace = outputs.trace()}),
-      events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {}
+      events_(arguments.events.empty() ? std::vector<OperatorEvent>{} : read_event_file(arguments.events)) {
+    if (record_ != nullptr) {
+        deviation_.tell([this](std::uint64_t move, double mm) {
+            record_->deviates(feeder_.program()->number_of_move(move) - 1, mm);
+        });
+    }
+}
 
 void Motion::execute_all() {
     FeedSegment segment;
@@ -53,12 +60,16 @@ void Motion::execute_all() {
         }
         if (dwells) {
             come_to(steps_.line());
+            if (record_ != nullptr) {
+                record_->dwells(steps_.line());
+            }
             if (!execute_first(segment)) {
                 break;
             }
             if (report_ != nullptr) {
                 report_->stood(steps_.line(), segment.duration_ticks / (ticks_per_us * 1e6));
             }
+            stood_s_ += segment.duration_ticks / (ticks_per_us * 1e6);
             steps_.stood(segment);
         } else if (pull(segment)) {
             steps_.begin(segment, machine_.cycle_time_s());
@@ -140,6 +151,9 @@ bool Motion::pull(FeedSegment& segment) {
 void Motion::operate() {
     constexpr double same_s = 1e-9;
     for (; operated_ < events_.size() && events_[operated_].time_s <= machine_.cycle_time_s() + same_s; ++operated_) {
+        if (record_ != nullptr) {
+            record_->operated(machine_.cycle_time_s(), events_[operated_]);
+        }
         switch (events_[operated_].operation) {
         case Operation::hold: path_->hold(); break;
         case Operation::resume: path_->resume(); break;
@@ -189,6 +203,9 @@ bool Motion::stand() {
     if (held_by_target_ || (operated_ == events_.size() && !held_by_user_)) {
         return false;
     }
+    if (record_ != nullptr) {
+        record_->waits(MotionRecord::Why::held);
+    }
     FeedSegment segment;
     return path_->stand(segment) && execute(segment);
 }
@@ -220,7 +237,11 @@ void Motion::pass(std::uint32_t row) {
     row_ = row;
     feeder_.passed(row);
     passed_ = feeder_.whole_row(row) + 1;
-    come_to(feeder_.line_of_row(row));
+    const std::uint64_t line = feeder_.line_of_row(row);
+    if (record_ != nullptr) {
+        record_->come_to(passed_ - 1, input_->segments() == nullptr ? line : passed_, input_->gcode() != nullptr);
+    }
+    come_to(line);
 }
 
 // A line of a program.
@@ -245,6 +266,9 @@ void Motion::read() {
         read_all_ = !feeder_.more(pushed);
         if (!read_all_ && pushed.on_path) {
             error_.waypoint(pushed.index, pushed.position);
+            if (record_ != nullptr) {
+                record_->waypoint(pushed.position);
+            }
         }
         if (!read_all_) {
             measure(pushed);
@@ -272,6 +296,9 @@ bool Motion::execute_first(FeedSegment& segment) {
 // A straight line at the machine's limits, before the path. False: it was held, or the run is over.
 bool Motion::move_to(FeedSegment& first, const PerAxis<double>& from, const PerAxis<double>& to) {
     way_.emplace(*description_, from, to, description_->settings.max_feed_mm_s);
+    if (record_ != nullptr) {
+        record_->approach(true);
+    }
     FeedSegment segment;
     for (;;) {
         obey_target();
@@ -291,6 +318,9 @@ bool Motion::move_to(FeedSegment& first, const PerAxis<double>& from, const PerA
         return false;
     }
     way_.reset();
+    if (record_ != nullptr) {
+        record_->approach(false);
+    }
     first.start = segments_ > 0 ? segment.end : first.start; // to the last digit
     rests_ = 0;                                              // those of the path count
     return true;
@@ -312,6 +342,9 @@ bool Motion::execute(FeedSegment& segment) {
         return false;
     }
     share_.segment(segment);
+    if (record_ != nullptr) {
+        record_->segment(segment, share_);
+    }
     if (target_ != nullptr && !target_->submit(segment, line_, passed_)) {
         stopped_ = target_->ending();
         return false;

@@ -10,6 +10,7 @@
 #include "host_sim/planning/planned_path.hpp"
 #include "host_sim/planning/straight_motion.hpp"
 #include "host_sim/program/event_file.hpp"
+#include "host_sim/report/motion_record.hpp"
 #include "host_sim/run/path_watch.hpp"
 #include "host_sim/run/program_observer.hpp"
 #include "host_sim/run/program_steps.hpp"
@@ -38,6 +39,7 @@ struct MotionArguments {
     StateKeeper* state = nullptr;    ///< of offsets and position; null: nothing keeps them
     const RunStart* start = nullptr; ///< of a machine that stands somewhere; null: it stands where the path begins
     ProgramReport* report = nullptr; ///< gets the moves of a program and their times; null: nobody does
+    MotionRecord* record = nullptr;  ///< gets what the machine does, for a page; null: there is none
 };
 
 /// One run. A waypoint is read only when the planner has no segment left.
@@ -61,6 +63,8 @@ public:
     [[nodiscard]] std::string run(std::optional<std::uint64_t> waypoints);
 
     [[nodiscard]] Summary summary() const;
+    /// Time of the run in which the machine stood for the program.
+    [[nodiscard]] double stood_s() const noexcept { return stood_s_; }
     /// Events of the operator whose time was after the end of the run.
     [[nodiscard]] std::span<const OperatorEvent> events_not_reached() const noexcept {
         return std::span(events_).subspan(operated_);
@@ -107,6 +111,7 @@ private:
     const RunStart* start_;             // null: there is nothing to move to
     std::optional<StraightMotion> way_; // to where the path begins, while the machine is on it
     ProgramReport* report_;
+    MotionRecord* record_;
     Supervision* target_; // null: only the simulated machine
     WaypointError error_;
     PathDeviation deviation_;
@@ -128,6 +133,7 @@ private:
     std::uint64_t passed_ = 0;         // moves up to it, of a program
     std::uint64_t line_ = 0;           // of that row or of the dwell behind it, of a program; 0: unknown
     std::uint64_t segments_ = 0;
+    double stood_s_ = 0.0;
     std::uint64_t rests_ = 0; // number of instants at which all axes stood still
     bool read_all_ = false;
     bool moves_ = false;                      // the axes move at the end of the last segment

@@ -10,6 +10,12 @@ void ProgramObserver::see(const PathFeeder::Pushed& pushed) {
     if (report_ != nullptr) {
         tell(pushed, *report_);
     }
+    if (record_ != nullptr && pushed.start) {
+        record_->start(pushed.position);
+    }
+    if (record_ != nullptr && pushed.move != nullptr) {
+        record_->move(pushed.move->move, pushed.move->rapid, pushed.move->line);
+    }
 }
 
 void ProgramObserver::write(const PathFeeder::Pushed& pushed, ElementWriter& writer) {

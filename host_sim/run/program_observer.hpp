@@ -5,13 +5,15 @@
 #include "host_sim/analysis/program_report.hpp"
 #include "host_sim/output/element_writer.hpp"
 #include "host_sim/planning/path_feeder.hpp"
+#include "host_sim/report/motion_record.hpp"
 
 namespace splinefeed::host {
 
 class ProgramObserver {
 public:
-    /// Null: not used. Both must outlive it.
-    ProgramObserver(ElementWriter* writer, ProgramReport* report) : writer_(writer), report_(report) {}
+    /// Null: not used. All must outlive it.
+    ProgramObserver(ElementWriter* writer, ProgramReport* report, MotionRecord* record)
+        : writer_(writer), report_(report), record_(record) {}
 
     /// What the feeder has read. Throws OutputError.
     void see(const PathFeeder::Pushed& pushed);
@@ -22,6 +24,7 @@ private:
 
     ElementWriter* writer_;
     ProgramReport* report_;
+    MotionRecord* record_;
 };
 
 } // namespace splinefeed::host

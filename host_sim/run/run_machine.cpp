@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -28,10 +29,12 @@ double fastest_rapid_mm_s(const MachineSettings& machine) {
 } // namespace
 
 RunMachine::RunMachine(const std::string& file, const InputFormat& format)
-    : machine(file.empty() ? default_machine() : read_machine_file(file)),
-      max_feed_mm_s(machine.settings.max_feed_mm_s),
+    : RunMachine(file.empty() ? default_machine() : read_machine_file(file), format.is_gcode()) {}
+
+RunMachine::RunMachine(MachineDescription stated, bool gcode)
+    : machine(std::move(stated)), max_feed_mm_s(machine.settings.max_feed_mm_s),
       axes(machine.axis_name.begin(), machine.axis_name.begin() + machine.settings.axes) {
-    if (format.is_gcode()) {
+    if (gcode) {
         machine.settings.max_feed_mm_s = fastest_rapid_mm_s(machine.settings);
     }
 }
@@ -50,6 +53,12 @@ PathMachine RunMachine::path() const {
         out.tolerances.joint_mm = 0.0;
     }
     return out;
+}
+
+MachineDescription RunMachine::as_stated() const {
+    MachineDescription stated = machine;
+    stated.settings.max_feed_mm_s = max_feed_mm_s;
+    return stated;
 }
 
 void RunMachine::settle_places(MachineState& state, const std::string& file) const {

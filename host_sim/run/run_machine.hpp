@@ -17,6 +17,11 @@ struct RunMachine {
     /// Reads the file. Throws InputError.
     /// @param file  empty: the default machine
     RunMachine(const std::string& file, const InputFormat& format);
+    /// Of a machine as a file states it. @param gcode  the input is a program in G-code
+    RunMachine(MachineDescription stated, bool gcode);
+
+    /// The machine as its file states it.
+    [[nodiscard]] MachineDescription as_stated() const;
 
     /// Where the machine stands as far as it is told, and its offsets. Throws InputError and UsageError.
     /// @param state  a file; empty: none   @param position  "X,Y,Z"; empty: as the state says

@@ -13,12 +13,14 @@
 #include "host_sim/planning/planned_path.hpp"
 #include "host_sim/ports/run_target.hpp"
 #include "host_sim/ports/target_table.hpp"
+#include "host_sim/report/run_report.hpp"
 #include "host_sim/run/motion.hpp"
 #include "host_sim/run/output_table.hpp"
 #include "host_sim/run/path_watch.hpp"
 #include "host_sim/run/run_machine.hpp"
 #include "host_sim/run/run_start.hpp"
 #include "host_sim/run/supervision.hpp"
+#include "host_sim/run/what_would_help.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -123,6 +125,15 @@ RunStart find_start(const RunArguments& arguments, const RunMachine& of, RunTarg
     return start;
 }
 
+ReportFacts report_facts(const RunArguments& arguments, const PathInput& input, const Summary& summary,
+                         const std::string& stopped) {
+    return {.program = input.name(),
+            .text_file = input.repeatable() ? arguments.path.input : std::string(),
+            .unit = input.segments() == nullptr ? "line" : "segment",
+            .stopped = stopped,
+            .summary = &summary};
+}
+
 } // namespace
 
 int run(const RunArguments& arguments) {
@@ -173,11 +184,29 @@ int run(const RunArguments& arguments) {
         tell("splinefeed: note: this is a simulation; to move the drives of {}, add --target modbus\n",
              printable(machine.file));
     }
+    std::optional<RunReport> report;
+    if (!arguments.outputs.report.empty()) {
+        motion_arguments.record = &report.emplace(arguments.outputs.report, machine, figures.segment_ticks).record();
+    }
     Motion motion(motion_arguments, machine, figures, input, path_limits, outputs,
                   supervision ? &*supervision : nullptr);
     const std::string stopped = motion.run(waypoints);
     outputs.commit();
-    const Summary summary = motion.summary();
+    Summary summary = motion.summary();
+    if (arguments.helps && !signals && input.repeatable() && summary.optimum_time_s &&
+        (report || arguments.summary != SummaryKind::none)) {
+        summary.what_would_help = what_would_help({.path = &arguments.path,
+                                                   .machine = &of,
+                                                   .begins = &motion_arguments.begins,
+                                                   .window_cells = arguments.motion.window_cells,
+                                                   .standing_s = motion.stood_s(),
+                                                   .waypoints = waypoints,
+                                                   .quiet = arguments.motion.quiet},
+                                                  summary);
+    }
+    if (report) {
+        report->write(report_facts(arguments, input, summary, stopped));
+    }
     warn_of_events(arguments.motion, motion.events_not_reached(), summary.cycle_time_s);
     print(summary, arguments.summary);
     supervision.reset(); // from here on a signal says nothing any more: the sentence is told once

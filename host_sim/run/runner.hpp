@@ -22,6 +22,7 @@ struct RunArguments {
     std::string position;       ///< where the machine stands, "X,Y,Z"; empty: as the state says
     RunOptions options;
     OutputNames outputs;
+    bool helps = true; ///< the summary says what would help, where the program can be planned again
     SummaryKind summary = SummaryKind::text;
 };
 

@@ -53,11 +53,26 @@ TEST_CASE("the JSON summary has the keys of the contract, in order") {
     for (const auto& item : json.items()) {
         keys.push_back(item.key());
     }
-    CHECK(keys == std::vector<std::string>{"cycle_time_s", "length_mm", "waypoints", "curve_segments", "feed_segments",
-                                           "scalar", "curve", "max_speed_mm_s", "limit_use", "waypoint_error_mm",
-                                           "optimum_time_s", "planning_time_s", "memory_bytes", "stopped",
-                                           "window_limited", "stops", "smoothing_bound_mm", "peak_rss_bytes",
-                                           "limit_share"});
+    CHECK(keys == std::vector<std::string>{"cycle_time_s",
+                                           "length_mm",
+                                           "waypoints",
+                                           "curve_segments",
+                                           "feed_segments",
+                                           "scalar",
+                                           "curve",
+                                           "max_speed_mm_s",
+                                           "limit_use",
+                                           "waypoint_error_mm",
+                                           "optimum_time_s",
+                                           "planning_time_s",
+                                           "memory_bytes",
+                                           "stopped",
+                                           "window_limited",
+                                           "stops",
+                                           "smoothing_bound_mm",
+                                           "peak_rss_bytes",
+                                           "limit_share",
+                                           "what_would_help"});
     CHECK(json["cycle_time_s"] == 12.3456789);
     CHECK(json["feed_segments"] == 12346);
     CHECK(json["scalar"] == "fixed");
@@ -95,10 +110,22 @@ TEST_CASE("the shares of the limits are in both forms") {
     const std::string text = to_text(summary);
     CHECK(contains(text, "\n\nshare of the time at        velocity  acceleration          jerk\n"));
     CHECK(contains(text, "  axis c                       0.0 %        75.0 %      no limit\n"));
-    CHECK(contains(text, "\n\nThe acceleration limit of axis c binds 75.0 %"));
     summary.cycle_time_s = 0.0; // nothing moved
     CHECK_FALSE(contains(to_text(summary), "share of the time"));
-    CHECK_FALSE(contains(to_text(summary), "binds"));
+}
+
+TEST_CASE("what would help is in both forms, the small gains in JSON only") {
+    Summary summary = sample();
+    CHECK(nlohmann::json::parse(to_json(summary))["what_would_help"].is_null());
+    CHECK_FALSE(contains(to_text(summary), "what would help"));
+    summary.what_would_help = {{"jerk of x", 12.0, 0.028}, {"programmed feed", 12.34, 0.0001}};
+    const auto json = nlohmann::json::parse(to_json(summary))["what_would_help"];
+    REQUIRE(json.size() == 2);
+    CHECK(json[0] == nlohmann::json::parse(R"({"limit": "jerk of x", "cycle_time_s": 12.0, "gain": 0.028})"));
+    CHECK(contains(to_text(summary), "\n  jerk of x                12.000000 s  2.8 % less\n"));
+    CHECK_FALSE(contains(to_text(summary), "programmed feed"));
+    summary.what_would_help->clear();
+    CHECK(contains(to_text(summary), "no limit alone"));
 }
 
 TEST_CASE("the text is a table with units") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// limit_advice: the shares of the limits as text: a table, and advice which limit to raise.
+// share_table: the shares of the limits as text.
 #pragma once
 
 #include "host_sim/analysis/limit_share.hpp"
@@ -11,8 +11,5 @@ namespace splinefeed::host {
 /// One row per axis and one per limit of the path, in percent of the time; each ends with a line end.
 /// @param names  names of the axes, as many as there are in `shares`
 [[nodiscard]] std::string share_table(const std::vector<std::string>& names, const LimitShares& shares);
-
-/// One sentence that names the limit that bound longest, and a line end.
-[[nodiscard]] std::string advice(const std::vector<std::string>& names, const LimitShares& shares);
 
 } // namespace splinefeed::host

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: MIT
+# Writes OUTPUT, a source that holds the page FILE as texts: before its mark <!--DATA--> and behind it.
+file(READ "${FILE}" page)
+string(FIND "${page}" "<!--DATA-->" mark)
+if(mark EQUAL -1)
+    message(FATAL_ERROR "${FILE} has no <!--DATA-->")
+endif()
+set(code "// Made from host_sim/report/page/dist/report.html by cmake/embed_page.cmake.\n#include \"host_sim/report/page_template.hpp\"\n\n#include <array>\n\nnamespace splinefeed::host {\n\nnamespace {\n\n")
+string(SUBSTRING "${page}" 0 ${mark} head)
+math(EXPR mark "${mark} + 11")
+string(SUBSTRING "${page}" ${mark} -1 tail)
+foreach(part head tail)
+    string(APPEND code "constexpr std::string_view ${part}[]{\n")
+    string(LENGTH "${${part}}" length)
+    # A text of more than 65536 characters need not be accepted.
+    foreach(at RANGE 0 ${length} 60000)
+        string(SUBSTRING "${${part}}" ${at} 60000 piece)
+        string(APPEND code "    R\"page!(${piece})page!\",\n")
+    endforeach()
+    string(APPEND code "};\n\n")
+endforeach()
+string(APPEND code "} // namespace\n\nstd::span<const std::string_view> page_head() noexcept {\n    return head;\n}\n\nstd::span<const std::string_view> page_tail() noexcept {\n    return tail;\n}\n\n} // namespace splinefeed::host\n")
+file(WRITE "${OUTPUT}" "${code}")

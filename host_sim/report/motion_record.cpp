@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/report/motion_record.hpp"
+
+#include "host_sim/analysis/path_strand.hpp"
+#include "host_sim/machine/segment_cubic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double longest_piece_s = 0.004; // of a segment, without a point of the path inside
+constexpr double per_s = ticks_per_us * 1e6;
+
+double inverse(double limit) {
+    return limit > 0.0 ? 1.0 / limit : 1.0;
+}
+
+float rounded(double value) {
+    return static_cast<float>(value);
+}
+
+} // namespace
+
+MotionRecord::MotionRecord(const MachineDescription& machine, std::uint32_t segment_ticks)
+    : machine_(&machine), axes_(static_cast<unsigned>(machine.settings.axes)), values_(1 + 3 * std::size_t{axes_}),
+      strips_(values_.size(), segment_ticks), path_(machine.settings.axes, most_points),
+      programmed_(machine.settings.axes, most_programmed) {
+    for (unsigned k = 0; k < axes_; ++k) {
+        const AxisSettings& axis = machine.settings.axis[k];
+        factors_[k] = {1.0 / (static_cast<double>(units_per_count) * axis.steps_per_mm),
+                       inverse(axis.max_velocity_mm_s),
+                       inverse(axis.max_acceleration_mm_s2),
+                       inverse(axis.braking_mm_s2()),
+                       inverse(axis.max_jerk_mm_s3),
+                       !axis.rotary};
+    }
+}
+
+void MotionRecord::start(const PerAxis<Position>& position) {
+    here_ = position;
+    ThinnedPath::Point point{.keep = true};
+    for (unsigned k = 0; k < axes_; ++k) {
+        point.position[k] = to_mm(position[k]);
+    }
+    programmed_.add(point);
+}
+
+void MotionRecord::move(const PathElement<double>& move, bool rapid, std::uint64_t line) {
+    rows_.push_back({line, rapid, move.mode == PathMode::exact_stop, move.stop_at_end});
+    ThinnedPath::Point point{.line = line,
+                             .kind = static_cast<std::uint8_t>(rapid ? PieceKind::rapid : PieceKind::feed)};
+    const PathStrand strand(here_, move, static_cast<int>(axes_));
+    PerAxis<double> before{};
+    for (unsigned k = 0; k < axes_; ++k) {
+        before[k] = to_mm(here_[k]);
+    }
+    for (int i = 1; i <= strand.parts(); ++i) {
+        point.position = strand.at(static_cast<double>(i) / strand.parts());
+        double way_sq = 0.0;
+        for (unsigned k = 0; k < axes_; ++k) {
+            way_sq += (point.position[k] - before[k]) * (point.position[k] - before[k]);
+        }
+        programmed_mm_ += std::sqrt(way_sq);
+        point.length_mm = programmed_mm_;
+        point.edge = i == strand.parts();
+        before = point.position;
+        programmed_.add(point);
+    }
+    here_ = move.to;
+}
+
+void MotionRecord::waypoint(const PerAxis<Position>& position) {
+    too_many_ = too_many_ || waypoints_.size() == most_waypoints;
+    if (too_many_) {
+        waypoints_ = {};
+        return;
+    }
+    PerAxis<double>& point = waypoints_.emplace_back();
+    for (unsigned k = 0; k < axes_; ++k) {
+        point[k] = to_mm(position[k]);
+    }
+}
+
+void MotionRecord::deviates(std::uint64_t row, double mm) {
+    for (; row / rows_together_ >= most_rows; rows_together_ *= 2) {
+        for (std::size_t i = 0; i < deviations_.size(); ++i) {
+            deviations_[i / 2] = i % 2 == 0 ? deviations_[i] : std::max(deviations_[i / 2], deviations_[i]);
+        }
+        deviations_.resize((deviations_.size() + 1) / 2);
+    }
+    const std::size_t index = row / rows_together_;
+    deviations_.resize(std::max(deviations_.size(), index + 1));
+    deviations_[index] = std::max(deviations_[index], rounded(mm));
+}
+
+void MotionRecord::come_to(std::uint64_t row, std::uint64_t line, bool is_move) {
+    while (!rows_.empty() && first_row_ < row) {
+        rows_.pop_front();
+        ++first_row_;
+    }
+    now_ = is_move && !rows_.empty() && first_row_ == row ? rows_.front() : Row{};
+    now_.line = line;
+    row_ = row;
+}
+
+PerAxis<double> MotionRecord::place(const FeedSegment& segment, double u) const {
+    PerAxis<double> out{};
+    for (unsigned k = 0; k < axes_; ++k) {
+        const auto start = static_cast<double>(segment.start[k]);
+        const auto way = static_cast<double>(segment.end[k] - segment.start[k]);
+        const auto m0 = static_cast<double>(segment.start_velocity[k]);
+        const auto m1 = static_cast<double>(segment.end_velocity[k]);
+        const double moved = u * (m0 + u * (3.0 * way - 2.0 * m0 - m1 + u * (m0 + m1 - 2.0 * way)));
+        out[k] = (start + (u < 1.0 ? moved : way)) * factors_[k].mm_per_unit;
+    }
+    return out;
+}
+
+// Velocity, acceleration and jerk over the whole segment: extremes lie at its ends and where the acceleration is 0.
+void MotionRecord::measure(const FeedSegment& segment, double seconds) {
+    double speed_sq[3] = {}; // at the begin, in the middle, at the end
+    double turning_sq[3] = {};
+    acceleration_ = jerk_ = 0.0F;
+    for (unsigned k = 0; k < axes_; ++k) {
+        const AxisFactors& of = factors_[k];
+        const SegmentCubic cubic(segment, k, 1.0 / of.mm_per_unit, seconds);
+        const double velocity[3] = {cubic.velocity(0.0), cubic.velocity(0.5), cubic.velocity(1.0)};
+        double low = std::min(velocity[0], velocity[2]);
+        double high = std::max(velocity[0], velocity[2]);
+        if (cubic.peak_u() > 0.0) {
+            low = std::min(low, cubic.velocity(cubic.peak_u()));
+            high = std::max(high, cubic.velocity(cubic.peak_u()));
+        }
+        for (int i = 0; i < 3; ++i) {
+            (of.linear ? speed_sq : turning_sq)[i] += velocity[i] * velocity[i];
+        }
+        values_[1 + 3 * k] = {rounded(low * of.per_velocity), rounded(high * of.per_velocity)};
+        double share[2] = {};
+        for (int i = 0; i < 2; ++i) {
+            const double acceleration = cubic.acceleration(i);
+            const double at = velocity[2 * i] == 0.0 ? velocity[1] : velocity[2 * i];
+            share[i] = acceleration * (at * acceleration < 0.0 ? of.per_braking : of.per_speeding);
+            acceleration_ = std::max(acceleration_, rounded(std::fabs(share[i])));
+        }
+        values_[2 + 3 * k] = {rounded(std::min(share[0], share[1])), rounded(std::max(share[0], share[1]))};
+        const float jerk = rounded(cubic.jerk() * of.per_jerk);
+        values_[3 + 3 * k] = {jerk, jerk};
+        if (machine_->settings.axis[k].max_jerk_mm_s3 > 0.0) {
+            jerk_ = std::max(jerk_, std::fabs(jerk));
+        }
+    }
+    if (!(speed_sq[0] + speed_sq[1] + speed_sq[2] > 0.0)) {
+        std::copy(std::begin(turning_sq), std::end(turning_sq), std::begin(speed_sq));
+    }
+    const auto [low, high] = std::minmax({speed_sq[0], speed_sq[1], speed_sq[2]});
+    values_[0] = {rounded(std::sqrt(low)), rounded(std::sqrt(high))};
+}
+
+void MotionRecord::segment(const FeedSegment& segment, const LimitShare& share) {
+    const double seconds = segment.duration_ticks / per_s;
+    const double begin_s = static_cast<double>(ticks_) / per_s;
+    const std::uint8_t code = share.binding_limit().code();
+    measure(segment, seconds);
+    double way_sq = 0.0;
+    PerAxis<double> way{};
+    for (unsigned k = 0; k < axes_; ++k) {
+        way[k] = static_cast<double>(segment.end[k] - segment.start[k]) * factors_[k].mm_per_unit;
+        way_sq += way[k] * way[k];
+    }
+    const double way_mm = std::sqrt(way_sq);
+    strips_.add(ticks_, seconds, values_.data(), length_mm_, share.feed_mm_s(), code);
+    lines_.add(now_.line, begin_s, seconds, code);
+    if (!has_last_) {
+        last_ = {.position = place(segment, 0.0), .line = now_.line, .keep = true};
+        has_last_ = true;
+    }
+    const bool stands = segment.ends_at_rest() && segment.start_velocity == PerAxis<std::int64_t>{} && !(way_mm > 0.0);
+    if (stands) {
+        stand(begin_s, seconds);
+    } else {
+        if (open_stop_) {
+            turn(way);
+        }
+        travel(segment, begin_s, seconds, way_mm, code);
+        direction_ = way_mm > 0.0 ? way : direction_;
+    }
+    ticks_ += segment.duration_ticks;
+    if (!stands && segment.ends_at_rest()) {
+        ++stop_count_;
+        open_stop_ = stops_.size() < most_stops;
+        last_.keep = true;
+        if (open_stop_) {
+            const Why why = now_.exact_stop ? Why::exact_stop : now_.stop_at_end ? Why::asked : Why::end;
+            stops_.push_back({last_.time_s, 0.0, row_, now_.line, 0.0, why, last_.position});
+        }
+    }
+}
+
+void MotionRecord::stand(double begin_s, double seconds) {
+    Total& total = totals_[static_cast<std::size_t>(PieceKind::standing)];
+    total.seconds += seconds;
+    if (!stood_) {
+        last_.keep = true;
+        path_.add(last_);
+    }
+    stood_ = true;
+    last_.time_s = begin_s + seconds;
+    last_.kind = static_cast<std::uint8_t>(PieceKind::standing);
+    last_.code = 0;
+    last_.line = now_.line;
+    if (open_stop_) {
+        stops_.back().stood_s += seconds;
+        stops_.back().why = waits_ == Why::end ? stops_.back().why : waits_;
+    }
+}
+
+void MotionRecord::travel(const FeedSegment& segment, double begin_s, double seconds, double way_mm,
+                          std::uint8_t code) {
+    const PieceKind kind = approaches_ ? PieceKind::approach : now_.rapid ? PieceKind::rapid : PieceKind::feed;
+    const auto number = static_cast<std::uint8_t>(kind);
+    last_.keep = last_.keep || stood_ || last_.kind != number;
+    last_.edge = last_.line != now_.line;
+    stood_ = false;
+    waits_ = Why::end;
+    totals_[static_cast<std::size_t>(kind)].seconds += seconds;
+    totals_[static_cast<std::size_t>(kind)].length_mm += way_mm;
+    const int parts = std::clamp(static_cast<int>(std::ceil(seconds / longest_piece_s)), 1, 64);
+    for (int i = 1; i <= parts; ++i) {
+        path_.add(last_);
+        const double u = static_cast<double>(i) / parts;
+        last_ = {.time_s = begin_s + u * seconds,
+                 .length_mm = length_mm_ + u * way_mm,
+                 .position = place(segment, u),
+                 .line = now_.line,
+                 .row = row_,
+                 .kind = number,
+                 .code = code,
+                 .weight = rounded(seconds / parts),
+                 .acceleration = acceleration_,
+                 .jerk = jerk_};
+    }
+    length_mm_ += way_mm;
+}
+
+// The machine goes on from the last stop.
+void MotionRecord::turn(const PerAxis<double>& direction) {
+    open_stop_ = false;
+    double dot = 0.0;
+    double a = 0.0;
+    double b = 0.0;
+    for (unsigned k = 0; k < axes_; ++k) {
+        dot += direction[k] * direction_[k];
+        a += direction[k] * direction[k];
+        b += direction_[k] * direction_[k];
+    }
+    Stop& stop = stops_.back();
+    const double cosine = a > 0.0 && b > 0.0 ? std::clamp(dot / std::sqrt(a * b), -1.0, 1.0) : 1.0;
+    stop.turn_deg = std::acos(cosine) * 180.0 / std::numbers::pi;
+    constexpr double least_deg = 0.5;
+    if (stop.why == Why::end) {
+        stop.why = stop.turn_deg > least_deg ? Why::turn : Why::asked;
+    }
+}
+
+void MotionRecord::finish() {
+    if (has_last_) {
+        last_.keep = true;
+        path_.add(last_);
+        has_last_ = false;
+    }
+    if (open_stop_ && stops_.back().why != Why::held) {
+        stops_.back().why = Why::end;
+    }
+    constexpr std::size_t enough = 60000; // points
+    for (ThinnedPath* const path : {&path_, &programmed_}) {
+        PerAxis<double> low{};
+        PerAxis<double> high{};
+        low.fill(1e300);
+        high.fill(-1e300);
+        double size = 0.0;
+        for (const ThinnedPath::Point& point : path->points()) {
+            for (unsigned k = 0; k < axes_; ++k) {
+                low[k] = std::min(low[k], point.position[k]);
+                high[k] = std::max(high[k], point.position[k]);
+                size = std::max(size, high[k] - low[k]);
+            }
+        }
+        path->finish(size / 20000.0, enough);
+    }
+}
+
+} // namespace splinefeed::host

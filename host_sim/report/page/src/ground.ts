@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What the path is seen against: a grid with its ticks, and the travel of the machine.
+import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Vector3 } from "three";
+import { niceStep, tick } from "./colour";
+import type { Motion } from "./motion";
+
+export interface Tick {
+    at: Vector3;
+    text: string;
+    title: boolean;
+}
+
+export function segments(ends: number[], color: number | string): LineSegments {
+    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(ends), 3));
+    return new LineSegments(geometry, new LineBasicMaterial({ color }));
+}
+
+/** A grid at the foot of the box, and where its labels stand. */
+export function grid(motion: Motion, low: Vector3, high: Vector3, color: number): { lines: LineSegments; ticks: Tick[] } {
+    const size = Math.max(...high.clone().sub(low).toArray(), 1e-6);
+    const step = niceStep(size, 8);
+    const floor = (v: number) => Math.floor(v / step - 1e-9) * step;
+    const ceil = (v: number) => Math.ceil(v / step + 1e-9) * step;
+    const [x0, x1, y0, y1] = [floor(low.x), ceil(high.x), floor(low.y), ceil(high.y)];
+    const z = low.z;
+    const ends: number[] = [];
+    const ticks: Tick[] = [];
+    const axis = (k: number) => motion.report.machine.axes[motion.space[k]];
+    const label = (x: number, y: number, height: number, text: string, title = false) => ticks.push({ at: new Vector3(x, y, height), text, title });
+    for (let i = 0; x0 + i * step <= x1 + 1e-9; ++i) {
+        const x = x0 + i * step;
+        ends.push(x, y0, z, x, y1, z);
+        if (axis(0)) label(x, y0 - 0.35 * step, z, tick(x, step));
+    }
+    for (let i = 0; y0 + i * step <= y1 + 1e-9; ++i) {
+        const y = y0 + i * step;
+        ends.push(x0, y, z, x1, y, z);
+        if (axis(1)) label(x0 - 0.35 * step, y, z, tick(y, step));
+    }
+    if (axis(0)) label((x0 + x1) / 2, y0 - 0.95 * step, z, `${axis(0).name} [${axis(0).unit}]`, true);
+    if (axis(1)) label(x0 - 0.95 * step, (y0 + y1) / 2, z, `${axis(1).name} [${axis(1).unit}]`, true);
+    if (axis(2) && high.z - z > 0.02 * size) {
+        const up = niceStep(high.z - z, 4);
+        ends.push(x0, y1, z, x0, y1, high.z);
+        for (let v = Math.ceil(z / up - 1e-9) * up; v <= high.z + 1e-9; v += up) label(x0 - 0.35 * step, y1, v, `${axis(2).name} ${tick(v, up)}`);
+    }
+    return { lines: segments(ends, color), ticks };
+}
+
+/** The edges of the travel; nothing: an axis has none. */
+export function travelBox(motion: Motion, color: string): LineSegments | undefined {
+    const box = motion.space.map((k) => (k >= 0 ? motion.report.machine.axes[k].travel : ([0, 0] as [number, number])));
+    if (box.some((range) => !range)) return undefined;
+    const at = (corner: number) => [0, 1, 2].map((k) => box[k]![(corner >> k) & 1]);
+    const ends: number[] = [];
+    for (let corner = 0; corner < 8; ++corner) {
+        for (const bit of [1, 2, 4]) if (!(corner & bit)) ends.push(...at(corner), ...at(corner | bit));
+    }
+    return segments(ends, color);
+}

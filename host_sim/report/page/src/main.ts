@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// The page: its parts, and how they follow one cursor.
+import { css, duration, number, ramp } from "./colour";
+import { read } from "./data";
+import { el } from "./dom";
+import { layers } from "./layers";
+import { Listing } from "./listing";
+import { Motion } from "./motion";
+import * as panels from "./panels";
+import type { Quantity } from "./pieces";
+import { units } from "./pieces";
+import { Player } from "./player";
+import { Space, type View } from "./scene";
+import { Strips, type Over } from "./strips";
+
+const report = read(document.getElementById("data")!.textContent!);
+const motion = new Motion(report);
+const space = new Space(motion);
+const strips = new Strips(motion);
+const player = new Player(motion);
+const listing = new Listing(motion);
+const readout = new panels.Readout(motion, strips);
+
+function moveTo(t: number): void {
+    space.moveTo(t);
+    strips.moveTo(t);
+    readout.moveTo(t);
+    listing.mark(motion.line(t));
+}
+const go = (t: number) => player.go(t);
+player.onMove = moveTo;
+space.onPick = go;
+strips.onPick = go;
+strips.onHover = (t) => space.hover(t);
+listing.onPick = (line) => {
+    const t = motion.start(line);
+    if (t !== undefined) go(t);
+};
+
+// Which part a change of the ground, of colours or of tabs concerns.
+let dark = matchMedia("(prefers-color-scheme: dark)").matches;
+const legend = el("div", { class: "legend" });
+
+space.covers = [legend];
+
+function drawLegend(): void {
+    const { quantity, coloured } = space;
+    if (quantity === "limit") {
+        const all = [...coloured.share.values()].reduce((a, b) => a + b, 0) || 1;
+        const rows = [...coloured.share].sort((a, b) => b[1] - a[1]).slice(0, 9);
+        legend.replaceChildren(...rows.map(([code, s]) => el("div", {}, panels.chip(code, report.limits[code] ?? "-"), el("small", {}, ` ${((100 * s) / all).toFixed(1)} %`))));
+        return;
+    }
+    const bar = el("canvas", { width: "120", height: "1" });
+    const draw = bar.getContext("2d")!;
+    for (let i = 0; i < 120; ++i) {
+        draw.fillStyle = css(ramp(i / 119, dark));
+        draw.fillRect(i, 0, 1, 1);
+    }
+    legend.replaceChildren(el("div", { class: "scale" }, "0", bar, `${number(coloured.top, 4)} ${units[quantity]}`));
+}
+
+function dress(): void {
+    document.documentElement.dataset.theme = dark ? "dark" : "light";
+    space.dress(dark);
+    strips.dress(dark);
+    moveTo(player.time);
+    drawLegend();
+}
+
+function choice<T extends string>(label: string, options: [T, string][], act: (value: T) => void): HTMLSelectElement {
+    const select = el("select", { title: label, "aria-label": label }, ...options.map(([value, text]) => el("option", { value }, text)));
+    select.addEventListener("change", () => act(select.value as T));
+    return select;
+}
+
+const jerky = report.machine.axes.some((axis) => axis.jerk > 0);
+const colours = choice<Quantity>("colours of the path", [
+    ["speed", "speed"],
+    ["limit", "limit that binds"],
+    ["acceleration", "acceleration"],
+    ...(jerky ? [["jerk", "jerk"] as [Quantity, string]] : []),
+    ["feed", "feed reached"],
+    ...(report.deviation.mm.length ? [["deviation", "deviation from the program"] as [Quantity, string]] : []),
+], (quantity) => {
+    space.paint(quantity);
+    drawLegend();
+});
+const view = (name: View, key: string) => el("button", { title: `view: ${name} (${key})`, click: () => space.look(name) }, name);
+const toggle = (name: string, text: string, on: boolean) => {
+    const box = el("input", on ? { type: "checkbox", checked: "" } : { type: "checkbox" });
+    box.addEventListener("change", () => space.show(name, box.checked));
+    return el("label", {}, box, text);
+};
+const boxed = motion.space.every((k) => k < 0 || report.machine.axes[k].travel);
+const tools = el("div", { class: "tools" },
+    el("span", {}, "colour ", colours),
+    el("span", { class: "views" }, view("free", "1"), view("top", "2"), view("front", "3"), view("side", "4")),
+    el("span", { class: "layers-of" },
+        ...(report.programmed.count > 1 ? [toggle("programmed", "program", true)] : []),
+        ...(report.totals.rapid.time_s > 0 ? [toggle("rapids", "rapids", true)] : []),
+        toggle("stops", "stops", true), ...(report.waypoints[0]?.length ? [toggle("points", "waypoints", space.sparse)] : []), toggle("arrows", "direction", true),
+        ...(boxed ? [toggle("travel", "travel", true)] : [])),
+);
+
+const rising = layers(motion);
+if (rising.length) {
+    const last = String(rising.length - 1);
+    const low = el("input", { type: "range", min: "0", max: last, value: "0", "aria-label": "lowest layer" });
+    const high = el("input", { type: "range", min: "0", max: last, value: last, "aria-label": "highest layer" });
+    const said = el("output", {});
+    const apply = () => {
+        const [a, b] = [Math.min(+low.value, +high.value), Math.max(+low.value, +high.value)];
+        const whole = a === 0 && b === rising.length - 1;
+        const slack = 1e-4;
+        space.layers(whole ? -1e9 : rising[a].z - slack, whole ? 1e9 : rising[b].z + slack);
+        said.textContent = whole ? `${rising.length} layers` : `layers ${a + 1} to ${b + 1}`;
+    };
+    for (const input of [low, high]) input.addEventListener("input", apply);
+    tools.append(el("span", { class: "layer-range" }, said, low, high));
+    apply();
+}
+
+const over = choice<Over>("strips over", [["time", "over time"], ["length", "over path length"]], (value) => {
+    strips.set(value);
+    strips.moveTo(player.time);
+});
+const stripTools = el("div", { class: "strip-tools" }, over, el("button", { title: "show all (double click)", click: () => strips.whole() }, "all"));
+
+const s = report.summary;
+const big = (name: string, value: string) => el("span", { class: "fact" }, el("small", {}, name), el("b", {}, value));
+const header = el("header", {},
+    el("h1", { title: report.program }, report.program.split("/").pop()!),
+    ...(report.path.count ? [
+        big("cycle time", `${number(s.cycle_time_s, 5)} s`),
+        ...(s.cycle_time_s >= 60 ? [big("that is", duration(s.cycle_time_s))] : []),
+        ...(s.optimum_time_s ? [big("optimum", `${number(s.optimum_time_s, 5)} s`)] : []),
+        big("path length", `${number(s.length_mm, 5)} mm`),
+        big("largest speed", `${number(s.max_speed_mm_s, 4)} mm/s`),
+        big("stops", String(s.stops)),
+    ] : []),
+    el("button", { class: "theme", title: "light or dark (d)", "aria-label": "light or dark", click: () => ((dark = !dark), dress()) }, "\u25d0"),
+);
+const banner = report.stopped ? el("div", { class: "banner", role: "alert" }, report.stopped) : "";
+
+const pages: [string, HTMLElement][] = [
+    ["Program", listing.element],
+    ...(report.path.count ? [
+        ["Summary", el("div", {}, panels.summary(motion), panels.tools(motion))],
+        ["Limits", panels.limits(motion)],
+        ["Lines", panels.costly(motion, go)],
+        ["Stops", panels.stops(motion, go)],
+    ] as [string, HTMLElement][] : []),
+    ...(report.events.length || report.operated.length ? [["Events", panels.events(motion, go)] as [string, HTMLElement]] : []),
+    ...(rising.length ? [["Layers", panels.layerTable(rising, go)] as [string, HTMLElement]] : []),
+];
+const tabs = pages.map(([name], i) => el("button", { role: "tab", click: () => open(i) }, name));
+function open(chosen: number): void {
+    pages.forEach(([, page], i) => page.classList.toggle("open", i === chosen));
+    tabs.forEach((tab, i) => tab.setAttribute("aria-selected", String(i === chosen)));
+    listing.draw();
+}
+for (const [, page] of pages) page.classList.add("page");
+
+document.title = `${report.program} - splinefeed report`;
+document.getElementById("app")!.append(
+    header,
+    ...(banner ? [banner] : []),
+    el("main", {},
+        el("section", { class: "picture" }, space.element, tools, legend),
+        player.element,
+        el("section", { class: "curves" }, strips.element, stripTools),
+    ),
+    el("aside", {}, readout.element, el("nav", { role: "tablist" }, ...tabs), el("div", { class: "pages" }, ...pages.map(([, page]) => page))),
+);
+open(report.lines.text.length ? 0 : 1);
+dress();
+space.look(space.flat ? "top" : "free");
+player.go(report.stopped ? motion.end : 0);
+
+const keys: Record<string, () => void> = {
+    " ": () => player.toggle(),
+    ArrowRight: () => player.step(1),
+    ArrowLeft: () => player.step(-1),
+    ArrowUp: () => player.faster(1),
+    ArrowDown: () => player.faster(-1),
+    Home: () => go(0),
+    End: () => go(motion.end),
+    ",": () => go(player.time - 0.001),
+    ".": () => go(player.time + 0.001),
+    "1": () => space.look("free"),
+    "2": () => space.look("top"),
+    "3": () => space.look("front"),
+    "4": () => space.look("side"),
+    d: () => ((dark = !dark), dress()),
+};
+addEventListener("keydown", (event) => {
+    const tag = (event.target as HTMLElement).tagName;
+    if (event.ctrlKey || event.metaKey || event.altKey || tag === "SELECT" || (tag === "INPUT" && event.key.startsWith("Arrow"))) return;
+    if (tag === "BUTTON" && event.key === " ") return;
+    const act = keys[event.key];
+    if (act) {
+        event.preventDefault();
+        act();
+    }
+});

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: MIT
+// The path in space: drawn by three, turned by the mouse, picked by a click.
+import {
+    BufferAttribute, BufferGeometry, CanvasTexture, Color, Group, Line, LineBasicMaterial, LineSegments, Material, Object3D,
+    OrthographicCamera, Plane, Points, Scene, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { Kind, type Motion } from "./motion";
+import { colouring, divide, type Colouring, type Pieces, type Quantity } from "./pieces";
+import { el } from "./dom";
+import { grid, travelBox, type Tick } from "./ground";
+import { arrows, mark, points } from "./marks";
+
+export type View = "free" | "top" | "front" | "side";
+const directions: Record<View, [number, number, number]> = {
+    free: [-0.55, -1, 0.75],
+    top: [0, -1e-4, 1],
+    front: [0, -1, 0],
+    side: [1, 0, 0],
+};
+const most_wide = 60000; // pieces that are drawn as wide lines
+
+export class Space {
+    readonly element = el("div", { class: "space" });
+    readonly pieces: Pieces;
+    quantity: Quantity = "speed";
+    coloured!: Colouring;
+    onPick: (t: number) => void = () => {};
+    /** What lies over the picture: no label goes there. */
+    covers: HTMLElement[] = [];
+
+    private readonly renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    private readonly scene = new Scene();
+    private readonly camera = new OrthographicCamera();
+    private readonly controls: OrbitControls;
+    private readonly labels = el("div", { class: "labels" });
+    private readonly low = new Vector3(Infinity, Infinity, Infinity);
+    private readonly high = new Vector3(-Infinity, -Infinity, -Infinity);
+    private readonly groups: Record<string, Group> = {};
+    private readonly planes = [new Plane(new Vector3(0, 0, 1), 1e9), new Plane(new Vector3(0, 0, -1), 1e9)];
+    private tool!: Points;
+    private ghost!: Points;
+    private ticks: Tick[] = [];
+    private dark = false;
+    private asked = false;
+    private size = 1;
+    private frame = { width: 1, height: 1 };
+
+    /** Whether the path lies in the plane of x and y. */
+    get flat(): boolean {
+        return this.high.z - this.low.z < 1e-6 * this.size;
+    }
+
+    constructor(private readonly motion: Motion) {
+        this.pieces = divide(motion);
+        this.measure();
+        this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+        this.renderer.localClippingEnabled = true;
+        this.element.append(this.renderer.domElement, this.labels);
+        this.camera.up.set(0, 0, 1);
+        this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+        this.controls.zoomToCursor = true;
+        this.controls.addEventListener("change", () => this.draw());
+        for (const name of ["ground", "travel", "programmed", "rapids", "path", "arrows", "points", "stops", "marks"]) {
+            this.scene.add((this.groups[name] = new Group()));
+        }
+        new ResizeObserver(() => this.resize()).observe(this.element);
+        this.listen();
+    }
+
+    /** Whether waypoints do not cover the path. */
+    get sparse(): boolean {
+        return (this.motion.report.waypoints[0]?.length ?? 0) <= 150;
+    }
+
+    /** Builds everything for a ground that is light or dark. */
+    dress(dark: boolean): void {
+        this.dark = dark;
+        const ink = dark ? "#e8eaed" : "#202124";
+        const faint = dark ? "#5f6368" : "#9aa0a6";
+        const ground = dark ? "#15181c" : "#ffffff";
+        this.renderer.setClearColor(new Color(ground));
+        for (const group of Object.values(this.groups)) group.clear();
+        const { lines, ticks } = grid(this.motion, this.low, this.high, dark ? 0x2b3036 : 0xe4e7ea);
+        this.ticks = ticks;
+        this.add("ground", lines);
+        this.add("travel", travelBox(this.motion, faint));
+        this.drawProgrammed(dark ? "#8f979f" : "#7d858c");
+        this.paint(this.quantity);
+        const { waypoints } = this.motion.report;
+        const dots = Array.from({ length: waypoints[0]?.length ?? 0 }, (_, i) => [...this.motion.place(waypoints.map((axis) => axis[i]))]);
+        this.marks("points", dots, mark("disc", ground, ink), 6.5);
+        this.groups.points.visible &&= this.sparse;
+        this.drawRapids(dark ? "#8a9199" : "#8d949b");
+        this.drawMarks(ink, ground);
+        this.draw();
+    }
+
+    paint(quantity: Quantity): void {
+        this.quantity = quantity;
+        this.coloured = colouring(this.motion, this.pieces, quantity, this.dark);
+        const group = this.groups.path;
+        group.clear();
+        const { kind } = this.motion.report.path;
+        const chosen: number[] = [];
+        for (let i = 0; i < this.pieces.count; ++i) {
+            if (this.pieces.drawn[i] && kind[this.pieces.knot[i]] !== Kind.rapid) chosen.push(i);
+        }
+        const ends = new Float32Array(6 * chosen.length);
+        const colours = new Float32Array(6 * chosen.length);
+        chosen.forEach((i, n) => {
+            ends.set(this.pieces.xyz.subarray(3 * i, 3 * i + 6), 6 * n);
+            for (const half of [0, 3]) colours.set(this.coloured.colours.subarray(3 * i, 3 * i + 3), 6 * n + half);
+        });
+        const linear = colours.map((c) => (c < 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)); // as three blends them
+        if (chosen.length <= most_wide) {
+            const geometry = new LineSegmentsGeometry();
+            geometry.setPositions(ends);
+            geometry.setColors(linear);
+            group.add(new LineSegments2(geometry, this.material(new LineMaterial({ vertexColors: true, linewidth: 2.6 }))));
+        } else {
+            const geometry = new BufferGeometry();
+            geometry.setAttribute("position", new BufferAttribute(ends, 3));
+            geometry.setAttribute("color", new BufferAttribute(linear, 3));
+            group.add(new LineSegments(geometry, this.material(new LineBasicMaterial({ vertexColors: true }))));
+        }
+        this.draw();
+    }
+
+    show(name: string, visible: boolean): void {
+        this.groups[name].visible = visible;
+        this.draw();
+    }
+
+    /** Only what lies between two heights. */
+    layers(low: number, high: number): void {
+        this.planes[0].constant = -low;
+        this.planes[1].constant = high;
+        this.draw();
+    }
+
+    look(view: View): void {
+        const target = this.low.clone().add(this.high).multiplyScalar(0.5);
+        this.controls.target.copy(target);
+        this.camera.position.copy(target).addScaledVector(new Vector3(...directions[view]).normalize(), 4 * this.size);
+        this.camera.zoom = 1;
+        this.camera.lookAt(target);
+        this.fit();
+        this.controls.update();
+        this.draw();
+    }
+
+    moveTo(t: number): void {
+        this.place(this.tool, t);
+    }
+
+    /** Where the pointer is in a strip; below 0: in none. */
+    hover(t: number): void {
+        this.ghost.visible = t >= 0;
+        if (t >= 0) this.place(this.ghost, t);
+        this.draw();
+    }
+
+    private add(group: string, object?: Object3D): void {
+        if (object) this.groups[group].add(object);
+    }
+
+    private marks(group: string, places: number[][], texture: CanvasTexture, size: number): Points {
+        const made = points(places, texture, size * this.renderer.getPixelRatio());
+        this.add(group, made);
+        return made;
+    }
+
+    private place(points: Points, t: number): void {
+        const at = points.geometry.getAttribute("position") as BufferAttribute;
+        at.setXYZ(0, ...this.motion.place(this.motion.position(t)));
+        at.needsUpdate = true;
+        this.draw();
+    }
+
+    private material<M extends Material>(material: M): M {
+        material.clippingPlanes = this.planes;
+        return material;
+    }
+
+    private measure(): void {
+        const { xyz } = this.pieces;
+        const point = new Vector3();
+        for (let i = 0; i < xyz.length; i += 3) {
+            point.fromArray(xyz, i);
+            this.low.min(point);
+            this.high.max(point);
+        }
+        const { programmed } = this.motion.report;
+        for (let i = 0; i < programmed.count; ++i) {
+            point.set(...this.motion.place(programmed.position.map((axis) => axis[i])));
+            this.low.min(point);
+            this.high.max(point);
+        }
+        if (!Number.isFinite(this.low.x)) this.low.set(0, 0, 0), this.high.set(1, 1, 1);
+        this.size = Math.max(...this.high.clone().sub(this.low).toArray(), 1e-6);
+    }
+
+    private resize(): void {
+        const { clientWidth: w, clientHeight: h } = this.element;
+        if (!w || !h) return;
+        this.frame = { width: w, height: h };
+        this.renderer.setSize(w, h);
+        this.fit();
+        this.draw();
+    }
+
+    /** The whole path on the screen at zoom 1. */
+    private fit(): void {
+        const { clientWidth: w, clientHeight: h } = this.element;
+        if (!w || !h) return;
+        this.camera.updateMatrixWorld();
+        const inverse = this.camera.matrixWorldInverse;
+        const centre = this.low.clone().add(this.high).multiplyScalar(0.5).applyMatrix4(inverse);
+        const { xyz } = this.pieces;
+        const stride = 3 * Math.max(1, Math.floor(xyz.length / 3 / 20000));
+        const at = new Vector3();
+        let [x, y] = [0, 0];
+        for (let i = 0; i < xyz.length; i += stride) {
+            at.fromArray(xyz, i).applyMatrix4(inverse);
+            x = Math.max(x, Math.abs(at.x - centre.x));
+            y = Math.max(y, Math.abs(at.y - centre.y));
+        }
+        for (let corner = 0; corner < 4; ++corner) { // the ground's
+            at.set(corner & 1 ? this.high.x : this.low.x, corner & 2 ? this.high.y : this.low.y, this.low.z).applyMatrix4(inverse);
+            y = Math.max(y, 0.88 * Math.abs(at.y - centre.y));
+        }
+        const half = Math.max(y * 1.32, (x * 1.22 * h) / w, 1e-6);
+        this.camera.top = half;
+        this.camera.bottom = -half;
+        this.camera.right = (half * w) / h;
+        this.camera.left = -this.camera.right;
+        this.camera.near = -20 * this.size;
+        this.camera.far = 40 * this.size;
+        this.camera.updateProjectionMatrix();
+    }
+
+    draw(): void {
+        if (this.asked) return;
+        this.asked = true;
+        requestAnimationFrame(() => {
+            this.asked = false;
+            this.renderer.render(this.scene, this.camera);
+            this.drawLabels();
+            const at = this.tool.geometry.getAttribute("position");
+            const [x, y] = this.onScreen(new Vector3().fromBufferAttribute(at, 0));
+            this.element.dataset.tool = `${x.toFixed(1)} ${y.toFixed(1)}`;
+        });
+    }
+
+    private drawProgrammed(colour: string): void {
+        const { programmed } = this.motion.report;
+        const xyz = new Float32Array(3 * programmed.count);
+        for (let i = 0; i < programmed.count; ++i) {
+            xyz.set(this.motion.place(programmed.position.map((axis) => axis[i])), 3 * i);
+        }
+        const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(xyz, 3));
+        this.groups.programmed.add(new Line(geometry, this.material(new LineBasicMaterial({ color: colour }))));
+    }
+
+    private drawRapids(colour: string): void {
+        const { kind } = this.motion.report.path;
+        const ends: number[] = [];
+        for (let i = 0; i < this.pieces.count; ++i) {
+            const of = kind[this.pieces.knot[i]];
+            if (this.pieces.drawn[i] && (of === Kind.rapid || of === Kind.approach)) {
+                ends.push(...this.pieces.xyz.subarray(3 * i, 3 * i + 6));
+            }
+        }
+        if (!ends.length) return;
+        const geometry = new LineSegmentsGeometry().setPositions(ends);
+        const dash = this.size / 110;
+        const material = this.material(
+            new LineMaterial({ color: colour, linewidth: 1.4, dashed: true, dashSize: dash, gapSize: dash }),
+        );
+        const lines = new LineSegments2(geometry, material);
+        // The dashes run on from piece to piece.
+        lines.computeLineDistances();
+        const distance = geometry.getAttribute("instanceDistanceStart") as unknown as { data: { array: Float32Array } };
+        let way = 0;
+        for (let i = 0; i < ends.length; i += 6) {
+            distance.data.array[i / 3] = way;
+            way += Math.hypot(ends[i + 3] - ends[i], ends[i + 4] - ends[i + 1], ends[i + 5] - ends[i + 2]);
+            distance.data.array[i / 3 + 1] = way;
+        }
+        this.groups.rapids.add(lines);
+    }
+
+    private drawMarks(ink: string, ground: string): void {
+        const { motion } = this;
+        const { report } = motion;
+        const at = (t: number) => [...motion.place(motion.position(t))];
+        const inner = report.stops.filter((stop) => stop.why !== "end");
+        this.marks("stops", inner.map((stop) => [...motion.place(stop.position)]), mark("ring", "#d55e00", ground), 11);
+        const tools = report.events.filter((event) => event.what === "change_tool" || event.what === "set_tool");
+        this.marks("marks", tools.map((event) => at(event.t)), mark("diamond", "#cc79a7", ink), 15);
+        this.marks("marks", report.operated.map((done) => at(done.t)), mark("square", "#e69f00", ink), 12);
+        if (report.path.count) {
+            this.marks("marks", [at(0)], mark("disc", "#009e73", ground), 15);
+            const end = mark(report.stopped ? "cross" : "square", report.stopped ? "#d55e00" : "#0072b2", ground);
+            this.marks("marks", [at(motion.end)], end, (report.stopped ? 22 : 14));
+        }
+        const heads = arrows(this.pieces, this.size);
+        if (heads) this.add("arrows", new LineSegments2(heads, this.material(new LineMaterial({ color: ink, linewidth: 1.3 }))));
+        this.ghost = this.marks("marks", [at(0)], mark("ring", ink, ground), 15);
+        this.ghost.visible = false;
+        this.tool = this.marks("marks", [at(0)], mark("disc", this.dark ? "#ffffff" : "#111111", "#e69f00"), 19);
+    }
+
+    private readonly projected = new Vector3();
+    private onScreen(at: Vector3): [number, number] {
+        const { width: w, height: h } = this.frame;
+        const p = this.projected.copy(at).project(this.camera);
+        return [((p.x + 1) / 2) * w, ((1 - p.y) / 2) * h];
+    }
+
+    /** Those that would cover another one are left out. */
+    private drawLabels(): void {
+        const { clientWidth: w, clientHeight: h } = this.element;
+        const frame = this.element.getBoundingClientRect();
+        const taken = this.covers.map((cover) => {
+            const box = cover.getBoundingClientRect();
+            return [box.left - frame.left, box.top - frame.top, box.right - frame.left, box.bottom - frame.top];
+        });
+        const shown = [...this.ticks].sort((a, b) => Number(b.title) - Number(a.title)).flatMap(({ at, text, title }) => {
+            const [x, y] = this.onScreen(at);
+            const half = 3.6 * text.length + 3;
+            const box = [x - half, y - 8, x + half, y + 8];
+            if (x < half || x > w - half || y < 10 || y > h - 8) return [];
+            if (taken.some((b) => b[0] < box[2] && box[0] < b[2] && b[1] < box[3] && box[1] < b[3])) return [];
+            taken.push(box);
+            const label = el("span", { class: title ? "axis" : "tick" }, text);
+            label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+            return [label];
+        });
+        this.labels.replaceChildren(...shown);
+    }
+
+    private listen(): void {
+        const canvas = this.renderer.domElement;
+        let down: [number, number] | undefined;
+        canvas.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
+        canvas.addEventListener("pointerup", (event) => {
+            if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+            const box = canvas.getBoundingClientRect();
+            const t = this.nearest(event.clientX - box.left, event.clientY - box.top);
+            if (t !== undefined) this.onPick(t);
+        });
+    }
+
+    /** The time of the nearest place of the path on the screen, within some pixels. */
+    nearest(x: number, y: number): number | undefined {
+        const { xyz, time, drawn } = this.pieces;
+        let best = 15 * 15;
+        let found: number | undefined;
+        const at = new Vector3();
+        let [px, py] = [0, 0];
+        for (let i = 0; i * 3 < xyz.length; ++i) {
+            if (xyz[3 * i + 2] < -this.planes[0].constant - 1e-6 || xyz[3 * i + 2] > this.planes[1].constant + 1e-6) continue;
+            const [sx, sy] = this.onScreen(at.fromArray(xyz, 3 * i));
+            if (i > 0 && drawn[i - 1]) {
+                const [dx, dy] = [sx - px, sy - py];
+                const length = dx * dx + dy * dy;
+                const share = length > 0 ? Math.min(Math.max(((x - px) * dx + (y - py) * dy) / length, 0), 1) : 1;
+                const distance = (px + share * dx - x) ** 2 + (py + share * dy - y) ** 2;
+                if (distance < best) {
+                    best = distance;
+                    found = time[i - 1] + share * (time[i] - time[i - 1]);
+                }
+            }
+            [px, py] = [sx, sy];
+        }
+        return found;
+    }
+}

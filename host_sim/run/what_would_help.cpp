@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/run/what_would_help.hpp"
+
+#include "host_sim/analysis/limit_kind.hpp"
+#include "host_sim/output/progress.hpp"
+#include "host_sim/planning/planned_path.hpp"
+
+#include <algorithm>
+
+namespace splinefeed::host {
+
+namespace {
+
+constexpr double raised = 1.1;
+constexpr double may_bind = 0.85; // of a limit: a plan that stays a little below it is bound by it
+
+/// One limit, and the value of the machine that states it.
+struct Candidate {
+    BindingLimit limit;
+    std::string name;
+    double MachineSettings::*of_machine = nullptr;
+    double AxisSettings::*of_axis = nullptr;
+};
+
+std::vector<Candidate> candidates(const MachineDescription& machine, const Summary& summary) {
+    std::vector<Candidate> out;
+    std::vector<std::string> names;
+    for (const Summary::AxisUse& use : summary.limit_use) {
+        names.push_back(use.axis);
+    }
+    const auto add = [&](BindingLimit limit, double MachineSettings::*of_machine, double AxisSettings::*of_axis) {
+        out.push_back({limit, limit_name(limit, names), of_machine, of_axis});
+    };
+    const LimitShares shares = summary.limit_share.value_or(LimitShares{});
+    if (shares.programmed_feed > 0.0) {
+        add({LimitKind::feed}, nullptr, nullptr);
+    }
+    if (shares.feed > shares.programmed_feed) {
+        add({LimitKind::machine_feed}, &MachineSettings::max_feed_mm_s, nullptr);
+    }
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const Summary::AxisUse& use = summary.limit_use[k];
+        const auto of = [k](LimitKind kind) {
+            return BindingLimit{kind, static_cast<std::uint8_t>(k)};
+        };
+        if (use.velocity >= may_bind) {
+            add(of(LimitKind::velocity), nullptr, &AxisSettings::max_velocity_mm_s);
+        }
+        if (use.acceleration >= may_bind) {
+            add(of(LimitKind::acceleration), nullptr, &AxisSettings::max_acceleration_mm_s2);
+        }
+        if (use.acceleration >= may_bind && machine.settings.axis[k].max_braking_mm_s2 > 0.0) {
+            out.push_back(
+                {of(LimitKind::acceleration), "braking of " + names[k], nullptr, &AxisSettings::max_braking_mm_s2});
+        }
+        if (use.jerk.value_or(0.0) >= may_bind) {
+            add(of(LimitKind::jerk), nullptr, &AxisSettings::max_jerk_mm_s3);
+        }
+    }
+    if (shares.centripetal.value_or(0.0) > 0.0) {
+        add({LimitKind::centripetal}, &MachineSettings::centripetal_mm_s2, nullptr);
+    }
+    if (shares.chord.value_or(0.0) > 0.0) {
+        add({LimitKind::chord}, &MachineSettings::chord_error_mm, nullptr);
+    }
+    return out;
+}
+
+/// Nobody looks at a path that is only planned again.
+class NoWatch final : public CurveWatch {
+public:
+    void segment(const CurveSegment<double>& /*segment*/, std::uint32_t /*row*/,
+                 const PathFeeder& /*feeder*/) override {}
+};
+
+/// The motion alone, on a machine whose limits differ.
+double planned_s(const HelpArguments& arguments, const RunMachine& machine, double feed_factor) {
+    PathInput input(*arguments.path, PathUse::executed, machine.path());
+    input.begin_at(*arguments.begins);
+    Progress progress({.quiet = arguments.quiet, .all = arguments.waypoints});
+    NoWatch nobody;
+    const auto path = plan_path(input, machine.machine, nobody, arguments.window_cells);
+    PathFeeder& feeder = path->feeder();
+    path->override_feed(feed_factor);
+    std::uint64_t ticks = 0;
+    std::optional<std::uint32_t> row;
+    FeedSegment segment;
+    for (Pull pull = path->next(segment, UnderrunPolicy::wait); pull != Pull::finished;
+         pull = path->next(segment, UnderrunPolicy::wait)) {
+        if (pull == Pull::item) {
+            ticks += segment.duration_ticks;
+            if (row != segment.waypoint) {
+                row = segment.waypoint;
+                feeder.passed(*row);
+            }
+            if (progress.due()) {
+                progress.show({feeder.rows(), 0, static_cast<double>(ticks) / (ticks_per_us * 1e6)});
+            }
+            continue;
+        }
+        PathFeeder::Pushed ignored;
+        if (feeder.awaits_answer()) {
+            feeder.program()->answer(feeder.program()->expected_answer());
+        }
+        static_cast<void>(feeder.more(ignored));
+    }
+    return static_cast<double>(ticks) / (ticks_per_us * 1e6);
+}
+
+} // namespace
+
+std::vector<RaisedLimit> what_would_help(const HelpArguments& arguments, const Summary& summary) {
+    const RunMachine& of = *arguments.machine;
+    std::vector<RaisedLimit> out;
+    for (const Candidate& candidate : candidates(of.machine, summary)) {
+        MachineDescription machine = of.as_stated();
+        if (candidate.of_machine != nullptr) {
+            machine.settings.*candidate.of_machine *= raised;
+        } else if (candidate.of_axis != nullptr) {
+            machine.settings.axis[candidate.limit.axis].*candidate.of_axis *= raised;
+        }
+        const RunMachine higher(std::move(machine), arguments.path->format->is_gcode());
+        const double factor = candidate.limit.kind == LimitKind::feed ? raised : 1.0;
+        const double seconds = planned_s(arguments, higher, factor) + arguments.standing_s;
+        out.push_back({candidate.name, seconds, 1.0 - seconds / summary.cycle_time_s});
+    }
+    std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.gain > b.gain; });
+    return out;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/report/motion_record.hpp"
+
+#include "support/catch.hpp"
+#include "support/machine_motion.hpp"
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+// From 0 to 20 mm and back at 100 mm/s, from rest to rest each way: at 1000 mm/s^2 it takes 0.3 s.
+std::vector<long double> there_and_back() {
+    std::vector<long double> samples;
+    const auto way = [](int ms) {
+        const long double t = 1e-3L * ms;
+        return t < 0.1L   ? 500.0L * t * t
+               : t < 0.2L ? 5.0L + 100.0L * (t - 0.1L)
+                          : 20.0L - 500.0L * (0.3L - t) * (0.3L - t);
+    };
+    for (int ms = 0; ms <= 300; ++ms) {
+        samples.push_back(way(ms));
+    }
+    for (int ms = 1; ms <= 300; ++ms) {
+        samples.push_back(20.0L - way(ms));
+    }
+    return samples;
+}
+
+struct Recorded {
+    MachineDescription machine = machine_of({"x", "y"});
+    MotionRecord record{machine, millisecond};
+    LimitShare share{machine.settings};
+
+    void run(const Motion& motion) {
+        for (const FeedSegment& segment : motion) {
+            share.segment(segment);
+            record.segment(segment, share);
+        }
+    }
+};
+
+} // namespace
+
+TEST_CASE("a motion there and back: its extremes, its stop and its length") {
+    Recorded recorded;
+    recorded.record.come_to(0, 1, false);
+    recorded.run(motion_of(there_and_back()));
+    recorded.record.finish();
+    const TimeStrips& strips = recorded.record.strips();
+    float fastest = 0.0F;
+    float hardest = 0.0F;
+    for (std::size_t i = 0; i < strips.bins().size(); ++i) {
+        fastest = std::max(fastest, strips.range(i, 1).high);
+        hardest = std::max(hardest, -strips.range(i, 2).low);
+    }
+    CHECK(fastest == Approx(1.0).epsilon(1e-3));
+    CHECK(hardest == Approx(1.0).epsilon(1e-3));
+    REQUIRE(recorded.record.stops().size() >= 1);
+    const MotionRecord::Stop& stop = recorded.record.stops().front();
+    CHECK(stop.position[0] == Approx(20.0));
+    CHECK(stop.turn_deg == Approx(180.0));
+    CHECK(stop.why == MotionRecord::Why::turn);
+    CHECK(recorded.record.stops().back().why == MotionRecord::Why::end);
+    CHECK(recorded.record.totals()[0].length_mm == Approx(40.0));
+    const auto& points = recorded.record.path().points();
+    CHECK(points.front().position[0] == 0.0);
+    CHECK(points.back().length_mm == Approx(40.0));
+    const bool has_end = std::any_of(points.begin(), points.end(), [](const ThinnedPath::Point& point) {
+        return std::fabs(point.position[0] - 20.0) < 1e-6 && point.keep;
+    });
+    CHECK(has_end);
+}
+
+TEST_CASE("a program: the kinds of its moves, its lines, and a dwell") {
+    Recorded recorded;
+    MotionRecord& record = recorded.record;
+    record.start({});
+    PathElement<double> move;
+    move.to[0] = position_from_mm(20.0);
+    record.move(move, true, 4);
+    move.to[0] = position_from_mm(0.0);
+    move.mode = PathMode::exact_stop;
+    record.move(move, false, 5);
+    const Motion motion = motion_of(there_and_back());
+    const std::size_t half = motion.size() / 2;
+    record.come_to(0, 4, true);
+    recorded.run({motion.begin(), motion.begin() + static_cast<std::ptrdiff_t>(half)});
+    record.come_to(1, 5, true);
+    recorded.run({motion.begin() + static_cast<std::ptrdiff_t>(half), motion.end()});
+    FeedSegment stands{.duration_ticks = millisecond};
+    record.dwells(6);
+    recorded.run({stands, stands});
+    record.finish();
+    CHECK(record.totals()[1].length_mm == Approx(20.0).epsilon(0.01)); // a rapid
+    CHECK(record.totals()[0].length_mm == Approx(20.0).epsilon(0.01));
+    CHECK(record.lines().lines()[4].seconds == Approx(0.3).epsilon(0.05));
+    CHECK(record.lines().lines()[6].seconds == Approx(0.002));
+    CHECK(record.programmed().points().size() == 3);
+    CHECK(record.stops().back().stood_s >= 0.002);
+    CHECK(record.stops().back().why == MotionRecord::Why::end);
+}
+
+TEST_CASE("waypoints that would cover the path are not kept, and deviations are kept in bounded memory") {
+    Recorded recorded;
+    for (std::size_t i = 0; i < MotionRecord::most_waypoints; ++i) {
+        recorded.record.waypoint({});
+    }
+    CHECK(recorded.record.waypoints().size() == MotionRecord::most_waypoints);
+    recorded.record.waypoint({});
+    CHECK(recorded.record.waypoints().empty());
+    for (std::uint64_t row = 0; row < 500'000; ++row) {
+        recorded.record.deviates(row, row == 300'000 ? 0.5 : 0.001);
+    }
+    const auto& deviations = recorded.record.deviations();
+    CHECK(deviations.size() <= MotionRecord::most_rows);
+    CHECK(deviations[300'000 / recorded.record.rows_together()] == 0.5F);
+    CHECK(deviations[0] == 0.001F);
+}

@@ -1,0 +1,210 @@
+#!/usr/bin/env node
+// SPDX-License-Identifier: MIT
+// Pages of reports in a browser, without a network: pages.mjs TOOL PAGE_DIRECTORY (which bundle.sh has filled) [SCREENSHOTS]
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [tool, packages, shots] = process.argv.slice(2);
+const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
+const driver = join(packages, "node_modules/playwright-core/index.mjs");
+for (const [there, what] of [[browserPath, "chromium is not installed"], [existsSync(driver), "there is no playwright-core (report_bundle)"]]) {
+    if (!there) {
+        console.log(`SKIPPED: ${what}`);
+        process.exit(77);
+    }
+}
+const { chromium } = await import(pathToFileURL(resolve(driver)));
+const folder = mkdtempSync(join(tmpdir(), "report-"));
+const examples = resolve("examples");
+if (shots) mkdirSync(shots, { recursive: true });
+
+/** Runs the tool; gives the page and the summary. */
+function made(name, args, { input, status = 0, command = "run" } = {}) {
+    const html = join(folder, `${name}.html`);
+    const run = spawnSync(tool, [command, ...args, "--report", html, "--summary", "json", "--quiet"], { input, encoding: "utf8", maxBuffer: 1 << 26 });
+    assert.equal(run.status, status, run.stderr);
+    return { html, summary: JSON.parse(run.stdout) };
+}
+
+const browser = await chromium.launch({
+    executablePath: browserPath,
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+
+/** Opens a page offline; what is wrong on it, or asked for from elsewhere, fails. */
+async function open(html, theme = "light") {
+    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: theme, offline: true });
+    const page = await context.newPage();
+    const wrong = [];
+    page.on("pageerror", (error) => wrong.push(error.message));
+    page.on("console", (message) => message.type() === "error" && wrong.push(message.text()));
+    page.on("dialog", (dialog) => (wrong.push(`dialog: ${dialog.message()}`), dialog.dismiss()));
+    page.on("request", (request) => request.url().startsWith("file:") || request.url().startsWith("blob:") || wrong.push(request.url()));
+    page.setDefaultTimeout(120000);
+    await page.goto(pathToFileURL(html).href);
+    await page.waitForSelector(".space[data-tool]");
+    assert.deepEqual(wrong, []);
+    return { page, wrong, close: () => context.close() };
+}
+
+const fact = (page, name) => page.locator(".fact", { has: page.locator(`small:text-is("${name}")`) }).locator("b").innerText();
+const now = (page, name) => page.locator(".now > span", { has: page.locator(`small:text-is("${name}")`) }).innerText().then((text) => text.split("\n").pop());
+const time = async (page) => parseFloat(await now(page, "time"));
+const tab = (page, name) => page.click(`nav >> text="${name}"`);
+const close = (a, b, share = 1e-3) => assert.ok(Math.abs(a - b) <= share * Math.max(Math.abs(a), Math.abs(b)) + 1e-9, `${a} is not ${b}`);
+
+const tests = {
+    async "path61: figures, line to place, place to line, playing, zoom, colours"() {
+        const { html, summary } = made("path61", [join(examples, "path61.csv"), "-m", join(examples, "three_axis.toml")]);
+        const { page, wrong, close: end } = await open(html);
+        close(parseFloat(await fact(page, "cycle time")), summary.cycle_time_s);
+        close(parseFloat(await fact(page, "optimum")), summary.optimum_time_s);
+        close(parseFloat(await fact(page, "path length")), summary.length_mm);
+        close(parseFloat(await fact(page, "largest speed")), summary.max_speed_mm_s);
+        // Nothing scrolls.
+        assert.deepEqual(await page.evaluate(() => [document.documentElement.scrollHeight, document.documentElement.scrollWidth]), [800, 1280]);
+        // Line to place, and back.
+        await page.click('.row[data-line="20"]');
+        const t = await time(page);
+        assert.ok(t > 0 && t < summary.cycle_time_s);
+        await page.keyboard.press("ArrowRight");
+        assert.ok((await time(page)) > t);
+        const line = Number(await now(page, "line"));
+        assert.ok(line === 21 || line === 20, `line ${line}`);
+        await page.waitForTimeout(300);
+        const [x, y] = (await page.getAttribute(".space", "data-tool")).split(" ").map(Number);
+        const place = await time(page);
+        await page.keyboard.press("Home");
+        assert.equal(await time(page), 0);
+        await page.mouse.click(x, y + (await page.locator(".space").boundingBox()).y);
+        close(await time(page), place, 0.02);
+        // Play, pause.
+        await page.keyboard.press("Home");
+        await page.click('button[aria-label="play"]');
+        await page.waitForFunction(() => parseFloat(document.querySelector(".now").textContent.replace("time", "")) > 0.05);
+        await page.click('button[aria-label="pause"]');
+        const paused = await time(page);
+        await page.waitForTimeout(300);
+        assert.equal(await time(page), paused);
+        // Zoom of the strips, and all of it again.
+        const over = page.locator(".u-over").first();
+        await over.hover();
+        await page.mouse.wheel(0, -600);
+        await page.waitForFunction(() => document.querySelector(".strips").dataset.range);
+        const [from, to] = (await page.getAttribute(".strips", "data-range")).split(" ").map(Number);
+        assert.ok(to - from < 0.6 * summary.cycle_time_s, `${from} to ${to}`);
+        await over.dblclick();
+        const whole = (await page.getAttribute(".strips", "data-range")).split(" ").map(Number);
+        close(whole[1] - whole[0], summary.cycle_time_s, 0.01);
+        await page.selectOption('select[aria-label="strips over"]', "length");
+        // Colours: the legend says what they are.
+        for (const [quantity, said] of [["limit", "feed"], ["acceleration", "% of the limit"], ["feed", "programmed feed"], ["speed", "mm/s"]]) {
+            await page.selectOption('select[aria-label="colours of the path"]', quantity);
+            assert.match(await page.innerText(".legend"), new RegExp(said));
+        }
+        for (const key of ["2", "3", "4", "1", "d", "d"]) await page.keyboard.press(key);
+        await tab(page, "Limits");
+        const share = await page.locator(".page.open tbody tr").nth(1).locator("td").nth(2).innerText();
+        close(parseFloat(share), 100 * summary.limit_share.acceleration.y, 0.02);
+        assert.deepEqual(wrong, []);
+        await end();
+    },
+
+    async "a program in G-code: lines, stops, events, tool"() {
+        const { html, summary } = made("bracket", [join(examples, "bracket.ngc"), "-m", join(examples, "three_axis.toml")]);
+        const { page, wrong, close: end } = await open(html);
+        await tab(page, "Lines");
+        const first = await page.locator(".page.open tbody tr").first().locator("td").allInnerTexts();
+        await page.locator(".page.open tbody tr").first().click();
+        assert.equal(await now(page, "line"), first[0]);
+        await tab(page, "Stops");
+        assert.equal(await page.locator(".page.open tbody tr").count(), summary.stops + 1);
+        assert.match(await page.innerText(".page.open"), /corner of|dwell|exact stop/);
+        await tab(page, "Events");
+        assert.ok((await page.locator(".page.open tbody tr").count()) >= summary.program.events);
+        assert.match(await page.innerText(".modal"), /tool 1/);
+        await end();
+        assert.deepEqual(wrong, []);
+    },
+
+    async "a jerk limit: four strips"() {
+        const { html } = made("butterfly", [join(examples, "butterfly.json"), "-m", join(examples, "jerk_limited.toml")]);
+        const { page, wrong, close: end } = await open(html, "dark");
+        assert.equal(await page.locator(".strip").count(), 4);
+        assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), "dark");
+        await end();
+        assert.deepEqual(wrong, []);
+    },
+
+    async "six axes"() {
+        const axis = (name, rotary) => `[[axis]]\nname = "${name}"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 800\nsteps_per_mm = 400\n${rotary ? 'kind = "rotary"\n' : ""}`;
+        const machine = join(folder, "six.toml");
+        writeFileSync(machine, `[path]\nmax_feed_mm_s = 60\n${["x", "y", "z"].map((n) => axis(n, false)).join("")}${["a", "b", "c"].map((n) => axis(n, true)).join("")}`);
+        const rows = Array.from({ length: 30 }, (_, i) => [40 * Math.cos(i / 4), 40 * Math.sin(i / 4), i, 30 * Math.sin(i / 3), 2 * i, -i].map((v) => v.toFixed(4)).join(","));
+        const { html, summary } = made("six", ["-", "-m", machine], { input: `x,y,z,a,b,c\n${rows.join("\n")}\n` });
+        const { page, wrong, close: end } = await open(html);
+        assert.equal(await page.locator(".readout tbody tr").count(), 6);
+        close(parseFloat(await fact(page, "cycle time")), summary.cycle_time_s);
+        await end();
+        assert.deepEqual(wrong, []);
+    },
+
+    async "what an operator did, and a run that ended early"() {
+        const events = join(folder, "events.csv");
+        writeFileSync(events, "t,event,value\n0.1,override,0.5\n0.6,hold\n1,resume\n1.6,abort\n");
+        const { html } = made("events", [join(examples, "path61.csv"), "--events", events], { status: 1 });
+        const { page, wrong, close: end } = await open(html);
+        assert.match(await page.innerText(".banner"), /aborted/);
+        assert.match(await page.innerText(".modal"), /override 50 %/);
+        await tab(page, "Events");
+        assert.match(await page.innerText(".page.open"), /override[\s\S]*hold[\s\S]*resume[\s\S]*abort/);
+        await tab(page, "Stops");
+        assert.match(await page.innerText(".page.open"), /held by the operator/);
+        await end();
+        assert.deepEqual(wrong, []);
+    },
+
+    async "texts are no markup"() {
+        const program = join(folder, "<script>alert(1)<.csv");
+        writeFileSync(program, "# </script><script>alert(2)</script><img src=x onerror=alert(3)>\nx,y\n0,0\n10,5\n20,0\n");
+        const { html } = made("markup", [program]);
+        const { page, wrong, close: end } = await open(html);
+        assert.match(await page.innerText("h1"), /<script>alert\(1\)<\.csv$/);
+        assert.match(await page.innerText('.row[data-line="1"]'), /<\/script><script>alert\(2\)/);
+        assert.equal(await page.locator("img").count(), 0);
+        assert.ok(!readFileSync(html, "utf8").includes("<script>alert"));
+        await end();
+        assert.deepEqual(wrong, []);
+    },
+
+    async "layers of a printed program"() {
+        const program = join(folder, "rings.gcode");
+        writeFileSync(program, execFileSync("bench/slicer.py", ["1500"]));
+        const { html } = made("rings", [program, "--dialect", "marlin", "--ignore", "E", "-m", join(examples, "three_axis.toml"), "--scalar", "double"], { command: "plan" });
+        const { page, wrong, close: end } = await open(html);
+        await tab(page, "Layers");
+        assert.match(await page.innerText(".page.open h3"), /13 layers/);
+        await page.fill('input[aria-label="highest layer"]', "4");
+        assert.match(await page.innerText(".layer-range output"), /layers 1 to 5/);
+        await end();
+        assert.deepEqual(wrong, []);
+    },
+};
+
+let failed = 0;
+for (const [name, test] of Object.entries(tests)) {
+    try {
+        await test();
+        console.log(`ok: ${name}`);
+    } catch (error) {
+        ++failed;
+        console.log(`FAILED: ${name}\n${error.stack}`);
+    }
+}
+await browser.close();
+rmSync(folder, { recursive: true });
+process.exit(failed ? 1 : 0);
