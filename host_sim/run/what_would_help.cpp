@@ -119,6 +119,9 @@ std::vector<RaisedLimit> what_would_help(const HelpArguments& arguments, const S
         } else if (candidate.of_axis != nullptr) {
             machine.settings.axis[candidate.limit.axis].*candidate.of_axis *= raised;
         }
+        if (!MotionLimits<double>::make(machine.settings).has_value()) {
+            continue; // the limit is as high as a machine may state it
+        }
         const RunMachine higher(std::move(machine), arguments.path->format->is_gcode());
         const double factor = candidate.limit.kind == LimitKind::feed ? raised : 1.0;
         const double seconds = planned_s(arguments, higher, factor) + arguments.standing_s;
