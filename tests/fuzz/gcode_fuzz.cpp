@@ -138,8 +138,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ProgramSettings settings;
     settings.axes = 4;
     settings.letters = {'X', 'Y', 'Z', 'A'};
-    settings.dialect = static_cast<Dialect>(choice % 3);
-    settings.letters[3] = settings.dialect == Dialect::marlin ? 'E' : 'A';
+    settings.dialect = static_cast<Dialect>(choice % 5);
+    settings.letters[3] = rules_of(settings.dialect).extruder ? 'E' : 'A';
+    settings.ignores_unknown = (choice & 64U) != 0;
+    settings.increments = (choice & 128U) != 0;
     settings.block_delete = (choice & 4U) != 0;
     settings.tools = (choice & 8U) != 0 ? &tools : nullptr;
     const std::string text(reinterpret_cast<const char*>(bytes.data), bytes.left);

@@ -18,8 +18,9 @@ namespace {
 
 using Word = std::pair<char, int>; // its letter, ten times its number
 
-constexpr std::array<Dialect, 3> dialects{Dialect::linuxcnc, Dialect::grbl, Dialect::marlin};
-constexpr std::array<const char*, 3> names{"linuxcnc", "grbl", "marlin"};
+constexpr std::array<Dialect, 5> dialects{Dialect::linuxcnc, Dialect::grbl, Dialect::marlin, Dialect::fanuc,
+                                          Dialect::klipper};
+constexpr std::array<const char*, 5> names{"linuxcnc", "grbl", "marlin", "fanuc", "klipper"};
 
 bool ends_with(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;

@@ -66,9 +66,11 @@ TEST_CASE("random arcs lead from their start to their end about their centre", "
     }
 }
 
-TEST_CASE("radii may differ as in LinuxCNC", "[program][arc]") {
+TEST_CASE("radii may differ as in grbl", "[program][arc]") {
     const auto push = [](const char* line) {
-        GcodeRun<double> run;
+        ProgramSettings settings = six_axes();
+        settings.dialect = Dialect::grbl;
+        GcodeRun<double> run(settings);
         run.run("F600 G0 X0 Y0");
         return run.push(line).error;
     };

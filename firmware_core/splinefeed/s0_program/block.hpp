@@ -20,7 +20,8 @@ public:
     static constexpr std::int16_t no_code = -1;
 
     void clear() noexcept {
-        present_ = 0;
+        present_ = steps_ = whole_ = 0;
+        has_left_out_ = false;
         codes_.fill(no_code);
         comment_ = CommentKind::none;
         text_ = {};
@@ -31,6 +32,24 @@ public:
         values_[index(letter)] = value;
         columns_[index(letter)] = static_cast<std::uint8_t>(column - 1);
     }
+    /// As if the letter of a word were another one. @pre has(from), not has(to)
+    void rename(char from, char to, Decimal value) noexcept {
+        set(to, value, columns_[index(from)] + std::size_t{1});
+        keep(present_ & ~letter_bit(from));
+    }
+    /// @pre has(letter)
+    void change(char letter, Decimal value) noexcept { values_[index(letter)] = value; }
+    /// Only these letters stay.
+    void keep(std::uint32_t letters) noexcept { present_ &= letters; }
+    /// The value of the axis is a step, in G90, too.
+    void set_step(char axis) noexcept { steps_ |= letter_bit(axis); }
+    [[nodiscard]] bool is_step(char axis) const noexcept { return (steps_ & letter_bit(axis)) != 0; }
+    /// The number has no decimal point.
+    void set_whole(char letter) noexcept { whole_ |= letter_bit(letter); }
+    [[nodiscard]] bool is_whole(char letter) const noexcept { return (whole_ & letter_bit(letter)) != 0; }
+    /// A G or M word of the block was left out: letters that no other word uses were its own.
+    void set_left_out() noexcept { has_left_out_ = true; }
+    [[nodiscard]] bool has_left_out() const noexcept { return has_left_out_; }
     [[nodiscard]] bool has(char letter) const noexcept { return (present_ & letter_bit(letter)) != 0; }
     /// Whether it has one of the letters.
     [[nodiscard]] bool has_any(std::uint32_t letters) const noexcept { return (present_ & letters) != 0; }
@@ -78,6 +97,9 @@ private:
     }
 
     std::uint32_t present_ = 0;
+    std::uint32_t steps_ = 0;
+    std::uint32_t whole_ = 0;
+    bool has_left_out_ = false;
     CommentKind comment_ = CommentKind::none;
     std::array<Decimal, 26> values_{};
     std::array<std::uint8_t, 26> columns_{}; // from 0

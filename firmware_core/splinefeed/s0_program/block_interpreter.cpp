@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/block_interpreter.hpp"
 
+#include "splinefeed/s0_program/adapt_words.hpp"
 #include "splinefeed/s0_program/decimal_text.hpp"
 
 namespace splinefeed {
@@ -133,17 +134,32 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         plan_.manner = {};
         plan_homing(0);
         stage_ = 0;
-    } else if (status.ok() && kind == LineKind::block) {
-        status = execute();
+    } else if (kind == LineKind::block) {
+        const BlockStatus adapted = adapt_words(block_, modal_, letters_, settings_);
+        status = !status.ok() ? status : !adapted.ok() ? adapted : execute();
     }
     if (!status.ok()) {
         status.length = word_length(text, status.column);
-        block_.clear();
         plan_.clear();
         stage_ = all_done;
         discard_assignments();
     }
     return status;
+}
+
+void BlockInterpreter::obey_refused() noexcept {
+    static_cast<void>(modal_.apply(block_, settings_));
+    modal_.motion = block_.has(CodeGroup::motion) ? block_.code(CodeGroup::motion) : modal_.motion;
+    const std::int16_t modeless = block_.code(CodeGroup::non_modal);
+    const bool moves = (modeless == Block::no_code || modeless == 530) && modal_.motion != ModalState::no_motion;
+    AxisPoint program;
+    AxisPoint machine;
+    if (moves && !is_cycle(modal_.motion) && !nurbs_.is_open() && find_end(program, machine).ok() &&
+        check_reach(place_.machine, machine).ok()) {
+        place_ = {program, machine};
+        emitted_ = machine;
+    }
+    block_.clear();
 }
 
 BlockStatus BlockInterpreter::execute_percent() noexcept {
@@ -174,7 +190,7 @@ BlockStatus BlockInterpreter::end_of_input() noexcept {
 
 BlockStatus BlockInterpreter::execute() noexcept {
     BlockUse use;
-    if (const BlockStatus status = find_use(block_, modal_, letters_, settings_.dialect, use); !status.ok()) {
+    if (const BlockStatus status = find_use(block_, modal_, letters_, rules(), use); !status.ok()) {
         return status;
     }
     const ModalState modal = modal_;

@@ -45,6 +45,9 @@ public:
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
     /// The input has ended without M2: next() gives what cutter compensation holds back. Error: cutter_gouge.
     BlockStatus end_of_input() noexcept;
+    /// After an error of push(), for whoever looks for further ones: the words that were understood take effect. The
+    /// program goes on at the end of the line's move, which is not given.
+    void obey_refused() noexcept;
     /// Whether M2, M30 or the closing % has been executed: of M2 and M30, when next() has given the motion of the
     /// block.
     [[nodiscard]] bool has_ended() const noexcept { return ended_; }
@@ -92,6 +95,8 @@ private:
     BlockStatus execute_words(const BlockUse& use) noexcept;
     BlockStatus execute_percent() noexcept;
     void plan_homing(std::uint32_t axes) noexcept;
+    void end_shift(std::uint32_t axes) noexcept;
+    [[nodiscard]] const DialectRules& rules() const noexcept { return rules_of(settings_.dialect); }
 
     // Offsets: offset_words.cpp.
     BlockStatus set_tool_length() noexcept;
@@ -120,6 +125,8 @@ private:
     BlockStatus plan_motion(const BlockUse& use, const ModalState& before) noexcept;
     BlockStatus plan_straight() noexcept;
     BlockStatus plan_arc() noexcept;
+    void plan_parabola(unsigned first, unsigned second, const ArcGeometry& arc, const AxisPoint& program,
+                       const AxisPoint& machine) noexcept;
     BlockStatus plan_cycle(const ModalState& before) noexcept;
     BlockStatus plan_spline(const ModalState& before) noexcept;
     BlockStatus plan_nurbs() noexcept;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/block_reader.hpp"
 
+#include "splinefeed/s0_program/axis_letters.hpp"
 #include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/modal_state.hpp"
 
 namespace splinefeed {
 
@@ -9,8 +11,23 @@ using namespace std::string_view_literals; // without strlen
 
 namespace {
 
+constexpr std::uint32_t coordinate_bits = Block::bits("xyzabcuvwijkrf");
+
 constexpr bool is_letter(char c) noexcept {
     return c >= 'a' && c <= 'z';
+}
+
+constexpr bool is_part_of_number(char c) noexcept {
+    return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
+}
+
+// "2.4e-16", with the cursor at the e: no control reads the two as one number, and nobody means two words.
+constexpr bool is_exponent(const TextCursor& text) noexcept {
+    TextCursor next = text;
+    next.step();
+    const std::size_t at = text.at();
+    return text.peek() == 'e' && at > 0 && is_part_of_number(text.text()[at - 1]) && next.at() == at + 1 &&
+           is_part_of_number(next.peek()) && next.peek() != '.';
 }
 
 } // namespace
@@ -37,11 +54,27 @@ bool BlockReader::has_others(const Block& block) const noexcept {
     return false;
 }
 
+// The words of codes that are left out go with them, if no other word takes them.
+void BlockReader::leave_axes_out(Block& out) const noexcept {
+    const std::int16_t modeless = out.code(CodeGroup::non_modal);
+    const bool taken = modeless != Block::no_code && modeless != 40 && modeless != 530;
+    if (left_out_.axes && !taken && !out.has(CodeGroup::motion)) {
+        out.keep(Block::bits("fst"));
+    }
+    if (left_out_.motion && !out.has(CodeGroup::motion)) { // later axis words are not those of the motion before
+        out.set_code(CodeGroup::motion, ModalState::no_motion, 1);
+    }
+    if (left_out_.code) {
+        out.set_left_out();
+    }
+}
+
 BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& control, Block& out,
                               LineKind& kind) noexcept {
     out.clear();
     kind = LineKind::block;
-    ignored_code_ = ignored_word_ = false;
+    left_out_ = {};
+    has_command_ = false;
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) {
         text.remove_suffix(1);
     }
@@ -53,7 +86,7 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         kind = LineKind::percent;
         return cursor.at_end() ? BlockStatus{} : BlockStatus{ProgramError::character_invalid, 1, cursor.column()};
     }
-    if (settings_->dialect == Dialect::grbl && cursor.peek() == '$') {
+    if (rules_->dollar_lines && cursor.peek() == '$') {
         const std::uint16_t column = cursor.column();
         kind = LineKind::homing;
         const bool homing = cursor.take("$h"sv) && cursor.at_end();
@@ -64,11 +97,15 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
         return {};
     }
     const ProgramStatus status = read_words(cursor, control, out);
-    if (ignored_word_ && !has_axes(out) && out.code(CodeGroup::non_modal) == 920) { // a printer's G92 E0 without E
-        kind = LineKind::left_out;
-        return {};
+    if (!status.ok()) {
+        read_rest(cursor, control, out);
     }
-    if (ignored_code_ && !has_others(out)) { // its words are not another code's, whatever they are
+    const std::int16_t modeless = out.code(CodeGroup::non_modal);
+    out.keep(~left_out_.bare | (modeless == 280 ? left_out_.bare & AxisLetters(*settings_).bits() : 0U)); // G28 X W
+    leave_axes_out(out);
+    const bool no_shift = left_out_.word && !has_axes(out) && modeless == 920; // a printer's G92 E0 without E
+    // The words of a code that is left out are not another code's, whatever they are.
+    if (left_out_.command || no_shift || (left_out_.code && !has_others(out))) {
         kind = LineKind::left_out;
         return {};
     }
@@ -76,64 +113,141 @@ BlockStatus BlockReader::read(std::string_view text, const BlockInterpreter& con
 }
 
 ProgramStatus BlockReader::read_words(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
-    while (!text.at_end()) {
-        const char c = text.peek();
-        if (c == ';') {
-            return {};
-        }
-        if (c == '*' && settings_->dialect == Dialect::marlin) {
+    while (!text.at_end() && text.peek() != ';') {
+        if (text.peek() == '*' && rules_->checksums) {
             return read_checksum(text);
         }
-        ProgramStatus status;
-        if (c == '(') {
-            status = read_comment(text, out);
-        } else if (c == '#') {
-            status = evaluator_ != nullptr ? evaluator_->assignment(text, control)
-                                           : ProgramStatus(ProgramError::expression_unsupported);
-        } else if (is_letter(c)) {
-            status = read_word(text, control, out);
-        } else {
-            status = c == '@' || c == '^' ? ProgramError::polar_unsupported : ProgramError::character_invalid;
-        }
-        if (!status.ok()) {
+        if (const ProgramStatus status = read_part(text, control, out); !status.ok()) {
             return status;
         }
-        if (out.code(CodeGroup::printer) == 117) {
+        const std::int16_t printer = out.code(CodeGroup::printer);
+        const bool pauses = rules_->one_command && out.has(CodeGroup::stop); // M0 S5 Click to go on
+        if (printer == 117) {
             out.set_comment(CommentKind::none, TextCursor::place(text.at(), text.find(';', text.at())));
             return {};
+        }
+        if (printer != Block::no_code || left_out_.command || pauses) {
+            read_free_words(text, out);
+            out.keep(pauses ? Block::bits("s") : ~0U);
         }
     }
     return {};
 }
 
+// A word, a comment or an assignment.
+ProgramStatus BlockReader::read_part(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
+    const char c = text.peek();
+    if (c == '(') {
+        return read_comment(text, out);
+    }
+    if (c == '#') {
+        return evaluator_ != nullptr ? evaluator_->assignment(text, control)
+                                     : ProgramStatus(ProgramError::expression_unsupported);
+    }
+    if (is_letter(c)) {
+        return read_word(text, control, out);
+    }
+    return c == '@' || c == '^' ? ProgramError::polar_unsupported : ProgramError::character_invalid;
+}
+
+// Behind a word that is wrong: whoever looks for all errors wants to know what the others do.
+void BlockReader::read_rest(TextCursor text, const BlockInterpreter& control, Block& out) noexcept {
+    while (!text.at_end() && text.peek() != ';') {
+        text.step();
+        while (is_part_of_number(text.peek())) {
+            text.step();
+        }
+        while (is_letter(text.peek())) {
+            TextCursor word = text;
+            if (!read_word(word, control, out).ok()) {
+                break;
+            }
+            text = word;
+        }
+        if (text.peek() == '#' || text.peek() == '[') {
+            return;
+        }
+    }
+}
+
+// The words of a printer's M word are its own. What is no number is passed over, as in M115 U3.8.1 and P "MK3".
+void BlockReader::read_free_words(TextCursor& text, Block& out) const noexcept {
+    while (!text.at_end() && text.peek() != ';' && !(text.peek() == '*' && rules_->checksums)) {
+        const char letter = text.peek();
+        if (letter == '"') {
+            text.go_to(text.find('"', text.at() + 1));
+        }
+        const std::size_t column = text.column();
+        text.step();
+        Decimal value;
+        TextCursor number = text;
+        if (is_letter(letter) && read_decimal(number, value).ok()) {
+            text = number;
+            if (!out.has(letter)) {
+                out.set(letter, value, column);
+            }
+        }
+    }
+}
+
+// Whether a letter has no number, where that is a word. SIN[ is none.
+bool BlockReader::is_bare(const TextCursor& text) const noexcept {
+    TextCursor cursor = text;
+    if (!rules_->bare_letters || (!cursor.at_end() && !is_letter(cursor.peek()) && cursor.peek() != ';' &&
+                                  cursor.peek() != '*' && cursor.peek() != '(')) {
+        return false;
+    }
+    while (is_letter(cursor.peek())) {
+        cursor.step();
+    }
+    return cursor.peek() != '[';
+}
+
 ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& control, Block& out) noexcept {
     const std::size_t column = text.column();
     const char letter = text.peek();
-    if (letter == 'o') {
+    if (letter == 'o' && !rules_->bare_letters) {
         return ProgramError::o_word;
     }
     const TextCursor word = text;
     text.step();
     Decimal value;
     const char first = text.peek();
+    if (letter != 'g' && letter != 'm' && is_bare(text)) {
+        left_out_.bare |= Block::letter_bit(letter);
+        if (!out.has(letter)) {
+            out.set(letter, {}, column);
+        }
+        return {};
+    }
     if (const ProgramStatus status = read_value(text, control, value); !status.ok()) {
         if (first != '#' && first != '[' && !is_letter(first)) {
             text = word; // a plain number: the word is wrong; else the place within the expression is
         }
         return status;
     }
+    const std::string_view as_it_stands = text.part(word.at(), text.at());
+    if (!rules_->extruder && (Block::letter_bit(letter) & coordinate_bits) != 0 && is_exponent(text)) {
+        text = word;
+        return ProgramError::number_has_exponent;
+    }
     if (letter == 'n') {
         return {};
     }
     if (letter == 'g' || letter == 'm') {
-        const ProgramStatus status = add_code(letter, value, column, out);
+        bool left_out = false;
+        const ProgramStatus status = add_code(letter, value, column, out, left_out);
         if (!status.ok()) {
             text = word; // the word is wrong, not what follows it
+        }
+        if (left_out) {
+            note(as_it_stands);
         }
         return status;
     }
     if (is_ignored(upper_case(letter), value)) {
-        ignored_word_ = true;
+        left_out_.word = true;
+        note(as_it_stands);
         return {};
     }
     if (out.has(letter)) {
@@ -141,7 +255,19 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         return ProgramError::word_repeated;
     }
     out.set(letter, value, column);
+    if (first != '#' && first != '[' && as_it_stands.find('.') == std::string_view::npos) {
+        out.set_whole(letter);
+    }
     return {};
+}
+
+void BlockReader::note(std::string_view word) const noexcept {
+    while (!word.empty() && (word.back() == ' ' || word.back() == '\t')) {
+        word.remove_suffix(1);
+    }
+    if (settings_->left_out != nullptr) {
+        settings_->left_out->add(word);
+    }
 }
 
 ProgramStatus BlockReader::read_value(TextCursor& text, const BlockInterpreter& control, Decimal& out) noexcept {
@@ -167,44 +293,62 @@ ProgramStatus BlockReader::read_value(TextCursor& text, const BlockInterpreter& 
     return status;
 }
 
-ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t column, Block& out) noexcept {
-    if (is_ignored(upper_case(letter), value)) {
-        ignored_code_ = true;
+ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t column, Block& out,
+                                    bool& left_out) noexcept {
+    const bool is_g = letter == 'g';
+    std::int32_t code = 0;
+    CodeInfo info{CodeGroup::none, is_g ? ProgramError::g_code_unknown : ProgramError::m_code_unknown};
+    if (value.raw >= 0 && value <= Decimal::from_integer(is_g ? 1000 : 10000) &&
+        to_integer(is_g ? Decimal{value.raw * 10} : value, code)) {
+        const CodeInfo found = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
+        info = found.group != CodeGroup::none || found.refusal != ProgramError::none ? found : info;
+    }
+    const bool is_first = !has_command_;
+    has_command_ = true;
+    const bool is_unknown =
+        info.refusal == ProgramError::g_code_unknown || info.refusal == ProgramError::m_code_unknown ||
+        info.refusal == ProgramError::user_code_unsupported || info.refusal == ProgramError::not_in_dialect;
+    if (rules_->one_command && !is_g && (!is_first || (is_unknown && rules_->skips_unknown))) {
+        left_out_.command = left_out_.command || is_first;
+        left_out = true;
         return {};
     }
-    std::int32_t code = 0;
-    const bool is_g = letter == 'g';
-    const ProgramError unknown = is_g ? ProgramError::g_code_unknown : ProgramError::m_code_unknown;
-    if (value.raw < 0 || value > Decimal::from_integer(1000) ||
-        !to_integer(is_g ? Decimal{value.raw * 10} : value, code)) {
-        return unknown;
+    if (is_ignored(upper_case(letter), value) || (is_unknown && settings_->ignores_unknown)) {
+        const bool is_modal = info.group == CodeGroup::motion && code != ModalState::no_motion;
+        const bool takes_axes = info.group == CodeGroup::non_modal && code != 40 && code != 530;
+        left_out_.code = left_out = true;
+        left_out_.motion = left_out_.motion || is_modal;
+        left_out_.axes = left_out_.axes || is_modal || takes_axes || (is_g && is_unknown) || (is_g && code == 431);
+        return {};
     }
-    const CodeInfo info = is_g ? find_g_code(code, settings_->dialect) : find_m_code(code, settings_->dialect);
     if (info.refusal != ProgramError::none) {
         return info.refusal;
     }
-    if (info.group == CodeGroup::none) {
-        return unknown;
-    }
-    if (out.has(info.group)) {
+    if (info.group == CodeGroup::motion && out.has(info.group) &&
+        (code == ModalState::no_motion ||
+         out.code(info.group) == ModalState::no_motion)) { // G80 beside another motion ends cycles only
+        if (code == ModalState::no_motion) {
+            return {};
+        }
+    } else if (out.has(info.group) && info.group != CodeGroup::without_effect) {
         return ProgramError::modal_group_conflict;
     }
     out.set_code(info.group, code, column);
     return {};
 }
 
-ProgramStatus BlockReader::read_comment(TextCursor& text, Block& out) noexcept {
+ProgramStatus BlockReader::read_comment(TextCursor& text, Block& out) const noexcept {
     const std::string_view line = text.text();
     const std::size_t begin = text.at() + 1;
     std::size_t end = begin;
     while (end < line.size() && line[end] != ')') {
-        if (line[end] == '(') {
+        if (line[end] == '(' && !rules_->open_comments) {
             text.go_to(end);
             return ProgramError::comment_nested;
         }
         ++end;
     }
-    if (end == line.size()) {
+    if (end == line.size() && !rules_->open_comments) {
         return ProgramError::comment_not_closed;
     }
     TextCursor inside(text.part(begin, end));

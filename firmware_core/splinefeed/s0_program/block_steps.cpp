@@ -90,8 +90,7 @@ bool BlockInterpreter::event_is_due() noexcept {
     case comment: return block_.comment() != CommentKind::none;
     case speed: // but behind M5: a spindle that is to stop takes no other speed before
     case speed_at_rest:
-        return states_speed(block_, settings_.dialect) &&
-               (block_.code(CodeGroup::spindle) == 5) == (stage_ == speed_at_rest);
+        return states_speed(block_, rules()) && (block_.code(CodeGroup::spindle) == 5) == (stage_ == speed_at_rest);
     case tool_select: return block_.has('t') && !block_.has(CodeGroup::printer);
     case input_output: return block_.has(CodeGroup::input_output);
     case tool_change: return block_.has(CodeGroup::tool_change);
@@ -177,7 +176,7 @@ void BlockInterpreter::fill_event(ProgramEvent& event) const noexcept {
     default: // the two of the speed
         event.kind = EventKind::spindle_speed;
         event.value = modal_.speed;
-        event.stops = settings_.dialect == Dialect::linuxcnc; // engravers change the power of a laser while it moves
+        event.stops = rules().speed_stops;
     }
 }
 
@@ -242,13 +241,9 @@ Pull BlockInterpreter::next_of_block(ProgramStep& out, ProgramEvent& event) noex
             if (block_.code(CodeGroup::non_modal) != 40) {
                 continue;
             }
-            const bool marlin = settings_.dialect == Dialect::marlin;
             out.kind = ItemKind::dwell;
             out.stops_before = true;
             out.dwell_s = block_.value('p');
-            if (marlin) { // P in milliseconds, S in seconds
-                out.dwell_s = block_.has('s') ? block_.value('s') : Decimal{out.dwell_s.raw / 1000};
-            }
             ++stage_;
             return Pull::item;
         }

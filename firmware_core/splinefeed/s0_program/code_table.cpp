@@ -9,9 +9,12 @@ namespace splinefeed {
 
 namespace {
 
-constexpr std::uint8_t in_grbl = 1;
+constexpr std::uint8_t in_grbl = 1; // and grblHAL
 constexpr std::uint8_t in_marlin = 2;
 constexpr std::uint8_t in_both = 3;
+constexpr std::uint8_t in_klipper = 4; // these two of `extras` alone: it has Marlin's words,
+constexpr std::uint8_t in_fanuc = 8;   // and this one LinuxCNC's
+constexpr std::uint8_t in_printers = in_marlin | in_klipper;
 
 struct Row {
     std::int16_t code = 0; // of the first word
@@ -29,7 +32,7 @@ struct CodeRows {
     static constexpr Row g[] = {
         Row{0, 30, motion, ProgramError::none, in_both},
         Row{40, 40, non_modal, ProgramError::none, in_both},
-        Row{50, 51, motion, ProgramError::none, in_marlin},
+        Row{50, 51, motion, ProgramError::none, in_both},
         Row{52, 52, motion},
         Row{53, 53, non_modal},
         Row{70, 70, lathe_diameter, ProgramError::lathe_unsupported},
@@ -51,54 +54,85 @@ struct CodeRows {
         Row{400, 400, cutter_radius, ProgramError::none, in_grbl},
         Row{410, 411, cutter_radius},
         Row{420, 421, cutter_radius},
-        Row{430, 430, tool_length},
+        Row{430, 430, tool_length, ProgramError::none, in_grbl},
         Row{431, 431, tool_length, ProgramError::none, in_grbl},
         Row{432, 432, tool_length, ProgramError::tool_offset_sum_unsupported},
         Row{490, 490, tool_length, ProgramError::none, in_grbl},
         Row{520, 520, non_modal},
         Row{530, 530, non_modal, ProgramError::none, in_both},
         Row{540, 590, work_system, ProgramError::none, in_both},
-        Row{591, 593, work_system, ProgramError::none, in_marlin},
+        Row{591, 593, work_system, ProgramError::none, in_both},
         Row{610, 610, path_mode, ProgramError::none, in_both},
-        Row{611, 611, path_mode},
-        Row{640, 640, path_mode},
+        Row{611, 611, path_mode, ProgramError::none, in_grbl},
+        Row{640, 640, path_mode, ProgramError::none, in_grbl},
         Row{700, 723, motion, ProgramError::lathe_unsupported},
-        Row{730, 730, motion},
+        Row{730, 730, motion, ProgramError::none, in_grbl},
         Row{740, 740, motion, ProgramError::tapping_unsupported},
         Row{760, 760, motion, ProgramError::thread_unsupported},
         Row{800, 800, motion, ProgramError::none, in_both},
-        Row{810, 830, motion},
+        Row{810, 830, motion, ProgramError::none, in_grbl},
         Row{840, 840, motion, ProgramError::tapping_unsupported},
-        Row{850, 860, motion},
+        Row{850, 860, motion, ProgramError::none, in_grbl},
         Row{870, 880, motion, ProgramError::boring_unsupported},
-        Row{890, 890, motion},
+        Row{890, 890, motion, ProgramError::none, in_grbl},
         Row{900, 900, distance, ProgramError::none, in_both},
         Row{901, 901, centre_distance},
         Row{910, 910, distance, ProgramError::none, in_both},
         Row{911, 911, centre_distance, ProgramError::none, in_grbl},
         Row{920, 920, non_modal, ProgramError::none, in_both},
         Row{921, 921, non_modal, ProgramError::none, in_both},
-        Row{922, 923, non_modal},
+        Row{922, 923, non_modal, ProgramError::none, in_grbl},
         Row{930, 930, feed_mode, ProgramError::none, in_grbl},
         Row{940, 940, feed_mode, ProgramError::none, in_both},
         Row{950, 950, feed_mode, ProgramError::feed_per_revolution_unsupported},
         Row{960, 960, spindle_mode, ProgramError::surface_speed_unsupported},
         Row{970, 970, spindle_mode},
-        Row{980, 980, retract},
-        Row{990, 990, retract},
+        Row{980, 980, retract, ProgramError::none, in_grbl},
+        Row{990, 990, retract, ProgramError::none, in_grbl},
+    };
+
+    // Words that are of some dialects only, or mean something else there. `dialects` has all of them.
+    static constexpr Row g_extras[] = {
+        Row{50, 51, without_effect, ProgramError::none, in_fanuc}, // look-ahead
+        Row{52, 53, motion, ProgramError::not_in_dialect, in_fanuc},
+        Row{80, 80, without_effect, ProgramError::none, in_fanuc}, // look-ahead
+        Row{100, 110, non_modal, ProgramError::firmware_retraction_unsupported, in_printers},
+        Row{131, 131, without_effect, ProgramError::none, in_fanuc}, // the ends of what is refused
+        Row{150, 150, without_effect, ProgramError::none, in_fanuc},
+        Row{200, 200, units, ProgramError::not_in_dialect, in_klipper},
+        Row{290, 290, non_modal, ProgramError::bed_levelling_unsupported, in_printers},
+        Row{500, 500, without_effect, ProgramError::none, in_fanuc | in_grbl},
+        Row{501, 501, without_effect, ProgramError::none, in_fanuc},
+        Row{670, 670, without_effect, ProgramError::none, in_fanuc},
+        Row{690, 690, without_effect, ProgramError::none, in_fanuc},
+        Row{760, 760, motion, ProgramError::boring_unsupported, in_fanuc},
+    };
+
+    static constexpr Row m_extras[] = {
+        Row{29, 29, without_effect, ProgramError::none, in_fanuc}, // that G84 is rigid
+        // Of printers: they move or shift it.
+        Row{125, 125, input_output, ProgramError::printer_move_unsupported, in_printers},
+        Row{206, 206, input_output, ProgramError::printer_move_unsupported, in_printers},
+        Row{290, 290, input_output, ProgramError::printer_move_unsupported, in_printers},
+        Row{428, 428, input_output, ProgramError::printer_move_unsupported, in_printers},
+        Row{600, 600, input_output, ProgramError::printer_move_unsupported, in_printers},
+        Row{665, 666, input_output, ProgramError::printer_move_unsupported, in_printers},
+        Row{701, 702, input_output, ProgramError::printer_move_unsupported, in_printers},
+        Row{852, 852, input_output, ProgramError::printer_move_unsupported, in_printers},
     };
 
     static constexpr Row m[] = {
         Row{0, 2, stop, ProgramError::none, in_both},
         Row{3, 5, spindle, ProgramError::none, in_both},
-        Row{6, 6, tool_change, ProgramError::none, in_marlin},
+        Row{6, 6, tool_change, ProgramError::none, in_both},
         Row{7, 9, coolant, ProgramError::none, in_both},
         Row{19, 19, spindle, ProgramError::spindle_orientation_unsupported},
         Row{30, 30, stop, ProgramError::none, in_grbl},
-        Row{48, 53, override_mode},
-        Row{60, 60, stop},
-        Row{61, 61, tool_change},
-        Row{62, 68, input_output},
+        Row{48, 53, override_mode, ProgramError::none, in_grbl},
+        Row{60, 60, stop, ProgramError::none, in_grbl},
+        Row{61, 61, tool_change, ProgramError::none, in_grbl},
+        Row{62, 66, input_output, ProgramError::none, in_grbl},
+        Row{67, 68, input_output},
         Row{70, 73, input_output, ProgramError::modal_state_unsupported},
         Row{98, 99, stop, ProgramError::subprogram_unsupported, in_grbl},
         Row{100, 199, input_output, ProgramError::user_code_unsupported},
@@ -109,20 +143,31 @@ struct CodeRows {
 constexpr std::int16_t printer_codes[] = {17,  18,  73,  82,  83,  84,  104, 105, 106, 107, 109, 110, 115, 117,
                                           140, 141, 190, 191, 201, 203, 204, 205, 220, 221, 300, 400, 900};
 
-template <std::size_t n>
-CodeInfo find(const Row (&rows)[n], std::int32_t code, std::int32_t step, Dialect dialect) noexcept {
+constexpr bool is_within(const Row& row, std::int32_t code, std::int32_t step) noexcept {
+    // A range of whole numbers has no tenths in it: G0.5 is not between G0 and G3.
+    const bool whole = row.code % step == 0 && row.last % step == 0 && row.last - row.code >= step;
+    return code >= row.code && code <= row.last && !(whole && row.refusal == ProgramError::none && code % step != 0);
+}
+
+constexpr std::uint8_t bit_of(Dialect dialect) noexcept {
+    constexpr std::uint8_t bits[] = {0, in_grbl, in_marlin, in_fanuc, in_klipper};
+    return bits[static_cast<unsigned>(dialect)];
+}
+
+template <std::size_t n, std::size_t more>
+CodeInfo find(const Row (&rows)[n], const Row (&extras)[more], std::int32_t code, std::int32_t step,
+              Dialect dialect) noexcept {
+    for (const Row& row : extras) {
+        if ((row.dialects & bit_of(dialect)) != 0 && is_within(row, code, step)) {
+            return {row.group, row.refusal};
+        }
+    }
+    const std::uint8_t needed = dialect == Dialect::klipper ? in_marlin : bit_of(dialect) & in_both;
     for (const Row& row : rows) {
-        if (code < row.code) {
-            break;
+        if (is_within(row, code, step)) {
+            const bool known = (row.dialects & needed) == needed || row.refusal != ProgramError::none;
+            return {row.group, known ? row.refusal : ProgramError::not_in_dialect};
         }
-        // A range of whole numbers has no tenths in it: G0.5 is not between G0 and G3.
-        const bool whole = row.code % step == 0 && row.last % step == 0 && row.last - row.code >= step;
-        if (code > row.last || (whole && row.refusal == ProgramError::none && code % step != 0)) {
-            continue;
-        }
-        const std::uint8_t needed = dialect == Dialect::grbl ? in_grbl : dialect == Dialect::marlin ? in_marlin : 0;
-        const bool known = (row.dialects & needed) == needed || row.refusal != ProgramError::none;
-        return {row.group, known ? row.refusal : ProgramError::not_in_dialect};
     }
     return {};
 }
@@ -130,21 +175,15 @@ CodeInfo find(const Row (&rows)[n], std::int32_t code, std::int32_t step, Dialec
 } // namespace
 
 CodeInfo find_g_code(std::int32_t tenths, Dialect dialect) noexcept {
-    if (dialect == Dialect::marlin && (tenths == 100 || tenths == 110)) {
-        return {CodeGroup::non_modal, ProgramError::firmware_retraction_unsupported};
-    }
-    if (dialect == Dialect::marlin && tenths == 290) {
-        return {CodeGroup::non_modal, ProgramError::bed_levelling_unsupported};
-    }
-    return find(CodeRows::g, tenths, 10, dialect);
+    return find(CodeRows::g, CodeRows::g_extras, tenths, 10, dialect);
 }
 
 CodeInfo find_m_code(std::int32_t number, Dialect dialect) noexcept {
-    if (dialect == Dialect::marlin &&
+    if ((bit_of(dialect) & in_printers) != 0 &&
         std::find(std::begin(printer_codes), std::end(printer_codes), number) != std::end(printer_codes)) {
         return {CodeGroup::printer, ProgramError::none};
     }
-    return find(CodeRows::m, number, 1, dialect);
+    return find(CodeRows::m, CodeRows::m_extras, number, 1, dialect);
 }
 
 } // namespace splinefeed

@@ -24,6 +24,7 @@ enum class CodeGroup : std::uint8_t {
     path_mode,       ///< G61 G61.1 G64
     spindle_mode,    ///< G97
     lathe_diameter,  ///< G8
+    without_effect,  ///< G15 G50 G69 and others of fanuc; they do not exclude each other
     // M
     stop,          ///< M0 M1 M2 M30 M60
     input_output,  ///< M62 to M68

@@ -13,7 +13,8 @@ constexpr std::int64_t least_feed = 60 * Decimal::one / 1000; // 0.001 mm/s in m
 
 ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
     ModalState state;
-    state.motion = settings.dialect == Dialect::linuxcnc ? no_motion : std::int16_t{0};
+    state.motion = rules_of(settings.dialect).first_motion;
+    state.feed = rules_of(settings.dialect).first_feed;
     state.tolerance_mm = state.chain_tolerance_mm = settings.default_tolerance_mm;
     return state;
 }
@@ -24,15 +25,14 @@ void ModalState::end_program(const ProgramSettings& settings) noexcept {
     inverse_time = false;
     needs_straight = false;
     cutter = {};
-    feed = {};
+    feed = rules_of(settings.dialect).first_feed;
     feed_in_inches = false;
-    motion = settings.dialect == Dialect::grbl ? std::int16_t{0} : std::int16_t{10};
+    motion = rules_of(settings.dialect).last_motion;
     spindle = SpindleState::stopped;
 }
 
-bool states_speed(const Block& block, Dialect dialect) noexcept {
-    const bool is_time =
-        dialect == Dialect::marlin && (block.code(CodeGroup::non_modal) == 40 || block.has(CodeGroup::stop));
+bool states_speed(const Block& block, const DialectRules& rules) noexcept {
+    const bool is_time = rules.dwell_speed && (block.code(CodeGroup::non_modal) == 40 || block.has(CodeGroup::stop));
     return block.has('s') && !block.has(CodeGroup::printer) && !is_time;
 }
 
@@ -47,7 +47,7 @@ BlockStatus ModalState::apply(const Block& block, const ProgramSettings& setting
     if (const BlockStatus status = apply_feed(block); !status.ok()) {
         return status;
     }
-    if (states_speed(block, settings.dialect)) {
+    if (states_speed(block, rules_of(settings.dialect))) {
         if (block.value('s').raw < 0) {
             return block.at(ProgramError::speed_negative, 's');
         }

@@ -4,6 +4,7 @@
 
 #include "splinefeed/s0_program/block.hpp"
 #include "splinefeed/s0_program/contour_element.hpp"
+#include "splinefeed/s0_program/dialect_rules.hpp"
 
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
@@ -59,6 +60,6 @@ private:
 
 /// Whether the block states a speed of the spindle: S of printers is also a temperature, or the time of a dwell or a
 /// pause.
-[[nodiscard]] bool states_speed(const Block& block, Dialect dialect) noexcept;
+[[nodiscard]] bool states_speed(const Block& block, const DialectRules& rules) noexcept;
 
 } // namespace splinefeed

@@ -43,8 +43,9 @@ BlockStatus BlockInterpreter::find_end(AxisPoint& program, AxisPoint& machine) c
     }
     for (int k = 0; k < letters_.count(); ++k) {
         if (has_axis(k)) {
-            const bool incremental =
-                letters_.kind(k) == AxisKind::extruder ? modal_.extruder_incremental : modal_.incremental;
+            const bool incremental = letters_.kind(k) == AxisKind::extruder
+                                         ? modal_.extruder_incremental
+                                         : modal_.incremental || block_.is_step(letters_.letter(k));
             Decimal& to = program[static_cast<unsigned>(k)];
             to = incremental ? to + axis_value(k) : axis_value(k);
         }
@@ -104,7 +105,7 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     if (cycle && modal_.inverse_time) {
         return block_.at(ProgramError::inverse_feed_cycle, CodeGroup::motion);
     }
-    const bool rapid = settings_.dialect == Dialect::marlin ? modal_.feed.raw == 0 && use.motion == 0 : use.motion == 0;
+    const bool rapid = use.motion == 0 && !(rules().rapid_has_feed && modal_.feed.raw > 0);
     if (is_feed_motion(use.motion) && !rapid) {
         if (const BlockStatus status = require_feed(); !status.ok()) {
             return status;
@@ -167,9 +168,13 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
     const auto j = static_cast<unsigned>(second);
     ArcGeometry arc;
     const BlockStatus status =
-        find_arc(block_, modal_, {place_.program[i], place_.program[j]}, {program[i], program[j]}, arc);
+        find_arc(block_, modal_, rules(), {place_.program[i], place_.program[j]}, {program[i], program[j]}, arc);
     if (!status.ok()) {
         return status;
+    }
+    if (arc.is_flat && !block_.has_any(Block::bits("abcuvwe"))) {
+        plan_parabola(i, j, arc, program, machine);
+        return move_to(program, machine);
     }
     AxisPoint centre = place_.program;
     centre[i] = arc.centre.first;
@@ -182,6 +187,23 @@ BlockStatus BlockInterpreter::plan_arc() noexcept {
         }
     }
     return move_to(program, machine);
+}
+
+// In the place of an arc whose centre is too far away. @param first, second  axes of its plane
+void BlockInterpreter::plan_parabola(unsigned first, unsigned second, const ArcGeometry& arc, const AxisPoint& program,
+                                     const AxisPoint& machine) noexcept {
+    AxisPoint control = place_.program; // across the plane it is half of the way
+    for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
+        control[k].raw += (program[k] - place_.program[k]).raw / 2;
+    }
+    control[first] = arc.control.first;
+    control[second] = arc.control.second;
+    BezierPlan& curve = series_.emplace<BezierPlan>();
+    curve.degree = 2;
+    curve.points[0] = space(place_.machine);
+    curve.points[1] = space(frame_.to_machine(control));
+    curve.points[2] = space(machine);
+    plan_.kind = PlanKind::bezier;
 }
 
 BlockStatus BlockInterpreter::plan_cycle(const ModalState& before) noexcept {

@@ -39,6 +39,7 @@ BlockStatus BlockInterpreter::set_tool_length() noexcept {
 
 BlockStatus BlockInterpreter::set_offsets() noexcept {
     const std::int16_t code = block_.code(CodeGroup::non_modal);
+    const bool use_all = rules().bare_g92 && !block_.has_any(letters_.bits()); // G92 alone
     WorkOffsets& offsets = frame_.offsets();
     switch (code) {
     case 100: {
@@ -69,7 +70,7 @@ BlockStatus BlockInterpreter::set_offsets() noexcept {
     case 920:
         frame_.begin_g92();
         for (int k = 0; k < letters_.count(); ++k) {
-            if (has_axis(k)) {
+            if (has_axis(k) || use_all) {
                 const auto n = static_cast<unsigned>(k);
                 offsets.g92[n] = code == 520 ? axis_value(k) : place_.program[n] + frame_.g92(k) - axis_value(k);
             }
@@ -119,8 +120,12 @@ BlockStatus BlockInterpreter::plan_reference_move() noexcept {
     for (int k = 0; k < letters_.count(); ++k) {
         axes |= has_axis(k) ? 1U << static_cast<unsigned>(k) : 0U;
     }
-    if (settings_.dialect == Dialect::marlin) {
+    if (block_.has(CodeGroup::motion)) { // it is a mode only
+        modal_.motion = block_.code(CodeGroup::motion);
+    }
+    if (rules().g28_homes) {
         plan_homing(axes);
+        end_shift(plan_.home_axes);
         return {};
     }
     AxisPoint to = machine;
@@ -137,6 +142,18 @@ BlockStatus BlockInterpreter::plan_reference_move() noexcept {
     plan_.stop_at_end = true;
     plan_.way = machine;
     return move_to(frame_.to_program(to), to);
+}
+
+// Marlin's homing says where the axes are: G92 ends for them.
+void BlockInterpreter::end_shift(std::uint32_t axes) noexcept {
+    for (unsigned k = 0; k < static_cast<unsigned>(letters_.count()); ++k) {
+        Decimal& shift = frame_.offsets().g92[k];
+        if ((axes >> k & 1U) != 0 && shift.raw != 0) {
+            shift = {};
+            offsets_changed_ = true;
+        }
+    }
+    frame_changed();
 }
 
 /// @param axes  bits of the axes that go home; none: all

@@ -10,10 +10,11 @@ namespace splinefeed {
 
 namespace {
 
-constexpr Decimal most_mismatch{Decimal::one / 2};          // mm
 constexpr Decimal free_mismatch{Decimal::one / 200};        // 0.005 mm
 constexpr std::int64_t relative_mismatch = 1000;            // 0.1 % of the radius
 constexpr Decimal least_radius{2 * (Decimal::one / 10000)}; // 0.2 um, above what a move keeps
+constexpr Decimal flat_radius = Decimal::from_integer(32768);
+constexpr Decimal flat_chord = Decimal::from_integer(256); // (c/2)^4 / (8 r^3) < 1e-6 mm
 constexpr std::int64_t core_mismatch = 32;
 constexpr std::int64_t least_sweep = 57296; // 1e-6 rad in 1e-9 degrees: less is a whole turn
 constexpr std::int32_t most_turns = 10000;
@@ -31,8 +32,14 @@ PlanePoint beside(PlanePoint from, PlanePoint to, Decimal distance, Decimal chor
             {from.second.raw + y.raw / 2 + product_quotient(x.raw, distance.raw, length).raw}};
 }
 
-BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
-                             bool clockwise, PlanePoint& out) noexcept {
+bool is_mismatch(const ArcTolerance& tolerance, Decimal start, Decimal end) noexcept {
+    const Decimal mismatch = size(start - end);
+    return mismatch > tolerance.most || (tolerance.relative && mismatch > tolerance.least &&
+                                         mismatch.raw > (start > end ? start : end).raw / relative_mismatch);
+}
+
+BlockStatus centre_by_radius(const Block& block, const ModalState& modal, const DialectRules& rules, PlanePoint from,
+                             PlanePoint to, bool clockwise, PlanePoint& out) noexcept {
     const Decimal radius = modal.in_mm(block.value('r'));
     const Decimal chord = plane_distance(from, to);
     if (chord.raw == 0) {
@@ -40,7 +47,7 @@ BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlaneP
     }
     const std::int64_t half = (chord.raw + 1) / 2;
     const auto arm = static_cast<std::int64_t>(detail::magnitude(radius.raw));
-    if (half - arm > free_mismatch.raw || arm < least_radius.raw) {
+    if ((half - arm > free_mismatch.raw && !rules.small_radius) || arm < least_radius.raw) {
         return block.at(ProgramError::arc_radius_too_small, 'r');
     }
     Decimal apart{}; // of the centre from the chord; a semicircle's is 0
@@ -54,12 +61,12 @@ BlockStatus centre_by_radius(const Block& block, const ModalState& modal, PlaneP
     return {};
 }
 
-BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
-                              PlanePoint& out) noexcept {
+BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, const DialectRules& rules, PlanePoint from,
+                              PlanePoint to, PlanePoint& out) noexcept {
     const PlaneLetters letters = letters_of(modal.plane);
     const char i = letters.offsets[0];
     const char j = letters.offsets[1];
-    if (block.has(letters.offsets[2])) {
+    if (block.has(letters.offsets[2]) && !rules.free_third_offset) {
         return block.at(ProgramError::arc_offset_unused, letters.offsets[2]);
     }
     if (modal.centre_absolute && !(block.has(i) && block.has(j))) {
@@ -75,13 +82,11 @@ BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, Plane
     if (start < least_radius || end < least_radius) {
         return block.at(ProgramError::arc_radius_zero, block.has(i) ? i : j);
     }
-    const Decimal mismatch = size(start - end);
-    if (mismatch > most_mismatch ||
-        (mismatch > free_mismatch && mismatch.raw > (start > end ? start : end).raw / relative_mismatch)) {
+    if (is_mismatch(modal.inches ? rules.arc_in_inches : rules.arc, start, end)) {
         return block.at(ProgramError::arc_radius_mismatch, block.has(i) ? i : j);
     }
     const Decimal chord = plane_distance(from, to);
-    if (mismatch.raw > start.raw / core_mismatch && chord.raw > 0) {
+    if (size(start - end).raw > start.raw / core_mismatch && chord.raw > 0) {
         // The way of the centre along the chord's normal: (to - from) x (centre - from) / chord
         const Decimal x = to.first - from.first;
         const Decimal y = to.second - from.second;
@@ -91,6 +96,21 @@ BlockStatus centre_by_offsets(const Block& block, const ModalState& modal, Plane
         out = beside(from, to, {across}, chord);
     }
     return {};
+}
+
+// The control point is where the tangents of both ends meet.
+void flatten(PlanePoint from, PlanePoint to, ArcGeometry& out) noexcept {
+    const Decimal chord = plane_distance(from, to);
+    const Decimal radius = plane_distance(out.centre, from);
+    const bool is_minor = out.sweep_deg.raw < Decimal::full_turn / 2 && out.sweep_deg.raw > -Decimal::full_turn / 2;
+    out.is_flat = is_minor && radius > flat_radius && chord < flat_chord;
+    if (out.is_flat) {
+        const std::int64_t half = chord.raw / 2;
+        const auto size_of = static_cast<std::uint64_t>(radius.raw);
+        const std::int64_t apart = radius.raw - product_quotient(half, half, 2 * size_of).raw; // of centre and chord
+        const Decimal height{product_quotient(half, half, static_cast<std::uint64_t>(apart)).raw};
+        out.control = beside(from, to, out.sweep_deg.raw < 0 ? height : -height, chord);
+    }
 }
 
 } // namespace
@@ -104,20 +124,22 @@ PlaneLetters letters_of(Plane plane) noexcept {
     return {{'x', 'y', 'z'}, {'i', 'j', 'k'}};
 }
 
-BlockStatus find_arc(const Block& block, const ModalState& modal, PlanePoint from, PlanePoint to,
-                     ArcGeometry& out) noexcept {
+BlockStatus find_arc(const Block& block, const ModalState& modal, const DialectRules& rules, PlanePoint from,
+                     PlanePoint to, ArcGeometry& out) noexcept {
     const bool clockwise = modal.motion == 20;
     const bool by_offsets = block.has_any(Block::bits("ijk"));
     if (by_offsets == block.has('r')) {
         return by_offsets ? block.at(ProgramError::arc_centre_and_radius, 'r')
                           : block.at(ProgramError::arc_centre_missing, CodeGroup::motion);
     }
-    std::int32_t turns = 1;
-    if (block.has('p') && (!to_integer(block.value('p'), turns) || turns < 1 || turns > most_turns)) {
+    const std::int32_t part = rules.turns_before_arc ? 1 : 0; // of a turn, beside those that P counts
+    std::int32_t turns = 1 - part;
+    if (block.has('p') && (!to_integer(block.value('p'), turns) || turns < 1 - part || turns > most_turns - part)) {
         return block.at(ProgramError::arc_turns_invalid, 'p');
     }
-    const BlockStatus status = by_offsets ? centre_by_offsets(block, modal, from, to, out.centre)
-                                          : centre_by_radius(block, modal, from, to, clockwise, out.centre);
+    turns += part;
+    const BlockStatus status = by_offsets ? centre_by_offsets(block, modal, rules, from, to, out.centre)
+                                          : centre_by_radius(block, modal, rules, from, to, clockwise, out.centre);
     if (!status.ok()) {
         return status;
     }
@@ -128,6 +150,7 @@ BlockStatus find_arc(const Block& block, const ModalState& modal, PlanePoint fro
     sweep += sweep <= least_sweep ? Decimal::full_turn : 0;
     sweep += (turns - 1) * Decimal::full_turn;
     out.sweep_deg.raw = clockwise ? -sweep : sweep;
+    flatten(from, to, out);
     return {};
 }
 

@@ -13,8 +13,10 @@ namespace splinefeed {
 /// Whose words they are. linuxcnc is RS274/NGC with LinuxCNC's additions.
 enum class Dialect : std::uint8_t {
     linuxcnc,
-    grbl,   ///< grbl 1.1: no canned cycles, expressions, splines; $ lines are refused; $H as G28 of all axes
-    marlin, ///< printers: E, M82, M83, G28 is homing, G92 E0, heaters and fans, ';' comments, G0 takes F
+    grbl,    ///< grbl 1.1: no canned cycles, expressions, splines; $ lines are refused; $H as G28 of all axes
+    marlin,  ///< printers: E, M82, M83, G28 is homing, G92 E0, heaters and fans, ';' comments, G0 takes F
+    fanuc,   ///< as CAM systems write it: safe lines, G28 U W, dwells in ms; LinuxCNC's words otherwise
+    klipper, ///< printers: Marlin's words, G92 alone; macros are the host's
 };
 
 /// The length of a tool, and where its tip is; in the axes of the machine.
@@ -41,6 +43,15 @@ struct IgnoredWord {
     std::int16_t tenths = any; ///< ten times the number of the word
 };
 
+/// Is told each word that a program has and that is not followed, as it stands in the line.
+class LeftOutWords {
+public:
+    virtual void add(std::string_view word) noexcept = 0;
+
+protected:
+    ~LeftOutWords() = default;
+};
+
 struct ProgramSettings {
     int axes = 3;
     /// The letter of each machine axis: X Y Z A B C U V W, or E in Dialect::marlin. A, B and C are in degrees.
@@ -61,6 +72,9 @@ struct ProgramSettings {
     Decimal rapid_tolerance_mm{Decimal::one / 10};    ///< between two rapids in G64
     const IgnoredWord* ignored = nullptr;
     std::size_t ignored_count = 0;
+    bool ignores_unknown = false;     ///< words that the dialect does not have are left out
+    bool increments = false;          ///< lengths without a decimal point count 0.001 mm, in inches 0.0001
+    LeftOutWords* left_out = nullptr; ///< none: nobody asks
     const ToolTable* tools = nullptr; ///< none: G43, G41 and G42 are refused
 };
 

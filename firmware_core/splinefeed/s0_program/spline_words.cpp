@@ -4,6 +4,8 @@
 
 #include "splinefeed/s0_program/decimal_text.hpp"
 
+#include <algorithm>
+
 namespace splinefeed {
 
 namespace {
@@ -11,6 +13,40 @@ namespace {
 constexpr std::uint32_t other_axes = Block::bits("zabcuvw");
 constexpr Decimal longest_spline = Decimal::from_integer(65536);
 constexpr Decimal heaviest = Decimal::from_integer(1000000);
+
+// As far from `end` as a curve of the core needs for a direction: towards the first point that is elsewhere.
+void leave_end(SpacePoint& inner, const SpacePoint& end, const SpacePoint& next, const SpacePoint& last) noexcept {
+    const SpacePoint& toward = next != end ? next : last;
+    Decimal way{}; // the longest part of it, and of all the curve
+    Decimal whole{};
+    for (unsigned k = 0; k < 3; ++k) {
+        const auto size = [](Decimal value) {
+            return value.raw < 0 ? -value : value;
+        };
+        way = std::max(way, size(toward[k] - end[k]));
+        whole = std::max({whole, size(next[k] - end[k]), size(last[k] - end[k])});
+    }
+    if (way.raw == 0) {
+        return;
+    }
+    const auto part = std::min(whole.raw / 8192, way.raw / 2);
+    for (unsigned k = 0; k < 3; ++k) {
+        inner[k] =
+            end[k] + Decimal{product_quotient((toward[k] - end[k]).raw, part, static_cast<std::uint64_t>(way.raw)).raw};
+    }
+}
+
+// An inner control point on its end leaves it without a direction.
+void give_directions(BezierPlan& cubic) noexcept {
+    auto& p = cubic.points;
+    const std::array<SpacePoint, 4> given{p[0], p[1], p[2], p[3]};
+    if (given[1] == given[0]) {
+        leave_end(p[1], given[0], given[2], given[3]);
+    }
+    if (given[2] == given[3]) {
+        leave_end(p[2], given[3], given[1], given[0]);
+    }
+}
 
 } // namespace
 
@@ -60,6 +96,9 @@ BlockStatus BlockInterpreter::plan_spline(const ModalState& before) noexcept {
         spline.points[2] = at(program, results_.spline_out);
     }
     spline.points[static_cast<unsigned>(spline.degree)] = space(machine);
+    if (cubic) {
+        give_directions(spline);
+    }
     plan_.kind = PlanKind::bezier;
     for (unsigned n = 1; n < static_cast<unsigned>(spline.degree); ++n) {
         for (unsigned k = 0; k < 3; ++k) {

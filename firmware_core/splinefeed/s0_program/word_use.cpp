@@ -16,7 +16,7 @@ bool is_arc(std::int16_t motion) noexcept {
 }
 
 // The letters that the codes of the block take beside axes, F, S, T and N.
-std::uint32_t letters_used(const Block& block, std::int16_t motion) noexcept {
+std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::int16_t motion) noexcept {
     std::uint32_t used = Block::bits("fst");
     const std::int16_t modeless = block.code(CodeGroup::non_modal);
     const std::int16_t input_output = block.code(CodeGroup::input_output);
@@ -34,6 +34,8 @@ std::uint32_t letters_used(const Block& block, std::int16_t motion) noexcept {
         used |= motion == 820 || motion == 860 || motion == 890 ? Block::bits("p") : 0;
     }
     used |= modeless == 40 ? Block::bits("p") : modeless == 100 ? Block::bits("lpr") : 0;
+    used |= modeless == 280 && rules.g28_homes ? Block::bits("lor") : 0; // how, which is the printer's
+    used |= block.has(CodeGroup::without_effect) ? Block::bits("pqr") : 0;
     used |= block.code(CodeGroup::path_mode) == 640 ? Block::bits("pq") : 0;
     used |= block.code(CodeGroup::tool_length) == 430 ? Block::bits("h") : 0;
     used |= block.code(CodeGroup::cutter_radius) > 400 ? Block::bits("dl") : 0;
@@ -45,8 +47,8 @@ std::uint32_t letters_used(const Block& block, std::int16_t motion) noexcept {
     return used;
 }
 
-BlockStatus check_axes(const Block& block, const AxisLetters& letters, Dialect dialect) noexcept {
-    const std::uint32_t axes = axis_bits | (dialect == Dialect::marlin ? Block::letter_bit('e') : 0);
+BlockStatus check_axes(const Block& block, const AxisLetters& letters, const DialectRules& rules) noexcept {
+    const std::uint32_t axes = axis_bits | (rules.extruder ? Block::letter_bit('e') : 0);
     const std::uint32_t missing = block.letters() & axes & ~letters.bits();
     for (char letter = 'a'; letter <= 'z' && missing != 0; ++letter) {
         if ((missing & Block::letter_bit(letter)) != 0) {
@@ -78,15 +80,12 @@ BlockStatus check_input(const Block& block) noexcept {
 }
 
 // Words that a code cannot do without.
-BlockStatus check_needs(const Block& block, Dialect dialect) noexcept {
+BlockStatus check_needs(const Block& block, const DialectRules& rules) noexcept {
     constexpr std::int32_t most_outputs = 63;
     constexpr std::int32_t most_tools = 99999;
-    const bool marlin = dialect == Dialect::marlin;
-    if (block.code(CodeGroup::non_modal) == 40) {
-        const bool has_time = block.has('p') || (marlin && block.has('s'));
-        if (!has_time || block.value('p').raw < 0 || (marlin && block.value('s').raw < 0)) {
-            return block.at(ProgramError::dwell_invalid, CodeGroup::non_modal);
-        }
+    if (block.code(CodeGroup::non_modal) == 40 &&
+        ((!block.has('p') && !rules.one_command) || block.value('p').raw < 0)) {
+        return block.at(ProgramError::dwell_invalid, CodeGroup::non_modal);
     }
     if (block.code(CodeGroup::non_modal) == 100) {
         std::int32_t what = 0;
@@ -112,20 +111,24 @@ BlockStatus check_needs(const Block& block, Dialect dialect) noexcept {
     return {};
 }
 
-BlockStatus find_axis_use(const Block& block, const ModalState& modal, bool axes, BlockUse& out) noexcept {
+BlockStatus find_axis_use(const Block& block, const ModalState& modal, const DialectRules& rules, bool axes,
+                          BlockUse& out) noexcept {
     const std::int16_t motion = block.code(CodeGroup::motion);
     const std::int16_t modeless = block.code(CodeGroup::non_modal);
     const bool tool_offset = block.code(CodeGroup::tool_length) == 431;
     const bool offsets =
         tool_offset || modeless == 100 || modeless == 280 || modeless == 300 || modeless == 520 || modeless == 920;
     if (offsets) {
-        if (motion != Block::no_code && motion != ModalState::no_motion) {
+        const bool mode_only =
+            motion == ModalState::no_motion || (rules.motion_beside_offsets && motion <= 30 && !tool_offset);
+        if (motion != Block::no_code && !mode_only) {
             return block.at(ProgramError::axis_words_twice, CodeGroup::motion);
         }
         if (tool_offset && modeless != Block::no_code && axes) {
             return block.at(ProgramError::axis_words_twice, CodeGroup::non_modal);
         }
-        if (!axes && (modeless == 520 || modeless == 920 || tool_offset)) {
+        const bool needs_axes = modeless == 520 || (modeless == 920 && !rules.bare_g92) || tool_offset;
+        if (!axes && needs_axes) {
             return block.at(ProgramError::g92_axes_missing,
                             tool_offset ? CodeGroup::tool_length : CodeGroup::non_modal);
         }
@@ -158,7 +161,7 @@ BlockStatus find_axis_use(const Block& block, const ModalState& modal, bool axes
 
 } // namespace
 
-BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLetters& letters, Dialect dialect,
+BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLetters& letters, const DialectRules& rules,
                      BlockUse& out) noexcept {
     if (block.has(CodeGroup::printer)) { // its words are its own
         for (const unsigned group : indices(CodeGroup::printer)) {
@@ -168,31 +171,30 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
         }
         return {};
     }
-    if (const BlockStatus status = check_axes(block, letters, dialect); !status.ok()) {
+    if (const BlockStatus status = check_axes(block, letters, rules); !status.ok()) {
         return status;
     }
-    const bool marlin = dialect == Dialect::marlin;
-    const std::uint32_t axes = axis_bits | (marlin ? Block::letter_bit('e') : 0);
-    if (const BlockStatus status = find_axis_use(block, modal, block.has_any(axes), out); !status.ok()) {
+    const std::uint32_t axes = axis_bits | (rules.extruder ? Block::letter_bit('e') : 0);
+    if (const BlockStatus status = find_axis_use(block, modal, rules, block.has_any(axes), out); !status.ok()) {
         return status;
     }
     if (block.code(CodeGroup::non_modal) == 530) {
         const bool incremental =
             block.has(CodeGroup::distance) ? block.code(CodeGroup::distance) == 910 : modal.incremental;
-        if ((out.motion != 0 && out.motion != 10) || incremental) {
+        if ((out.motion != 0 && out.motion != 10) || (incremental && !rules.g53_incremental)) {
             return block.at(ProgramError::g53_unsuited, CodeGroup::non_modal);
         }
     }
     if (is_cycle(out.motion) && block.has_any(no_cycle_bits)) {
         return block.at(ProgramError::cycle_axis_word, CodeGroup::motion);
     }
-    const std::uint32_t unused = block.letters() & ~(axes | letters_used(block, out.motion));
-    for (char letter = 'a'; letter <= 'z' && unused != 0; ++letter) {
+    const std::uint32_t unused = block.letters() & ~(axes | letters_used(block, rules, out.motion));
+    for (char letter = 'a'; letter <= 'z' && unused != 0 && !block.has_left_out(); ++letter) {
         if ((unused & Block::letter_bit(letter)) != 0) {
             return block.at(ProgramError::word_unused, letter);
         }
     }
-    return check_needs(block, dialect);
+    return check_needs(block, rules);
 }
 
 } // namespace splinefeed

@@ -21,7 +21,7 @@ struct BlockUse {
 
 /// Finds what a block means, and every word of it that no other word uses. @param modal  before the block
 /// Errors: axis_missing, axis_word_unused, axis_words_twice, axis_words_missing, word_unused, integer_needed, ...
-BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLetters& letters, Dialect dialect,
+BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLetters& letters, const DialectRules& rules,
                      BlockUse& out) noexcept;
 
 } // namespace splinefeed
