@@ -238,7 +238,7 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     CLI::App* const check =
         app.add_subcommand("check", "Say what is wrong with a program in G-code, and how long it takes");
     add_input(*check, job, typed);
-    check->get_option("FILE")->description("a program in G-code (.ngc, .nc, .gcode, .gco, .tap, .cnc, .g)");
+    check->get_option("FILE")->description("a program in G-code (.ngc, .nc, .gcode, .gco, .gc, .tap, .cnc, .g)");
     check->get_option("--format")->description("gcode: format of the input, whatever its name is");
     check->add_option("-m,--machine", typed.machine,
                       "machine file (.toml) (default: three axes, 100 mm/s, 1000 mm/s^2)");

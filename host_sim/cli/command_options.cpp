@@ -8,7 +8,7 @@ namespace splinefeed::host {
 
 void add_input(CLI::App& app, Job& job, Typed& typed) {
     app.add_option("FILE", job.run.path.input,
-                   "G-code (.ngc, .nc, .gcode, .gco, .tap, .cnc, .g), waypoints (.csv), or a curve or elements "
+                   "G-code (.ngc, .nc, .gcode, .gco, .gc, .tap, .cnc, .g), waypoints (.csv), or a curve or elements "
                    "(.json); - reads "
                    "standard input")
         ->required();
@@ -69,12 +69,20 @@ void add_curve_options(CLI::App& app, Job& job, Typed& typed) {
 void add_gcode_options(CLI::App& app, Job& job) {
     GcodeArguments& gcode = job.run.path.gcode;
     const std::string group = "G-code";
-    app.add_option("--dialect", gcode.dialect, "linuxcnc, grbl or marlin: whose words they are (default linuxcnc)")
+    app.add_option("--dialect", gcode.dialect,
+                   "linuxcnc, grbl, marlin, fanuc, klipper: whose words they are (default linuxcnc); auto: as the "
+                   "first 200 lines say")
         ->group(group);
-    app.add_option("--ignore", gcode.ignore, "M104,E,...: words that the program may have without being followed")
+    app.add_option(
+           "--ignore", gcode.ignore,
+           "M104,E,START_PRINT,$*,...: words and lines that are left out; unknown: all that the dialect does not have")
         ->group(group);
     app.add_option("--tools", gcode.tools, "tool.tbl: lengths of tools for G43, a line T1 P1 Z12.5 D6 for each")
         ->group(group);
+    app.add_flag("--increments", gcode.increments,
+                 "fanuc: lengths without a decimal point count 0.001 mm, in inches 0.0001")
+        ->group(group)
+        ->disable_flag_override();
     app.add_flag("--block-delete", gcode.block_delete, "leave out the lines that begin with /")
         ->group(group)
         ->disable_flag_override();

@@ -2,6 +2,7 @@
 #include "host_sim/output/program_report_text.hpp"
 
 #include "host_sim/base/input_error.hpp"
+#include "host_sim/output/program_summary.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -46,13 +47,17 @@ Json box_json(const AxisBox& box, const MachineDescription& machine) {
 } // namespace
 
 std::string check_text(const ProgramReport& report, const MachineDescription& machine,
-                       const std::vector<std::string>& problems, double cycle_time_s) {
+                       const ProgramFindings& findings) {
     std::string text;
-    for (const std::string& problem : problems) {
+    for (const std::string& problem : findings.problems) {
         text += printable(problem) + "\n";
     }
-    text += fmt::format("{}{} problem{}\n\n", problems.empty() ? "" : "\n", problems.size(),
-                        problems.size() == 1 ? "" : "s");
+    text += fmt::format("{}{} problem{}\n", findings.problems.empty() ? "" : "\n", findings.problem_count,
+                        findings.problem_count == 1 ? "" : "s");
+    for (const std::string& note : findings.notes) {
+        text += printable(note) + "\n";
+    }
+    text += to_text(findings.left_out) + "\n";
     text += fmt::format("{:<6}{:>28}{:>28}{:>28}\n", "axis", "feeds", "rapids", "travel");
     for (const unsigned k : indices(machine.settings.axes)) {
         const auto& travel = machine.travel[k];
@@ -60,10 +65,10 @@ std::string check_text(const ProgramReport& report, const MachineDescription& ma
                             range(report.rapid_box(), k),
                             travel ? fmt::format("{:.3f} to {:.3f}", travel->low, travel->high) : "no limit");
     }
-    if (!problems.empty()) {
+    if (!findings.problems.empty()) {
         return text;
     }
-    text += fmt::format("\n{:<22}{:>12.3f} s\n", "cycle time", cycle_time_s);
+    text += fmt::format("\n{:<22}{:>12.3f} s\n", "cycle time", findings.cycle_time_s);
     text += totals_row("feeds", report.feeds());
     text += totals_row("rapids", report.rapids());
     text += fmt::format("{:<22}{:>27.3f} s\n", "dwells", report.dwell_s());
@@ -78,9 +83,12 @@ std::string check_text(const ProgramReport& report, const MachineDescription& ma
 }
 
 std::string check_json(const ProgramReport& report, const MachineDescription& machine,
-                       const std::vector<std::string>& problems, double cycle_time_s) {
+                       const ProgramFindings& findings) {
     Json object;
-    object["problems"] = problems;
+    object["problems"] = findings.problems;
+    object["problem_count"] = findings.problem_count;
+    object["notes"] = findings.notes;
+    object["left_out"] = to_json(findings.left_out);
     object["feed_box"] = box_json(report.feed_box(), machine);
     object["rapid_box"] = box_json(report.rapid_box(), machine);
     object["travel"] = Json::object();
@@ -89,8 +97,8 @@ std::string check_json(const ProgramReport& report, const MachineDescription& ma
             object["travel"][machine.axis_name[k]] = {machine.travel[k]->low, machine.travel[k]->high};
         }
     }
-    if (problems.empty()) {
-        object["cycle_time_s"] = cycle_time_s;
+    if (findings.problems.empty()) {
+        object["cycle_time_s"] = findings.cycle_time_s;
         object["feeds"] = totals_json(report.feeds());
         object["rapids"] = totals_json(report.rapids());
         object["dwell_s"] = report.dwell_s();

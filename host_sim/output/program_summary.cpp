@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host_sim/output/program_summary.hpp"
 
+#include "host_sim/base/input_error.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -8,8 +10,33 @@ namespace splinefeed::host {
 
 using Json = nlohmann::ordered_json;
 
+Json to_json(const std::vector<LeftOutList::Entry>& left_out) {
+    Json list = Json::array();
+    for (const LeftOutList::Entry& entry : left_out) {
+        list.push_back(Json{{"what", entry.what}, {"count", entry.count}, {"line", entry.line}});
+    }
+    return list;
+}
+
+std::string to_text(const std::vector<LeftOutList::Entry>& left_out) {
+    std::string text;
+    for (const LeftOutList::Entry& entry : left_out) {
+        text += entry.count == 1
+                    ? fmt::format("{}{} on line {}", text.empty() ? "" : "; ", printable(entry.what), entry.line)
+                    : fmt::format("{}{} {} times, first on line {}", text.empty() ? "" : "; ", printable(entry.what),
+                                  entry.count, entry.line);
+    }
+    return text.empty() ? text : "left out: " + text + "\n";
+}
+
 Json to_json(const ProgramSummary& summary) {
     Json object;
+    if (!summary.dialect.empty()) {
+        object["dialect"] = summary.dialect;
+    }
+    if (!summary.left_out.empty()) {
+        object["left_out"] = to_json(summary.left_out);
+    }
     object["dwells"] = summary.dwells;
     object["dwell_s"] = summary.dwell_s;
     object["events"] = summary.events;
@@ -43,7 +70,10 @@ std::string to_text(const ProgramSummary& summary) {
     if (summary.events > 0) {
         text += fmt::format("{:<22}{:>14} of the program\n", "events", summary.events);
     }
-    return text;
+    if (!summary.dialect.empty()) {
+        text += printable(summary.dialect) + "\n";
+    }
+    return text + to_text(summary.left_out);
 }
 
 } // namespace splinefeed::host

@@ -2,6 +2,8 @@
 // ProgramSummary: what a program asked for besides motion, and when it happened.
 #pragma once
 
+#include "host_sim/program/left_out_list.hpp"
+
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -25,12 +27,20 @@ struct ProgramSummary {
     double dwell_s = 0.0;     ///< as programmed
     std::uint64_t events = 0; ///< all of them
     std::vector<Event> first_events;
+    std::vector<LeftOutList::Entry> left_out; ///< words and lines that were not followed
+    std::string dialect;                      ///< that --dialect auto takes, and why; else empty
     std::uint64_t line = 0; ///< of the last move or dwell that was begun, where the machine stands; 0: unknown
 
-    [[nodiscard]] bool empty() const noexcept { return dwells == 0 && events == 0 && line == 0; }
+    [[nodiscard]] bool empty() const noexcept {
+        return dwells == 0 && events == 0 && line == 0 && left_out.empty() && dialect.empty();
+    }
 };
 
 [[nodiscard]] nlohmann::ordered_json to_json(const ProgramSummary& summary);
+/// [{"what": "M104", "count": 3, "line": 5}, ...]
+[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<LeftOutList::Entry>& left_out);
+/// "left out: M104 3 times, first on line 5; E 200 times, first on line 12". Empty: nothing was.
+[[nodiscard]] std::string to_text(const std::vector<LeftOutList::Entry>& left_out);
 /// Rows for the table of a summary.
 [[nodiscard]] std::string to_text(const ProgramSummary& summary);
 

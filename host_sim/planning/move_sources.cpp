@@ -7,7 +7,7 @@
 
 namespace splinefeed::host {
 
-std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar, std::vector<std::string>* problems) {
+std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar, ProblemList* problems) {
     if (const ElementProgram* const program = input.elements()) {
         return std::make_unique<ElementMoves>(*program, input.name());
     }

@@ -4,6 +4,7 @@
 
 #include "host_sim/program/move_source.hpp"
 #include "host_sim/program/path_input.hpp"
+#include "host_sim/program/problem_list.hpp"
 
 #include <memory>
 
@@ -13,6 +14,6 @@ namespace splinefeed::host {
 /// @param scalar    in which a program in G-code is computed
 /// @param problems  of a program in G-code: wrong lines are left out, and told to them; null: they end the program
 [[nodiscard]] std::unique_ptr<MoveSource> move_source(PathInput& input, ScalarKind scalar,
-                                                      std::vector<std::string>* problems = nullptr);
+                                                      ProblemList* problems = nullptr);
 
 } // namespace splinefeed::host

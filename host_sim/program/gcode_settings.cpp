@@ -22,11 +22,26 @@ bool is_letter(char c) {
     return c >= 'A' && c <= 'Z';
 }
 
+std::string in_capitals(std::string_view text) {
+    std::string upper(text);
+    std::transform(upper.begin(), upper.end(), upper.begin(), upper_case);
+    return upper;
+}
+
+// "$*" or "START_PRINT": what no word of G-code begins with.
+bool begins_line(std::string_view upper) {
+    const auto is_name = [](char c) {
+        return is_letter(c) || c == '_';
+    };
+    const std::size_t star = upper.find('*');
+    return upper.size() > 1 && (star == std::string_view::npos || star + 1 == upper.size()) &&
+           (upper[0] == '$' || (is_name(upper[0]) && (is_name(upper[1]) || upper[1] == '*')));
+}
+
 // "M104" or "E".
 IgnoredWord ignored_word(std::string_view word) {
     IgnoredWord out;
-    std::string upper(word);
-    std::transform(upper.begin(), upper.end(), upper.begin(), upper_case);
+    const std::string upper = in_capitals(word);
     out.letter = upper.empty() ? '\0' : upper.front();
     if (upper.size() == 1 && is_letter(out.letter)) {
         return out;
@@ -36,8 +51,10 @@ IgnoredWord ignored_word(std::string_view word) {
     const double tenths = numeric ? number * 10.0 : -1.0;
     if (!is_letter(out.letter) || !(tenths >= 0.0 && tenths <= 10.0 * largest_word) ||
         std::fabs(tenths - std::round(tenths)) > 1e-6) {
-        throw UsageError(
-            fmt::format("--ignore: {} is no word; name words like M104,E, separated by commas", in_quotes(word)));
+        throw UsageError(fmt::format(
+            "--ignore: {} is no word; name words like M104,E, separated by commas, the first word of whole lines "
+            "like START_PRINT or $*, or unknown",
+            in_quotes(word)));
     }
     out.tenths = static_cast<std::int16_t>(std::lround(tenths));
     return out;
@@ -51,6 +68,7 @@ std::string_view first_option(const GcodeArguments& arguments) noexcept {
            : arguments.tools         ? "--tools"
            : arguments.block_delete  ? "--block-delete"
            : arguments.optional_stop ? "--optional-stop"
+           : arguments.increments    ? "--increments"
                                      : "";
 }
 
@@ -63,12 +81,20 @@ GcodeSettings read_gcode_arguments(const GcodeArguments& arguments) {
             throw UsageError(fmt::format("--dialect {}: it must be one of {}", in_quotes(*arguments.dialect),
                                          listed(dialect_names)));
         }
-        out.dialect = static_cast<Dialect>(found - std::begin(dialect_names));
+        out.guess_dialect = *found == "auto";
+        out.dialect = out.guess_dialect ? Dialect::linuxcnc : static_cast<Dialect>(found - std::begin(dialect_names));
     }
     const std::string ignored = arguments.ignore.value_or("");
     for (std::string_view rest = ignored; arguments.ignore;) {
         const std::size_t comma = rest.find(',');
-        out.ignored.push_back(ignored_word(rest.substr(0, comma)));
+        const std::string part = in_capitals(rest.substr(0, comma));
+        if (part == "UNKNOWN") {
+            out.ignores_unknown = true;
+        } else if (begins_line(part)) {
+            out.ignored_lines.push_back(part);
+        } else {
+            out.ignored.push_back(ignored_word(rest.substr(0, comma)));
+        }
         if (comma == std::string_view::npos) {
             break;
         }
@@ -79,6 +105,10 @@ GcodeSettings read_gcode_arguments(const GcodeArguments& arguments) {
     }
     out.block_delete = arguments.block_delete;
     out.optional_stop = arguments.optional_stop;
+    out.increments = arguments.increments;
+    if (out.increments && out.dialect != Dialect::fanuc) {
+        throw UsageError("--increments is of --dialect fanuc alone; the others read X10 as 10 mm");
+    }
     return out;
 }
 

@@ -23,12 +23,21 @@ struct GcodeArguments {
     std::optional<std::string> tools;
     bool block_delete = false;
     bool optional_stop = false;
+    bool increments = false;
 };
+
+class LeftOutList;
 
 struct GcodeSettings {
     Dialect dialect = Dialect::linuxcnc;
+    bool guess_dialect = false; ///< --dialect auto: the first lines say it
+    std::string dialect_guess;  ///< the dialect that they look like if it is another one, and why; else empty
     std::vector<IgnoredWord> ignored;
-    std::optional<ToolRows> tools; ///< none: G43 and G43 H are refused
+    std::vector<std::string> ignored_lines; ///< by their first words; a * at the end is any rest
+    bool ignores_unknown = false;           ///< words and lines that the dialect does not have
+    bool increments = false;                ///< lengths without a decimal point count 0.001 mm, in inches 0.0001
+    LeftOutList* left_out = nullptr;        ///< gets what was left out; null: nobody asks
+    std::optional<ToolRows> tools;          ///< none: G43 and G43 H are refused
     bool block_delete = false;
     bool optional_stop = false;
     bool simulated = true;                       ///< a simulated machine has a spindle, coolant, and everything else
@@ -44,7 +53,11 @@ struct GcodeSettings {
 };
 
 /// The names of --dialect.
-inline constexpr std::string_view dialect_names[] = {"linuxcnc", "grbl", "marlin"};
+inline constexpr std::string_view dialect_names[] = {"linuxcnc", "grbl", "marlin", "fanuc", "klipper", "auto"};
+
+[[nodiscard]] constexpr std::string_view dialect_name(Dialect dialect) noexcept {
+    return dialect_names[static_cast<unsigned>(dialect)];
+}
 
 /// Whether one of the options was given; its name, else empty.
 [[nodiscard]] std::string_view first_option(const GcodeArguments& arguments) noexcept;

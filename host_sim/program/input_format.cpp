@@ -42,7 +42,7 @@ OpenedRows open_text(const std::string& path, const std::string& name, const std
 constexpr std::array formats{
     InputFormat{"csv", InputKind::waypoints, " csv ", open_text<WaypointReader>},
     InputFormat{"json", InputKind::curve, " json ", nullptr},
-    InputFormat{"gcode", InputKind::gcode, " ngc nc gcode gco tap cnc g ", nullptr},
+    InputFormat{"gcode", InputKind::gcode, " ngc nc gcode gco gc tap cnc g ", nullptr},
 };
 
 } // namespace

@@ -35,6 +35,12 @@ struct SourceStep {
     std::shared_ptr<const WorkOffsets> offsets{}; ///< of an event that changes them: what they are then
 };
 
+/// What a program has behind its end (M2, M30).
+struct UnreadLines {
+    std::uint64_t end = 0;   ///< the line where it ends
+    std::uint64_t lines = 0; ///< with words, behind it
+};
+
 /// Every method that reads throws InputError.
 class MoveSource {
 public:
@@ -81,6 +87,8 @@ public:
     [[nodiscard]] virtual std::string without_moves(Error error) const { return std::string(describe(error)); }
     /// The motion has come to this row: nobody asks for those before it any more.
     virtual void passed(std::uint64_t /*row*/) noexcept {}
+    /// Reads what is left of a file. @pre next() has returned false
+    [[nodiscard]] virtual UnreadLines unread() { return {}; }
 };
 
 } // namespace splinefeed::host

@@ -4,6 +4,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/json_text.hpp"
 #include "host_sim/base/text_file.hpp"
+#include "host_sim/program/dialect_guess.hpp"
 #include "host_sim/program/element_file.hpp"
 #include "host_sim/program/row_queue.hpp"
 
@@ -175,10 +176,42 @@ GcodeSettings PathInput::open_gcode(const PathArguments& arguments, PathUse use,
     out.rotary_axes = machine.rotary_axes;
     out.spindle = machine.spindle;
     out.lines = machine.lines;
+    left_out_ = std::make_unique<LeftOutList>();
+    out.left_out = left_out_.get();
+    if (out.guess_dialect && !repeatable_) {
+        throw UsageError("--dialect auto reads the first lines before the others; name the dialect, or give it a file");
+    }
     if (repeatable_) {
-        static_cast<void>(LineReader(path_, name_)); // it can be opened
+        guess_dialect(out);
     }
     return out;
+}
+
+// Also where a dialect was named, or none: a refusal says which one the program looks like.
+void PathInput::guess_dialect(GcodeSettings& out) {
+    LineReader lines(path_, name_);
+    DialectGuess guess;
+    SourceLine line;
+    try {
+        while (line.number < DialectGuess::most_lines && lines.next(line)) {
+            guess.add(line.text, line.number);
+        }
+    } catch (const InputError&) { // whoever reads the program says it
+        return;
+    }
+    const std::string reason = guess.reason();
+    const Dialect looks_like = guess.dialect();
+    if (out.guess_dialect) {
+        out.dialect = looks_like;
+        dialect_choice_ = fmt::format("--dialect {}: {}", dialect_name(looks_like),
+                                      reason.empty() ? "nothing in the first 200 lines says another one" : reason);
+    } else if (!reason.empty() && looks_like != out.dialect) {
+        out.dialect_guess = fmt::format(" (the program looks like {}, by {})", dialect_name(looks_like), reason);
+    }
+}
+
+std::vector<LeftOutList::Entry> PathInput::left_out() const {
+    return left_out_ ? left_out_->entries() : std::vector<LeftOutList::Entry>{};
 }
 
 void PathInput::begin_at(const MachineState& state) {

@@ -10,6 +10,7 @@
 #include "host_sim/program/element_program.hpp"
 #include "host_sim/program/gcode_settings.hpp"
 #include "host_sim/program/input_format.hpp"
+#include "host_sim/program/left_out_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
 #include <memory>
@@ -69,6 +70,10 @@ public:
     [[nodiscard]] const GcodeSettings* gcode() const noexcept { return std::get_if<GcodeSettings>(&content_); }
     /// Of a program in G-code: where the machine stands, and its offsets. A place that is not known is taken for 0.
     void begin_at(const MachineState& state);
+    /// Of a program in G-code: what was left out so far, since it was read from its beginning.
+    [[nodiscard]] std::vector<LeftOutList::Entry> left_out() const;
+    /// The dialect that `--dialect auto` takes and why, one line; else empty.
+    [[nodiscard]] const std::string& dialect_choice() const noexcept { return dialect_choice_; }
     /// Whether the waypoints are the ends of lines, which the path follows within a tolerance.
     [[nodiscard]] bool lines_within_tolerance() const noexcept {
         const auto* const waypoints = std::get_if<Waypoints>(&content_);
@@ -103,6 +108,7 @@ private:
     [[nodiscard]] Content open_description(const PathArguments& arguments, PathUse use);
     [[nodiscard]] ElementProgram open_elements(const PathArguments& arguments, const nlohmann::json& document);
     [[nodiscard]] GcodeSettings open_gcode(const PathArguments& arguments, PathUse use, const PathMachine& machine);
+    void guess_dialect(GcodeSettings& out);
     [[nodiscard]] CurveFile compute_from_points(const PointsMethod& method, WaypointRows& rows, PathUse use);
 
     std::string name_;
@@ -116,6 +122,8 @@ private:
     ScalarKind scalar_;
     bool repeatable_ = true;
     bool read_ahead_ = false;
+    std::unique_ptr<LeftOutList> left_out_; // of a program in G-code
+    std::string dialect_choice_;
     Content content_; // the last one: what opens it writes the members before
 };
 

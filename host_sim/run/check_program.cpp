@@ -4,20 +4,17 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/base/standard_output.hpp"
 #include "host_sim/output/program_report_text.hpp"
+#include "host_sim/output/progress.hpp"
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/move_sources.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/run/run_machine.hpp"
 
 #include <fmt/format.h>
-#include <set>
-#include <utility>
 
 namespace splinefeed::host {
 
 namespace {
-
-constexpr std::size_t most_problems = 1000;
 
 /// Every line once: what is wrong with it, and whether its moves stay within the travel.
 class Survey {
@@ -34,8 +31,12 @@ public:
         if (record_ != nullptr) {
             record_->start(here);
         }
+        Progress progress;
         try {
-            for (SourceStep step; problems_.size() < most_problems && program->next(step);) {
+            for (SourceStep step; program->next(step);) {
+                if (progress.due()) {
+                    progress.show({report_.feeds().moves + report_.rapids().moves, step.line});
+                }
                 if (step.kind == StepKind::move) {
                     require_travel(here, step);
                     report_.move(step.move, step.rapid, step.line);
@@ -45,13 +46,21 @@ public:
                     here = step.move.to;
                 }
             }
+            unread_ = program->unread();
         } catch (const InputError& error) { // the rest cannot be read
-            problems_.emplace_back(error.what());
+            problems_.add(error, 0);
         }
     }
 
     [[nodiscard]] const ProgramReport& report() const noexcept { return report_; }
-    [[nodiscard]] const std::vector<std::string>& problems() const noexcept { return problems_; }
+    [[nodiscard]] const ProblemList& problems() const noexcept { return problems_; }
+    [[nodiscard]] std::vector<std::string> notes() const {
+        if (unread_.lines == 0) {
+            return {};
+        }
+        return {fmt::format("{}:{}: the program ends here; {} line{} behind it {} not read", *file_, unread_.end,
+                            unread_.lines, unread_.lines == 1 ? "" : "s", unread_.lines == 1 ? "is" : "are")};
+    }
 
 private:
     void require_travel(const PerAxis<Position>& from, const SourceStep& step) {
@@ -59,14 +68,15 @@ private:
         add_extent(from, step.move, machine_->settings.axes, box);
         for (const unsigned k : indices(machine_->settings.axes)) {
             const auto& travel = machine_->travel[k];
-            if (travel && (box.low[k] < travel->low || box.high[k] > travel->high) &&
-                outside_.emplace(step.line, k).second) {
+            if (travel && (box.low[k] < travel->low || box.high[k] > travel->high)) {
                 const double end = to_mm(step.move.to[k]);
                 const bool below = box.low[k] < travel->low && !(end > travel->high);
-                problems_.push_back(
-                    fmt::format("{}:{}: axis {} goes to {:.4f} mm, {} the end of its travel at {:.4f} mm", *file_,
-                                step.line, machine_->axis_name[k], below ? box.low[k] : box.high[k],
-                                below ? "below" : "above", below ? travel->low : travel->high));
+                const std::string limit = fmt::format("{} the end of its travel at {:.4f} mm",
+                                                      below ? "below" : "above", below ? travel->low : travel->high);
+                problems_.add({*file_, step.line,
+                               fmt::format("axis {} goes to {:.4f} mm, {}", machine_->axis_name[k],
+                                           below ? box.low[k] : box.high[k], limit)},
+                              step.line, machine_->axis_name[k] + limit);
             }
         }
     }
@@ -75,8 +85,8 @@ private:
     const std::string* file_;
     MotionRecord* record_;
     ProgramReport report_;
-    std::vector<std::string> problems_;
-    std::set<std::pair<std::uint64_t, unsigned>> outside_; // lines and axes that are among the problems
+    ProblemList problems_;
+    UnreadLines unread_{};
 };
 
 } // namespace
@@ -97,7 +107,11 @@ int check_program(const RunArguments& arguments) {
     const auto text = arguments.summary == SummaryKind::json ? check_json : check_text;
     Survey survey(of.machine, input.name());
     survey.read(input);
-    if (!survey.problems().empty() && !arguments.outputs.report.empty()) {
+    ProgramFindings findings{survey.problems().texts(), survey.problems().count(), survey.notes(), input.left_out()};
+    if (!input.dialect_choice().empty()) {
+        findings.notes.insert(findings.notes.begin(), input.dialect_choice());
+    }
+    if (!findings.problems.empty() && !arguments.outputs.report.empty()) {
         // The program cannot be planned: the page shows it, and what is wrong.
         RunReport page(arguments.outputs.report, of.machine, figures.segment_ticks);
         Survey(of.machine, input.name(), &page.record()).read(input);
@@ -105,17 +119,18 @@ int check_program(const RunArguments& arguments) {
         page.write({.program = input.name(),
                     .text_file = arguments.path.input,
                     .unit = "line",
-                    .stopped = fmt::format("{}", fmt::join(survey.problems(), "\n")),
+                    .stopped = fmt::format("{}", fmt::join(findings.problems, "\n")),
                     .summary = &summary});
     }
-    if (!survey.problems().empty()) {
-        print_whole(text(survey.report(), of.machine, survey.problems(), 0.0), "the report");
+    if (!findings.problems.empty()) {
+        print_whole(text(survey.report(), of.machine, findings), "the report");
         return 1;
     }
     ProgramReport report(of.machine);
     MotionArguments motion_arguments = arguments.motion;
     motion_arguments.enforce = false;
     motion_arguments.quiet = true;
+    motion_arguments.progress = true;
     motion_arguments.report = &report;
     const PathLimits path_limits(of.machine);
     std::optional<RunReport> page;
@@ -124,7 +139,7 @@ int check_program(const RunArguments& arguments) {
     }
     Outputs outputs(arguments.outputs, input.curve_name(), false, of.machine);
     Motion motion(motion_arguments, of.machine, figures, input, path_limits, outputs);
-    const std::string stopped = motion.run(std::nullopt);
+    const std::string stopped = motion.run(survey.report().feeds().moves + survey.report().rapids().moves);
     const Summary summary = motion.summary();
     if (page) {
         page->write({.program = input.name(),
@@ -133,10 +148,12 @@ int check_program(const RunArguments& arguments) {
                      .stopped = stopped,
                      .summary = &summary});
     }
-    print_whole(text(report, of.machine,
-                     stopped.empty() ? std::vector<std::string>{} : std::vector<std::string>{stopped},
-                     summary.cycle_time_s),
-                "the report");
+    if (!stopped.empty()) {
+        findings.problems.push_back(stopped);
+        findings.problem_count = 1;
+    }
+    findings.cycle_time_s = summary.cycle_time_s;
+    print_whole(text(report, of.machine, findings), "the report");
     return stopped.empty() ? 0 : 1;
 }
 

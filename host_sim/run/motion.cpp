@@ -19,9 +19,9 @@ constexpr std::chrono::milliseconds wait_slice{1}; // for input, before the targ
 
 Motion::Motion(const MotionArguments& arguments, const MachineDescription& description, const PlanFigures& figures,
                PathInput& input, const PathLimits& path_limits, Outputs& outputs, Supervision* target)
-    : quiet_(arguments.quiet), enforce_(arguments.enforce), description_(&description), figures_(&figures),
-      input_(&input), outputs_(&outputs), state_(arguments.state), start_(arguments.start), report_(arguments.report),
-      record_(arguments.record), target_(target),
+    : quiet_(arguments.quiet), progress_alone_(arguments.progress), enforce_(arguments.enforce),
+      description_(&description), figures_(&figures), input_(&input), outputs_(&outputs), state_(arguments.state),
+      start_(arguments.start), report_(arguments.report), record_(arguments.record), target_(target),
       deviation_(description.settings, input.tolerances().joint_mm,
                  input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),

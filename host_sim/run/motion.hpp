@@ -34,6 +34,7 @@ struct MotionArguments {
     std::string events;              ///< file of an operator's actions; empty: none
     bool enforce = true;             ///< the simulated machine stops if a limit is broken
     bool quiet = false;              ///< writes nothing on standard error
+    bool progress = false;           ///< though it is quiet, shows the progress on a terminal
     int terminal = -1;               ///< of a user who is asked to go on; -1: none
     MachineState begins;             ///< as the run begins
     StateKeeper* state = nullptr;    ///< of offsets and position; null: nothing keeps them
@@ -102,6 +103,7 @@ private:
     [[nodiscard]] std::string where() const;
 
     bool quiet_;
+    bool progress_alone_;
     bool enforce_;
     const MachineDescription* description_;
     const PlanFigures* figures_;

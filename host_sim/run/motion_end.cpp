@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds look_slice{1};
 } // namespace
 
 std::string Motion::run(std::optional<std::uint64_t> waypoints) {
-    progress_.emplace(ProgressOptions{.quiet = quiet_, .all = waypoints});
+    progress_.emplace(ProgressOptions{.quiet = quiet_ && !progress_alone_, .all = waypoints});
     try {
         execute_all();
     } catch (...) {

@@ -75,6 +75,8 @@ Summary Motion::summary() const {
     }
     summary.program = steps_.summary();
     summary.program.line = target_ != nullptr && target_->line() > 0 ? target_->line() : line_;
+    summary.program.left_out = input_->left_out();
+    summary.program.dialect = input_->dialect_choice();
     summary.limit_share = share_.shares();
     summary.planning_time_s = std::chrono::duration<double>(planning_ - optimum_.spent() - deviation_.spent()).count();
     summary.memory_bytes = {path.curve_bytes, path.plan_bytes, path.stream_bytes};

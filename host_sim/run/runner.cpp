@@ -41,6 +41,9 @@ std::optional<std::uint64_t> look(PathInput& input, const PathObservers& observe
 
 /// Input that is valid, but whose curve is hardly what was meant.
 void warn(const PathInput& input, bool quiet) {
+    if (!quiet && !input.dialect_choice().empty()) {
+        tell("{}: {}\n", printable(input.name()), printable(input.dialect_choice()));
+    }
     if (quiet || input.segments() == nullptr) {
         return;
     }

@@ -111,7 +111,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// @param problems  null: the first one ends the program
-void run(const std::vector<std::string>& text, std::vector<std::string>* problems) {
+void run(const std::vector<std::string>& text, ProblemList* problems) {
     constexpr int most_steps = 4'000; // loops without an end would only take time
     TextLines lines(text);
     ParameterMemory parameters;
@@ -155,14 +155,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool checks = (choices & 2U) != 0;
     const std::vector<std::string> lines =
         lines_of(as_text ? std::string(reinterpret_cast<const char*>(bytes.data), bytes.left) : text_of_parts(bytes));
-    std::vector<std::string> problems;
+    ProblemList problems;
     try {
         run(lines, checks ? &problems : nullptr);
     } catch (const InputError& error) {
-        problems.emplace_back(error.what());
+        problems.add(error, 0);
     }
     std::set<std::string> told;
-    for (const std::string& problem : problems) {
+    for (const std::string& problem : problems.texts()) {
         if (!names_a_line(problem, lines.size())) {
             fail("an error without its line", problem);
         }

@@ -15,6 +15,7 @@ TEST_CASE("A word of another dialect is told with the dialect that has it") {
         CHECK(dialect_hint("?", ProgramError::character_invalid, dialect).find("grbl takes this byte") == 0);
     }
     CHECK(dialect_hint("$X", ProgramError::character_invalid, Dialect::linuxcnc).find("--dialect grbl") < 60);
+    CHECK(dialect_hint("W-2.", ProgramError::axis_missing, Dialect::linuxcnc).find("--dialect fanuc") < 60);
 }
 
 TEST_CASE("A decimal comma and prose are told as such") {
@@ -23,6 +24,17 @@ TEST_CASE("A decimal comma and prose are told as such") {
     CHECK(dialect_hint(", 5", ProgramError::character_invalid, Dialect::linuxcnc).empty());
     CHECK(dialect_hint("ello world", ProgramError::function_unknown, Dialect::grbl).find("the letter before it") == 0);
     CHECK(dialect_hint("SINE [1]", ProgramError::function_unknown, Dialect::linuxcnc).empty());
+}
+
+TEST_CASE("Tolerances and units are those of the dialect") {
+    const auto hint = [](ProgramError error, Dialect dialect) {
+        return std::string(dialect_hint("X", error, dialect));
+    };
+    CHECK(hint(ProgramError::arc_radius_mismatch, Dialect::linuxcnc).find("0.0283 mm") != std::string::npos);
+    CHECK(hint(ProgramError::arc_radius_mismatch, Dialect::grbl).find("0.005 mm") != std::string::npos);
+    CHECK(hint(ProgramError::arc_radius_mismatch, Dialect::klipper).find("by 0.5 mm") != std::string::npos);
+    CHECK(hint(ProgramError::dwell_invalid, Dialect::marlin).find("milliseconds") != std::string::npos);
+    CHECK(hint(ProgramError::dwell_invalid, Dialect::grbl).find(" seconds") != std::string::npos);
 }
 
 TEST_CASE("What no dialect has gets no hint") {
@@ -36,5 +48,7 @@ TEST_CASE("What no dialect has gets no hint") {
         CHECK(dialect_hint("M104", ProgramError::number_invalid, dialect).empty());
     }
     CHECK(dialect_hint("M104", ProgramError::user_code_unsupported, Dialect::marlin).empty());
+    CHECK(dialect_hint("U1", ProgramError::axis_missing, Dialect::fanuc).empty());
+    CHECK(dialect_hint("A1", ProgramError::axis_missing, Dialect::linuxcnc).empty());
     CHECK(dialect_hint("E1", ProgramError::word_unused, Dialect::marlin).empty());
 }

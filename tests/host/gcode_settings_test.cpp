@@ -32,3 +32,22 @@ TEST_CASE("The first option of G-code that was given is known by its name") {
     typed.dialect = "grbl";
     CHECK(first_option(typed) == "--dialect");
 }
+
+TEST_CASE("Lines and unknown words may be ignored, too") {
+    GcodeArguments typed;
+    typed.ignore = "start_print,$*,_x,E,unknown,LINE_*";
+    const GcodeSettings read = read_gcode_arguments(typed);
+    CHECK(read.ignored_lines == std::vector<std::string>{"START_PRINT", "$*", "_X", "LINE_*"});
+    CHECK(read.ignored.size() == 1);
+    CHECK(read.ignores_unknown);
+}
+
+TEST_CASE("The dialect may be guessed, and fanuc has increments") {
+    GcodeArguments typed;
+    typed.dialect = "auto";
+    CHECK(read_gcode_arguments(typed).guess_dialect);
+    CHECK(read_gcode_arguments(typed).dialect == Dialect::linuxcnc);
+    typed.increments = true;
+    typed.dialect = "fanuc";
+    CHECK(read_gcode_arguments(typed).increments);
+}

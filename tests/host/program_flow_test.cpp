@@ -7,6 +7,7 @@
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/interpreter.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 using namespace splinefeed;
@@ -28,7 +29,7 @@ private:
 };
 
 /// The X of each move, or the error; with `problems` all errors go there.
-std::string run(const std::string& text, std::vector<std::string>* problems = nullptr) {
+std::string run(const std::string& text, ProblemList* problems = nullptr) {
     TextLines lines(text);
     ParameterMemory parameters;
     Expression expression(parameters);
@@ -45,7 +46,8 @@ std::string run(const std::string& text, std::vector<std::string>* problems = nu
             }
             const BlockStatus status = interpreter.push(line.text, static_cast<std::uint32_t>(line.number));
             if (!status.ok() && problems != nullptr) {
-                problems->push_back("p.ngc:" + std::to_string(line.number) + ": no word");
+                problems->add({"p.ngc", line.number, "no word"}, line.number,
+                              "no word of line " + std::to_string(line.number));
             } else if (!status.ok()) {
                 return out + " error " + describe(status.error);
             }
@@ -175,14 +177,18 @@ TEST_CASE("Words behind an O word are refused, comments are not") {
 
 TEST_CASE("Each wrong O word is told once, and the lines around it are read as if it were not there") {
     const auto says = [](const std::string& text, const std::string& moves, const std::vector<std::string>& expected) {
-        std::vector<std::string> problems;
+        ProblemList problems;
         const std::string moved = run(text, &problems);
-        CAPTURE(text, problems, moved);
+        const std::vector<std::string> texts = problems.texts();
+        CAPTURE(text, texts, moved);
         CHECK(moved == moves);
-        REQUIRE(problems.size() == expected.size());
-        for (std::size_t i = 0; i < expected.size(); ++i) {
-            CAPTURE(expected[i]);
-            CHECK(problems[i].find("p.ngc:" + expected[i]) == 0);
+        CHECK(problems.count() == expected.size());
+        for (const std::string& one : expected) {
+            CAPTURE(one);
+            const std::string line = one.substr(0, one.find(':'));
+            CHECK(std::any_of(texts.begin(), texts.end(), [&](const std::string& told) {
+                return told.find("p.ngc:" + one) == 0 || told.find("also on line " + line) != std::string::npos;
+            }));
         }
     };
     says("o100 sub\nG0 X1\nG999\nX2", " 1 2",

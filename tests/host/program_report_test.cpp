@@ -42,12 +42,20 @@ TEST_CASE("Lengths and times are counted by kind, tool and line") {
     CHECK(lines[1].line == 2);
     CHECK(lines[1].feed_s == 1.0);
 
-    const auto json = nlohmann::json::parse(check_json(report, machine, {}, 4.75));
+    const auto json = nlohmann::json::parse(check_json(report, machine, {.cycle_time_s = 4.75}));
     CHECK(json["cycle_time_s"] == 4.75);
     CHECK(json["slowest_lines"][1]["limit"] == "its feed");
     CHECK(json["tools"]["3"]["moves"] == 2);
-    const auto wrong = nlohmann::json::parse(check_json(report, machine, {"p.ngc:1: wrong"}, 0.0));
+    const auto wrong =
+        nlohmann::json::parse(check_json(report, machine, {.problems = {"p.ngc:1: wrong"}, .problem_count = 3}));
     CHECK(wrong["problems"][0] == "p.ngc:1: wrong");
     CHECK_FALSE(wrong.contains("cycle_time_s"));
-    CHECK(check_text(report, machine, {"p.ngc:1: wrong"}, 0.0).find("p.ngc:1: wrong\n\n1 problem\n") == 0);
+    CHECK(wrong["problem_count"] == 3);
+    const ProgramFindings found{.problems = {"p.ngc:1: wrong"},
+                                .problem_count = 1,
+                                .notes = {"p.ngc:3: the program ends here"},
+                                .left_out = {{"M104", 2, 5}, {"E", 1, 9}}};
+    CHECK(check_text(report, machine, found)
+              .find("p.ngc:1: wrong\n\n1 problem\np.ngc:3: the program ends here\n"
+                    "left out: M104 2 times, first on line 5; E on line 9\n\n") == 0);
 }

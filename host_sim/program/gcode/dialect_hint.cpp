@@ -4,6 +4,7 @@
 #include "splinefeed/s0_program/code_table.hpp"
 #include "splinefeed/s0_program/decimal.hpp"
 #include "splinefeed/s0_program/decimal_text.hpp"
+#include "splinefeed/s0_program/dialect_rules.hpp"
 #include "splinefeed/s0_program/text_cursor.hpp"
 
 namespace splinefeed::host {
@@ -20,6 +21,15 @@ bool is_printer_word(std::string_view text) {
     return info.group == CodeGroup::printer && info.refusal == ProgramError::none;
 }
 
+std::string_view arc_hint(const ArcTolerance& tolerance) {
+    if (!tolerance.relative) {
+        return "the centre is nearer to one end: radii may differ by 0.5 mm";
+    }
+    return tolerance.most > Decimal::from_integer(1)
+               ? "the centre is nearer to one end: radii may differ by 0.0283 mm (in inches 0.0718 mm) or 0.1 %"
+               : "the centre is nearer to one end: radii may differ by 0.005 mm or 0.1 %, and at most by 0.5 mm";
+}
+
 /// Whether text begins like a call of a function: a name and a bracket.
 bool is_call(std::string_view text) {
     const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ \t");
@@ -30,14 +40,15 @@ bool is_call(std::string_view text) {
 
 std::string_view dialect_hint(std::string_view text, ProgramError error, Dialect dialect) {
     const char first = TextCursor(text).peek();
+    const DialectRules& rules = rules_of(dialect);
     switch (error) {
     case ProgramError::m_code_unknown:
+    case ProgramError::not_in_dialect:
     case ProgramError::user_code_unsupported:
-        return dialect != Dialect::marlin && is_printer_word(text)
-                   ? "this dialect does not have the word; --dialect marlin does"
-                   : "";
+        return !rules.extruder && is_printer_word(text) ? "this dialect does not have the word; --dialect marlin does"
+                                                        : "";
     case ProgramError::word_unused:
-        return dialect != Dialect::marlin && first == 'e'
+        return !rules.extruder && first == 'e'
                    ? "E is the filament of a printer; --dialect marlin has it, and --ignore E leaves it out"
                    : "";
     case ProgramError::function_unknown:
@@ -46,14 +57,22 @@ std::string_view dialect_hint(std::string_view text, ProgramError error, Dialect
         if (first == ',' && text.size() > 1 && text[1] >= '0' && text[1] <= '9') {
             return "a number has a point, not a comma";
         }
-        if (first == '$' && dialect != Dialect::grbl) {
-            return "$ begins a command of grbl; --dialect grbl has $H";
+        if (first == '$' && !rules.dollar_lines) {
+            return "$ begins a command of grbl; --dialect grbl has $H, and --ignore $* leaves such lines out";
         }
         if (first == '?' || first == '!' || first == '~' || first == '\x18') {
             return "grbl takes this byte as a command of the sender, at once; in a program write M0 to pause, or leave "
-                   "it out";
+                   "the line out";
         }
         return "";
+    case ProgramError::arc_radius_mismatch: return arc_hint(rules.arc);
+    case ProgramError::dwell_invalid:
+        return rules.dwell == DwellUnit::millisecond ? "a dwell needs P, its milliseconds, and P is at least 0"
+                                                     : "a dwell needs P, its seconds, and P is at least 0";
+    case ProgramError::axis_missing:
+        return first >= 'u' && first <= 'w' && !rules.uvw_steps
+                   ? "the machine has no such axis; --dialect fanuc reads U, V and W as steps along X, Y and Z"
+                   : "";
     default: return "";
     }
 }

@@ -2,15 +2,18 @@
 #include "host_sim/program/gcode/gcode_moves.hpp"
 
 #include "host_sim/config/decimal_number.hpp"
+#include "host_sim/program/gcode/core_settings.hpp"
 #include "host_sim/program/gcode/dialect_hint.hpp"
 #include "host_sim/program/gcode/impossible_event.hpp"
 #include "host_sim/program/gcode/line_history.hpp"
 #include "host_sim/program/gcode/option_advice.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
-#include "host_sim/program/gcode/problem_list.hpp"
 #include "host_sim/program/gcode/program_flow.hpp"
 #include "host_sim/program/gcode/program_items.hpp"
 #include "host_sim/program/gcode/program_spindle.hpp"
+#include "host_sim/program/left_out_list.hpp"
+#include "host_sim/program/line_filter.hpp"
+#include "host_sim/program/problem_list.hpp"
 
 #include "splinefeed/s0_program/expression.hpp"
 #include "splinefeed/s0_program/text_cursor.hpp"
@@ -26,43 +29,10 @@ namespace splinefeed::host {
 
 namespace {
 
-ProgramSettings program_settings(const GcodeSettings& from, const MachineTools* tools) {
-    ProgramSettings out;
-    out.axes = static_cast<int>(from.axes.size());
-    for (std::size_t k = 0; k < from.axes.size(); ++k) {
-        out.letters[k] = upper_case(from.axes[k].front());
-    }
-    out.rotary_axes = from.rotary_axes;
-    out.dialect = from.dialect;
-    out.block_delete = from.block_delete;
-    out.optional_pause = from.optional_stop;
-    out.default_tolerance_mm = decimal_of(from.tolerance_mm);
-    out.rapid_tolerance_mm = decimal_of(from.rapid_tolerance_mm);
-    out.ignored = from.ignored.data();
-    out.ignored_count = from.ignored.size();
-    out.tools = tools;
-    return out;
-}
-
-// A line may have a comment that is longer than a line of the interpreter: slicers write their settings that way.
-std::string_view without_comment(std::string_view text, std::size_t longest) {
-    if (text.size() <= longest) {
-        return text;
-    }
-    bool inside = false;
-    for (std::size_t i = 0; i <= longest; ++i) { // a line may end where the comment begins
-        inside = text[i] == '(' || (inside && text[i] != ')');
-        if (text[i] == ';' && !inside) {
-            return text.substr(0, i);
-        }
-    }
-    return text;
-}
-
 class GcodeMoves final : public MoveSource {
 public:
     GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines, ScalarKind scalar,
-               std::vector<std::string>* problems);
+               ProblemList* problems);
 
     bool start(PerAxis<Position>& position) override;
     bool next(SourceStep& out) override;
@@ -84,11 +54,19 @@ public:
     [[nodiscard]] InputError refusal(const SourceStep& step, std::string_view text) const override;
     [[nodiscard]] std::string without_moves(Error /*error*/) const override { return {}; }
     void passed(std::uint64_t row) noexcept override { history_.forget_before(row); }
+    [[nodiscard]] UnreadLines unread() override;
 
 private:
     void read_line();
-    /// Throws, unless problems are collected.
-    void report(const InputError& error) { problems_.add(error); }
+    /// Throws, unless problems are collected. @param cause  as of ProblemList::add
+    void report(const InputError& error, std::string_view cause = {});
+    void report_block(const BlockStatus& status, std::string_view text);
+    [[nodiscard]] bool is_left_out();
+    /// What the program looks like, once.
+    [[nodiscard]] std::string_view guess() const noexcept {
+        const bool is_first = problems_ == nullptr || problems_->empty();
+        return is_first ? std::string_view(settings_->dialect_guess) : std::string_view();
+    }
     void take(SourceStep& out);
     void take_move(SourceStep& out) const;
     void take_event(SourceStep& out);
@@ -100,7 +78,7 @@ private:
     const GcodeSettings* settings_;
     std::string file_;
     std::unique_ptr<SourceLines> lines_;
-    ProblemList problems_;
+    ProblemList* problems_;
     std::optional<MachineTools> tools_;
     ParameterMemory parameters_;
     Expression expression_{parameters_};
@@ -118,16 +96,19 @@ private:
 };
 
 GcodeMoves::GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines,
-                       ScalarKind scalar, std::vector<std::string>* problems)
+                       ScalarKind scalar, ProblemList* problems)
     : settings_(&settings), file_(std::move(file)), lines_(std::move(lines)), problems_(problems),
       tools_(settings.tools ? std::optional<MachineTools>(std::in_place, *settings.tools, settings.axes)
                             : std::nullopt),
-      items_(program_items(scalar, program_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
+      items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
                            settings.max_feed_mm_s)),
       interpreter_(items_->interpreter()), flow_(*lines_, file_, expression_, interpreter_, parameters_, problems) {}
 
 bool GcodeMoves::start(PerAxis<Position>& position) {
     position = settings_->start;
+    if (settings_->left_out != nullptr) {
+        settings_->left_out->begin();
+    }
     if (settings_->offsets) {
         interpreter_.restore(*settings_->offsets);
     }
@@ -151,22 +132,64 @@ std::string GcodeMoves::in_the_line(const BlockStatus& status) const {
     return in_quotes(std::string_view(line_.text).substr(at, status.length)) + ": ";
 }
 
+void GcodeMoves::report(const InputError& error, std::string_view cause) {
+    if (problems_ == nullptr) {
+        throw InputError(error);
+    }
+    problems_->add(error, line_.number, cause);
+}
+
+void GcodeMoves::report_block(const BlockStatus& status, std::string_view text) {
+    const std::string_view rest =
+        text.substr(std::min<std::size_t>(status.column > 0 ? status.column - 1U : 0U, text.size()));
+    const std::string_view hint = dialect_hint(rest, status.error, settings_->dialect);
+    const std::string sentence =
+        hint.empty() ? std::string(describe(status.error)).append(option_advice(status.error)) : std::string(hint);
+    const bool says_dialect = sentence.find("--dialect") != std::string::npos;
+    const std::string place = in_the_line(status);
+    // Words of one letter share a cause, whatever their numbers; G and M words are their numbers.
+    const char letter = rest.empty() ? ' ' : upper_case(rest.front());
+    const bool is_code = letter == 'G' || letter == 'M';
+    report({file_, line_.number, std::uint64_t{status.column},
+            fmt::format("{}{}{}", place, sentence, says_dialect ? std::string_view() : guess())},
+           (is_code || place.empty() ? place : std::string(1, letter)) + sentence);
+}
+
+// A line that is no G-code, or that the user wants to be left out. Macros that nobody speaks of are named.
+bool GcodeMoves::is_left_out() {
+    const std::string_view word = left_out_line(line_.text, *settings_);
+    const std::string_view macro = macro_name(line_.text);
+    if (!word.empty() && settings_->left_out != nullptr) {
+        settings_->left_out->add_line(word);
+    }
+    if (word.empty() && !macro.empty() &&
+        (has_macros(settings_->dialect) || macro.find('_') != std::string_view::npos)) {
+        report({file_, line_.number,
+                fmt::format("{}: it is a macro or an extended command of a printer; --ignore {} leaves its lines out, "
+                            "--ignore unknown all of this kind{}",
+                            in_quotes(macro), macro, guess())},
+               macro);
+        return true;
+    }
+    return !word.empty();
+}
+
 void GcodeMoves::read_line() {
     if (line_.number > std::numeric_limits<std::uint32_t>::max()) {
         throw InputError(file_, line_.number, "the program has more than 2^32 lines; split it");
     }
-    const std::string_view text = without_comment(line_.text, BlockInterpreter::longest_line);
-    const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
-    if (status.ok()) {
+    if (settings_->left_out != nullptr) {
+        settings_->left_out->at_line(line_.number);
+    }
+    if (is_left_out()) {
         return;
     }
-    const std::size_t at = status.column > 0 ? status.column - 1U : 0U;
-    const std::string_view hint =
-        dialect_hint(text.substr(std::min(at, text.size())), status.error, settings_->dialect);
-    report(
-        {file_, line_.number, std::uint64_t{status.column},
-         in_the_line(status) + (hint.empty() ? fmt::format("{}{}", describe(status.error), option_advice(status.error))
-                                             : std::string(hint))});
+    const std::string_view text = without_long_comment(line_.text, BlockInterpreter::longest_line);
+    const BlockStatus status = interpreter_.push(text, static_cast<std::uint32_t>(line_.number));
+    if (!status.ok()) {
+        report_block(status, text);
+        interpreter_.obey_refused();
+    }
 }
 
 // One line at a time: whoever waits for a pipe wants to know after each.
@@ -308,12 +331,22 @@ void GcodeMoves::require_possible(MoveKind kind) const {
                                      number));
     }
     if (kind == MoveKind::home) {
-        const bool grbl = settings_->dialect == Dialect::grbl;
+        const bool grbl = rules_of(settings_->dialect).dollar_lines;
         throw InputError(file_, item_.line, std::uint64_t{0},
                          fmt::format("{}: only the simulated machine homes within a program so far; begin the run with "
                                      "--home, and {}",
                                      grbl ? "$H" : "G28", grbl ? "take it out" : "--ignore G28"));
     }
+}
+
+UnreadLines GcodeMoves::unread() {
+    UnreadLines out{line_.number, 0};
+    while (interpreter_.has_ended() && lines_->next(line_)) {
+        TextCursor cursor(line_.text);
+        const char first = cursor.peek();
+        out.lines += first != '\0' && first != '(' && first != ';' && first != '%' ? 1 : 0;
+    }
+    return out;
 }
 
 std::string GcodeMoves::name_of_move(std::uint64_t /*move*/, std::uint64_t line) const {
@@ -332,8 +365,7 @@ InputError GcodeMoves::refusal(const SourceStep& step, std::string_view text) co
 } // namespace
 
 std::unique_ptr<MoveSource> gcode_moves(const GcodeSettings& settings, std::string file,
-                                        std::unique_ptr<SourceLines> lines, ScalarKind scalar,
-                                        std::vector<std::string>* problems) {
+                                        std::unique_ptr<SourceLines> lines, ScalarKind scalar, ProblemList* problems) {
     return std::make_unique<GcodeMoves>(settings, std::move(file), std::move(lines), scalar, problems);
 }
 

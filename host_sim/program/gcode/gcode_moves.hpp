@@ -5,6 +5,7 @@
 #include "host_sim/base/scalar_kind.hpp"
 #include "host_sim/program/gcode_settings.hpp"
 #include "host_sim/program/move_source.hpp"
+#include "host_sim/program/problem_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
 #include <memory>
@@ -20,6 +21,6 @@ namespace splinefeed::host {
 /// @param problems  gets what is wrong with lines, which are left out; null: the first one ends the program
 [[nodiscard]] std::unique_ptr<MoveSource> gcode_moves(const GcodeSettings& settings, std::string file,
                                                       std::unique_ptr<SourceLines> lines, ScalarKind scalar,
-                                                      std::vector<std::string>* problems = nullptr);
+                                                      ProblemList* problems = nullptr);
 
 } // namespace splinefeed::host

@@ -44,7 +44,7 @@ private:
     };
 
     std::vector<Value> numbered_;
-    Names global_; // those with a leading _
+    Names global_{{"_value", {}}, {"_value_returned", {}}}; // those with a leading _; 0 before any call, as in LinuxCNC
     Names named_;
     std::vector<Saved> callers_;
 };

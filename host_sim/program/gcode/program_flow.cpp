@@ -14,6 +14,13 @@ void ProgramFlow::fail(const SourceLine& line, std::size_t at, std::string_view 
     throw WordError(file_, line.number, std::uint64_t{at} + 1U, text);
 }
 
+bool ProgramFlow::report(const InputError& error, std::uint64_t line) {
+    if (problems_ == nullptr) {
+        throw InputError(error);
+    }
+    return problems_->add(error, line);
+}
+
 FlowWord ProgramFlow::word_of(const SourceLine& line) const {
     std::size_t wrong = 0;
     const auto word = read_flow_word(line.text, wrong);
@@ -281,7 +288,7 @@ ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
         count_word(out);
         execute(*place, code->line(at));
     } catch (const WordError& error) {
-        const bool is_new = problems_.add(error);
+        const bool is_new = report(error, out.number);
         repeated_ += is_new ? 0U : 1U;
         if (words_ > most_words || repeated_ > most_repeated) {
             abandon();

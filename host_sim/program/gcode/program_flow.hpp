@@ -5,7 +5,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/program/gcode/flow_block.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
-#include "host_sim/program/gcode/problem_list.hpp"
+#include "host_sim/program/problem_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
 #include "splinefeed/s0_program/word_evaluator.hpp"
@@ -39,7 +39,7 @@ public:
     /// @param problems  gets what is wrong with O words, and the program goes on as if they were not there, so that the
     ///                  other lines are read, too; null: the first problem ends it
     ProgramFlow(SourceLines& lines, std::string file, WordEvaluator& evaluator, const BlockInterpreter& system,
-                ParameterMemory& parameters, std::vector<std::string>* problems = nullptr)
+                ParameterMemory& parameters, ProblemList* problems = nullptr)
         : lines_(&lines), file_(std::move(file)), evaluator_(&evaluator), system_(&system), parameters_(&parameters),
           problems_(problems) {}
 
@@ -89,6 +89,8 @@ private:
     void abandon();
     Step next_in_memory(SourceLine& out);
     void count_word(const SourceLine& line);
+    /// Throws, unless problems are collected. False: it is known.
+    bool report(const InputError& error, std::uint64_t line);
     void execute(const FlowBlock::Place& place, const SourceLine& line);
     void execute_if(const FlowBlock::Place& place, const SourceLine& line);
     void execute_call(const FlowWord& word, const SourceLine& line);
@@ -112,7 +114,7 @@ private:
     ParameterMemory* parameters_;
     std::map<std::string, Sub> subs_;
     std::vector<Frame> frames_;
-    ProblemList problems_;
+    ProblemList* problems_;
     std::deque<Again> again_;
     std::set<std::string> lost_; // labels whose structure was wrong: what else names them is not told
     bool begun_ = false;         // there was a block: a number of the program would have come before it

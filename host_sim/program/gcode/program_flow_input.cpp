@@ -75,7 +75,7 @@ void ProgramFlow::end_block() {
     const std::vector<FlowBlock::Problem> problems = block->link();
     for (const FlowBlock::Problem& problem : problems) {
         const SourceLine& line = block->line(problem.line);
-        problems_.add({file_, line.number, std::uint64_t{problem.at} + 1U, problem.text});
+        report({file_, line.number, std::uint64_t{problem.at} + 1U, problem.text}, line.number);
     }
     if (!problems.empty()) {
         std::deque<Again> rest;
@@ -124,7 +124,7 @@ ProgramFlow::Step ProgramFlow::take_word(const SourceLine& line, const std::opti
         count_word(line);
         begin(known ? *known : word_of(line), line);
     } catch (const WordError& error) {
-        problems_.add(error);
+        report(error, line.number);
     }
     return Step::nothing;
 }

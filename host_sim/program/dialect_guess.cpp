@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/dialect_guess.hpp"
+
+#include "host_sim/base/input_error.hpp"
+#include "host_sim/program/line_filter.hpp"
+
+#include "splinefeed/s0_program/text_cursor.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace splinefeed::host {
+
+namespace {
+
+struct Sign {
+    std::string_view text; // in lower case, without spaces
+    Dialect dialect;
+    int points;
+};
+
+// In comments. Senders and CAM systems name the post.
+constexpr Sign comment_signs[] = {
+    {"flavor:klipper", Dialect::klipper, 50},
+    {"flavor=klipper", Dialect::klipper, 50},
+    {"flavor:marlin", Dialect::marlin, 50},
+    {"flavor=marlin", Dialect::marlin, 50},
+    {"flavor:reprap", Dialect::marlin, 50},
+    {"flavor=reprap", Dialect::marlin, 50},
+    {"grbl", Dialect::grbl, 40},
+    {"linuxcnc", Dialect::linuxcnc, 40},
+    {"emc2", Dialect::linuxcnc, 40},
+    {"fanuc", Dialect::fanuc, 40},
+    {"prusaslicer", Dialect::marlin, 20},
+    {"cura_steamengine", Dialect::marlin, 20},
+    {"orcaslicer", Dialect::marlin, 20},
+    {"superslicer", Dialect::marlin, 20},
+    {"arcwelder", Dialect::marlin, 20},
+    {"klipper", Dialect::klipper, 10},
+    {"marlin", Dialect::marlin, 10},
+    {"lightburn", Dialect::grbl, 10},
+};
+
+// Words that only one of them has; each counts once a line.
+constexpr Sign word_signs[] = {
+    {"m104", Dialect::marlin, 5},  {"m109", Dialect::marlin, 5},  {"m140", Dialect::marlin, 5},
+    {"m190", Dialect::marlin, 5},  {"m106", Dialect::marlin, 5},  {"m107", Dialect::marlin, 5},
+    {"m82", Dialect::marlin, 5},   {"m83", Dialect::marlin, 5},   {"m84", Dialect::marlin, 5},
+    {"m115", Dialect::marlin, 5},  {"m117", Dialect::marlin, 5},  {"m201", Dialect::marlin, 5},
+    {"m203", Dialect::marlin, 5},  {"m204", Dialect::marlin, 5},  {"m205", Dialect::marlin, 5},
+    {"m220", Dialect::marlin, 5},  {"m221", Dialect::marlin, 5},  {"m400", Dialect::marlin, 5},
+    {"m862", Dialect::marlin, 5},  {"m900", Dialect::marlin, 5},  {"g92e", Dialect::marlin, 5},
+    {"g64", Dialect::linuxcnc, 5}, {"m66", Dialect::linuxcnc, 5}, {"m62", Dialect::linuxcnc, 5},
+    {"g15", Dialect::fanuc, 5},    {"g50", Dialect::fanuc, 5},    {"g69", Dialect::fanuc, 5},
+    {"g28u", Dialect::fanuc, 5},   {"g28w", Dialect::fanuc, 5},   {"g28v", Dialect::fanuc, 5},
+};
+
+bool is_figure(char c) noexcept {
+    return c >= '0' && c <= '9';
+}
+
+std::string plain(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c != ' ' && c != '\t' && c != '\r') {
+            out += lower_case(c);
+        }
+    }
+    return out;
+}
+
+// Not within another word: g15 is not in g150.
+bool has_word(std::string_view code, std::string_view word) noexcept {
+    for (std::size_t at = code.find(word); at != std::string_view::npos; at = code.find(word, at + 1)) {
+        const char behind = at + word.size() < code.size() ? code[at + word.size()] : '\0';
+        if (!is_figure(word.back()) || (!is_figure(behind) && behind != '.')) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+void DialectGuess::count(Dialect dialect, int points, std::string_view text, std::uint64_t line) {
+    Evidence& of = evidence_[static_cast<std::size_t>(dialect)];
+    of.points += points;
+    if (points > of.best) {
+        of.best = points;
+        of.line = line;
+        of.text = std::string(text.substr(0, text.find_last_not_of(" \t\r") + 1));
+    }
+}
+
+void DialectGuess::read_comment(std::string_view comment, std::uint64_t line) {
+    const std::string text = plain(comment);
+    for (const Sign& sign : comment_signs) {
+        if (text.find(sign.text) != std::string::npos) {
+            count(sign.dialect, sign.points, comment, line);
+        }
+    }
+}
+
+void DialectGuess::read_words(std::string_view code, std::uint64_t line) {
+    const std::string text = plain(code);
+    if (text.empty()) {
+        return;
+    }
+    percent_ = percent_ || text == "%";
+    const std::string_view macro = macro_name(code);
+    if (!macro.empty() && (macro.find('_') != std::string_view::npos || is_still_macro(macro))) {
+        count(Dialect::klipper, 20, macro, line);
+        return;
+    }
+    if (text[0] == '$') {
+        count(Dialect::grbl, 20, code, line);
+        return;
+    }
+    // O100 and nothing else behind a % is Fanuc's; LinuxCNC takes it, too.
+    const bool numbered = text.size() > 1 && text[0] == 'o' && std::all_of(text.begin() + 1, text.end(), is_figure);
+    if (numbered && percent_) {
+        count(Dialect::fanuc, 1, code, line);
+    } else if (text[0] == 'o' || text[0] == '#' || text.find('[') != std::string::npos) {
+        count(Dialect::linuxcnc, 5, code, line);
+        return;
+    }
+    for (const Sign& sign : word_signs) {
+        if (has_word(text, sign.text)) {
+            count(sign.dialect, sign.points, code, line);
+        }
+    }
+    const bool moves = has_word(text, "g1") || has_word(text, "g0") || has_word(text, "g01") || has_word(text, "g00");
+    const std::size_t filament = code.find_first_of("eE");
+    if (moves && filament != std::string_view::npos && filament > 0 && code[filament - 1] == ' ') { // no exponent
+        count(Dialect::marlin, 5, code, line);
+    }
+}
+
+void DialectGuess::add(std::string_view line, std::uint64_t number) {
+    std::string code;
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        if (line[at] == ';') {
+            read_comment(line.substr(at), number);
+            break;
+        }
+        if (line[at] == '(') {
+            const std::size_t end = std::min(line.find(')', at), line.size());
+            read_comment(line.substr(at, end + 1 - at), number);
+            at = end;
+            continue;
+        }
+        code += line[at];
+    }
+    read_words(code, number);
+}
+
+Dialect DialectGuess::dialect() const noexcept {
+    const auto* const best = std::max_element(evidence_.begin(), evidence_.end(),
+                                              [](const Evidence& a, const Evidence& b) { return a.points < b.points; });
+    return best->points < enough ? Dialect::linuxcnc : static_cast<Dialect>(best - evidence_.begin());
+}
+
+std::string DialectGuess::reason() const {
+    const Evidence& best = evidence_[static_cast<std::size_t>(dialect())];
+    return best.points < enough ? std::string() : fmt::format("{} on line {}", in_quotes(best.text), best.line);
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// DialectGuess: whose words a program has, by its first lines.
+#pragma once
+
+#include "splinefeed/s0_program/program_settings.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace splinefeed::host {
+
+/// Evidence is a comment that names the controller, or what only one controller has. The dialect with most of it is
+/// taken, and linuxcnc where there is too little.
+class DialectGuess {
+public:
+    static constexpr std::uint64_t most_lines = 200;
+    static constexpr std::size_t dialects = 5;
+    static constexpr int enough = 5; ///< points of evidence: that of one word which is no other dialect's
+
+    void add(std::string_view line, std::uint64_t number);
+    [[nodiscard]] Dialect dialect() const noexcept;
+    /// The strongest evidence: "'M104 S200' on line 12". Empty: there is none.
+    [[nodiscard]] std::string reason() const;
+
+private:
+    struct Evidence {
+        int points = 0; // of all of it
+        int best = 0;
+        std::uint64_t line = 0; // of the best
+        std::string text;
+    };
+
+    void count(Dialect dialect, int points, std::string_view text, std::uint64_t line);
+    void read_comment(std::string_view comment, std::uint64_t line);
+    void read_words(std::string_view code, std::uint64_t line);
+
+    std::array<Evidence, dialects> evidence_{};
+    bool percent_ = false;
+};
+
+} // namespace splinefeed::host

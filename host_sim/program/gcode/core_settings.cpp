@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/gcode/core_settings.hpp"
+
+#include "host_sim/config/decimal_number.hpp"
+#include "host_sim/program/left_out_list.hpp"
+
+#include "splinefeed/s0_program/text_cursor.hpp"
+
+namespace splinefeed::host {
+
+ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* tools) {
+    ProgramSettings out;
+    out.axes = static_cast<int>(from.axes.size());
+    for (std::size_t k = 0; k < from.axes.size(); ++k) {
+        out.letters[k] = upper_case(from.axes[k].front());
+    }
+    out.rotary_axes = from.rotary_axes;
+    out.dialect = from.dialect;
+    out.block_delete = from.block_delete;
+    out.optional_pause = from.optional_stop;
+    out.default_tolerance_mm = decimal_of(from.tolerance_mm);
+    out.rapid_tolerance_mm = decimal_of(from.rapid_tolerance_mm);
+    out.ignored = from.ignored.data();
+    out.ignored_count = from.ignored.size();
+    out.ignores_unknown = from.ignores_unknown;
+    out.increments = from.increments;
+    out.left_out = from.left_out;
+    out.tools = tools;
+    return out;
+}
+
+std::string_view without_long_comment(std::string_view text, std::size_t longest) {
+    if (text.size() <= longest) {
+        return text;
+    }
+    bool inside = false;
+    for (std::size_t i = 0; i <= longest; ++i) { // a line may end where the comment begins
+        inside = text[i] == '(' || (inside && text[i] != ')');
+        if (text[i] == ';' && !inside) {
+            return text.substr(0, i);
+        }
+    }
+    return text;
+}
+
+} // namespace splinefeed::host

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// core_settings: what the interpreter of the core gets of a program's settings and lines.
+#pragma once
+
+#include "host_sim/program/gcode_settings.hpp"
+
+#include <string_view>
+
+namespace splinefeed::host {
+
+/// @param from  must outlive the interpreter
+/// @param tools  null: none
+[[nodiscard]] ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* tools);
+
+/// A line may have a comment that is longer than a line of the interpreter: slicers write their settings that way.
+/// @param longest  characters of a line without it
+[[nodiscard]] std::string_view without_long_comment(std::string_view text, std::size_t longest);
+
+} // namespace splinefeed::host

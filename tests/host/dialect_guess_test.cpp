@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "host_sim/program/dialect_guess.hpp"
+
+#include "support/catch.hpp"
+
+#include <sstream>
+
+using namespace splinefeed;
+using namespace splinefeed::host;
+
+namespace {
+
+DialectGuess guess(const std::string& program) {
+    DialectGuess out;
+    std::istringstream lines(program);
+    std::uint64_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        out.add(line, ++number);
+    }
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("A comment that names the controller decides") {
+    CHECK(guess("G21\n(Post Processor: grbl_post)\nG64 P0.1").dialect() == Dialect::grbl);
+    CHECK(guess("(Post Processor: linuxcnc_post)\nG1 X5").dialect() == Dialect::linuxcnc);
+    CHECK(guess(";FLAVOR:Marlin\nG1 X5").dialect() == Dialect::marlin);
+    CHECK(guess("; gcode_flavor = klipper\nM104 S20\nM82\nM140 S1").dialect() == Dialect::klipper);
+    CHECK(guess(";FLAVOR:Marlin").reason() == "';FLAVOR:Marlin' on line 1");
+}
+
+TEST_CASE("Words that one controller alone has decide") {
+    CHECK(guess("G21\nM104 S200\nG1 X5").dialect() == Dialect::marlin);
+    CHECK(guess("G21\nM104 S200\nG1 X5").reason() == "'M104 S200' on line 2");
+    CHECK(guess("G1 X5 E0.2 F600").dialect() == Dialect::marlin);
+    CHECK(guess("$H\nG1 X5").dialect() == Dialect::grbl);
+    CHECK(guess("START_PRINT\nM104 S1").dialect() == Dialect::klipper);
+    CHECK(guess("%\nO1000\nG0 G80 G50 G69").dialect() == Dialect::fanuc);
+    CHECK(guess("%\nO1000\nG28 U0 W0").dialect() == Dialect::fanuc);
+    CHECK(guess("o<a> sub\no<a> endsub\nG1 X[1+2]").dialect() == Dialect::linuxcnc);
+}
+
+TEST_CASE("Without evidence it is linuxcnc") {
+    for (const char* const program : {"", "G21 G90\nG1 X5 F600\nM2", "G150\nM1040", "hello world", "(E5)\nG1 X5",
+                                      "G1 X2.4e-16", "%\nO1000 (NAME)\nG4 P2"}) {
+        CAPTURE(program);
+        CHECK(guess(program).dialect() == Dialect::linuxcnc);
+        CHECK(guess(program).reason().empty());
+    }
+}
