@@ -1,0 +1,17 @@
+; Postprocessed by [ArcWelder](https://github.com/FormerLurker/ArcWelderLib)
+; resolution=0.05mm
+;FLAVOR:Marlin
+G90
+M83
+G28 X Y
+G28 Z
+G1 Z0.2 F600
+G0 X100 Y100 F9000
+G1 X110 Y100 E0.5 F1800
+G3 X119.99 Y109.96 I-.02 J9.99 E0.78
+G3 X99.993 Y110.012 I-10.001 J-.012 E1.57
+G2 X89.98 Y100.01 I-10.013 J.011 E.78
+G1 X89.98 Y90 E.5
+G92 E0
+M104 S0
+M18

@@ -1,0 +1,20 @@
+G90
+G21
+G94
+G17
+(Block-name: Header)
+$H
+M3 S12000
+G4 P3
+G0 Z3
+(Block-name: pcb)
+G0 X1 Y1
+G1 Z-0.1012 F100
+X2.5 Y1.0 Z-0.0987 F300
+X5.0 Y1.0 Z-0.0921
+Y3.0 Z-0.1105
+G0 Z3
+(Block-name: Footer)
+M5
+G0 X0 Y0
+M30

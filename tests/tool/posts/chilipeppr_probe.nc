@@ -1,0 +1,8 @@
+(probe, then cut)
+G21 G90
+G0 Z2
+G38.2 Z-5 F50
+G10 L20 P0 Z0
+G0 Z2
+G1 X10 F300
+M5

@@ -1,0 +1,5 @@
+; a script that prints numbers as they are
+G21 G90
+G1 X10 Y0 F600
+G1 X6.123233995736766e-16 Y10.0
+G1 X-10 Y1.2246467991473533e-15
