@@ -10,7 +10,7 @@ namespace {
 constexpr std::pair<ProgramError, std::string_view> helping_options[] = {
     {ProgramError::not_in_dialect, "; --dialect linuxcnc does"},
     {ProgramError::axis_missing, "; --ignore leaves the letter out"},
-    {ProgramError::tool_table_missing, "; --tools gives one, --ignore G43 goes on without"},
+    {ProgramError::tool_table_missing, "; --tools gives one"},
     {ProgramError::user_code_unsupported, "; --ignore leaves such a word out"},
     {ProgramError::bed_levelling_unsupported, "; --ignore G29 leaves it out"},
     {ProgramError::firmware_retraction_unsupported, "; --ignore G10,G11 leaves it out"},
