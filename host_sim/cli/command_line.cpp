@@ -189,6 +189,9 @@ void take_outputs(Job& job, const CLI::App& app, const std::string& summary) {
         }
         on_stdout = *path == "-" ? option : on_stdout;
     }
+    if (app.get_name() == "check" && on_stdout != nullptr) {
+        throw UsageError("--report -: check prints on standard output itself; write the page to a file");
+    }
     if (!summary.empty() && summary != "text" && summary != "json") {
         refuse_value("--summary", summary, {"text", "json"});
     }
@@ -248,6 +251,8 @@ void describe_commands(CLI::App& app, Job& job, Typed& typed) {
     check->add_option("--scalar", typed.scalar,
                       "fixed, float or double: number type of the computation (default fixed); float not with a jerk "
                       "limit");
+    check->add_option("--report", job.run.outputs.report,
+                      "R.html: a page that shows the motion, its limits and the program in a browser");
     check->add_flag("--json", typed.json, "print one JSON object")->disable_flag_override();
     check->footer("Example: splinefeed check part.ngc -m three_axis.toml\n"
                   "Exit status: 0 nothing is wrong; 1 the program has problems; 2 it cannot be read, or bad usage.");

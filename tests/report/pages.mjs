@@ -71,11 +71,13 @@ const tests = {
         await page.click('.row[data-line="20"]');
         const t = await time(page);
         assert.ok(t > 0 && t < summary.cycle_time_s);
+        const before = await page.getAttribute(".space", "data-tool");
         await page.keyboard.press("ArrowRight");
+        await page.waitForFunction((old) => document.querySelector(".space").dataset.tool !== old, before);
         assert.ok((await time(page)) > t);
         const line = Number(await now(page, "line"));
         assert.ok(line === 21 || line === 20, `line ${line}`);
-        await page.waitForTimeout(300);
+        await page.waitForTimeout(1000);
         const [x, y] = (await page.getAttribute(".space", "data-tool")).split(" ").map(Number);
         const place = await time(page);
         await page.keyboard.press("Home");
@@ -164,6 +166,19 @@ const tests = {
         assert.match(await page.innerText(".page.open"), /override[\s\S]*hold[\s\S]*resume[\s\S]*abort/);
         await tab(page, "Stops");
         assert.match(await page.innerText(".page.open"), /held by the operator/);
+        await end();
+        assert.deepEqual(wrong, []);
+    },
+
+    async "a program that check finds wrong: what it says, and the moves that were understood"() {
+        const program = join(folder, "wrong.ngc");
+        writeFileSync(program, "G21\nG0 X5\nG1 X10 Y5 F600\nG77 X3\nG1 X20 Y0\n");
+        const html = join(folder, "wrong.html");
+        const run = spawnSync(tool, ["check", program, "--report", html], { encoding: "utf8" });
+        assert.equal(run.status, 1, run.stderr);
+        const { page, wrong, close: end } = await open(html);
+        assert.match(await page.innerText(".banner"), /wrong\.ngc:4:/);
+        assert.match(await page.innerText('.row[data-line="4"]'), /G77/);
         await end();
         assert.deepEqual(wrong, []);
     },

@@ -70,6 +70,7 @@ export class Motion {
     /** Of all axes. */
     position(t: number): number[] {
         const { path } = this.report;
+        if (!path.count) return path.position.map(() => 0);
         const piece = this.piece(t);
         const share = this.travelled(piece, t);
         return path.position.map((axis) => {

@@ -232,6 +232,7 @@ export class Space {
         for (let corner = 0; corner < 4; ++corner) { // the ground's
             at.set(corner & 1 ? this.high.x : this.low.x, corner & 2 ? this.high.y : this.low.y, this.low.z).applyMatrix4(inverse);
             y = Math.max(y, 0.88 * Math.abs(at.y - centre.y));
+            x = Math.max(x, 0.88 * Math.abs(at.x - centre.x));
         }
         const half = Math.max(y * 1.32, (x * 1.22 * h) / w, 1e-6);
         this.camera.top = half;
