@@ -67,7 +67,7 @@ constexpr MachineSettings machine = [] {
     return settings;
 }();
 // At compile time: no arithmetic in double remains for the target.
-constexpr Result<MotionLimits<Real>> limits = MotionLimits<Real>::make(machine);
+constexpr auto limits = MotionLimits<Real>::make(machine);
 static_assert(limits.has_value());
 
 /// An object of static storage that is built in main: its bytes are counted, no constructor runs before main.

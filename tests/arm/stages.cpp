@@ -39,7 +39,7 @@ constexpr MachineSettings machine(bool jerk_limited) {
     return settings;
 }
 template <bool jerk_limited>
-constexpr Result<MotionLimits<Fixed>> limits = MotionLimits<Fixed>::make(machine(jerk_limited));
+constexpr auto limits = MotionLimits<Fixed>::make(machine(jerk_limited));
 static_assert(limits<false>.has_value() && limits<true>.has_value());
 
 /// A helix, 1.25 mm from one waypoint to the next, whose points lie up to 30 um beside it.
