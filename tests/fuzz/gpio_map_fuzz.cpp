@@ -34,7 +34,7 @@ void require_sound(const LineMap& map, const MachineDescription& machine) {
         require(line.chip < map.chips.size() && line.bit < map.chips[line.chip].outputs.size());
         require(outputs.insert({line.chip, line.bit}).second);
     };
-    for (const unsigned k : indices(machine.settings.axes)) {
+    for (const unsigned k : splinefeed::indices(machine.settings.axes)) {
         require(map.axis[k].motors == static_cast<unsigned>(machine.motors[k].count));
         for (unsigned m = 0; m < map.axis[k].motors; ++m) {
             output(map.axis[k].motor[m].step);

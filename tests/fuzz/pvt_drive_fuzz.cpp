@@ -28,7 +28,7 @@ void write_block(PvtDrive& drive, Bytes& bytes) {
     for (PvtSegment& segment : std::span(segments).first(count)) {
         segment.duration_ticks = static_cast<std::uint32_t>(bytes.take16()) * (1U + bytes.take());
         segment.rest = bytes.take() % 2 == 0;
-        for (const unsigned k : indices(drive.axes())) {
+        for (const unsigned k : splinefeed::indices(drive.axes())) {
             segment.end[k] = static_cast<std::int64_t>(bytes.take16()) - 32768;
             segment.end[k] *= std::int64_t{1} << bytes.take() % 32;
             segment.end_velocity[k] = segment.rest ? 0 : (static_cast<std::int64_t>(bytes.take16()) - 32768) * 65536;
