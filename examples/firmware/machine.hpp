@@ -31,8 +31,7 @@ inline constexpr splinefeed::MachineSettings machine = [] {
 }();
 
 // At compile time: the chip does no arithmetic in double.
-inline constexpr splinefeed::Result<splinefeed::MotionLimits<Real>> limits =
-    splinefeed::MotionLimits<Real>::make(machine);
+inline constexpr auto limits = splinefeed::MotionLimits<Real>::make(machine);
 static_assert(limits.has_value(), "MotionLimits::make says which number is out of range");
 
 inline constexpr std::uint32_t tick_ticks = board::tick_us * splinefeed::ticks_per_us;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "splinefeed/s0_program/block_reader.hpp"
-
 #include "splinefeed/s0_program/axis_letters.hpp"
 #include "splinefeed/s0_program/decimal_text.hpp"
 #include "splinefeed/s0_program/modal_state.hpp"
+
+#include <algorithm>
 
 namespace splinefeed {
 
@@ -255,7 +256,8 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         return ProgramError::word_repeated;
     }
     out.set(letter, value, column);
-    if (first != '#' && first != '[' && as_it_stands.find('.') == std::string_view::npos) {
+    const bool has_point = std::any_of(as_it_stands.begin(), as_it_stands.end(), [](char c) { return c == '.'; });
+    if (first != '#' && first != '[' && !has_point) {
         out.set_whole(letter);
     }
     return {};
