@@ -5,10 +5,10 @@ namespace splinefeed {
 
 namespace {
 
-constexpr std::int64_t smooth_sine = std::int64_t{1} << 44;             // 3.8e-6: what the digits of a program leave
-constexpr std::int64_t mild_sine = (std::int64_t{1} << sine_bits) / 20; // 0.05, LinuxCNC's
-constexpr std::int64_t back_sine = std::int64_t{1} << 52; // 0.001: the tool then comes nearer by 5e-7 of its radius
-constexpr Decimal least_way{Decimal::one / 10'000'000};   // backwards by less is none [mm]
+constexpr std::int64_t smooth_sine = std::int64_t{1} << 44; // 3.8e-6: what the digits of a program leave
+constexpr std::int64_t mild_sine = sine_one / 20;           // 0.05, LinuxCNC's
+constexpr std::int64_t back_sine = std::int64_t{1} << 52;   // 0.001: the tool then comes nearer by 5e-7 of its radius
+constexpr Decimal least_way{Decimal::one / 10'000'000};     // backwards by less is none [mm]
 constexpr std::int64_t half_turn = Decimal::full_turn / 2;
 
 Decimal angle_at(PlanePoint centre, PlanePoint point) noexcept {
@@ -48,7 +48,7 @@ Crossing crossing_of(const ContourElement& element, int side, bool is_inner) noe
 // Two lines: back along the former one from beside the corner.
 bool cross_lines(PlanePoint beside, PlaneDirection u, std::int64_t sine, std::int64_t cosine, Decimal radius,
                  PlanePoint& out) noexcept {
-    const auto whole = static_cast<std::uint64_t>((std::int64_t{1} << sine_bits) + cosine);
+    const auto whole = static_cast<std::uint64_t>(sine_one + cosine);
     const detail::Checked back = product_quotient(radius.raw, sine, whole);
     if (!back.fits || detail::magnitude(back.raw) > static_cast<std::uint64_t>(largest_position.raw)) {
         return false;

@@ -9,6 +9,7 @@ namespace splinefeed {
 
 /// Fraction bits of a sine or a cosine.
 inline constexpr int sine_bits = 62;
+inline constexpr std::int64_t sine_one = std::int64_t{1} << sine_bits;
 
 /// Both in units of 2^-62; error below 2^-58.
 struct SineCosine {

@@ -133,7 +133,7 @@ void Interpreter<S>::fill_arc(const ProgramStep& step, ProgramItem<S>& out) cons
     switch (step.arc->plane) {
     case Plane::yz: normal = {turn.cosine, turn.sine, 0}; break;
     case Plane::zx: normal = {-turn.sine, turn.cosine, 0}; break;
-    case Plane::xy: normal = {0, 0, std::int64_t{1} << sine_bits}; break;
+    case Plane::xy: normal = {0, 0, sine_one}; break;
     }
     // Axes in another order than x, y, z: the core's frame is left-handed if the order is odd.
     const std::array<int, 3> places = letters().space_places();

@@ -36,13 +36,13 @@ PlaneDirection plane_direction(PlanePoint from, PlanePoint to) noexcept {
     const Decimal y = to.second - from.second;
     const std::uint64_t larger = unsigned_raw(x) > unsigned_raw(y) ? unsigned_raw(x) : unsigned_raw(y);
     if (larger == 0) {
-        return {std::int64_t{1} << sine_bits, 0};
+        return {sine_one, 0};
     }
     const int shift = std::countl_zero(larger) - 6; // to a length with as many digits as it can have
     const Decimal a{x.raw << shift};
     const Decimal b{y.raw << shift};
     const auto length = static_cast<std::uint64_t>(hypotenuse(a, b).raw);
-    constexpr std::int64_t unit = std::int64_t{1} << sine_bits;
+    constexpr std::int64_t unit = sine_one;
     return {product_quotient(a.raw, unit, length).raw, product_quotient(b.raw, unit, length).raw};
 }
 
