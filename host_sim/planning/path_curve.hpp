@@ -41,7 +41,7 @@ public:
     Status finish() override;
 
 private:
-    [[nodiscard]] TolerancePath<S>& path() noexcept { return std::get<TolerancePath<S>>(curve_); }
+    [[nodiscard]] TolerancePath<S>& path() noexcept { return *std::get_if<TolerancePath<S>>(&curve_); }
 
     int axes_;
     std::variant<StreamedCurve<S>, BezierSource<S>, TolerancePath<S>> curve_;

@@ -61,7 +61,7 @@ std::string_view macro_name(std::string_view line) noexcept {
         return {};
     }
     const auto* const end = std::find_if_not(text.begin(), text.end(), is_in_name);
-    const std::size_t size = static_cast<std::size_t>(end - text.begin());
+    const auto size = static_cast<std::size_t>(end - text.begin());
     // X SIN[30] is a word, and so is an O word.
     const bool calls = size < text.size() && (text[size] == '[' || text[size] == '#' || text[size] == '<');
     const char after = size < text.size() ? text[size] : '\0';

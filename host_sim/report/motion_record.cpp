@@ -142,7 +142,8 @@ void MotionRecord::measure(const FeedSegment& segment, double seconds) {
         double share[2] = {};
         for (int i = 0; i < 2; ++i) {
             const double acceleration = cubic.acceleration(i);
-            const double at = velocity[2 * i] == 0.0 ? velocity[1] : velocity[2 * i];
+            const double end = i == 0 ? velocity[0] : velocity[2];
+            const double at = end == 0.0 ? velocity[1] : end;
             share[i] = acceleration * (at * acceleration < 0.0 ? of.per_braking : of.per_speeding);
             acceleration_ = std::max(acceleration_, rounded(std::fabs(share[i])));
         }

@@ -19,7 +19,7 @@ ProgramText read_program_text(const std::string& path, const std::vector<std::ui
         if (room) {
             text.head += line + '\n';
             ++text.head_lines;
-        } else if (wanted.count(text.lines) > 0) {
+        } else if (wanted.contains(text.lines)) {
             text.picked[text.lines] = line;
         }
     }

@@ -65,7 +65,8 @@ public:
     /// Solves in place. values[first + i * stride] is the right-hand side i before, and the unknown i after. Error:
     /// result_out_of_range (not finite; in Fixed beyond 2^28, also for an intermediate result).
     /// @pre factor() succeeded
-    Status solve(std::span<Point<S>> values, int axes, std::size_t first = 0, std::size_t stride = 1) const noexcept;
+    [[nodiscard]] Status solve(std::span<Point<S>> values, int axes, std::size_t first = 0,
+                               std::size_t stride = 1) const noexcept;
 
     [[nodiscard]] const BandShape& shape() const noexcept { return shape_; }
 

@@ -79,7 +79,8 @@ public:
 
     /// Values in, control points out, at values[first + i * stride]. Errors: result_out_of_range. @pre prepare()
     /// succeeded
-    Status solve(std::span<Point<S>> values, int axes, std::size_t first = 0, std::size_t stride = 1) const noexcept {
+    [[nodiscard]] Status solve(std::span<Point<S>> values, int axes, std::size_t first = 0,
+                               std::size_t stride = 1) const noexcept {
         return system_.solve(values, axes, first, stride);
     }
 
