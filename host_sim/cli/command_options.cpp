@@ -132,8 +132,9 @@ void add_machine_options(CLI::App& app, Job& job, Typed& typed, bool executes) {
                    "R.html: a page that shows the motion, its limits and the program in a browser")
         ->group(group);
     app.add_option("--summary", typed.summary, "text or json, on standard output (default text)")->group(group);
-    app.add_flag("!--no-advice", job.run.helps,
-                 "leave out what would help: for it the program is planned again for each limit that binds")
+    app.add_flag_callback(
+           "--no-advice", [&job] { job.run.helps = false; },
+           "leave out what would help: for it the program is planned again for each limit that binds")
         ->group(group)
         ->disable_flag_override();
     app.add_flag("--quiet", job.run.motion.quiet, "no progress and no warnings on standard error")

@@ -256,8 +256,7 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         return ProgramError::word_repeated;
     }
     out.set(letter, value, column);
-    const bool has_point = std::any_of(as_it_stands.begin(), as_it_stands.end(), [](char c) { return c == '.'; });
-    if (first != '#' && first != '[' && !has_point) {
+    if (first != '#' && first != '[' && std::ranges::count(as_it_stands, '.') == 0) {
         out.set_whole(letter);
     }
     return {};
