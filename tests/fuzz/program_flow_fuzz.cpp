@@ -92,6 +92,10 @@ std::string text_of_parts(splinefeed_test::Bytes bytes) {
                                                  "]",
                                                  "#31=[#31+1]\n",
                                                  "[#31 LT 9]\n",
+                                                 "o100\n",
+                                                 "M98 P100\n",
+                                                 "M98 P100 L2\n",
+                                                 "M99\n",
                                                  "G91 X1\n"};
     std::string text;
     while (bytes.left > 0 && text.size() < 100'000) {
@@ -119,7 +123,7 @@ void run(const std::vector<std::string>& text, ProblemList* problems) {
     const ProgramSettings settings;
     Interpreter<double> interpreter(settings, &expression);
     interpreter.start({});
-    ProgramFlow flow(lines, "p", expression, interpreter, parameters, problems);
+    ProgramFlow flow(lines, "p", expression, interpreter, parameters, problems, {NumberedPrograms::linuxcnc});
     SourceLine line;
     ProgramItem<double> item;
     for (int steps = 0; steps < most_steps && !interpreter.has_ended(); ++steps) {

@@ -29,7 +29,7 @@ private:
 };
 
 /// The X of each move, or the error; with `problems` all errors go there.
-std::string run(const std::string& text, ProblemList* problems = nullptr) {
+std::string run(const std::string& text, ProblemList* problems = nullptr, const FlowRules& rules = {}) {
     TextLines lines(text);
     ParameterMemory parameters;
     Expression expression(parameters);
@@ -37,10 +37,11 @@ std::string run(const std::string& text, ProblemList* problems = nullptr) {
     interpreter.start({});
     std::string out;
     try {
-        ProgramFlow flow(lines, "p.ngc", expression, interpreter, parameters, problems);
+        ProgramFlow flow(lines, "p.ngc", expression, interpreter, parameters, problems, rules);
         SourceLine line;
         ProgramItem<double> item;
-        for (auto step = flow.next(line); step != ProgramFlow::Step::end; step = flow.next(line)) {
+        for (auto step = flow.next(line); step != ProgramFlow::Step::end && !interpreter.has_ended();
+             step = flow.next(line)) {
             if (step == ProgramFlow::Step::nothing) {
                 continue;
             }
@@ -60,6 +61,10 @@ std::string run(const std::string& text, ProblemList* problems = nullptr) {
         return error.what();
     }
     return out;
+}
+
+std::string run(const std::string& text, NumberedPrograms programs) {
+    return run(text, nullptr, {programs});
 }
 
 } // namespace
@@ -229,4 +234,79 @@ TEST_CASE("A number of the program stands before its first block") {
     CHECK(run("G1 X3 F100\nO0001\nM2\n").find("p.ngc:2:6: an O word has a number") == 0);
     CHECK(run("O0001 X2\nM2\n").find("p.ngc:1:7: an O word has a number") == 0);
     CHECK(run("O1\nO2 sub\nG1 X5 F100\nO2 endsub\nO2 call\nM2\n") == " 5 end");
+}
+
+TEST_CASE("A subprogram may stand behind its call, and behind the end of the program") {
+    CHECK(run("o1 call [5]\nX9\no2 call\nM2\no1 sub\nG0 X#1\no1 endsub\no2 sub\nX1\no1 call [3]\no2 endsub") ==
+          " 5 9 1 3 end");
+    CHECK(run("o1 repeat [2]\no2 call\no1 endrepeat\no2 sub\nG91 G0 X1\no2 endsub\nX5") == " 1 2 7");
+    CHECK(run("o1 call\nG0 X1\no2 sub\no2 endsub") ==
+          "p.ngc:1:2: there is no subprogram o1 in this file; those of other files are not read");
+    CHECK(run("o1 call\nM2\no1 sub\no3 endif\no1 endsub") ==
+          "p.ngc:4:2: o3 has no begin; what is open here is o1 of line 3");
+}
+
+TEST_CASE("What was run behind the end of a program is not left out") {
+    TextLines lines("o1 call\nM2\nG0 X1\no1 sub\nG0 X2\no1 endsub\nG0 X3");
+    ParameterMemory parameters;
+    Expression expression(parameters);
+    Interpreter<double> interpreter(ProgramSettings{}, &expression);
+    ProgramFlow flow(lines, "p.ngc", expression, interpreter, parameters);
+    SourceLine line;
+    while (flow.next(line) != ProgramFlow::Step::line || line.text != "M2") {
+        REQUIRE(line.number > 0);
+    }
+    REQUIRE(flow.next_unread(line));
+    CHECK(line.number == 3);
+    REQUIRE(flow.next_unread(line));
+    CHECK(line.number == 7);
+    CHECK_FALSE(flow.next_unread(line));
+}
+
+TEST_CASE("Numbered programs are called by M98, and share the parameters of their caller") {
+    const std::string sub = "\nM30\no100 (a comment)\n#1=[#1+1]\nG0 X#1\nM98 P0200\nM99\nO200\n#1=[#1+10]\nM99";
+    for (const NumberedPrograms programs : {NumberedPrograms::linuxcnc, NumberedPrograms::fanuc}) {
+        CHECK(run("o1 (main)\n#1=0\nM98 P100 L3\nX#1" + sub, programs) == " 1 12 23 33 end");
+        CHECK(run("#1=0\n#2=100\nN5 M98 P#2 (once)\nM98 P[50+50] L0" + sub, programs) == " 1 end");
+        CHECK(run("#1=0\no7 repeat [2]\nM98 P100\no7 endrepeat" + sub, programs) == " 1 12 end");
+        CHECK(run("M98 P1\nM30\no1\no5 if [1]\nG0 X1\nM99\no5 endif\nX2\nM99", programs) == " 1 end");
+        CHECK(run("M98 P1\nM30\no1\nG0 X1\nM30\nM99", programs) == " 1 end"); // M30 ends all
+        CHECK(run("M98 P1\nM30\n%\nO0001\nG0 X4\nM99\n%", programs) == " 4 end");
+        CHECK(run("M98 P7" + sub, programs) ==
+              "p.ngc:1:6: there is no subprogram O7 behind this line; those of other files are not read");
+        CHECK(run("M98 P1\nM30\no1\nG0 X1", programs) ==
+              "p.ngc:3:1: the subprogram that begins here has no M99 at its end");
+        CHECK(run("o1\nG0 X1\nM99", programs).find("p.ngc:3:1: M99 ends a subprogram that M98 has called") == 0);
+        CHECK(run("M98 P1\nM30\no1\nM98 P1\nM99", programs) == "p.ngc:4:6: calls are nested more than 30 deep");
+        CHECK(run("M98 P1\nM30\no1\no3 return\nM99", programs) == "p.ngc:4:2: return stands in a subprogram");
+        CHECK(run("o1 call\nM30\no1 sub\nM99\no1 endsub", programs).find("p.ngc:4:1: M99 ends a subprogram") == 0);
+        CHECK(run("M98 L2", programs).find("p.ngc:1:1: M98 needs P") == 0);
+    }
+    CHECK(run("M98 P1\nM30\no1\nM99") == " error O words, M98 and M99 need the file; they are read by the host, and "
+                                         "not within a block");
+}
+
+TEST_CASE("Beside M98 and M99 there are other words where posts for Fanuc write them") {
+    const auto fanuc = NumberedPrograms::fanuc;
+    CHECK(run("G91 G0 X1 M98 P12 X2\nM30\nO12\nX5 M99", fanuc).find("error") != std::string::npos); // X twice
+    CHECK(run("G91 G0 X1 M98 P12 L2\nX100\nM30\nO12\nX5 M99", fanuc) == " 1 6 11 111 end");
+    CHECK(run("G91 M98 P30012\nM30\nO12\nG0 X5 M99", fanuc) == " 5 10 15 end"); // three times
+    CHECK(run("G91 M98 P30012\nM30\nO12\nX5 M99\nO30012\nG0 X7 M99", fanuc) == " 7 end");
+    CHECK(run("G0 X1 M98 P12\nM30\nO12\nM99", NumberedPrograms::linuxcnc).find("error O words") != std::string::npos);
+    CHECK(run("M98 P12 X3\nM30\nO12\nM99", NumberedPrograms::linuxcnc) ==
+          "p.ngc:1:6: M98 stands alone in its line, with P and L");
+    CHECK(run("M98 P30012\nM30\nO12\nM99", NumberedPrograms::linuxcnc).find("no subprogram O30012") !=
+          std::string::npos);
+}
+
+TEST_CASE("What is wrong with calls is collected, and the program goes on") {
+    ProblemList problems;
+    CHECK(run("M98 P5\nG0 X1\nM98 P6\nM99\nX2\nM30\nO6\no1 endif\nM98 P7\nX3\nM99", &problems,
+              {NumberedPrograms::linuxcnc}) == " 1 3 2 end");
+    CHECK(problems.texts() ==
+          std::vector<std::string>{
+              "p.ngc:1:6: there is no subprogram O5 behind this line; those of other files are not read",
+              "p.ngc:8:2: o1 has no begin",
+              "p.ngc:9:6: there is no subprogram O7 behind this line; those of other files are not read",
+              "p.ngc:4:1: M99 ends a subprogram that M98 has called; the main program stands first, and M30 ends it"});
 }

@@ -110,6 +110,7 @@ struct CodeRows {
 
     static constexpr Row m_extras[] = {
         Row{29, 29, without_effect, ProgramError::none, in_fanuc}, // that G84 is rigid
+        Row{98, 99, stop, ProgramError::subprogram_unsupported, in_grbl | in_printers},
         // Of printers: they move or shift it.
         Row{125, 125, input_output, ProgramError::printer_move_unsupported, in_printers},
         Row{206, 206, input_output, ProgramError::printer_move_unsupported, in_printers},
@@ -134,7 +135,7 @@ struct CodeRows {
         Row{62, 66, input_output, ProgramError::none, in_grbl},
         Row{67, 68, input_output},
         Row{70, 73, input_output, ProgramError::modal_state_unsupported},
-        Row{98, 99, stop, ProgramError::subprogram_unsupported, in_grbl},
+        Row{98, 99, stop}, // whoever reads the file
         Row{100, 199, input_output, ProgramError::user_code_unsupported},
     };
 };

@@ -26,7 +26,7 @@ enum class CodeGroup : std::uint8_t {
     lathe_diameter,  ///< G8
     without_effect,  ///< G15 G50 G69 and others of fanuc; they do not exclude each other
     // M
-    stop,          ///< M0 M1 M2 M30 M60
+    stop,          ///< M0 M1 M2 M30 M60 M98 M99
     input_output,  ///< M62 to M68
     tool_change,   ///< M6 M61
     spindle,       ///< M3 M4 M5

@@ -26,7 +26,7 @@ constexpr Sentence<ProgramError> program_sentences[] = {
     {ProgramError::g_code_unknown, "there is no such G word"},
     {ProgramError::m_code_unknown, "there is no such M word"},
     {ProgramError::not_in_dialect, "this dialect does not have the word"},
-    {ProgramError::o_word, "O words need the file; they are read by the host, and not within a block"},
+    {ProgramError::o_word, "O words, M98 and M99 need the file; they are read by the host, and not within a block"},
     {ProgramError::checksum_wrong, "the checksum behind * is not that of the line"},
     {ProgramError::grbl_command_unsupported, "of grbl's $ commands there is $H only"},
     {ProgramError::polar_unsupported, "polar coordinates (@ and ^) are not supported; write X and Y"},

@@ -171,6 +171,9 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
         }
         return {};
     }
+    if (block.code(CodeGroup::stop) == 98 || block.code(CodeGroup::stop) == 99) {
+        return block.at(ProgramError::o_word, CodeGroup::stop);
+    }
     if (const BlockStatus status = check_axes(block, letters, rules); !status.ok()) {
         return status;
     }

@@ -26,7 +26,8 @@ bool ends(FlowKind kind) {
 
 // Whether it is of no use without its structure.
 bool belongs(FlowKind kind) {
-    return kind != FlowKind::call && kind != FlowKind::return_;
+    return kind != FlowKind::call && kind != FlowKind::return_ && kind != FlowKind::program &&
+           kind != FlowKind::call_program && kind != FlowKind::end_program;
 }
 
 std::string_view end_of(FlowKind begin) {
@@ -182,7 +183,7 @@ void FlowBlock::leave(std::size_t line) {
 
 void FlowBlock::link_word(std::size_t line) {
     const FlowWord& word = known(line).word;
-    if (word.label.empty() && word.kind != FlowKind::call) {
+    if (word.label.empty() && word.kind != FlowKind::call && belongs(word.kind)) {
         known(line).wrong = true;
         add_problem(line, word.label_at, "only call takes an expression as its number");
         return;
@@ -204,6 +205,9 @@ void FlowBlock::link_word(std::size_t line) {
     case FlowKind::break_:
     case FlowKind::continue_: leave(line); break;
     case FlowKind::call:
+    case FlowKind::program:
+    case FlowKind::call_program:
+    case FlowKind::end_program:
     case FlowKind::return_: break;
     }
 }

@@ -29,9 +29,21 @@ void skip_number(TextCursor& text) noexcept {
     }
 }
 
-// Over an expression in brackets, or a parameter.
-void skip_expression(TextCursor& text) noexcept {
-    while (text.take('#')) {
+// Without zeros in front.
+std::string read_label(TextCursor& text) {
+    std::string out;
+    while (is_digit(text.peek())) {
+        out += text.peek();
+        text.step();
+    }
+    out.erase(0, std::min(out.find_first_not_of('0'), out.size() - 1));
+    return out;
+}
+
+} // namespace
+
+void skip_value(TextCursor& text) noexcept {
+    while (text.take('#') || text.take('-') || text.take('+')) {
     }
     if (text.peek() != '[') {
         skip_number(text);
@@ -44,7 +56,9 @@ void skip_expression(TextCursor& text) noexcept {
     } while (deep > 0 && !text.at_end());
 }
 
-} // namespace
+std::string program_label(std::string_view number) {
+    return std::string("O").append(number); // the others are in lower case
+}
 
 bool has_flow_word(std::string_view text) noexcept {
     TextCursor cursor(text);
@@ -59,8 +73,7 @@ bool is_program_number(std::string_view text) noexcept {
     if (cursor.take('n')) {
         skip_number(cursor);
     }
-    cursor.step(); // the O
-    if (!is_digit(cursor.peek())) {
+    if (!cursor.take('o') || !is_digit(cursor.peek())) {
         return false;
     }
     skip_number(cursor);
@@ -85,17 +98,19 @@ std::optional<FlowWord> read_flow_word(std::string_view text, std::size_t& wrong
             return std::nullopt;
         }
     } else if (is_digit(cursor.peek())) {
-        while (is_digit(cursor.peek())) {
-            out.label += cursor.peek();
-            cursor.step();
-        }
-        out.label.erase(0, std::min(out.label.find_first_not_of('0'), out.label.size() - 1));
+        out.label = read_label(cursor);
     } else if (cursor.peek() == '#' || cursor.peek() == '[') {
-        skip_expression(cursor);
+        skip_value(cursor);
     } else {
         return std::nullopt;
     }
     wrong = cursor.at();
+    if (is_program_number(text)) {
+        out.kind = FlowKind::program;
+        out.label = program_label(out.label);
+        out.rest = cursor.at();
+        return out;
+    }
     for (const Keyword& keyword : keywords) {
         if (cursor.take(keyword.text)) {
             out.kind = keyword.kind;

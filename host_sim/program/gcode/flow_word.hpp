@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FlowWord: the O word of a line: sub, call, if, while, ...
+// FlowWord: the O word of a line: sub, call, if, while, ...; M98 and M99.
 #pragma once
 
 #include "splinefeed/s0_program/text_cursor.hpp"
@@ -25,20 +25,31 @@ enum class FlowKind : std::uint8_t {
     endrepeat,
     break_,
     continue_,
+    program,      ///< O1000 alone: a numbered program begins
+    call_program, ///< M98
+    end_program,  ///< M99
 };
 
 struct FlowWord {
     FlowKind kind = FlowKind::sub;
-    std::string label;    ///< "100", or a name in lower case without spaces; empty: it is an expression
-    std::size_t label_at; ///< offset of the label in the line
-    std::size_t rest;     ///< offset of what stands behind the keyword
+    std::string label;       ///< "100", or a name in lower case without spaces; empty: it is an expression
+    std::size_t label_at;    ///< offset of the label in the line
+    std::size_t rest;        ///< offset of what stands behind the keyword; of M98: of the number behind L; 0: none
+    bool has_number = false; ///< of M98 and M99: P
+    std::string others{};    ///< what else the line of M98 or M99 says, each word at its place; empty: nothing
 };
 
 /// Whether a line begins with an O word, behind an N number at most.
 [[nodiscard]] bool has_flow_word(std::string_view text) noexcept;
 
-/// Whether it is a number without a keyword, as controls name programs: O1000 (PART). @pre has_flow_word(text)
+/// Whether it is a number without a keyword, as controls name programs: O1000 (PART).
 [[nodiscard]] bool is_program_number(std::string_view text) noexcept;
+
+/// Over a number, an expression in brackets, or a parameter.
+void skip_value(TextCursor& text) noexcept;
+
+/// The label of a numbered program: no label of an O word is equal.
+[[nodiscard]] std::string program_label(std::string_view number);
 
 /// The word. Nothing: it has no label or no known keyword; `wrong` is where.
 [[nodiscard]] std::optional<FlowWord> read_flow_word(std::string_view text, std::size_t& wrong);

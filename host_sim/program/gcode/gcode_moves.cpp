@@ -29,6 +29,17 @@ namespace splinefeed::host {
 
 namespace {
 
+// Where --ignore takes M98 and M99, nobody calls.
+FlowRules flow_rules(const GcodeSettings& settings) {
+    const bool ignored = std::any_of(settings.ignored.begin(), settings.ignored.end(), [](const IgnoredWord& word) {
+        return word.letter == 'M' && (word.tenths == 980 || word.tenths == 990);
+    });
+    const NumberedPrograms of = settings.dialect == Dialect::linuxcnc ? NumberedPrograms::linuxcnc
+                                : settings.dialect == Dialect::fanuc  ? NumberedPrograms::fanuc
+                                                                      : NumberedPrograms::none;
+    return {ignored ? NumberedPrograms::none : of, settings.block_delete};
+}
+
 class GcodeMoves final : public MoveSource {
 public:
     GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines, ScalarKind scalar,
@@ -102,7 +113,8 @@ GcodeMoves::GcodeMoves(const GcodeSettings& settings, std::string file, std::uni
                             : std::nullopt),
       items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
                            settings.max_feed_mm_s)),
-      interpreter_(items_->interpreter()), flow_(*lines_, file_, expression_, interpreter_, parameters_, problems) {}
+      interpreter_(items_->interpreter()),
+      flow_(*lines_, file_, expression_, interpreter_, parameters_, problems, flow_rules(settings)) {}
 
 bool GcodeMoves::start(PerAxis<Position>& position) {
     position = settings_->start;
@@ -341,7 +353,7 @@ void GcodeMoves::require_possible(MoveKind kind) const {
 
 UnreadLines GcodeMoves::unread() {
     UnreadLines out{line_.number, 0};
-    while (interpreter_.has_ended() && lines_->next(line_)) {
+    while (interpreter_.has_ended() && flow_.next_unread(line_)) {
         TextCursor cursor(line_.text);
         const char first = cursor.peek();
         out.lines += first != '\0' && first != '(' && first != ';' && first != '%' ? 1 : 0;

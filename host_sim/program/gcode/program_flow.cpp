@@ -22,9 +22,12 @@ bool ProgramFlow::report(const InputError& error, std::uint64_t line) {
 }
 
 FlowWord ProgramFlow::word_of(const SourceLine& line) const {
+    if (auto call = read_program_call(line.text, rules_)) {
+        return std::move(*call);
+    }
     std::size_t wrong = 0;
     const auto word = read_flow_word(line.text, wrong);
-    if (!word) {
+    if (!word || (word->kind == FlowKind::program && rules_.programs == NumberedPrograms::none)) {
         fail(line, wrong,
              "an O word has a number or a <name>, and then sub, endsub, call, return, if, elseif, else, endif, while, "
              "endwhile, do, repeat, endrepeat, break or continue");
@@ -116,48 +119,6 @@ void ProgramFlow::go_to(std::size_t line) {
     frame.at = line;
 }
 
-void ProgramFlow::execute_call(const FlowWord& word, const SourceLine& line) {
-    const std::string label = label_of(word, line);
-    const auto sub = subs_.find(label);
-    if (sub == subs_.end() && lost_.contains(label)) {
-        return;
-    }
-    if (sub == subs_.end()) {
-        fail(line, word.label_at,
-             fmt::format("there is no subprogram o{} before this line; those of other files are not read", label));
-    }
-    if (frames_.size() >= deepest) {
-        fail(line, word.label_at, fmt::format("calls are nested more than {} deep", deepest));
-    }
-    std::vector<Decimal> arguments;
-    std::size_t at = word.rest;
-    while (at < line.text.size() && line.text[at] == '[') {
-        if (arguments.size() == most_arguments) {
-            fail(line, at, fmt::format("a call has at most {} arguments", most_arguments));
-        }
-        arguments.push_back(value(line.text, at, line));
-    }
-    require_end(line, at);
-    parameters_->enter(arguments);
-    frames_.push_back({sub->second.code, 1, true, {}});
-}
-
-void ProgramFlow::leave_sub(const FlowWord& word, const SourceLine& line) {
-    std::size_t at = word.rest;
-    const bool has_value = at < line.text.size() && line.text[at] == '[';
-    const Decimal result = has_value ? value(line.text, at, line) : Decimal{};
-    require_end(line, at);
-    if (std::none_of(frames_.begin(), frames_.end(), [](const Frame& frame) { return frame.called; })) {
-        fail(line, word.label_at, "return stands in a subprogram");
-    }
-    while (!frames_.back().called) {
-        leave_frame();
-    }
-    leave_frame();
-    parameters_->write("_value", result);
-    parameters_->write("_value_returned", Decimal::from_integer(has_value ? 1 : 0));
-}
-
 void ProgramFlow::execute_if(const FlowBlock::Place& place, const SourceLine& line) {
     const FlowBlock& code = *frames_.back().code;
     const FlowBlock::Place* at = &place;
@@ -200,7 +161,10 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
     case FlowKind::elseif:
     case FlowKind::else_: go_to(place.end + 1); break; // behind a branch that was taken
     case FlowKind::endif:
+    case FlowKind::program: // another one goes on in it
     case FlowKind::do_: break;
+    case FlowKind::call_program: execute_program_call(place.word, line); break;
+    case FlowKind::end_program: leave_program(place.word, line); break;
     case FlowKind::while_:
         if (code.place(place.begin)->word.kind == FlowKind::do_) {
             if (condition(place.word, line)) {
@@ -219,7 +183,7 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
 }
 
 void ProgramFlow::leave_frame() {
-    if (frames_.back().called) {
+    if (frames_.back().call == Call::sub) {
         parameters_->leave();
     }
     frames_.pop_back();
@@ -243,6 +207,7 @@ void ProgramFlow::go_on_behind(const FlowBlock::Place& place, bool is_new) {
         break;
     case FlowKind::repeat: frames_.back().repeats.push_back({place.begin, 1}); break;
     case FlowKind::call: // calls that go on for ever
+    case FlowKind::call_program:
         if (frames_.size() >= deepest) {
             abandon();
         }
@@ -252,6 +217,9 @@ void ProgramFlow::go_on_behind(const FlowBlock::Place& place, bool is_new) {
 }
 
 ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
+    if (waits_) {
+        return read_ahead(out);
+    }
     if (runs_block()) {
         return next_in_memory(out);
     }
@@ -263,7 +231,7 @@ ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
         end_block();
         return Step::nothing;
     }
-    if (collects_ || known || has_flow_word(out.text)) {
+    if (collects_ || known || has_word(out.text)) {
         return take_word(out, known);
     }
     const char first = TextCursor(out.text).peek();
@@ -274,8 +242,7 @@ ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
 ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
     Frame& frame = frames_.back();
     if (frame.at >= frame.code->size()) {
-        leave_frame();
-        return Step::nothing;
+        return end_of_block();
     }
     const std::shared_ptr<const FlowBlock> code = frame.code; // the frame may go
     const std::size_t at = frame.at++;
@@ -296,6 +263,17 @@ ProgramFlow::Step ProgramFlow::next_in_memory(SourceLine& out) {
             go_on_behind(*place, is_new);
         }
     }
+    return give_others(place->word, out);
+}
+
+ProgramFlow::Step ProgramFlow::end_of_block() {
+    if (frames_.back().call == Call::program) {
+        const SourceLine& first = frames_.back().code->line(0);
+        report(
+            InputError(file_, first.number, std::uint64_t{1}, "the subprogram that begins here has no M99 at its end"),
+            first.number);
+    }
+    leave_frame();
     return Step::nothing;
 }
 

@@ -5,6 +5,7 @@
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/program/gcode/flow_block.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
+#include "host_sim/program/gcode/program_call.hpp"
 #include "host_sim/program/problem_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
@@ -20,7 +21,8 @@
 namespace splinefeed::host {
 
 /// Lines without O words pass as they come. A subprogram, a condition or a loop is read to its end before it begins,
-/// and kept in memory while it runs. A subprogram has to stand before its first call. Steps and depth are bounded.
+/// and kept in memory while it runs. For a subprogram behind its call the rest of the input is read. Steps and depth
+/// are bounded.
 class ProgramFlow {
 public:
     static constexpr std::size_t most_lines = 1'000'000;    ///< kept in memory
@@ -39,26 +41,34 @@ public:
     /// @param problems  gets what is wrong with O words, and the program goes on as if they were not there, so that the
     ///                  other lines are read, too; null: the first problem ends it
     ProgramFlow(SourceLines& lines, std::string file, WordEvaluator& evaluator, const BlockInterpreter& system,
-                ParameterMemory& parameters, ProblemList* problems = nullptr)
+                ParameterMemory& parameters, ProblemList* problems = nullptr, const FlowRules& rules = {})
         : lines_(&lines), file_(std::move(file)), evaluator_(&evaluator), system_(&system), parameters_(&parameters),
-          problems_(problems) {}
+          problems_(problems), rules_(rules) {}
 
     /// Throws InputError where problems are not collected, or the input cannot be read. May wait for the input.
     Step next(SourceLine& out);
     /// Whether next() needs no more input.
-    [[nodiscard]] bool in_memory() const noexcept { return runs_block() || !again_.empty(); }
+    [[nodiscard]] bool in_memory() const noexcept { return (runs_block() || !again_.empty() || ended_) && !waits_; }
+    /// Behind the end of the program: the next line that was not executed as part of a subprogram. False: none.
+    bool next_unread(SourceLine& out);
 
 private:
     struct Repeat {
         std::size_t begin = 0; // its line
         std::int64_t left = 0;
     };
+    enum class Call : std::uint8_t {
+        none,
+        sub,     ///< it has parameters of its own
+        program, ///< by M98
+    };
     /// A block that is executed from memory.
     struct Frame {
-        std::shared_ptr<const FlowBlock> code;
+        std::shared_ptr<const FlowBlock> code{};
         std::size_t at = 0;
-        bool called = false;         // it has parameters of its own
-        std::vector<Repeat> repeats; // those around `at`
+        Call call = Call::none;
+        std::vector<Repeat> repeats{}; // those around `at`
+        std::int64_t more = 0;         // times that the program is to run again
     };
     struct Sub {
         std::shared_ptr<const FlowBlock> code;
@@ -72,6 +82,12 @@ private:
         std::optional<FlowWord> word;
     };
 
+    /// A call that waits for the rest of the input.
+    struct Waiting {
+        FlowWord word;
+        SourceLine line;
+    };
+
     /// What is wrong with an O word, in contrast to an input that cannot be read.
     struct WordError : InputError {
         using InputError::InputError;
@@ -79,15 +95,20 @@ private:
 
     [[nodiscard]] bool runs_block() const noexcept { return !frames_.empty() && !collects_; }
     [[nodiscard]] bool next_line(SourceLine& out, std::optional<FlowWord>& word);
-    Step take_word(const SourceLine& line, const std::optional<FlowWord>& known);
+    [[nodiscard]] bool has_word(std::string_view text) const {
+        return has_flow_word(text) || read_program_call(text, rules_).has_value();
+    }
+    Step take_word(SourceLine& line, const std::optional<FlowWord>& known);
     Step collect(const SourceLine& line, const std::optional<FlowWord>& known);
     void end_block();
+    [[nodiscard]] std::deque<Again> without_wrong(const FlowBlock& block);
     void begin(const FlowWord& word, const SourceLine& line);
     void begin_stray(const FlowWord& word, const SourceLine& line);
     void go_on_behind(const FlowBlock::Place& place, bool is_new);
     void leave_frame();
     void abandon();
     Step next_in_memory(SourceLine& out);
+    Step end_of_block();
     void count_word(const SourceLine& line);
     /// Throws, unless problems are collected. False: it is known.
     bool report(const InputError& error, std::uint64_t line);
@@ -97,6 +118,18 @@ private:
     void execute_repeat(const FlowBlock::Place& place, const SourceLine& line);
     void end_repeat(const FlowBlock::Place& place);
     void leave_sub(const FlowWord& word, const SourceLine& line);
+    // Subprograms: program_flow_calls.cpp.
+    void execute_program_call(const FlowWord& word, const SourceLine& line);
+    void leave_program(const FlowWord& word, const SourceLine& line);
+    void leave_to(Call call, const FlowWord& word, const SourceLine& line, std::string_view text);
+    [[nodiscard]] std::shared_ptr<const FlowBlock> find_sub(const std::string& label);
+    [[nodiscard]] std::shared_ptr<const FlowBlock> find_ahead(const std::string& label);
+    [[nodiscard]] std::shared_ptr<const FlowBlock> block_ahead(std::size_t begin, std::size_t end);
+    [[nodiscard]] std::size_t end_ahead(std::size_t begin, const FlowWord& first) const;
+    bool wait_for_input(const FlowWord& word, const SourceLine& line);
+    Step read_ahead(SourceLine& out);
+    [[nodiscard]] Step give_others(const FlowWord& word, SourceLine& out) const;
+    [[nodiscard]] bool report_problems(const FlowBlock& block, const std::vector<FlowBlock::Problem>& problems);
     void define(const FlowBlock::Place& place, const SourceLine& line);
     void keep(const std::string& label, const Sub& sub);
     void go_to(std::size_t line);
@@ -115,7 +148,13 @@ private:
     std::map<std::string, Sub> subs_;
     std::vector<Frame> frames_;
     ProblemList* problems_;
+    FlowRules rules_;
     std::deque<Again> again_;
+    std::vector<SourceLine> ahead_;                           // the rest of the input, once a call has asked for it
+    std::size_t ahead_at_ = 0;                                // the next one of them
+    std::vector<std::pair<std::size_t, std::size_t>> called_; // parts of it that were called
+    std::optional<Waiting> waits_;
+    bool ended_ = false;         // all of the input has been read
     std::set<std::string> lost_; // labels whose structure was wrong: what else names them is not told
     bool begun_ = false;         // there was a block: a number of the program would have come before it
     bool collects_ = false;      // a block is read to its end

@@ -25,6 +25,9 @@ void ProgramFlow::begin(const FlowWord& word, const SourceLine& line) {
         block_depth_ = 1;
         break;
     case FlowKind::call: execute_call(word, line); break;
+    case FlowKind::call_program: execute_program_call(word, line); break;
+    case FlowKind::end_program: leave_program(word, line); break;
+    case FlowKind::program: break; // its name
     default: begin_stray(word, line);
     }
 }
@@ -46,7 +49,7 @@ ProgramFlow::Step ProgramFlow::collect(const SourceLine& line, const std::option
     if (block_->size() + kept_ >= most_lines) {
         throw InputError(file_, line.number, fmt::format("subprograms and loops have more than {} lines", most_lines));
     }
-    if (!known && !has_flow_word(line.text)) {
+    if (!known && !has_word(line.text)) {
         block_->add(line);
         return Step::nothing;
     }
@@ -68,38 +71,53 @@ ProgramFlow::Step ProgramFlow::collect(const SourceLine& line, const std::option
     return Step::nothing;
 }
 
+// What else names the structures of words that are wrong is not told.
+std::deque<ProgramFlow::Again> ProgramFlow::without_wrong(const FlowBlock& block) {
+    std::deque<Again> rest;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+        const FlowBlock::Place* const place = block.place(i);
+        if (place == nullptr) {
+            rest.push_back({block.line(i), std::nullopt});
+        } else if (place->wrong) {
+            lost_.insert(place->word.label);
+        } else {
+            rest.push_back({block.line(i), place->word});
+        }
+    }
+    return rest;
+}
+
 // A block that is wrong is read again without the words that are.
 void ProgramFlow::end_block() {
     collects_ = false;
     const std::shared_ptr<FlowBlock> block = std::move(block_);
-    const std::vector<FlowBlock::Problem> problems = block->link();
-    for (const FlowBlock::Problem& problem : problems) {
-        const SourceLine& line = block->line(problem.line);
-        report({file_, line.number, std::uint64_t{problem.at} + 1U, problem.text}, line.number);
-    }
-    if (!problems.empty()) {
-        std::deque<Again> rest;
-        for (std::size_t i = 0; i < block->size(); ++i) {
-            const FlowBlock::Place* const place = block->place(i);
-            if (place == nullptr) {
-                rest.push_back({block->line(i), std::nullopt});
-            } else if (place->wrong) {
-                lost_.insert(place->word.label);
-            } else {
-                rest.push_back({block->line(i), place->word});
-            }
-        }
+    if (!report_problems(*block, block->link())) {
+        const std::deque<Again> rest = without_wrong(*block);
         again_.insert(again_.begin(), rest.begin(), rest.end());
     } else if (block_kind_ == FlowKind::sub) {
         keep(block_label_, {block, block->number(), 0});
     } else {
-        frames_.push_back({block, 0, false, {}});
+        frames_.push_back({.code = block});
     }
+}
+
+// False: there are some.
+bool ProgramFlow::report_problems(const FlowBlock& block, const std::vector<FlowBlock::Problem>& problems) {
+    for (const FlowBlock::Problem& problem : problems) {
+        const SourceLine& line = block.line(problem.line);
+        report({file_, line.number, std::uint64_t{problem.at} + 1U, problem.text}, line.number);
+    }
+    return problems.empty();
 }
 
 // From the input, or from a block that was wrong.
 bool ProgramFlow::next_line(SourceLine& out, std::optional<FlowWord>& word) {
     word.reset();
+    if (again_.empty() && ended_) {
+        const bool is_there = ahead_at_ < ahead_.size();
+        out = is_there ? ahead_[ahead_at_++] : SourceLine{};
+        return is_there;
+    }
     if (again_.empty()) {
         return lines_->next(out);
     }
@@ -109,7 +127,7 @@ bool ProgramFlow::next_line(SourceLine& out, std::optional<FlowWord>& word) {
     return true;
 }
 
-ProgramFlow::Step ProgramFlow::take_word(const SourceLine& line, const std::optional<FlowWord>& known) {
+ProgramFlow::Step ProgramFlow::take_word(SourceLine& line, const std::optional<FlowWord>& known) {
     try {
         if (collects_) {
             return collect(line, known);
@@ -122,7 +140,9 @@ ProgramFlow::Step ProgramFlow::take_word(const SourceLine& line, const std::opti
             throw InputError(file_, line.number, cut_line);
         }
         count_word(line);
-        begin(known ? *known : word_of(line), line);
+        const FlowWord word = known ? *known : word_of(line);
+        begin(word, line);
+        return give_others(word, line);
     } catch (const WordError& error) {
         report(error, line.number);
     }

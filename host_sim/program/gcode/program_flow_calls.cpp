@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// How ProgramFlow calls subprograms, and finds those that stand behind their call.
+#include "host_sim/program/gcode/program_flow.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace splinefeed::host {
+
+void ProgramFlow::execute_call(const FlowWord& word, const SourceLine& line) {
+    const std::string label = label_of(word, line);
+    const auto sub = find_sub(label);
+    if (sub == nullptr && (lost_.contains(label) || wait_for_input(word, line))) {
+        return;
+    }
+    if (sub == nullptr) {
+        fail(line, word.label_at,
+             fmt::format("there is no subprogram o{} in this file; those of other files are not read", label));
+    }
+    if (frames_.size() >= deepest) {
+        fail(line, word.label_at, fmt::format("calls are nested more than {} deep", deepest));
+    }
+    std::vector<Decimal> arguments;
+    std::size_t at = word.rest;
+    while (at < line.text.size() && line.text[at] == '[') {
+        if (arguments.size() == most_arguments) {
+            fail(line, at, fmt::format("a call has at most {} arguments", most_arguments));
+        }
+        arguments.push_back(value(line.text, at, line));
+    }
+    require_end(line, at);
+    parameters_->enter(arguments);
+    frames_.push_back({.code = sub, .at = 1, .call = Call::sub});
+}
+
+void ProgramFlow::leave_sub(const FlowWord& word, const SourceLine& line) {
+    std::size_t at = word.rest;
+    const bool has_value = at < line.text.size() && line.text[at] == '[';
+    const Decimal result = has_value ? value(line.text, at, line) : Decimal{};
+    require_end(line, at);
+    leave_to(Call::sub, word, line, "return stands in a subprogram");
+    leave_frame();
+    parameters_->write("_value", result);
+    parameters_->write("_value_returned", Decimal::from_integer(has_value ? 1 : 0));
+}
+
+// The block of the innermost call goes on: what it was within is left.
+void ProgramFlow::leave_to(Call call, const FlowWord& word, const SourceLine& line, std::string_view text) {
+    const auto called =
+        std::find_if(frames_.rbegin(), frames_.rend(), [](const Frame& frame) { return frame.call != Call::none; });
+    if (called == frames_.rend() || called->call != call) {
+        fail(line, word.label_at, text);
+    }
+    while (frames_.back().call == Call::none) {
+        leave_frame();
+    }
+}
+
+// M98: the number of the program, and how often. #1 to #30 stay those of the caller.
+void ProgramFlow::execute_program_call(const FlowWord& word, const SourceLine& line) {
+    if (!word.has_number) {
+        fail(line, word.label_at, "M98 needs P, the number of the subprogram: M98 P1000, and L for how often");
+    }
+    if (!word.others.empty() && rules_.programs == NumberedPrograms::linuxcnc) {
+        fail(line, word.label_at, "M98 stands alone in its line, with P and L");
+    }
+    std::string number = label_of(word, line);
+    std::size_t at = word.rest;
+    std::int64_t times = at > 0 ? value(line.text, at, line).raw / Decimal::one : 1;
+    auto code = find_sub(program_label(number));
+    if (code == nullptr && !lost_.contains(program_label(number)) && wait_for_input(word, line)) {
+        return;
+    }
+    constexpr std::size_t digits = 4; // of a number; those before say how often
+    if (code == nullptr && rules_.programs == NumberedPrograms::fanuc && at == 0 && number.size() > digits) {
+        times = std::stoll(number.substr(0, number.size() - digits));
+        number.erase(0, number.size() - digits);
+        number.erase(0, std::min(number.find_first_not_of('0'), digits - 1));
+        code = find_sub(program_label(number));
+    }
+    if (code == nullptr && lost_.contains(program_label(number))) {
+        return;
+    }
+    if (code == nullptr) {
+        fail(line, word.label_at,
+             fmt::format("there is no subprogram O{} behind this line; those of other files are not read", number));
+    }
+    if (frames_.size() >= deepest) {
+        fail(line, word.label_at, fmt::format("calls are nested more than {} deep", deepest));
+    }
+    if (times > 0) {
+        frames_.push_back({.code = code, .at = 1, .call = Call::program, .more = times - 1});
+    }
+}
+
+// M99.
+void ProgramFlow::leave_program(const FlowWord& word, const SourceLine& line) {
+    if (!word.others.empty() && rules_.programs == NumberedPrograms::linuxcnc) {
+        fail(line, word.label_at, "M99 stands alone in its line");
+    }
+    if (word.has_number) {
+        fail(line, word.label_at, "M99 P, which goes on at another line of the caller, is not supported");
+    }
+    leave_to(Call::program, word, line,
+             "M99 ends a subprogram that M98 has called; the main program stands first, and M30 ends it");
+    Frame& frame = frames_.back();
+    if (frame.more == 0) {
+        leave_frame();
+        return;
+    }
+    --frame.more;
+    frame.at = 1;
+    frame.repeats.clear();
+}
+
+// Null: it is not known.
+std::shared_ptr<const FlowBlock> ProgramFlow::find_sub(const std::string& label) {
+    const auto known = subs_.find(label);
+    return known != subs_.end() ? known->second.code : ended_ && !lost_.contains(label) ? find_ahead(label) : nullptr;
+}
+
+// In the rest of the input, which has been read.
+std::shared_ptr<const FlowBlock> ProgramFlow::find_ahead(const std::string& label) {
+    for (std::size_t i = ahead_at_; i < ahead_.size(); ++i) {
+        std::size_t wrong = 0;
+        const auto word = has_flow_word(ahead_[i].text) ? read_flow_word(ahead_[i].text, wrong) : std::nullopt;
+        if (!word || word->label != label || (word->kind != FlowKind::sub && word->kind != FlowKind::program)) {
+            continue;
+        }
+        const std::size_t end = end_ahead(i, *word);
+        if (kept_ + (end - i) >= most_lines) {
+            fail(ahead_[i], 0, fmt::format("subprograms and loops have more than {} lines", most_lines));
+        }
+        called_.emplace_back(i, end);
+        const std::shared_ptr<const FlowBlock> block = block_ahead(i, end);
+        if (block == nullptr) {
+            lost_.insert(label);
+            return nullptr;
+        }
+        keep(label, {block, block->number(), 0});
+        return block;
+    }
+    return nullptr;
+}
+
+// Without the words that are wrong, if problems are collected. Null: it has no end.
+std::shared_ptr<const FlowBlock> ProgramFlow::block_ahead(std::size_t begin, std::size_t end) {
+    auto block = std::make_shared<FlowBlock>(++blocks_);
+    for (std::size_t i = begin; i < end; ++i) {
+        const SourceLine& line = ahead_[i];
+        try {
+            has_word(line.text) ? block->add(line, word_of(line)) : block->add(line);
+        } catch (const WordError& error) {
+            report(error, line.number);
+        }
+    }
+    if (report_problems(*block, block->link())) {
+        return block;
+    }
+    if (block->place(0)->wrong) {
+        return nullptr;
+    }
+    auto rest = std::make_shared<FlowBlock>(++blocks_);
+    for (const Again& again : without_wrong(*block)) {
+        again.word ? rest->add(again.line, *again.word) : rest->add(again.line);
+    }
+    static_cast<void>(rest->link());
+    return rest;
+}
+
+// Behind the last line of a subprogram: a numbered one ends where another one begins.
+std::size_t ProgramFlow::end_ahead(std::size_t begin, const FlowWord& first) const {
+    for (std::size_t i = begin + 1; i < ahead_.size(); ++i) {
+        const std::string& text = ahead_[i].text;
+        if (first.kind == FlowKind::program && TextCursor(text).peek() == '%') {
+            return i;
+        }
+        std::size_t wrong = 0;
+        const auto word = has_flow_word(text) ? read_flow_word(text, wrong) : std::nullopt;
+        if (word && word->kind == FlowKind::program && first.kind == FlowKind::program) {
+            return i;
+        }
+        if (word && word->kind == FlowKind::endsub && word->label == first.label) {
+            return i + 1;
+        }
+    }
+    return ahead_.size();
+}
+
+// False: there is no more.
+bool ProgramFlow::wait_for_input(const FlowWord& word, const SourceLine& line) {
+    if (!ended_) {
+        waits_ = {word, line};
+    }
+    return !ended_;
+}
+
+// One line at a time, as whoever waits for a pipe wants to know after each.
+ProgramFlow::Step ProgramFlow::read_ahead(SourceLine& out) {
+    if (lines_->next(out)) {
+        if (ahead_.size() >= most_lines) {
+            throw InputError(
+                file_, waits_->line.number,
+                fmt::format("more than {} lines follow this call, whose subprogram is looked for in them", most_lines));
+        }
+        ahead_.push_back(out);
+        return Step::nothing;
+    }
+    ended_ = true;
+    const Waiting call = *std::exchange(waits_, std::nullopt);
+    out = call.line;
+    try {
+        call.word.kind == FlowKind::call ? execute_call(call.word, call.line)
+                                         : execute_program_call(call.word, call.line);
+    } catch (const WordError& error) {
+        report(error, out.number);
+    }
+    return give_others(call.word, out);
+}
+
+// The words beside M98 and M99, which are executed before what these lead to.
+ProgramFlow::Step ProgramFlow::give_others(const FlowWord& word, SourceLine& out) const {
+    if (word.others.empty() || rules_.programs != NumberedPrograms::fanuc || waits_) {
+        return Step::nothing;
+    }
+    out.text = word.others;
+    return Step::line;
+}
+
+bool ProgramFlow::next_unread(SourceLine& out) {
+    for (std::optional<FlowWord> word; next_line(out, word);) {
+        const bool called = ended_ && std::any_of(called_.begin(), called_.end(), [this](const auto& part) {
+                                return ahead_at_ > part.first && ahead_at_ <= part.second;
+                            });
+        if (!called) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace splinefeed::host
