@@ -243,17 +243,3 @@ TEST_CASE("words that are left out take their axis words along", "[program][dial
     run.run("G81 X1 Z-1 R1 F60");
     CHECK(run.push("X2").error == ProgramError::axis_word_unused); // a hole, not a rapid
 }
-
-TEST_CASE("a refused line is obeyed as far as it was understood", "[program][dialects]") {
-    GcodeRun<double> run(in(Dialect::linuxcnc));
-    const auto obey = [&](const char* line, ProgramError wrong) {
-        CHECK(run.push(line).error == wrong);
-        run.interpreter().obey_refused();
-    };
-    obey("G1 X5 Q9 F600", ProgramError::word_unused);
-    CHECK(run.text("Y1") == "feed 5 1 0"); // G1, F and X5 hold
-    obey("G20 G987 G91 X1", ProgramError::g_code_unknown);
-    CHECK(run.text("X1") == "feed 55.8 1 0"); // inches and steps, too
-    obey("G2 X9 I99 J99", ProgramError::arc_radius_mismatch);
-    CHECK(run.interpreter().modal().motion == 20);
-}

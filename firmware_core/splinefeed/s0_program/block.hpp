@@ -64,6 +64,15 @@ public:
     /// Ten times the number of a G word, the number of an M word; no_code.
     [[nodiscard]] std::int16_t code(CodeGroup group) const noexcept { return codes_[static_cast<unsigned>(group)]; }
     [[nodiscard]] bool has(CodeGroup group) const noexcept { return code(group) != no_code; }
+    /// Whether it has a G or M word.
+    [[nodiscard]] bool has_codes() const noexcept {
+        for (const std::int16_t code : codes_) {
+            if (code != no_code) {
+                return true;
+            }
+        }
+        return false;
+    }
 
     void set_comment(CommentKind kind, TextPart text) noexcept {
         comment_ = kind;

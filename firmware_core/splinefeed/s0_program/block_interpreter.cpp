@@ -121,6 +121,7 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         return {ProgramError::block_pending, 0, 0};
     }
     cutter_.drop_plan();
+    discard_assignments(); // of a line that was refused
     LineKind kind = LineKind::block;
     line_ = line_number;
     BlockStatus status = reader_.read(text, *this, block_, kind);
@@ -142,24 +143,8 @@ BlockStatus BlockInterpreter::push(std::string_view text, std::uint32_t line_num
         status.length = word_length(text, status.column);
         plan_.clear();
         stage_ = all_done;
-        discard_assignments();
     }
     return status;
-}
-
-void BlockInterpreter::obey_refused() noexcept {
-    static_cast<void>(modal_.apply(block_, settings_));
-    modal_.motion = block_.has(CodeGroup::motion) ? block_.code(CodeGroup::motion) : modal_.motion;
-    const std::int16_t modeless = block_.code(CodeGroup::non_modal);
-    const bool moves = (modeless == Block::no_code || modeless == 530) && modal_.motion != ModalState::no_motion;
-    AxisPoint program;
-    AxisPoint machine;
-    if (moves && !is_cycle(modal_.motion) && !nurbs_.is_open() && find_end(program, machine).ok() &&
-        check_reach(place_.machine, machine).ok()) {
-        place_ = {program, machine};
-        emitted_ = machine;
-    }
-    block_.clear();
 }
 
 BlockStatus BlockInterpreter::execute_percent() noexcept {

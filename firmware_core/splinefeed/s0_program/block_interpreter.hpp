@@ -45,8 +45,9 @@ public:
     BlockStatus push(std::string_view text, std::uint32_t line_number) noexcept;
     /// The input has ended without M2: next() gives what cutter compensation holds back. Error: cutter_gouge.
     BlockStatus end_of_input() noexcept;
-    /// After an error of push(), for whoever looks for further ones: the words that were understood take effect. The
-    /// program goes on at the end of the line's move, which is not given.
+    /// After an error of push(), for whoever looks for further ones: the words that were understood take effect, and a
+    /// feed stands in for one that is wrong or missing. The program goes on at the end of the line's move, which is not
+    /// given. The text of the line must still be there.
     void obey_refused() noexcept;
     /// Whether M2, M30 or the closing % has been executed: of M2 and M30, when next() has given the motion of the
     /// block.
@@ -93,6 +94,7 @@ private:
 
     BlockStatus execute() noexcept;
     BlockStatus execute_words(const BlockUse& use) noexcept;
+    void obey_modes() noexcept;
     BlockStatus execute_percent() noexcept;
     void plan_homing(std::uint32_t axes) noexcept;
     void end_shift(std::uint32_t axes) noexcept;

@@ -44,15 +44,7 @@ bool BlockReader::has_axes(const Block& block) const noexcept {
 
 // Whether the block does something besides the word that is ignored.
 bool BlockReader::has_others(const Block& block) const noexcept {
-    if (has_axes(block)) {
-        return true;
-    }
-    for (unsigned group = 0; group < code_groups; ++group) {
-        if (block.has(static_cast<CodeGroup>(group))) {
-            return true;
-        }
-    }
-    return false;
+    return has_axes(block) || block.has_codes();
 }
 
 // The words of codes that are left out go with them, if no other word takes them.
@@ -225,6 +217,9 @@ ProgramStatus BlockReader::read_word(TextCursor& text, const BlockInterpreter& c
         if (first != '#' && first != '[' && !is_letter(first)) {
             text = word; // a plain number: the word is wrong; else the place within the expression is
         }
+        if (letter == 'f' && !out.has(letter)) {
+            out.set(letter, {}, column); // it was stated
+        }
         return status;
     }
     const std::string_view as_it_stands = text.part(word.at(), text.at());
@@ -323,6 +318,9 @@ ProgramStatus BlockReader::add_code(char letter, Decimal value, std::size_t colu
         return {};
     }
     if (info.refusal != ProgramError::none) {
+        if (info.group == CodeGroup::motion) {
+            out.set_code(info.group, ModalState::lost_motion, column);
+        }
         return info.refusal;
     }
     if (info.group == CodeGroup::motion && out.has(info.group) &&

@@ -14,6 +14,8 @@ enum class SpindleState : std::uint8_t { stopped, clockwise, counterclockwise };
 
 struct ModalState {
     static constexpr std::int16_t no_motion = 800; ///< G80
+    static constexpr std::int16_t lost_motion =
+        30000; ///< one that was refused by name, where further errors are looked for
 
     std::int16_t motion = no_motion; ///< ten times the G word
     Plane plane = Plane::xy;

@@ -174,6 +174,9 @@ BlockStatus find_use(const Block& block, const ModalState& modal, const AxisLett
     if (block.code(CodeGroup::stop) == 98 || block.code(CodeGroup::stop) == 99) {
         return block.at(ProgramError::o_word, CodeGroup::stop);
     }
+    if (modal.motion == ModalState::lost_motion && !block.has(CodeGroup::motion) && !block.has(CodeGroup::non_modal)) {
+        return {}; // whose words they are is not known
+    }
     if (const BlockStatus status = check_axes(block, letters, rules); !status.ok()) {
         return status;
     }
