@@ -282,8 +282,8 @@ TEST_CASE("Numbered programs are called by M98, and share the parameters of thei
         CHECK(run("o1 call\nM30\no1 sub\nM99\no1 endsub", programs).find("p.ngc:4:1: M99 ends a subprogram") == 0);
         CHECK(run("M98 L2", programs).find("p.ngc:1:1: M98 needs P") == 0);
     }
-    CHECK(run("M98 P1\nM30\no1\nM99") == " error O words, M98 and M99 need the file; they are read by the host, and "
-                                         "not within a block");
+    CHECK(run("M98 P1\nM30\no1\nM99") == " error O words, M70 to M73, M98 and M99 need the file; they are read by "
+                                         "the host, in a line of their own");
 }
 
 TEST_CASE("Beside M98 and M99 there are other words where posts for Fanuc write them") {
@@ -297,6 +297,29 @@ TEST_CASE("Beside M98 and M99 there are other words where posts for Fanuc write 
           "p.ngc:1:6: M98 stands alone in its line, with P and L");
     CHECK(run("M98 P30012\nM30\nO12\nM99", NumberedPrograms::linuxcnc).find("no subprogram O30012") !=
           std::string::npos);
+}
+
+TEST_CASE("M70 to M73 save modes in each call, and put them back") {
+    const FlowRules rules{.programs = NumberedPrograms::linuxcnc, .saves_modes = true, .axes = {"x", "y", "z"}};
+    const auto of = [&](const std::string& text) {
+        return run(text, nullptr, rules);
+    };
+    CHECK(of("G90 G0 X1\nM70\nG91 X5\nM72\nX3") == " 1 6 3");
+    CHECK(of("M70 (all)\nG20 G0 X1\nM72\nX1") == " 25 1");
+    const std::string sub = "\nM2\no1 sub\nM73\nG20 G91 G0 X1\no1 endsub";
+    CHECK(of("G0 X1\no1 call\nX2" + sub) == " 1 26 2 end");
+    CHECK(of("G0 X1\nM98 P1\nX2\nM2\no1\nN9 M73\nG91 X5\nM99") == " 1 6 2 end");
+    CHECK(of("G0 X1\no1 call\nX2\nM2\no1 sub\nM73\nG91 X5\nM71\no1 endsub") == " 1 6 8 end"); // forgotten
+    CHECK(of("G0 X1\nM73\nG91 X5\nX1") == " 1 6 7"); // of the main program: nobody returns
+    // Not those of the caller.
+    CHECK(of("M70\no1 call\nM2\no1 sub\nM72\no1 endsub") ==
+          "p.ngc:5:1: M72 needs an M70 or M73 before, in the same subprogram");
+    CHECK(of("G90 G0 X1\nM70\nG91\no1 call\nM72\nX9\nM2\no1 sub\nM70\nX2\nM72\no1 endsub") == " 1 3 9 end");
+    CHECK(of("M70\nM71\nM72") == "p.ngc:3:1: M72 needs an M70 or M73 before, in the same subprogram");
+    CHECK(of("M70 G90") == "p.ngc:1:1: M70 to M73 stand alone in their line");
+    CHECK(of("G90 M70").find("error O words, M70 to M73") == 1);
+    CHECK(of("G41.1 D1 G0 X5\nM70\nG40\nM72").find("cannot begin cutter compensation") != std::string::npos);
+    CHECK(run("M70").find("error O words, M70 to M73") == 1); // a dialect without them
 }
 
 TEST_CASE("What is wrong with calls is collected, and the program goes on") {

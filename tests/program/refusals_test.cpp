@@ -117,7 +117,7 @@ TEST_CASE("what does not belong together is refused", "[program][refusals]") {
         {"M67 E1", ProgramError::analog_output_invalid, 1},
         {"M68 Q1", ProgramError::analog_output_invalid, 1},
         {"M67 E64 Q1", ProgramError::count_out_of_range, 5},
-        {"M70", ProgramError::modal_state_unsupported, 1},
+        {"M70", ProgramError::o_word, 1},
         {"M98 P1", ProgramError::o_word, 1},
         {"M101", ProgramError::user_code_unsupported, 1},
     };

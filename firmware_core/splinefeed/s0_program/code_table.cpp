@@ -110,6 +110,7 @@ struct CodeRows {
 
     static constexpr Row m_extras[] = {
         Row{29, 29, without_effect, ProgramError::none, in_fanuc}, // that G84 is rigid
+        Row{70, 73, spindle, ProgramError::modal_state_unsupported, in_grbl | in_printers | in_fanuc},
         Row{98, 99, stop, ProgramError::subprogram_unsupported, in_grbl | in_printers},
         // Of printers: they move or shift it.
         Row{125, 125, input_output, ProgramError::printer_move_unsupported, in_printers},
@@ -134,8 +135,8 @@ struct CodeRows {
         Row{61, 61, tool_change, ProgramError::none, in_grbl},
         Row{62, 66, input_output, ProgramError::none, in_grbl},
         Row{67, 68, input_output},
-        Row{70, 73, input_output, ProgramError::modal_state_unsupported},
-        Row{98, 99, stop}, // whoever reads the file
+        Row{70, 73, spindle}, // these are of whoever reads the file,
+        Row{98, 99, stop},    // and so are these
         Row{100, 199, input_output, ProgramError::user_code_unsupported},
     };
 };

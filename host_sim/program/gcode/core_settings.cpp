@@ -6,6 +6,8 @@
 
 #include "splinefeed/s0_program/text_cursor.hpp"
 
+#include <algorithm>
+
 namespace splinefeed::host {
 
 ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* tools) {
@@ -41,6 +43,22 @@ std::string_view without_long_comment(std::string_view text, std::size_t longest
         }
     }
     return text;
+}
+
+// Words that --ignore takes lead nowhere.
+FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant) {
+    const auto ignores = [&](std::int16_t first, std::int16_t last) {
+        return std::any_of(settings.ignored.begin(), settings.ignored.end(), [&](const IgnoredWord& word) {
+            return word.letter == 'M' &&
+                   (word.tenths == IgnoredWord::any || (word.tenths >= first && word.tenths <= last));
+        });
+    };
+    const bool linuxcnc = settings.dialect == Dialect::linuxcnc;
+    const NumberedPrograms of = linuxcnc                             ? NumberedPrograms::linuxcnc
+                                : settings.dialect == Dialect::fanuc ? NumberedPrograms::fanuc
+                                                                     : NumberedPrograms::none;
+    return {ignores(980, 990) ? NumberedPrograms::none : of, settings.block_delete, linuxcnc && !ignores(700, 730),
+            &coolant, settings.axes};
 }
 
 } // namespace splinefeed::host

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// core_settings: what the interpreter of the core gets of a program's settings and lines.
+// core_settings: what the interpreter of the core and ProgramFlow get of a program's settings and lines.
 #pragma once
 
+#include "host_sim/program/gcode/flow_code.hpp"
 #include "host_sim/program/gcode_settings.hpp"
 
 #include <string_view>
@@ -11,6 +12,9 @@ namespace splinefeed::host {
 /// @param from  must outlive the interpreter
 /// @param tools  null: none
 [[nodiscard]] ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* tools);
+
+/// What leads from line to line in it. @param coolant  must outlive whoever follows it
+[[nodiscard]] FlowRules flow_rules(const GcodeSettings& settings, const CoolantState& coolant);
 
 /// A line may have a comment that is longer than a line of the interpreter: slicers write their settings that way.
 /// @param longest  characters of a line without it

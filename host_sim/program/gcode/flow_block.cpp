@@ -26,8 +26,7 @@ bool ends(FlowKind kind) {
 
 // Whether it is of no use without its structure.
 bool belongs(FlowKind kind) {
-    return kind != FlowKind::call && kind != FlowKind::return_ && kind != FlowKind::program &&
-           kind != FlowKind::call_program && kind != FlowKind::end_program;
+    return kind != FlowKind::call && kind != FlowKind::return_ && kind < FlowKind::program;
 }
 
 std::string_view end_of(FlowKind begin) {
@@ -208,6 +207,10 @@ void FlowBlock::link_word(std::size_t line) {
     case FlowKind::program:
     case FlowKind::call_program:
     case FlowKind::end_program:
+    case FlowKind::save_modes:
+    case FlowKind::forget_modes:
+    case FlowKind::restore_modes:
+    case FlowKind::lend_modes:
     case FlowKind::return_: break;
     }
 }

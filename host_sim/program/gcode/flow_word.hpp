@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FlowWord: the O word of a line: sub, call, if, while, ...; M98 and M99.
+// FlowWord: the O word of a line: sub, call, if, while, ...; M words that belong to subprograms.
 #pragma once
 
 #include "splinefeed/s0_program/text_cursor.hpp"
@@ -25,9 +25,13 @@ enum class FlowKind : std::uint8_t {
     endrepeat,
     break_,
     continue_,
-    program,      ///< O1000 alone: a numbered program begins
-    call_program, ///< M98
-    end_program,  ///< M99
+    program,       ///< O1000 alone: a numbered program begins
+    call_program,  ///< M98
+    end_program,   ///< M99
+    save_modes,    ///< M70
+    forget_modes,  ///< M71
+    restore_modes, ///< M72
+    lend_modes,    ///< M73: they are put back where the subprogram ends
 };
 
 struct FlowWord {
@@ -36,7 +40,7 @@ struct FlowWord {
     std::size_t label_at;    ///< offset of the label in the line
     std::size_t rest;        ///< offset of what stands behind the keyword; of M98: of the number behind L; 0: none
     bool has_number = false; ///< of M98 and M99: P
-    std::string others{};    ///< what else the line of M98 or M99 says, each word at its place; empty: nothing
+    std::string others{};    ///< what else the line of an M word says, each word at its place; empty: nothing
 };
 
 /// Whether a line begins with an O word, behind an N number at most.

@@ -29,17 +29,6 @@ namespace splinefeed::host {
 
 namespace {
 
-// Where --ignore takes M98 and M99, nobody calls.
-FlowRules flow_rules(const GcodeSettings& settings) {
-    const bool ignored = std::any_of(settings.ignored.begin(), settings.ignored.end(), [](const IgnoredWord& word) {
-        return word.letter == 'M' && (word.tenths == 980 || word.tenths == 990);
-    });
-    const NumberedPrograms of = settings.dialect == Dialect::linuxcnc ? NumberedPrograms::linuxcnc
-                                : settings.dialect == Dialect::fanuc  ? NumberedPrograms::fanuc
-                                                                      : NumberedPrograms::none;
-    return {ignored ? NumberedPrograms::none : of, settings.block_delete};
-}
-
 class GcodeMoves final : public MoveSource {
 public:
     GcodeMoves(const GcodeSettings& settings, std::string file, std::unique_ptr<SourceLines> lines, ScalarKind scalar,
@@ -81,6 +70,7 @@ private:
     void take(SourceStep& out);
     void take_move(SourceStep& out) const;
     void take_event(SourceStep& out);
+    void note_coolant(EventKind kind);
     void take_input(SourceStep& out);
     void take_spindle(SourceStep& out, EventKind kind);
     void require_possible(MoveKind kind) const;
@@ -95,6 +85,7 @@ private:
     Expression expression_{parameters_};
     std::unique_ptr<ProgramItems> items_;
     BlockInterpreter& interpreter_; // theirs
+    CoolantState coolant_;
     ProgramFlow flow_;
     SourceLine line_;
     ProgramItem<double> item_;
@@ -114,7 +105,7 @@ GcodeMoves::GcodeMoves(const GcodeSettings& settings, std::string file, std::uni
       items_(program_items(scalar, core_settings(settings, tools_ ? &*tools_ : nullptr), expression_,
                            settings.max_feed_mm_s)),
       interpreter_(items_->interpreter()),
-      flow_(*lines_, file_, expression_, interpreter_, parameters_, problems, flow_rules(settings)) {}
+      flow_(*lines_, file_, expression_, interpreter_, parameters_, problems, flow_rules(settings, coolant_)) {}
 
 bool GcodeMoves::start(PerAxis<Position>& position) {
     position = settings_->start;
@@ -278,6 +269,7 @@ void GcodeMoves::take_event(SourceStep& out) {
     out.action.value = number_of(event.value);
     out.action.text.assign(event.text.of(line_.text));
     out.action.spindle.reset();
+    note_coolant(event.kind);
     if (ProgramSpindle::is_of(event.kind)) {
         take_spindle(out, event.kind);
     } else if (event.kind == EventKind::tool_change) {
@@ -288,6 +280,12 @@ void GcodeMoves::take_event(SourceStep& out) {
     if (event.kind == EventKind::input_wait) {
         take_input(out);
     }
+}
+
+void GcodeMoves::note_coolant(EventKind kind) {
+    const bool off = kind == EventKind::coolant_off;
+    coolant_.mist = kind == EventKind::mist_on || (coolant_.mist && !off);
+    coolant_.flood = kind == EventKind::flood_on || (coolant_.flood && !off);
 }
 
 // Inputs of the simulated machine are low, and stay so. Those of a real one are asked where it stands.

@@ -22,7 +22,7 @@ bool ProgramFlow::report(const InputError& error, std::uint64_t line) {
 }
 
 FlowWord ProgramFlow::word_of(const SourceLine& line) const {
-    if (auto call = read_program_call(line.text, rules_)) {
+    if (auto call = read_flow_code(line.text, rules_)) {
         return std::move(*call);
     }
     std::size_t wrong = 0;
@@ -165,6 +165,10 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
     case FlowKind::do_: break;
     case FlowKind::call_program: execute_program_call(place.word, line); break;
     case FlowKind::end_program: leave_program(place.word, line); break;
+    case FlowKind::save_modes:
+    case FlowKind::forget_modes:
+    case FlowKind::restore_modes:
+    case FlowKind::lend_modes: execute_modes(place.word, line); break;
     case FlowKind::while_:
         if (code.place(place.begin)->word.kind == FlowKind::do_) {
             if (condition(place.word, line)) {
@@ -183,8 +187,12 @@ void ProgramFlow::execute(const FlowBlock::Place& place, const SourceLine& line)
 }
 
 void ProgramFlow::leave_frame() {
-    if (frames_.back().call == Call::sub) {
+    const Frame& frame = frames_.back();
+    if (frame.call == Call::sub) {
         parameters_->leave();
+    }
+    if (frame.lends && frame.modes) {
+        put_back(*frame.modes, frame.code->line(std::min(frame.at, frame.code->size()) - 1).number);
     }
     frames_.pop_back();
 }
@@ -217,6 +225,11 @@ void ProgramFlow::go_on_behind(const FlowBlock::Place& place, bool is_new) {
 }
 
 ProgramFlow::Step ProgramFlow::next(SourceLine& out) {
+    if (!restoring_.empty()) {
+        out = std::move(restoring_.front());
+        restoring_.pop_front();
+        return Step::line;
+    }
     if (waits_) {
         return read_ahead(out);
     }

@@ -4,8 +4,8 @@
 
 #include "host_sim/base/input_error.hpp"
 #include "host_sim/program/gcode/flow_block.hpp"
+#include "host_sim/program/gcode/flow_code.hpp"
 #include "host_sim/program/gcode/parameter_memory.hpp"
-#include "host_sim/program/gcode/program_call.hpp"
 #include "host_sim/program/problem_list.hpp"
 #include "host_sim/program/source_line.hpp"
 
@@ -48,7 +48,9 @@ public:
     /// Throws InputError where problems are not collected, or the input cannot be read. May wait for the input.
     Step next(SourceLine& out);
     /// Whether next() needs no more input.
-    [[nodiscard]] bool in_memory() const noexcept { return (runs_block() || !again_.empty() || ended_) && !waits_; }
+    [[nodiscard]] bool in_memory() const noexcept {
+        return (runs_block() || !again_.empty() || !restoring_.empty() || ended_) && !waits_;
+    }
     /// Behind the end of the program: the next line that was not executed as part of a subprogram. False: none.
     bool next_unread(SourceLine& out);
 
@@ -69,6 +71,8 @@ private:
         Call call = Call::none;
         std::vector<Repeat> repeats{}; // those around `at`
         std::int64_t more = 0;         // times that the program is to run again
+        std::optional<SavedModes> modes{};
+        bool lends = false; // the modes are put back at its end
     };
     struct Sub {
         std::shared_ptr<const FlowBlock> code;
@@ -96,7 +100,7 @@ private:
     [[nodiscard]] bool runs_block() const noexcept { return !frames_.empty() && !collects_; }
     [[nodiscard]] bool next_line(SourceLine& out, std::optional<FlowWord>& word);
     [[nodiscard]] bool has_word(std::string_view text) const {
-        return has_flow_word(text) || read_program_call(text, rules_).has_value();
+        return has_flow_word(text) || read_flow_code(text, rules_).has_value();
     }
     Step take_word(SourceLine& line, const std::optional<FlowWord>& known);
     Step collect(const SourceLine& line, const std::optional<FlowWord>& known);
@@ -118,6 +122,10 @@ private:
     void execute_repeat(const FlowBlock::Place& place, const SourceLine& line);
     void end_repeat(const FlowBlock::Place& place);
     void leave_sub(const FlowWord& word, const SourceLine& line);
+    // Modes: program_flow_modes.cpp.
+    void execute_modes(const FlowWord& word, const SourceLine& line);
+    [[nodiscard]] SavedModes modes() const;
+    void put_back(const SavedModes& saved, std::uint64_t line);
     // Subprograms: program_flow_calls.cpp.
     void execute_program_call(const FlowWord& word, const SourceLine& line);
     void leave_program(const FlowWord& word, const SourceLine& line);
@@ -154,10 +162,12 @@ private:
     std::size_t ahead_at_ = 0;                                // the next one of them
     std::vector<std::pair<std::size_t, std::size_t>> called_; // parts of it that were called
     std::optional<Waiting> waits_;
-    bool ended_ = false;         // all of the input has been read
-    std::set<std::string> lost_; // labels whose structure was wrong: what else names them is not told
-    bool begun_ = false;         // there was a block: a number of the program would have come before it
-    bool collects_ = false;      // a block is read to its end
+    std::optional<SavedModes> modes_;  // of the main program
+    std::deque<SourceLine> restoring_; // lines that put modes back
+    bool ended_ = false;               // all of the input has been read
+    std::set<std::string> lost_;       // labels whose structure was wrong: what else names them is not told
+    bool begun_ = false;               // there was a block: a number of the program would have come before it
+    bool collects_ = false;            // a block is read to its end
     std::shared_ptr<FlowBlock> block_;
     std::string block_label_;
     FlowKind block_kind_ = FlowKind::sub;

@@ -28,6 +28,10 @@ void ProgramFlow::begin(const FlowWord& word, const SourceLine& line) {
     case FlowKind::call_program: execute_program_call(word, line); break;
     case FlowKind::end_program: leave_program(word, line); break;
     case FlowKind::program: break; // its name
+    case FlowKind::save_modes:
+    case FlowKind::forget_modes:
+    case FlowKind::restore_modes:
+    case FlowKind::lend_modes: execute_modes(word, line); break;
     default: begin_stray(word, line);
     }
 }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "host_sim/program/gcode/program_call.hpp"
+#include "host_sim/program/gcode/flow_code.hpp"
 
 namespace splinefeed::host {
 
 namespace {
+
+bool is_number_part(char c) noexcept {
+    return (c >= '0' && c <= '9') || c == '.';
+}
 
 /// A word of the line, or a comment.
 struct Part {
@@ -27,28 +31,41 @@ Part next_part(TextCursor& text) {
     return out;
 }
 
-// 98, 99, or 0.
-int number_of_call(const Part& part, std::string_view text) {
-    TextCursor number(text.substr(0, part.end));
-    number.go_to(part.number);
+struct Code {
+    std::string_view digits;
+    FlowKind kind;
+};
+
+constexpr Code codes[] = {
+    {"98", FlowKind::call_program}, {"99", FlowKind::end_program},   {"70", FlowKind::save_modes},
+    {"71", FlowKind::forget_modes}, {"72", FlowKind::restore_modes}, {"73", FlowKind::lend_modes},
+};
+
+bool has_code(const FlowRules& rules, FlowKind kind) noexcept {
+    const bool of_programs = kind == FlowKind::call_program || kind == FlowKind::end_program;
+    return of_programs ? rules.programs != NumberedPrograms::none : rules.saves_modes;
+}
+
+// Behind the M.
+const Code* code_at(TextCursor number, const FlowRules& rules) noexcept {
     while (number.take('0')) {
     }
-    const bool is_call = part.letter == 'm' && number.take('9') && (number.peek() == '8' || number.peek() == '9');
-    const int out = !is_call ? 0 : number.peek() == '8' ? 98 : 99;
-    number.step();
-    return number.at_end() ? out : 0;
+    for (const Code& code : codes) {
+        TextCursor behind = number;
+        if (has_code(rules, code.kind) && behind.take(code.digits) && !is_number_part(behind.peek())) {
+            return &code;
+        }
+    }
+    return nullptr;
 }
 
 // Whether it is worth while to read the words.
-bool may_call(std::string_view text) noexcept {
+bool may_have_code(std::string_view text, const FlowRules& rules) noexcept {
     for (std::size_t at = text.find_first_of("mM"); at != std::string_view::npos;
          at = text.find_first_of("mM", at + 1)) {
-        TextCursor cursor(text);
-        cursor.go_to(at + 1);
-        while (cursor.peek() == '0') {
-            cursor.step();
-        }
-        if (cursor.take('9') && (cursor.peek() == '8' || cursor.peek() == '9')) {
+        TextCursor number(text);
+        number.go_to(at + 1);
+        if (code_at(number, rules) != nullptr) {
             return true;
         }
     }
@@ -57,9 +74,9 @@ bool may_call(std::string_view text) noexcept {
 
 } // namespace
 
-std::optional<FlowWord> read_program_call(std::string_view text, const FlowRules& rules) {
+std::optional<FlowWord> read_flow_code(std::string_view text, const FlowRules& rules) {
     TextCursor cursor(text);
-    if (rules.programs == NumberedPrograms::none || !may_call(text) || (cursor.take('/') && rules.block_delete)) {
+    if (!may_have_code(text, rules) || (cursor.take('/') && rules.block_delete)) {
         return std::nullopt;
     }
     std::optional<FlowWord> out;
@@ -71,9 +88,11 @@ std::optional<FlowWord> read_program_call(std::string_view text, const FlowRules
     while (!cursor.at_end() && cursor.peek() != ';') {
         const Part part = next_part(cursor);
         const bool in_call = out && out->kind == FlowKind::call_program;
-        if (const int number = number_of_call(part, text); number > 0 && !out) {
+        TextCursor number(text);
+        number.go_to(part.number);
+        if (const Code* const code = part.letter == 'm' ? code_at(number, rules) : nullptr; code != nullptr && !out) {
             out.emplace();
-            out->kind = number == 98 ? FlowKind::call_program : FlowKind::end_program;
+            out->kind = code->kind;
             out->label_at = part.begin;
             out->rest = 0;
             take(part);
@@ -87,7 +106,7 @@ std::optional<FlowWord> read_program_call(std::string_view text, const FlowRules
         } else {
             has_others = has_others || (part.letter != '(' && part.letter != 'n');
         }
-        if (!out && rules.programs == NumberedPrograms::linuxcnc && has_others) {
+        if (!out && rules.programs != NumberedPrograms::fanuc && has_others) {
             return std::nullopt; // it is not the first word
         }
     }
