@@ -51,6 +51,7 @@ TEST_CASE("the lines put back all modes but the motion") {
         {"G61 G94 F100 S0.5 M4", "G59.3", "G43.1 X1 Y-2.5", "M8"},
         {"G20 F3", "G21 G61.1", "G92 X5", "G92.2", "M7"}, // F was in inches
         {"G93 G1 X1 F2", "G19"},
+        {"G95 G7 F0.02"},
         {"G17 G94 G41.1 D1", "G0 X10"},
     };
     for (const auto& before : states) {

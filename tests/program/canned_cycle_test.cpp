@@ -47,6 +47,26 @@ TEST_CASE("boring", "[program][cycle]") {
           "rapid 1 0 12\nrapid 1 0 1\nfeed 1 0 -1\ndwell 0.1\n" + stop + "\nrapid 1 0 12\n" + start);
 }
 
+TEST_CASE("tapping with a floating chuck", "[program][cycle]") {
+    const auto event = [](EventKind kind) {
+        return "event " + std::to_string(static_cast<int>(kind)) + " stop 0 100\n";
+    };
+    const std::string stop = event(EventKind::spindle_stop);
+    const std::string right = event(EventKind::spindle_clockwise);
+    const std::string left = event(EventKind::spindle_counterclockwise);
+    GcodeRun<double> run;
+    run.run("F1800 G0 Z12 M3 S100");
+    CHECK(run.text("G98 G84 X40 Z-3 R1") + "\n" ==
+          "rapid 40 0 12\nrapid 40 0 1\nturning 40 0 -3\n" + stop + left + "turning 40 0 12\n" + stop + right);
+    CHECK(run.items()[2].element.feed_mm_s == 30.0);
+    CHECK(run.text("G99 X30 P0.5") + "\n" == "rapid 30 0 12\nrapid 30 0 1\nturning 30 0 -3\n" + stop + left +
+                                                 "dwell 0.5\nturning 30 0 1\n" + stop + right);
+    run.run("G80 M4");
+    CHECK(run.text("G74 X20 Z-2 R1 P0") + "\n" ==
+          "rapid 20 0 1\nturning 20 0 -2\n" + stop + right + "turning 20 0 1\n" + stop + left);
+    CHECK(run.push("M3 X5").error == ProgramError::tapping_direction);
+}
+
 TEST_CASE("increments and repeats", "[program][cycle]") {
     GcodeRun<double> run;
     run.run("F1800 G0 X5 Y10 Z3 G91");

@@ -107,7 +107,7 @@ std::string text_of(const ProgramItem<S>& item, int axes = 3, std::string_view l
         put(out, number(item.event.value));
         return out.append(item.event.text.empty() ? "" : " ").append(item.event.text.of(line));
     }
-    const char* const moves[] = {"feed", "rapid", "probe", "home"};
+    const char* const moves[] = {"feed", "rapid", "probe", "turning", "home"};
     const char* const shapes[] = {"", " arc", " bezier"};
     out = std::string(moves[static_cast<int>(item.move)]) + shapes[static_cast<int>(item.element.shape)];
     for (const unsigned k : indices(axes)) {

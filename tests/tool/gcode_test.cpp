@@ -360,6 +360,18 @@ TEST_CASE("A real target refuses inputs that the machine file does not name befo
               .rfind("part.ngc:2: input_wait: M66 E reads an analog", 0) == 0);
 }
 
+TEST_CASE("Tapping and threads are of the simulated machine, feeds for each turn of all") {
+    const Tool tool;
+    const std::string target = "--target modbus-tcp://127.0.0.1:1";
+    for (const std::string word : {"G84 Z-5 R1 F50", "G33 Z-5 K1", "G33.1 Z-5 K1"}) {
+        const std::string program = "G0 Z5\nM3 S600\n" + word + "\nM2\n";
+        CHECK(error_of(tool, program, target).find("part.ngc:2: spindle_speed: the machine file has no spindle") == 0);
+        CHECK(error_of(tool, program, target + " --ignore S,M3").find("part.ngc:3:") == 0); // nothing turns
+        CHECK(seconds(tool, program) > 0.1);
+    }
+    CHECK(seconds(tool, "G95 S600 F0.1\nG1 X10\nM2\n") == Approx(seconds(tool, "F60 G1 X10\nM2\n")).margin(1e-6));
+}
+
 TEST_CASE("Analog outputs are of the simulated machine") {
     const Tool tool;
     CHECK(error_of(tool, "G1 X10 F3000\nM67 E1 Q2\nX20\nM2\n", "--target modbus-tcp://127.0.0.1:1")

@@ -69,6 +69,10 @@ BlockStatus adapt_words(Block& block, const ModalState& modal, const AxisLetters
     const std::int16_t modeless = block.code(CodeGroup::non_modal);
     const std::int16_t motion = block.has(CodeGroup::motion) ? block.code(CodeGroup::motion) : modal.motion;
     const bool cycle = is_cycle(motion);
+    const std::int16_t lathe = block.code(CodeGroup::lathe_diameter);
+    if (block.has('x') && (lathe == Block::no_code ? modal.diameter : lathe == 70)) {
+        block.change('x', {block.value('x').raw / 2});
+    }
     if (settings.increments) {
         count_increments(block, modal, cycle);
     }

@@ -125,7 +125,10 @@ private:
 
     // Motion: motion_words.cpp.
     BlockStatus plan_motion(const BlockUse& use, const ModalState& before) noexcept;
-    BlockStatus plan_straight() noexcept;
+    BlockStatus plan_line() noexcept;
+    BlockStatus plan_probe() noexcept;
+    BlockStatus plan_turning(bool follows) noexcept;
+    BlockStatus set_feed_of_turns(Decimal way) noexcept;
     BlockStatus plan_arc() noexcept;
     void plan_parabola(unsigned first, unsigned second, const ArcGeometry& arc, const AxisPoint& program,
                        const AxisPoint& machine) noexcept;
@@ -154,6 +157,8 @@ private:
     [[nodiscard]] bool end_program() noexcept;
     [[nodiscard]] bool next_motion(ProgramStep& out, ProgramEvent& event) noexcept;
     void fill_move(ProgramStep& out, const AxisPoint& to) noexcept;
+    [[nodiscard]] bool next_of_tap(ProgramStep& out, ProgramEvent& event) noexcept;
+    void turn_spindle(CycleStep how, Decimal speed, ProgramStep& out, ProgramEvent& event) const noexcept;
     [[nodiscard]] bool next_in_cycle(ProgramStep& out, ProgramEvent& event) noexcept;
 
     ProgramSettings settings_;

@@ -11,7 +11,7 @@ namespace splinefeed {
 /// x, y and z, in this order, of the program.
 using SpacePoint = std::array<Decimal, 3>;
 
-enum class PlanKind : std::uint8_t { none, line, line_by_way, arc, bezier, cycle, nurbs };
+enum class PlanKind : std::uint8_t { none, line, line_by_way, arc, bezier, cycle, nurbs, tap };
 
 /// An arc; its axis is a direction of the program's frame.
 struct ArcPlan {
@@ -46,7 +46,8 @@ struct BlockMotion {
     bool is_contour = false; ///< the contour of cutter compensation goes on
     std::uint32_t home_axes = 0;
     MoveManner manner{};
-    AxisPoint way{}; ///< of line_by_way: where the first line ends
+    AxisPoint way{};      ///< of line_by_way and tap: where the first line ends
+    Decimal back_speed{}; ///< of tap: the spindle on the way back [1/min]
     AxisPoint to{};
     ArcPlan arc{};
 

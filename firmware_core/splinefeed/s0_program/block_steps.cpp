@@ -317,9 +317,40 @@ bool BlockInterpreter::next_motion(ProgramStep& out, ProgramEvent& event) noexce
         out.shape = MoveShape::bezier;
         return true;
     }
+    case PlanKind::tap: return next_of_tap(out, event);
     case PlanKind::cycle: break;
     }
     return next_in_cycle(out, event);
+}
+
+void BlockInterpreter::turn_spindle(CycleStep how, Decimal speed, ProgramStep& out,
+                                    ProgramEvent& event) const noexcept {
+    const bool clockwise = (modal_.spindle == SpindleState::clockwise) == (how != CycleStep::spindle_reverse);
+    out.kind = ItemKind::event;
+    out.stops_before = true;
+    event = {};
+    event.stops = true;
+    event.value = speed;
+    event.kind = how == CycleStep::spindle_stop ? EventKind::spindle_stop
+                 : clockwise                    ? EventKind::spindle_clockwise
+                                                : EventKind::spindle_counterclockwise;
+}
+
+// G33.1: in, the spindle turns back, out, it turns as before.
+bool BlockInterpreter::next_of_tap(ProgramStep& out, ProgramEvent& event) noexcept {
+    switch (sub_step_) {
+    case 0: fill_move(out, plan_.way); return true;
+    case 1: turn_spindle(CycleStep::spindle_reverse, plan_.back_speed, out, event); break;
+    case 2:
+        plan_.manner.feed.raw =
+            product_quotient(plan_.manner.feed.raw, plan_.back_speed.raw, static_cast<std::uint64_t>(modal_.speed.raw))
+                .raw;
+        fill_move(out, plan_.to);
+        return true;
+    default: turn_spindle(CycleStep::spindle_start, modal_.speed, out, event); plan_.kind = PlanKind::none;
+    }
+    ++sub_step_;
+    return true;
 }
 
 bool BlockInterpreter::next_in_cycle(ProgramStep& out, ProgramEvent& event) noexcept {
@@ -333,7 +364,9 @@ bool BlockInterpreter::next_in_cycle(ProgramStep& out, ProgramEvent& event) noex
         return true;
     case CycleStep::rapid:
     case CycleStep::feed:
-        plan_.move = step == CycleStep::rapid ? MoveKind::rapid : MoveKind::feed;
+        plan_.move = step == CycleStep::rapid ? MoveKind::rapid
+                     : taps(modal_.motion)    ? MoveKind::turning
+                                              : MoveKind::feed;
         plan_.manner.mode = PathMode::exact_path;
         plan_.manner.tolerance_mm = {};
         fill_move(out, frame_.to_machine(at));
@@ -345,15 +378,7 @@ bool BlockInterpreter::next_in_cycle(ProgramStep& out, ProgramEvent& event) noex
         return true;
     case CycleStep::spindle_stop:
     case CycleStep::spindle_start:
-        out.kind = ItemKind::event;
-        out.stops_before = true;
-        event = {};
-        event.stops = true;
-        event.value = modal_.speed;
-        event.kind = step == CycleStep::spindle_stop             ? EventKind::spindle_stop
-                     : modal_.spindle == SpindleState::clockwise ? EventKind::spindle_clockwise
-                                                                 : EventKind::spindle_counterclockwise;
-        return true;
+    case CycleStep::spindle_reverse: turn_spindle(step, modal_.speed, out, event); return true;
     case CycleStep::finished: break;
     }
     plan_.kind = PlanKind::none;

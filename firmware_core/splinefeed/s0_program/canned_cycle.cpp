@@ -33,12 +33,19 @@ BlockStatus CannedCycle::read_words(const Block& block, const ModalState& modal,
     if (block.has('l') && (!to_integer(block.value('l'), repeats_) || repeats_ < 1 || repeats_ > most_repeats)) {
         return block.at(ProgramError::cycle_repeats_invalid, 'l');
     }
+    const SpindleState needed = code_ == 740 ? SpindleState::counterclockwise : SpindleState::clockwise;
+    if (taps(code_) && modal.spindle != needed) {
+        return block.at(ProgramError::tapping_direction, CodeGroup::motion);
+    }
+    if (taps(code_) && block.value('p').raw < 0) {
+        return block.at(ProgramError::cycle_dwell_missing, 'p');
+    }
     if (code_ == 860 && modal.spindle == SpindleState::stopped) {
         return block.at(ProgramError::cycle_spindle_stopped, CodeGroup::motion);
     }
     words.depth = block.has(normal) ? modal.in_mm(block.value(normal)) : words.depth;
     words.clearance = block.has('r') ? modal.in_mm(block.value('r')) : words.clearance;
-    words.dwell_s = dwells() && block.has('p') ? block.value('p') : words.dwell_s;
+    words.dwell_s = (dwells() || taps(code_)) && block.has('p') ? block.value('p') : words.dwell_s;
     words.peck = block.has('q') ? modal.in_mm(block.value('q')) : words.peck;
     dwell_s_ = words.dwell_s;
     peck_ = words.peck;
@@ -141,6 +148,9 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
         hole_step_ = 0;
         return go(at, bottom_, CycleStep::feed);
     case Phase::retract:
+        if (taps(code_)) {
+            return next_of_tap(at);
+        }
         if (hole_step_ == 0 && dwells()) {
             hole_step_ = 1;
             return CycleStep::dwell;
@@ -161,6 +171,26 @@ CycleStep CannedCycle::next(AxisPoint& at) noexcept {
     case Phase::finished: break;
     }
     return CycleStep::finished;
+}
+
+// With a floating chuck, as LinuxCNC does it: in the hole the spindle is reversed, and the feed leads out.
+CycleStep CannedCycle::next_of_tap(AxisPoint& at) noexcept {
+    ++hole_step_;
+    if (hole_step_ == 3 && dwell_s_.raw == 0) {
+        ++hole_step_;
+    }
+    switch (hole_step_) {
+    case 1:
+    case 5: return CycleStep::spindle_stop;
+    case 2: return CycleStep::spindle_reverse;
+    case 3: return CycleStep::dwell;
+    case 4: return go(at, clear_, CycleStep::feed);
+    default: break;
+    }
+    --repeats_;
+    level_ = clear_;
+    phase_ = repeats_ > 0 ? Phase::across : Phase::finished;
+    return CycleStep::spindle_start;
 }
 
 // Down by a peck, up to break or to clear the chip, and back to just above it.

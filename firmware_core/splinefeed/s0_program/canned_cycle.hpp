@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CannedCycle: G73, G81 to G83, G85, G86 and G89, one move at a time.
+// CannedCycle: G73, G74, G81 to G86 and G89, one move at a time.
 #pragma once
 
 #include "splinefeed/s0_program/modal_state.hpp"
@@ -9,11 +9,26 @@ namespace splinefeed {
 
 /// Whether a motion word is that of a cycle. @param motion  ten times the G word
 [[nodiscard]] constexpr bool is_cycle(std::int16_t motion) noexcept {
-    return motion == 730 || (motion > 800 && motion <= 890);
+    return motion == 730 || motion == 740 || (motion > 800 && motion <= 890);
+}
+
+/// Whether it is that of a tapping cycle.
+[[nodiscard]] constexpr bool taps(std::int16_t motion) noexcept {
+    return motion == 740 || motion == 840;
 }
 
 /// What a cycle does next. A lift is a rapid before the cycle proper: it is blended as other moves are.
-enum class CycleStep : std::uint8_t { lift, rapid, feed, dwell, spindle_stop, spindle_start, finished };
+/// A spindle is reversed in the hole, and turned as before behind it.
+enum class CycleStep : std::uint8_t {
+    lift,
+    rapid,
+    feed,
+    dwell,
+    spindle_stop,
+    spindle_start,
+    spindle_reverse,
+    finished
+};
 
 /// Words that stay in effect while the motion word does. In mm; Z and R as programmed, so increments under G91.
 struct CycleWords {
@@ -50,6 +65,7 @@ private:
     [[nodiscard]] bool dwells() const noexcept { return code_ == 820 || code_ == 860 || code_ == 890; }
     [[nodiscard]] bool pecks() const noexcept { return code_ == 730 || code_ == 830; }
     CycleStep next_peck(AxisPoint& at) noexcept;
+    CycleStep next_of_tap(AxisPoint& at) noexcept;
     CycleStep go(AxisPoint& at, Decimal level, CycleStep how) const noexcept;
 
     std::int16_t code_ = 0;

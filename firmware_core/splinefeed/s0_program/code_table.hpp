@@ -11,11 +11,11 @@ namespace splinefeed {
 enum class CodeGroup : std::uint8_t {
     // G
     non_modal,       ///< G4 G10 G28 G28.1 G30 G30.1 G52 G53 G92 to G92.3, G5.3
-    motion,          ///< G0 to G3, G5, G5.1, G5.2, G38.2 to G38.5, G73, G80 to G89
+    motion,          ///< G0 to G3, G5, G5.1, G5.2, G33, G33.1, G38.2 to G38.5, G73, G74, G80 to G89
     plane,           ///< G17 G18 G19
     distance,        ///< G90 G91
     centre_distance, ///< G90.1 G91.1
-    feed_mode,       ///< G93 G94
+    feed_mode,       ///< G93 G94 G95
     units,           ///< G20 G21
     cutter_radius,   ///< G40 G41 G41.1 G42 G42.1
     tool_length,     ///< G43 G43.1 G49
@@ -23,7 +23,7 @@ enum class CodeGroup : std::uint8_t {
     work_system,     ///< G54 to G59.3
     path_mode,       ///< G61 G61.1 G64
     spindle_mode,    ///< G97
-    lathe_diameter,  ///< G8
+    lathe_diameter,  ///< G7 G8
     without_effect,  ///< G15 G50 G69 and others of fanuc; they do not exclude each other
     // M
     stop,          ///< M0 M1 M2 M30 M60 M98 M99

@@ -113,8 +113,8 @@ BlockStatus BlockInterpreter::check_cutter() const noexcept {
         return block_.at(ProgramError::cutter_active, CodeGroup::input_output);
     }
     const bool is_plain = plan_.kind == PlanKind::none || plan_.kind == PlanKind::line || plan_.kind == PlanKind::arc;
-    return is_plain && plan_.move != MoveKind::probe ? BlockStatus{}
-                                                     : block_.at(ProgramError::cutter_active, CodeGroup::motion);
+    const bool is_cut = plan_.move == MoveKind::feed || plan_.move == MoveKind::rapid;
+    return is_plain && is_cut ? BlockStatus{} : block_.at(ProgramError::cutter_active, CodeGroup::motion);
 }
 
 // F of G93 counts the programmed length, as in LinuxCNC: corners and inner arcs are then made with the same feed.

@@ -8,6 +8,7 @@ namespace splinefeed {
 namespace {
 
 constexpr std::int64_t least_feed = 60 * Decimal::one / 1000; // 0.001 mm/s in mm/min
+constexpr std::int64_t most_feed = 600'000 * Decimal::one;    // 10000 mm/s
 
 } // namespace
 
@@ -22,7 +23,7 @@ ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
 void ModalState::end_program(const ProgramSettings& settings) noexcept {
     plane = Plane::xy;
     incremental = false;
-    inverse_time = false;
+    inverse_time = per_turn = false;
     needs_straight = false;
     cutter = {};
     feed = rules_of(settings.dialect).first_feed;
@@ -39,10 +40,11 @@ bool states_speed(const Block& block, const DialectRules& rules) noexcept {
 BlockStatus ModalState::apply(const Block& block, const ProgramSettings& settings) noexcept {
     // The order is that of execution: F is in the units of the blocks before, all lengths in those of this one.
     if (const std::int16_t mode = block.code(CodeGroup::feed_mode); mode != Block::no_code) {
-        const bool inverse = mode == 930;
-        feed = inverse == inverse_time ? feed : Decimal{};
-        feed_in_inches = feed_in_inches && inverse == inverse_time;
-        inverse_time = inverse;
+        const bool same = inverse_time == (mode == 930) && per_turn == (mode == 950);
+        feed = same ? feed : Decimal{};
+        feed_in_inches = feed_in_inches && same;
+        inverse_time = mode == 930;
+        per_turn = mode == 950;
     }
     if (const BlockStatus status = apply_feed(block); !status.ok()) {
         return status;
@@ -80,7 +82,16 @@ BlockStatus ModalState::apply(const Block& block, const ProgramSettings& setting
     if (const std::int16_t code = block.code(CodeGroup::retract); code != Block::no_code) {
         retract_to_r = code == 990;
     }
+    if (const std::int16_t code = block.code(CodeGroup::lathe_diameter); code != Block::no_code) {
+        diameter = code == 70;
+    }
     return apply_path_mode(block, settings);
+}
+
+bool ModalState::feed_of_turns(Decimal way, Decimal& out) const noexcept {
+    const detail::Checked product = product_quotient(way.raw, speed.raw, static_cast<std::uint64_t>(Decimal::one));
+    out.raw = product.raw;
+    return product.fits && product.raw >= least_feed && product.raw <= most_feed;
 }
 
 BlockStatus ModalState::apply_feed(const Block& block) noexcept {
@@ -91,7 +102,7 @@ BlockStatus ModalState::apply_feed(const Block& block) noexcept {
     if (value.raw < 0) {
         return block.at(ProgramError::feed_negative, 'f');
     }
-    if (!inverse_time && value.raw > 0 && value.raw < least_feed) {
+    if (!inverse_time && !per_turn && value.raw > 0 && value.raw < least_feed) {
         return block.at(ProgramError::feed_out_of_range, 'f');
     }
     feed = value;

@@ -24,6 +24,8 @@ struct ModalState {
     bool extruder_incremental = false; ///< M83
     bool centre_absolute = false;      ///< G90.1
     bool inverse_time = false;         ///< G93
+    bool per_turn = false;             ///< G95
+    bool diameter = false;             ///< G7: X is one
     bool feed_in_inches = false;       ///< F was
     bool retract_to_r = false;         ///< G99
     bool needs_straight = false;       ///< behind G40 the tool is beside the programmed point
@@ -33,7 +35,7 @@ struct ModalState {
     std::int32_t selected_tool = 0;
     Decimal tolerance_mm{};
     Decimal chain_tolerance_mm{};
-    Decimal feed{};  ///< mm/min or degrees/min; G93: 1/min; 0: none yet
+    Decimal feed{};  ///< mm/min or degrees/min; G93: 1/min; G95: mm or degrees a turn; 0: none yet
     Decimal speed{}; ///< 1/min
 
     /// Before the first block.
@@ -48,6 +50,8 @@ struct ModalState {
     [[nodiscard]] Decimal in_units(Decimal mm) const noexcept { return inches ? in_inches(mm) : mm; }
     /// F as the program states it: the units may have changed since.
     [[nodiscard]] Decimal feed_word() const noexcept { return feed_in_inches ? in_inches(feed) : feed; }
+    /// A way of each turn of the spindle as a feed [mm/min]. False: beyond the range of feeds.
+    [[nodiscard]] bool feed_of_turns(Decimal way, Decimal& out) const noexcept;
     /// Takes over the modes of a block: all but offsets and motion. Errors as BlockInterpreter::push.
     BlockStatus apply(const Block& block, const ProgramSettings& settings) noexcept;
 

@@ -83,6 +83,46 @@ BlockStatus BlockInterpreter::require_feed() const noexcept {
     return modal_.feed.raw > 0 ? BlockStatus{} : block_.at(ProgramError::feed_missing, CodeGroup::motion);
 }
 
+// The spindle is where it was told to be: nobody measures it.
+BlockStatus BlockInterpreter::set_feed_of_turns(Decimal way) noexcept {
+    if (modal_.speed.raw == 0) {
+        return block_.at(ProgramError::spindle_stands, CodeGroup::motion);
+    }
+    return modal_.feed_of_turns(way, plan_.manner.feed) ? BlockStatus{}
+                                                        : block_.at(ProgramError::feed_out_of_range, CodeGroup::motion);
+}
+
+// G33 and G33.1: the feed is K for each turn. With G33.1 the machine goes back, with a spindle that turns back.
+BlockStatus BlockInterpreter::plan_turning(bool follows) noexcept {
+    constexpr Decimal most = Decimal::from_integer(100);
+    const bool taps = modal_.motion == 331;
+    const Decimal faster = block_.has('i') ? block_.value('i') : Decimal{Decimal::one};
+    if (block_.value('k').raw <= 0 || block_.has('f') || faster.raw < Decimal::one || faster > most) {
+        return block_.at(ProgramError::turn_way_missing, CodeGroup::motion);
+    }
+    if (modal_.spindle == SpindleState::stopped) {
+        return block_.at(ProgramError::spindle_stands, CodeGroup::motion);
+    }
+    if (const BlockStatus status = set_feed_of_turns(modal_.in_mm(block_.value('k'))); !status.ok()) {
+        return status;
+    }
+    plan_.manner.inverse_time = false;
+    plan_.move = MoveKind::turning;
+    plan_.stops_before = taps || !follows; // it waits for the spindle's mark
+    plan_.stop_at_end = taps;
+    if (!taps) {
+        return plan_line();
+    }
+    const Place place = place_;
+    const BlockStatus status = plan_line();
+    plan_.kind = PlanKind::tap;
+    plan_.way = plan_.to;
+    plan_.to = place.machine;
+    place_ = place;
+    plan_.back_speed.raw = product_quotient(modal_.speed.raw, faster.raw, static_cast<std::uint64_t>(Decimal::one)).raw;
+    return status;
+}
+
 BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState& before) noexcept {
     const std::int16_t modeless = block_.code(CodeGroup::non_modal);
     plan_.manner = {modal_.path_mode, modal_.inverse_time, modal_.tolerance_mm, modal_.chain_tolerance_mm, modal_.feed};
@@ -105,9 +145,14 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     if (cycle && modal_.inverse_time) {
         return block_.at(ProgramError::inverse_feed_cycle, CodeGroup::motion);
     }
+    if (use.motion == 330 || use.motion == 331) {
+        return plan_turning(before.motion == 330);
+    }
     const bool rapid = use.motion == 0 && !(rules().rapid_has_feed && modal_.feed.raw > 0);
     if (is_feed_motion(use.motion) && !rapid) {
-        if (const BlockStatus status = require_feed(); !status.ok()) {
+        BlockStatus status = require_feed();
+        status = status.ok() && modal_.per_turn ? set_feed_of_turns(modal_.feed) : status;
+        if (!status.ok()) {
             return status;
         }
     }
@@ -119,31 +164,39 @@ BlockStatus BlockInterpreter::plan_motion(const BlockUse& use, const ModalState&
     case 50:
     case 51: return plan_spline(before);
     case 52: return plan_nurbs();
-    default: return cycle ? plan_cycle(before) : plan_straight();
+    case 382:
+    case 383:
+    case 384:
+    case 385: return plan_probe();
+    default: return cycle ? plan_cycle(before) : plan_line();
     }
 }
 
-BlockStatus BlockInterpreter::plan_straight() noexcept {
+BlockStatus BlockInterpreter::plan_line() noexcept {
     AxisPoint program;
     AxisPoint machine;
     if (const BlockStatus status = find_end(program, machine); !status.ok()) {
         return status;
     }
     plan_.kind = PlanKind::line;
-    if (modal_.motion >= 382 && modal_.motion <= 385) {
-        if (modal_.inverse_time) {
-            return block_.at(ProgramError::probe_inverse_time, CodeGroup::motion);
-        }
-        if (machine == place_.machine) {
-            return block_.at(ProgramError::probe_too_short, CodeGroup::motion);
-        }
-        plan_.move = MoveKind::probe;
-        plan_.probe = {modal_.motion >= 384, (modal_.motion & 1) == 0};
-        plan_.stops_before = true;
-        plan_.stop_at_end = true;
-        set_probe(true, program); // unless report_probe says otherwise
-    }
     return move_to(program, machine);
+}
+
+BlockStatus BlockInterpreter::plan_probe() noexcept {
+    if (modal_.inverse_time || modal_.per_turn) {
+        return block_.at(ProgramError::probe_inverse_time, CodeGroup::motion);
+    }
+    const AxisPoint from = place_.machine;
+    const BlockStatus status = plan_line();
+    if (status.ok() && plan_.to == from) {
+        return block_.at(ProgramError::probe_too_short, CodeGroup::motion);
+    }
+    plan_.move = MoveKind::probe;
+    plan_.probe = {modal_.motion >= 384, (modal_.motion & 1) == 0};
+    plan_.stops_before = true;
+    plan_.stop_at_end = true;
+    set_probe(true, place_.program); // unless report_probe says otherwise
+    return status;
 }
 
 BlockStatus BlockInterpreter::plan_arc() noexcept {

@@ -157,7 +157,10 @@ bool SystemParameters::read(std::string_view name, Decimal& out) const noexcept 
                           {"absolute"sv, !interpreter_->modal_.incremental},
                           {"incremental"sv, interpreter_->modal_.incremental},
                           {"inverse_time"sv, interpreter_->modal_.inverse_time},
-                          {"units_per_minute"sv, !interpreter_->modal_.inverse_time},
+                          {"units_per_minute"sv, !interpreter_->modal_.inverse_time && !interpreter_->modal_.per_turn},
+                          {"units_per_rev"sv, interpreter_->modal_.per_turn},
+                          {"lathe_diameter_mode"sv, interpreter_->modal_.diameter},
+                          {"lathe_radius_mode"sv, !interpreter_->modal_.diameter},
                           {"spindle_on"sv, interpreter_->modal_.spindle != SpindleState::stopped},
                           {"spindle_cw"sv, interpreter_->modal_.spindle == SpindleState::clockwise}};
     for (const Flag& flag : flags) {

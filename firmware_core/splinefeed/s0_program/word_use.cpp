@@ -28,10 +28,12 @@ std::uint32_t letters_used(const Block& block, const DialectRules& rules, std::i
         used |= Block::bits("ij");
     } else if (motion == 52) {
         used |= Block::bits("lp");
+    } else if (motion == 330 || motion == 331) {
+        used |= motion == 330 ? Block::bits("k") : Block::bits("ik");
     } else if (is_cycle(motion)) {
         used |= Block::bits("lr");
         used |= motion == 730 || motion == 830 ? Block::bits("q") : 0;
-        used |= motion == 820 || motion == 860 || motion == 890 ? Block::bits("p") : 0;
+        used |= motion == 820 || motion == 860 || motion == 890 || taps(motion) ? Block::bits("p") : 0;
     }
     used |= modeless == 40 ? Block::bits("p") : modeless == 100 ? Block::bits("lpr") : 0;
     used |= modeless == 280 && rules.g28_homes ? Block::bits("lor") : 0; // how, which is the printer's

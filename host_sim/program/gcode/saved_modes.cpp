@@ -30,7 +30,9 @@ std::string mode_words(const SavedModes& saved, const SavedModes& now) {
     add(to.plane != from.plane, to.plane == Plane::xy ? "G17" : to.plane == Plane::zx ? "G18" : "G19");
     add(to.incremental != from.incremental, to.incremental ? "G91" : "G90");
     add(to.centre_absolute != from.centre_absolute, to.centre_absolute ? "G90.1" : "G91.1");
-    add(to.inverse_time != from.inverse_time, to.inverse_time ? "G93" : "G94");
+    add(to.diameter != from.diameter, to.diameter ? "G7" : "G8");
+    const bool other_feed = to.inverse_time != from.inverse_time || to.per_turn != from.per_turn;
+    add(other_feed, to.inverse_time ? "G93" : to.per_turn ? "G95" : "G94");
     add(to.retract_to_r != from.retract_to_r, to.retract_to_r ? "G99" : "G98");
     add(saved.offsets.active != now.offsets.active, work_system_word(saved.offsets.active));
     const bool other_path = to.path_mode != from.path_mode || to.tolerance_mm != from.tolerance_mm ||
@@ -41,7 +43,7 @@ std::string mode_words(const SavedModes& saved, const SavedModes& now) {
         out += fmt::format("G64 P{} Q{} ", text_of(to.in_units(to.tolerance_mm)),
                            text_of(to.in_units(to.chain_tolerance_mm)));
     }
-    if (!to.inverse_time && (to.feed != from.feed || from.inverse_time)) {
+    if (!to.inverse_time && (to.feed != from.feed || other_feed)) {
         out += fmt::format("F{} ", text_of(to.in_units(to.feed)));
     }
     return out;
