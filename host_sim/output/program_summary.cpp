@@ -41,8 +41,13 @@ Json to_json(const ProgramSummary& summary) {
     object["dwell_s"] = summary.dwell_s;
     object["events"] = summary.events;
     object["line"] = summary.line > 0 ? Json(summary.line) : Json(nullptr);
-    object["first_events"] = Json::array();
-    for (const ProgramSummary::Event& event : summary.first_events) {
+    object["first_events"] = to_json(summary.first_events);
+    return object;
+}
+
+Json to_json(const std::vector<ProgramSummary::Event>& events) {
+    Json list = Json::array();
+    for (const ProgramSummary::Event& event : events) {
         Json entry{{"t", event.time_s}, {"what", event.what}};
         if (event.line > 0) {
             entry["line"] = event.line;
@@ -56,9 +61,9 @@ Json to_json(const ProgramSummary& summary) {
         if (!event.text.empty()) {
             entry["text"] = event.text;
         }
-        object["first_events"].push_back(std::move(entry));
+        list.push_back(std::move(entry));
     }
-    return object;
+    return list;
 }
 
 std::string to_text(const ProgramSummary& summary) {

@@ -37,6 +37,8 @@ struct ProgramSummary {
 };
 
 [[nodiscard]] nlohmann::ordered_json to_json(const ProgramSummary& summary);
+/// [{"t": 1.5, "what": "change_tool", "line": 4, "number": 2}, ...]: members that say nothing are left out.
+[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<ProgramSummary::Event>& events);
 /// [{"what": "M104", "count": 3, "line": 5}, ...]
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<LeftOutList::Entry>& left_out);
 /// "left out: M104 3 times, first on line 5; E 200 times, first on line 12". Empty: nothing was.

@@ -14,10 +14,10 @@ void LineTimes::add(std::uint64_t line, double start_s, double seconds, std::uin
     }
     Line& of = lines_[line];
     const auto time = static_cast<float>(seconds);
-    if (of.start_s < 0.0F) {
-        of.start_s = static_cast<float>(start_s);
+    if (of.start_s < 0.0) {
+        of.start_s = start_s;
     }
-    of.seconds += time;
+    of.seconds += seconds;
     if (of.code == code) {
         of.weight += time;
     } else if ((of.weight -= time) < 0.0F) { // the vote of Boyer and Moore
@@ -29,7 +29,7 @@ void LineTimes::add(std::uint64_t line, double start_s, double seconds, std::uin
 std::vector<std::uint64_t> LineTimes::slowest(std::size_t most) const {
     std::vector<std::uint64_t> numbers;
     for (std::uint64_t line = 1; line < lines_.size(); ++line) {
-        if (lines_[line].seconds > 0.0F) {
+        if (lines_[line].seconds > 0.0) {
             numbers.push_back(line);
         }
     }

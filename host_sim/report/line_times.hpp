@@ -7,14 +7,14 @@
 
 namespace splinefeed::host {
 
-/// Memory: 20 bytes a line, of the first most_lines lines.
+/// Memory: 24 bytes a line, of the first most_lines lines.
 class LineTimes {
 public:
-    static constexpr std::uint64_t most_lines = 1'000'000;
+    static constexpr std::uint64_t most_lines = 4'000'000;
 
     struct Line {
-        float start_s = -1.0F; ///< for the first time; below 0: never
-        float seconds = 0.0F;  ///< altogether
+        double start_s = -1.0; ///< for the first time; below 0: never
+        double seconds = 0.0;  ///< altogether
         float weight = 0.0F;
         std::uint8_t code = 0; ///< of the limit that bound longest
     };

@@ -23,12 +23,22 @@ float rounded(double value) {
     return static_cast<float>(value);
 }
 
+int height_axis(const MachineDescription& machine) {
+    for (int k = 0; k < machine.settings.axes; ++k) {
+        const std::string& name = machine.axis_name[static_cast<unsigned>(k)];
+        if (name == "z" || name == "Z") {
+            return k;
+        }
+    }
+    return -1;
+}
+
 } // namespace
 
 MotionRecord::MotionRecord(const MachineDescription& machine, std::uint32_t segment_ticks)
-    : machine_(&machine), axes_(static_cast<unsigned>(machine.settings.axes)), values_(1 + 3 * std::size_t{axes_}),
-      strips_(values_.size(), segment_ticks), path_(machine.settings.axes, most_points),
-      programmed_(machine.settings.axes, most_programmed) {
+    : machine_(&machine), axes_(static_cast<unsigned>(machine.settings.axes)), height_(height_axis(machine)),
+      values_(1 + 3 * std::size_t{axes_}), strips_(values_.size(), segment_ticks),
+      path_(machine.settings.axes, most_points), programmed_(machine.settings.axes, most_programmed) {
     for (unsigned k = 0; k < axes_; ++k) {
         const AxisSettings& axis = machine.settings.axis[k];
         factors_[k] = {1.0 / (static_cast<double>(units_per_count) * axis.steps_per_mm),
@@ -97,6 +107,15 @@ void MotionRecord::deviates(std::uint64_t row, double mm) {
     deviations_[index] = std::max(deviations_[index], rounded(mm));
 }
 
+void MotionRecord::happened(const ProgramSummary::Event& event, EventKind kind) {
+    if (kind == EventKind::tool_change || kind == EventKind::tool_set) {
+        tool_ = event.number;
+    }
+    if (events_.size() < most_events) {
+        events_.push_back(event);
+    }
+}
+
 void MotionRecord::come_to(std::uint64_t row, std::uint64_t line, bool is_move) {
     while (!rows_.empty() && first_row_ < row) {
         rows_.pop_front();
@@ -159,6 +178,7 @@ void MotionRecord::measure(const FeedSegment& segment, double seconds) {
     }
     const auto [low, high] = std::minmax({speed_sq[0], speed_sq[1], speed_sq[2]});
     values_[0] = {rounded(std::sqrt(low)), rounded(std::sqrt(high))};
+    speed_way_ = seconds * (std::sqrt(speed_sq[0]) + 4.0 * std::sqrt(speed_sq[1]) + std::sqrt(speed_sq[2])) / 6.0;
 }
 
 void MotionRecord::segment(const FeedSegment& segment, const LimitShare& share) {
@@ -175,6 +195,7 @@ void MotionRecord::segment(const FeedSegment& segment, const LimitShare& share) 
     const double way_mm = std::sqrt(way_sq);
     strips_.add(ticks_, seconds, values_.data(), length_mm_, share.feed_mm_s(), code);
     lines_.add(now_.line, begin_s, seconds, code);
+    tools_[tool_] += seconds;
     if (!has_last_) {
         last_ = {.position = place(segment, 0.0), .line = now_.line, .keep = true};
         has_last_ = true;
@@ -186,7 +207,7 @@ void MotionRecord::segment(const FeedSegment& segment, const LimitShare& share) 
         if (open_stop_) {
             turn(way);
         }
-        travel(segment, begin_s, seconds, way_mm, code);
+        travel(segment, begin_s, seconds, way_mm, share);
         direction_ = way_mm > 0.0 ? way : direction_;
     }
     ticks_ += segment.duration_ticks;
@@ -209,10 +230,13 @@ void MotionRecord::stand(double begin_s, double seconds) {
         path_.add(last_);
     }
     stood_ = true;
-    last_.time_s = begin_s + seconds;
-    last_.kind = static_cast<std::uint8_t>(PieceKind::standing);
-    last_.code = 0;
-    last_.line = now_.line;
+    last_ = {.time_s = begin_s + seconds,
+             .length_mm = last_.length_mm,
+             .position = last_.position,
+             .line = now_.line,
+             .row = last_.row,
+             .kind = static_cast<std::uint8_t>(PieceKind::standing),
+             .keep = last_.keep};
     if (open_stop_) {
         stops_.back().stood_s += seconds;
         stops_.back().why = waits_ == Why::end ? stops_.back().why : waits_;
@@ -220,15 +244,28 @@ void MotionRecord::stand(double begin_s, double seconds) {
 }
 
 void MotionRecord::travel(const FeedSegment& segment, double begin_s, double seconds, double way_mm,
-                          std::uint8_t code) {
+                          const LimitShare& share) {
+    const std::uint8_t code = share.binding_limit().code();
     const PieceKind kind = approaches_ ? PieceKind::approach : now_.rapid ? PieceKind::rapid : PieceKind::feed;
     const auto number = static_cast<std::uint8_t>(kind);
     last_.keep = last_.keep || stood_ || last_.kind != number;
     last_.edge = last_.line != now_.line;
     stood_ = false;
     waits_ = Why::end;
-    totals_[static_cast<std::size_t>(kind)].seconds += seconds;
-    totals_[static_cast<std::size_t>(kind)].length_mm += way_mm;
+    Total& total = totals_[static_cast<std::size_t>(kind)];
+    total.seconds += seconds;
+    total.length_mm += way_mm;
+    total.max_speed_mm_s = std::max(total.max_speed_mm_s, static_cast<double>(values_[0].high));
+    if (kind == PieceKind::feed) {
+        bound_s_[code] += seconds;
+    }
+    if (kind == PieceKind::feed && height_ >= 0) {
+        const auto k = static_cast<unsigned>(height_);
+        const auto height = [&](std::int64_t units) {
+            return static_cast<double>(units) * factors_[k].mm_per_unit;
+        };
+        layers_.add(height(segment.start[k]), height(segment.end[k]), way_mm, begin_s, seconds);
+    }
     const int parts = std::clamp(static_cast<int>(std::ceil(seconds / longest_piece_s)), 1, 64);
     for (int i = 1; i <= parts; ++i) {
         path_.add(last_);
@@ -241,6 +278,8 @@ void MotionRecord::travel(const FeedSegment& segment, double begin_s, double sec
                  .kind = number,
                  .code = code,
                  .weight = rounded(seconds / parts),
+                 .way = rounded(speed_way_ / parts),
+                 .wanted = rounded(share.feed_mm_s() * seconds / parts),
                  .acceleration = acceleration_,
                  .jerk = jerk_};
     }

@@ -3,15 +3,19 @@
 #pragma once
 
 #include "host_sim/analysis/limit_share.hpp"
+#include "host_sim/output/program_summary.hpp"
 #include "host_sim/program/event_file.hpp"
+#include "host_sim/report/layer_times.hpp"
 #include "host_sim/report/line_times.hpp"
 #include "host_sim/report/thinned_path.hpp"
 #include "host_sim/report/time_strips.hpp"
 
+#include "splinefeed/s0_program/program_event.hpp"
 #include "splinefeed/s1_blended_path/path_element.hpp"
 
 #include <array>
 #include <deque>
+#include <map>
 
 namespace splinefeed::host {
 
@@ -28,6 +32,7 @@ public:
     static constexpr std::size_t most_stops = 50000;
     static constexpr std::size_t most_waypoints = 20000;
     static constexpr std::size_t most_rows = 65536; ///< even
+    static constexpr std::size_t most_events = 20000;
 
     enum class Why : std::uint8_t { turn, asked, exact_stop, program, held, end };
     struct Stop {
@@ -46,6 +51,7 @@ public:
     struct Total {
         double seconds = 0.0;
         double length_mm = 0.0;
+        double max_speed_mm_s = 0.0;
     };
 
     /// Strips of the speed and, for each axis, of velocity, acceleration and jerk: in shares of their limits, the jerk
@@ -71,6 +77,8 @@ public:
     }
     /// Whether it moves to where the path begins.
     void approach(bool approaches) noexcept { approaches_ = approaches; }
+    /// An event of the program: in order of time.
+    void happened(const ProgramSummary::Event& event, EventKind kind);
     void operated(double time_s, const OperatorEvent& event) { operated_.push_back({time_s, event}); }
     /// @param share  has just got the same segment
     void segment(const FeedSegment& segment, const LimitShare& share);
@@ -91,6 +99,14 @@ public:
     [[nodiscard]] std::uint64_t stop_count() const noexcept { return stop_count_; }
     [[nodiscard]] const std::vector<Operated>& operated() const noexcept { return operated_; }
     [[nodiscard]] const std::array<Total, 4>& totals() const noexcept { return totals_; }
+    [[nodiscard]] double length_mm() const noexcept { return length_mm_; }
+    /// By the code of a limit: time of feeds in which it was the one that was used most.
+    [[nodiscard]] const std::array<double, 64>& bound_s() const noexcept { return bound_s_; }
+    /// Time by the number of the tool; 0: before the first one.
+    [[nodiscard]] const std::map<std::int32_t, double>& tools() const noexcept { return tools_; }
+    /// The first most_events of the program.
+    [[nodiscard]] const std::vector<ProgramSummary::Event>& events() const noexcept { return events_; }
+    [[nodiscard]] const LayerTimes& layers() const noexcept { return layers_; }
 
 private:
     struct Row {
@@ -110,16 +126,18 @@ private:
 
     void measure(const FeedSegment& segment, double seconds);
     void stand(double begin_s, double seconds);
-    void travel(const FeedSegment& segment, double begin_s, double seconds, double way_mm, std::uint8_t code);
+    void travel(const FeedSegment& segment, double begin_s, double seconds, double way_mm, const LimitShare& share);
     void turn(const PerAxis<double>& direction);
     [[nodiscard]] PerAxis<double> place(const FeedSegment& segment, double u) const;
 
     const MachineDescription* machine_;
     unsigned axes_;
+    int height_; // the axis that layers rise along; -1: none
     PerAxis<AxisFactors> factors_{};
     std::vector<TimeStrips::Range> values_; // of the segment: one for each strip
     float acceleration_ = 0.0F;             // the largest share of a limit in the segment; the same below
     float jerk_ = 0.0F;
+    double speed_way_ = 0.0; // the integral of the speed over the segment
     TimeStrips strips_;
     ThinnedPath path_;
     ThinnedPath programmed_;
@@ -132,6 +150,11 @@ private:
     std::uint64_t stop_count_ = 0;
     std::vector<Operated> operated_;
     std::array<Total, 4> totals_{};
+    std::array<double, 64> bound_s_{};
+    std::map<std::int32_t, double> tools_;
+    std::int32_t tool_ = 0;
+    std::vector<ProgramSummary::Event> events_;
+    LayerTimes layers_;
     PerAxis<Position> here_{}; // where the last move of the program ends
     double programmed_mm_ = 0.0;
     std::deque<Row> rows_; // moves from first_row_ on

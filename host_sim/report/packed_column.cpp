@@ -21,6 +21,13 @@ public:
             text_ += digits[bits_ >> count_ & 63U];
         }
     }
+    /// In groups of seven bits, the lowest first.
+    void add_number(std::uint64_t rest) {
+        for (; rest >= 128; rest >>= 7U) {
+            add(static_cast<std::uint8_t>(rest | 128U));
+        }
+        add(static_cast<std::uint8_t>(rest));
+    }
     [[nodiscard]] std::string finish() && {
         if (count_ > 0) {
             text_ += digits[bits_ << (6U - count_) & 63U];
@@ -40,14 +47,17 @@ private:
 std::string packed_column(const std::vector<std::int64_t>& values) {
     Base64 out(values.size() + values.size() / 2);
     std::int64_t before = 0;
-    for (const std::int64_t value : values) {
-        const std::int64_t step = value - before;
-        before = value;
-        auto rest = static_cast<std::uint64_t>(step) << 1U ^ static_cast<std::uint64_t>(step >> 63);
-        for (; rest >= 128; rest >>= 7U) {
-            out.add(static_cast<std::uint8_t>(rest | 128U));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::int64_t step = values[i] - before;
+        before = values[i];
+        out.add_number(static_cast<std::uint64_t>(step) << 1U ^ static_cast<std::uint64_t>(step >> 63));
+        if (step == 0) {
+            const std::size_t first = i;
+            while (i + 1 < values.size() && values[i + 1] == before) {
+                ++i;
+            }
+            out.add_number(i - first);
         }
-        out.add(static_cast<std::uint8_t>(rest));
     }
     return std::move(out).finish();
 }

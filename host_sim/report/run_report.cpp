@@ -9,6 +9,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 namespace splinefeed::host {
 
@@ -54,28 +55,64 @@ Json machine_json(const MachineDescription& machine) {
     return {{"name", machine.name}, {"file", machine.file}, {"axes", axes}};
 }
 
-Json path_json(const ThinnedPath& path, unsigned axes) {
-    using Point = ThinnedPath::Point;
+Json places_json(const ThinnedPath& path, unsigned axes) {
     const auto& points = path.points();
     const double unit = path.tolerance() / 4.0;
     Json positions = Json::array();
     for (unsigned k = 0; k < axes; ++k) {
-        positions.push_back(column(points, unit, [k](const Point& point) { return point.position[k]; }));
+        positions.push_back(column(points, unit, [k](const ThinnedPath::Point& point) { return point.position[k]; }));
     }
     return {{"count", points.size()},
             {"unit", unit},
             {"tolerance", path.tolerance()},
             {"left_out", path.left_out()},
+            {"position", positions}};
+}
+
+Json path_json(const MotionRecord& record, unsigned axes) {
+    using Point = ThinnedPath::Point;
+    const auto& points = record.path().points();
+    double fastest = 0.0;
+    for (const MotionRecord::Total& total : record.totals()) {
+        fastest = std::max(fastest, total.max_speed_mm_s);
+    }
+    const double speed_unit = fastest > 0.0 ? fastest / 1000.0 : 1.0;
+    double before_s = 0.0;
+    const auto speed = [&before_s](const Point& point) {
+        const double seconds = point.time_s - std::exchange(before_s, point.time_s);
+        return seconds > 0.0 ? static_cast<double>(point.way) / seconds : 0.0;
+    };
+    const auto reached = [](const Point& point) {
+        return point.wanted > 0.0F ? point.way / point.wanted : 0.0F;
+    };
+    Json out = places_json(record.path(), axes);
+    out["time_unit"] = finest_time_s;
+    out["speed_unit"] = speed_unit;
+    out["load_unit"] = finest_load;
+    out["time"] = column(points, finest_time_s, [](const Point& point) { return point.time_s; });
+    out["speed"] = column(points, speed_unit, speed);
+    out["reached"] = column(points, finest_load, reached);
+    out["line"] = column(points, 1.0, [](const Point& point) { return static_cast<double>(point.line); });
+    // Of most programs each line is a row: what remains is constant.
+    out["row"] = column(points, 1.0, [](const Point& point) {
+        return static_cast<double>(point.row) - static_cast<double>(point.line);
+    });
+    out["kind"] = column(points, 1.0, [](const Point& point) { return static_cast<double>(point.kind); });
+    out["limit"] = column(points, 1.0, [](const Point& point) { return static_cast<double>(point.code); });
+    out["acceleration"] = column(points, finest_load, [](const Point& point) { return point.acceleration; });
+    out["jerk"] = column(points, finest_load, [](const Point& point) { return point.jerk; });
+    return out;
+}
+
+Json layers_json(const MotionRecord& record) {
+    constexpr double finest_mm = 1e-4;
+    using Layer = LayerTimes::Layer;
+    const std::vector<Layer> layers = record.layers().layers();
+    return {{"count", layers.size()},
+            {"unit", finest_mm},
             {"time_unit", finest_time_s},
-            {"load_unit", finest_load},
-            {"time", column(points, finest_time_s, [](const Point& point) { return point.time_s; })},
-            {"position", positions},
-            {"line", column(points, 1.0, [](const Point& point) { return static_cast<double>(point.line); })},
-            {"row", column(points, 1.0, [](const Point& point) { return static_cast<double>(point.row); })},
-            {"kind", column(points, 1.0, [](const Point& point) { return static_cast<double>(point.kind); })},
-            {"limit", column(points, 1.0, [](const Point& point) { return static_cast<double>(point.code); })},
-            {"acceleration", column(points, finest_load, [](const Point& point) { return point.acceleration; })},
-            {"jerk", column(points, finest_load, [](const Point& point) { return point.jerk; })}};
+            {"height", column(layers, finest_mm, [](const Layer& layer) { return layer.height_mm; })},
+            {"start", column(layers, finest_time_s, [](const Layer& layer) { return layer.start_s; })}};
 }
 
 Json waypoints_json(const MotionRecord& record) {
@@ -117,6 +154,7 @@ Json strips_json(const MotionRecord& record) {
             {"bin_s", static_cast<double>(strips.bin_ticks()) / per_s},
             {"length_unit", finest_speed},
             {"feed_unit", finest_speed},
+            {"length_mm", record.length_mm()},
             {"length", column(bins, finest_speed, [](const Bin& bin) { return bin.length_mm; })},
             {"feed", column(bins, finest_speed, [](const Bin& bin) { return bin.feed_mm_s; })},
             {"limit", column(bins, 1.0, [](const Bin& bin) { return static_cast<double>(bin.code); })},
@@ -127,6 +165,11 @@ Json strips_json(const MotionRecord& record) {
 Json limits_json(const MotionRecord& record) {
     const std::vector<std::string> names = axis_names(record.machine());
     std::set<std::uint8_t> codes{0};
+    for (std::size_t code = 0; code < record.bound_s().size(); ++code) {
+        if (record.bound_s()[code] > 0.0) {
+            codes.insert(static_cast<std::uint8_t>(code));
+        }
+    }
     for (const TimeStrips::Bin& bin : record.strips().bins()) {
         codes.insert(bin.code);
     }
@@ -138,7 +181,16 @@ Json limits_json(const MotionRecord& record) {
     }
     Json out = Json::object();
     for (const std::uint8_t code : codes) {
-        out[std::to_string(code)] = limit_name(BindingLimit::of(code), names);
+        out[std::to_string(code)] = {{"name", limit_name(BindingLimit::of(code), names)},
+                                     {"feed_s", record.bound_s()[code]}};
+    }
+    return out;
+}
+
+Json tools_json(const MotionRecord& record) {
+    Json out = Json::array();
+    for (const auto& [number, seconds] : record.tools()) {
+        out.push_back({{"number", number}, {"time_s", seconds}});
     }
     return out;
 }
@@ -207,7 +259,9 @@ Json totals_json(const MotionRecord& record) {
     constexpr std::array names{"feed", "rapid", "approach", "standing"};
     Json out = Json::object();
     for (std::size_t i = 0; i < names.size(); ++i) {
-        out[names[i]] = {{"time_s", record.totals()[i].seconds}, {"length_mm", record.totals()[i].length_mm}};
+        out[names[i]] = {{"time_s", record.totals()[i].seconds},
+                         {"length_mm", record.totals()[i].length_mm},
+                         {"max_speed_mm_s", record.totals()[i].max_speed_mm_s}};
     }
     return out;
 }
@@ -233,14 +287,21 @@ void RunReport::write(const ReportFacts& facts) {
     data["stopped"] = facts.stopped;
     data["machine"] = machine_json(record_.machine());
     data["summary"] = Json::parse(to_json(*facts.summary));
+    if (data["summary"].contains("program")) {
+        data["summary"]["program"].erase("first_events"); // here are more of them
+    }
+    data["events"] = to_json(record_.events());
+    data["event_count"] = facts.summary->program.events;
+    data["tools"] = tools_json(record_);
     data["limits"] = limits_json(record_);
     data["totals"] = totals_json(record_);
     data["stop_count"] = record_.stop_count();
     data["stops"] = stops_json(record_);
     data["operated"] = operated_json(record_);
     data["lines"] = lines_json(record_, facts);
-    data["path"] = path_json(record_.path(), axes);
-    data["programmed"] = path_json(record_.programmed(), axes);
+    data["path"] = path_json(record_, axes);
+    data["programmed"] = places_json(record_.programmed(), axes);
+    data["layers"] = layers_json(record_);
     data["waypoints"] = waypoints_json(record_);
     data["deviation"] = deviation_json(record_);
     data["strips"] = strips_json(record_);

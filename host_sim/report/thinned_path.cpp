@@ -10,6 +10,8 @@ namespace {
 
 // The piece to `to` goes on from where `piece` ended.
 void join(const ThinnedPath::Point& piece, ThinnedPath::Point& to) {
+    to.way += piece.way;
+    to.wanted += piece.wanted;
     to.acceleration = std::max(to.acceleration, piece.acceleration);
     to.jerk = std::max(to.jerk, piece.jerk);
     if (piece.code == to.code) {

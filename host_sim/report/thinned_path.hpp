@@ -25,6 +25,8 @@ public:
         std::uint8_t kind = 0;
         std::uint8_t code = 0;     ///< of a piece: the one that held longest
         float weight = 0.0F;       ///< of that code [s]
+        float way = 0.0F;          ///< of a piece: the integral of the speed; the same below
+        float wanted = 0.0F;       ///< of the programmed feed
         float acceleration = 0.0F; ///< of a piece: the largest share of a limit; the same below
         float jerk = 0.0F;
         bool keep = false; ///< it is never left out

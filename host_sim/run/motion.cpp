@@ -25,7 +25,7 @@ Motion::Motion(const MotionArguments& arguments, const MachineDescription& descr
       deviation_(description.settings, input.tolerances().joint_mm,
                  input.scalar() == ScalarKind::float32 ? float_rounding : 0.0),
       exact_stop_(description.settings), optimum_(description.settings, figures.direction_jump, input.scalar()),
-      share_(description.settings), steps_(figures, !arguments.quiet, target, arguments.terminal),
+      share_(description.settings), steps_(figures, !arguments.quiet, target, arguments.terminal, arguments.record),
       program_(outputs.elements(), arguments.report, arguments.record),
       watch_(input.name(), {.limits = &path_limits,
                             .writer = outputs.curve(),

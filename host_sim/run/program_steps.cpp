@@ -58,9 +58,13 @@ void ProgramSteps::happen(double time_s) {
         offsets_ = step.offsets;
         offsets_changed_ = true;
     }
+    const ProgramSummary::Event event{time_s,        step.line,    action_name(action.kind),
+                                      action.number, action.value, action.text};
+    if (record_ != nullptr) {
+        record_->happened(event, action.kind);
+    }
     if (summary_.events++ < ProgramSummary::most_events) {
-        summary_.first_events.push_back(
-            {time_s, step.line, action_name(action.kind), action.number, action.value, action.text});
+        summary_.first_events.push_back(event);
     }
     const bool said =
         action.kind == EventKind::message || action.kind == EventKind::print || action.kind == EventKind::debug;

@@ -5,6 +5,7 @@
 #include "host_sim/output/program_summary.hpp"
 #include "host_sim/planning/machine_limits.hpp"
 #include "host_sim/planning/path_feeder.hpp"
+#include "host_sim/report/motion_record.hpp"
 #include "host_sim/run/pending_steps.hpp"
 #include "host_sim/run/program_orders.hpp"
 #include "host_sim/run/user_pause.hpp"
@@ -23,8 +24,10 @@ public:
     /// `figures` must outlive it.
     /// @param orders  gets what is for real outputs; null: there are none, and nobody waits for a user
     /// @param terminal  of the user, as in UserPause
-    ProgramSteps(const PlanFigures& figures, bool tells, ProgramOrders* orders = nullptr, int terminal = -1)
-        : figures_(&figures), orders_(orders), pause_(terminal), tells_(tells) {}
+    /// @param record  gets the events; null: nobody does
+    ProgramSteps(const PlanFigures& figures, bool tells, ProgramOrders* orders = nullptr, int terminal = -1,
+                 MotionRecord* record = nullptr)
+        : figures_(&figures), orders_(orders), record_(record), pause_(terminal), tells_(tells) {}
 
     /// What the feeder has read.
     void add(const PathFeeder::Pushed& pushed);
@@ -65,6 +68,7 @@ private:
 
     const PlanFigures* figures_;
     ProgramOrders* orders_;
+    MotionRecord* record_;
     std::optional<int> answer_;
     bool ordered_ = false; // the machine stands for the first step's order
     UserPause pause_;

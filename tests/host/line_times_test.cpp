@@ -13,10 +13,10 @@ TEST_CASE("lines have their first start, all their time, and the code that held 
     times.add(0, 4.0, 1.0, 9);   // of no line
     times.add(LineTimes::most_lines + 1, 5.0, 1.0, 9);
     REQUIRE(times.lines().size() == 6);
-    CHECK(times.lines()[3].start_s == 1.0F);
-    CHECK(times.lines()[3].seconds == 0.75F);
+    CHECK(times.lines()[3].start_s == 1.0);
+    CHECK(times.lines()[3].seconds == 0.75);
     CHECK(times.lines()[3].code == 8);
-    CHECK(times.lines()[4].start_s < 0.0F);
+    CHECK(times.lines()[4].start_s < 0.0);
     CHECK(times.slowest(10) == std::vector<std::uint64_t>{5, 3});
     CHECK(times.slowest(1) == std::vector<std::uint64_t>{5});
 }

@@ -63,6 +63,8 @@ TEST_CASE("a motion there and back: its extremes, its stop and its length") {
     CHECK(stop.why == MotionRecord::Why::turn);
     CHECK(recorded.record.stops().back().why == MotionRecord::Why::end);
     CHECK(recorded.record.totals()[0].length_mm == Approx(40.0));
+    CHECK(recorded.record.totals()[0].max_speed_mm_s == Approx(100.0).epsilon(1e-3));
+    CHECK(recorded.record.length_mm() == Approx(40.0));
     const auto& points = recorded.record.path().points();
     CHECK(points.front().position[0] == 0.0);
     CHECK(points.back().length_mm == Approx(40.0));
@@ -70,6 +72,20 @@ TEST_CASE("a motion there and back: its extremes, its stop and its length") {
         return std::fabs(point.position[0] - 20.0) < 1e-3 && point.keep;
     });
     CHECK(has_end);
+    double way = 0.0;
+    double wanted = 0.0;
+    for (const ThinnedPath::Point& point : points) {
+        way += static_cast<double>(point.way);
+        wanted += static_cast<double>(point.wanted);
+    }
+    CHECK(way == Approx(40.0).epsilon(1e-4));
+    CHECK(wanted == Approx(1000.0 * recorded.record.totals()[0].seconds)); // the machine's feed
+    // In each direction a tenth of a second at the largest velocity and two at the largest acceleration.
+    const auto bound = [&](LimitKind kind) {
+        return recorded.record.bound_s()[BindingLimit{kind}.code()];
+    };
+    CHECK(bound(LimitKind::velocity) == Approx(0.2).epsilon(0.1));
+    CHECK(bound(LimitKind::acceleration) == Approx(0.4).epsilon(0.1));
 }
 
 TEST_CASE("a program: the kinds of its moves, its lines, and a dwell") {
@@ -99,6 +115,23 @@ TEST_CASE("a program: the kinds of its moves, its lines, and a dwell") {
     CHECK(record.programmed().points().size() == 3);
     CHECK(record.stops().back().stood_s >= 0.002);
     CHECK(record.stops().back().why == MotionRecord::Why::end);
+}
+
+TEST_CASE("tools have their time, and of very many events the first ones are kept") {
+    Recorded recorded;
+    MotionRecord& record = recorded.record;
+    const Motion motion = motion_of(there_and_back());
+    recorded.run({motion.begin(), motion.begin() + 100});
+    record.happened({0.1, 1, "change_tool", 3, 0.0, {}}, EventKind::tool_change);
+    recorded.run({motion.begin() + 100, motion.end()});
+    for (std::size_t i = 0; i < MotionRecord::most_events; ++i) {
+        record.happened({1.0, 2, "spindle_speed", 0, 1000.0, {}}, EventKind::spindle_speed);
+    }
+    REQUIRE(record.tools().size() == 2);
+    CHECK(record.tools().at(0) == Approx(0.1));
+    CHECK(record.tools().at(3) == Approx(0.001 * static_cast<double>(motion.size() - 100)));
+    CHECK(record.events().size() == MotionRecord::most_events);
+    CHECK(record.events().front().number == 3);
 }
 
 TEST_CASE("waypoints that would cover the path are not kept, and deviations are kept in bounded memory") {

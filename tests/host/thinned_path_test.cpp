@@ -34,12 +34,18 @@ PerAxis<double> at(const ThinnedPath& path, double length) {
 TEST_CASE("of a straight line the ends remain") {
     ThinnedPath path(2, 1000);
     for (int i = 0; i <= 500; ++i) {
-        path.add({.length_mm = 0.1 * i, .position = {0.08 * i, 0.06 * i}, .acceleration = i == 77 ? 0.9F : 0.1F});
+        path.add({.length_mm = 0.1 * i,
+                  .position = {0.08 * i, 0.06 * i},
+                  .way = 0.1F,
+                  .wanted = 0.2F,
+                  .acceleration = i == 77 ? 0.9F : 0.1F});
     }
     path.finish(0.0, 0);
     REQUIRE(path.points().size() == 2);
     CHECK(path.points()[1].position[0] == 0.08 * 500);
     CHECK(path.points()[1].acceleration == 0.9F); // the largest of what was joined
+    CHECK(path.points()[1].way == Approx(50.0));  // the sums
+    CHECK(path.points()[1].wanted == Approx(100.0));
 }
 
 TEST_CASE("all points lie within the tolerance, also after the path was thinned again and again") {

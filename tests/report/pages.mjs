@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: MIT
-// Pages of reports in a browser, without a network: pages.mjs TOOL PAGE_DIRECTORY (which bundle.sh has filled) [SCREENSHOTS]
+// Pages of reports in a browser, without a network: pages.mjs TOOL PAGE_DIRECTORY (which bundle.sh has filled) [SCREENSHOTS [TEST]]
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const [tool, packages, shots] = process.argv.slice(2);
+const [tool, packages, shots, only = ""] = process.argv.slice(2);
 const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
 const driver = join(packages, "node_modules/playwright-core/index.mjs");
 for (const [there, what] of [[browserPath, "chromium is not installed"], [existsSync(driver), "there is no playwright-core (report_bundle)"]]) {
@@ -208,10 +208,41 @@ const tests = {
         await end();
         assert.deepEqual(wrong, []);
     },
+
+    async "a tall print: its layers and its speeds are those of the run, though the path is thinned"() {
+        const [count, spacing] = [4500, 0.05];
+        const ring = Array.from({ length: 9 }, (_, i) => (i * Math.PI) / 4).map((a) => `G1 X${(3 * Math.cos(a)).toFixed(3)} Y${(3 * Math.sin(a)).toFixed(3)}`).join("\n");
+        const hop = (z) => `G1 Z${(z + 0.3).toFixed(2)}\nG1 X1\nG1 Z${z.toFixed(2)}\n`; // between two places of a layer
+        const rings = Array.from({ length: count }, (_, i) => [i, spacing * (i + 1)]).map(([i, z]) => `G1 Z${z.toFixed(2)}\n${ring}\n${i % 100 === 50 ? hop(z) : ""}`);
+        const program = join(folder, "tall.gcode");
+        writeFileSync(program, `G21\nG90\nG1 F3000\n${rings.join("")}`);
+        const { html, summary } = made("tall", [program, "--dialect", "marlin", "-m", join(examples, "three_axis.toml"), "--scalar", "double", "--no-advice"], { command: "plan" });
+        const { page, wrong, close: end } = await open(html);
+        const data = JSON.parse(await page.evaluate(() => document.getElementById("data").textContent));
+        assert.ok(4 * data.path.tolerance > spacing, `thinned to ${data.path.tolerance} mm`);
+        await tab(page, "Layers");
+        assert.match(await page.innerText(".page.open h3"), new RegExp(`^${count} layers$`));
+        const layer = (await page.locator(".page.open tbody tr").nth(2999).locator("td").allInnerTexts()).map(parseFloat);
+        close(layer[1], 3000 * spacing, 1e-4);
+        close(layer[2], summary.cycle_time_s / count, 0.02);
+        close(parseFloat((await page.innerText(".legend")).split("\n").pop()), summary.max_speed_mm_s);
+        // Only some layers, and what is picked is one of them.
+        await page.keyboard.press("3");
+        const box = await page.locator(".space").boundingBox();
+        for (const name of ["lowest", "highest"]) await page.fill(`input[aria-label="${name} layer"]`, name === "lowest" ? "2000" : "2499");
+        await page.mouse.click(box.x + box.width / 2, box.y + 0.9 * box.height); // below them
+        assert.equal(await time(page), 0);
+        await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+        const part = (await time(page)) / summary.cycle_time_s;
+        assert.ok(part > 0.44 && part < 0.56, `at ${part} of the time`);
+        await end();
+        assert.deepEqual(wrong, []);
+    },
 };
 
 let failed = 0;
 for (const [name, test] of Object.entries(tests)) {
+    if (!name.includes(only)) continue;
     try {
         await test();
         console.log(`ok: ${name}`);

@@ -43,31 +43,40 @@ export type Json = any;
 
 /** A column of integers, as packed_column() packs it, times its unit. */
 function column(text: string, count: number, unit: number): Float64Array {
-    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    const bytes = atob(text);
+    let at = 0;
+    const next = () => {
+        let byte = bytes.charCodeAt(at++);
+        let rest = byte & 127;
+        for (let factor = 128; byte > 127; factor *= 128) { // may be more than 32 bits
+            byte = bytes.charCodeAt(at++);
+            rest += (byte & 127) * factor;
+        }
+        return rest;
+    };
     const out = new Float64Array(count);
     let value = 0;
-    let at = 0;
-    for (let i = 0; i < count; ++i) {
-        let rest = 0;
-        let factor = 1;
-        for (;;) {
-            const byte = bytes[at++];
-            rest += (byte & 127) * factor; // may be more than 32 bits
-            if (byte < 128) break;
-            factor *= 128;
-        }
-        value += rest % 2 ? -(rest + 1) / 2 : rest / 2;
-        out[i] = value * unit;
+    for (let i = 0; i < count; ) {
+        const step = next();
+        value += step % 2 ? -(step + 1) / 2 : step / 2;
+        const equal = step ? 1 : 1 + next();
+        out.fill(value * unit, i, i + equal);
+        i += equal;
     }
     return out;
 }
 
-export interface Path {
+export interface Places {
     count: number;
     tolerance: number;
     leftOut: boolean;
-    time: Float64Array;
     position: Float64Array[];
+}
+/** Of a piece that ends at a point: what the tool did in all of it, as it was before points were left out. */
+export interface Path extends Places {
+    time: Float64Array;
+    speed: Float64Array; // the mean
+    reached: Float64Array; // its share of the programmed feed
     line: Float64Array;
     row: Float64Array;
     kind: Float64Array;
@@ -76,16 +85,25 @@ export interface Path {
     jerk: Float64Array;
 }
 
-function path(json: Json): Path {
-    const n = json.count;
+function places(json: Json): Places {
     return {
-        count: n,
+        count: json.count,
         tolerance: json.tolerance,
         leftOut: json.left_out,
+        position: json.position.map((text: string) => column(text, json.count, json.unit)),
+    };
+}
+
+function path(json: Json): Path {
+    const n = json.count;
+    const line = column(json.line, n, 1);
+    return {
+        ...places(json),
         time: column(json.time, n, json.time_unit),
-        position: json.position.map((text: string) => column(text, n, json.unit)),
-        line: column(json.line, n, 1),
-        row: json.row ? column(json.row, n, 1) : new Float64Array(n),
+        speed: column(json.speed, n, json.speed_unit),
+        reached: column(json.reached, n, json.load_unit),
+        line,
+        row: column(json.row, n, 1).map((more, i) => line[i] + more),
         kind: column(json.kind, n, 1),
         limit: column(json.limit, n, 1),
         acceleration: column(json.acceleration, n, json.load_unit),
@@ -97,6 +115,7 @@ function path(json: Json): Path {
 export interface Strips {
     count: number;
     bin: number;
+    whole: number; // length of all
     length: Float64Array;
     feed: Float64Array;
     limit: Float64Array;
@@ -111,6 +130,7 @@ function strips(json: Json): Strips {
     return {
         count: n,
         bin: json.bin_s,
+        whole: json.length_mm,
         length: column(json.length, n, json.length_unit),
         feed: column(json.feed, n, json.feed_unit),
         limit: column(json.limit, n, 1),
@@ -130,20 +150,40 @@ export interface Lines {
     limit: Float64Array;
 }
 
+export interface Layer {
+    z: number;
+    start: number;
+    seconds: number;
+}
+
+/** Each layer lasts until the next one begins. */
+function layers(json: Json, end: number): Layer[] {
+    const start = column(json.start, json.count, json.time_unit);
+    return [...column(json.height, json.count, json.unit)].map((z, i) => ({ z, start: start[i], seconds: (start[i + 1] ?? end) - start[i] }));
+}
+
+export interface Limit {
+    name: string;
+    feed_s: number; // of feeds: time in which it was the one that was used most
+}
+
 export interface Report {
     program: string;
     stopped: string;
     machine: { name: string; file: string; axes: AxisLimits[] };
     summary: Json;
-    limits: Record<string, string>;
-    totals: Record<string, { time_s: number; length_mm: number }>;
+    limits: Record<string, Limit>;
+    totals: Record<string, { time_s: number; length_mm: number; max_speed_mm_s: number }>;
     stops: Stop[];
     stopCount: number;
     operated: { t: number; what: string; value: number }[];
     events: ProgramEvent[];
+    eventCount: number;
+    tools: { number: number; time_s: number }[];
+    layers: Layer[];
     lines: Lines;
     path: Path;
-    programmed: Path;
+    programmed: Places;
     waypoints: Float64Array[]; // of each axis
     /** The largest distance from the program, of so many rows together. */
     deviation: { rows: number; mm: Float64Array };
@@ -155,6 +195,7 @@ export function read(text: string): Report {
     const lines = json.lines;
     const head = lines.text.split("\n");
     head.pop();
+    const motion = path(json.path);
     return {
         program: json.program,
         stopped: json.stopped,
@@ -165,7 +206,10 @@ export function read(text: string): Report {
         stops: json.stops,
         stopCount: json.stop_count,
         operated: json.operated,
-        events: json.summary.program?.first_events ?? [],
+        events: json.events,
+        eventCount: json.event_count,
+        tools: json.tools,
+        layers: layers(json.layers, motion.time[motion.count - 1] ?? 0),
         lines: {
             unit: lines.unit,
             text: head,
@@ -176,8 +220,8 @@ export function read(text: string): Report {
             seconds: column(lines.seconds, lines.count, lines.time_unit),
             limit: column(lines.limit, lines.count, 1),
         },
-        path: path(json.path),
-        programmed: path(json.programmed),
+        path: motion,
+        programmed: places(json.programmed),
         waypoints: json.waypoints.position.map((text: string) => column(text, json.waypoints.count, json.waypoints.unit)),
         deviation: { rows: json.deviation.rows, mm: column(json.deviation.mm, json.deviation.count, json.deviation.unit) },
         strips: strips(json.strips),

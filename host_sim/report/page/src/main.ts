@@ -3,7 +3,6 @@
 import { css, duration, number, ramp } from "./colour";
 import { read } from "./data";
 import { el } from "./dom";
-import { layers } from "./layers";
 import { Listing } from "./listing";
 import { Motion } from "./motion";
 import * as panels from "./panels";
@@ -25,7 +24,7 @@ function moveTo(t: number): void {
     space.moveTo(t);
     strips.moveTo(t);
     readout.moveTo(t);
-    listing.mark(motion.line(t));
+    listing.mark(motion.lines(t)[1]);
 }
 const go = (t: number) => player.go(t);
 player.onMove = moveTo;
@@ -46,9 +45,8 @@ space.covers = [legend];
 function drawLegend(): void {
     const { quantity, coloured } = space;
     if (quantity === "limit") {
-        const all = [...coloured.share.values()].reduce((a, b) => a + b, 0) || 1;
-        const rows = [...coloured.share].sort((a, b) => b[1] - a[1]).slice(0, 9);
-        legend.replaceChildren(...rows.map(([code, s]) => el("div", {}, panels.chip(code, report.limits[code] ?? "-"), el("small", {}, ` ${((100 * s) / all).toFixed(1)} %`))));
+        const rows = Object.entries(report.limits).filter(([, limit]) => limit.feed_s > 0).sort((a, b) => b[1].feed_s - a[1].feed_s).slice(0, 9);
+        legend.replaceChildren(...rows.map(([code, { name, feed_s }]) => el("div", {}, panels.chip(Number(code), name), el("small", {}, ` ${((100 * feed_s) / report.totals.feed.time_s).toFixed(1)} %`))));
         return;
     }
     const bar = el("canvas", { width: "120", height: "1" });
@@ -103,7 +101,7 @@ const tools = el("div", { class: "tools" },
         ...(boxed ? [toggle("travel", "travel", true)] : [])),
 );
 
-const rising = layers(motion);
+const rising = report.layers;
 if (rising.length) {
     const last = String(rising.length - 1);
     const low = el("input", { type: "range", min: "0", max: last, value: "0", "aria-label": "lowest layer" });
@@ -112,8 +110,8 @@ if (rising.length) {
     const apply = () => {
         const [a, b] = [Math.min(+low.value, +high.value), Math.max(+low.value, +high.value)];
         const whole = a === 0 && b === rising.length - 1;
-        const slack = 1e-4;
-        space.layers(whole ? -1e9 : rising[a].z - slack, whole ? 1e9 : rising[b].z + slack);
+        const between = (i: number) => (rising[i - 1].z + rising[i].z) / 2;
+        space.layers(a === 0 ? -1e9 : between(a), b + 1 === rising.length ? 1e9 : between(b + 1));
         said.textContent = whole ? `${rising.length} layers` : `layers ${a + 1} to ${b + 1}`;
     };
     for (const input of [low, high]) input.addEventListener("input", apply);
@@ -143,24 +141,28 @@ const header = el("header", {},
 );
 const banner = report.stopped ? el("div", { class: "banner", role: "alert" }, report.stopped) : "";
 
-const pages: [string, HTMLElement][] = [
-    ["Program", listing.element],
-    ...(report.path.count ? [
-        ["Summary", el("div", {}, panels.summary(motion), panels.tools(motion))],
-        ["Limits", panels.limits(motion)],
-        ["Lines", panels.costly(motion, go)],
-        ["Stops", panels.stops(motion, go)],
-    ] as [string, HTMLElement][] : []),
-    ...(report.events.length || report.operated.length ? [["Events", panels.events(motion, go)] as [string, HTMLElement]] : []),
-    ...(rising.length ? [["Layers", panels.layerTable(rising, go)] as [string, HTMLElement]] : []),
+const moves = report.path.count > 0;
+const contents: [string, boolean, () => HTMLElement][] = [
+    ["Program", true, () => listing.element],
+    ["Summary", moves, () => el("div", {}, panels.summary(motion), panels.tools(motion))],
+    ["Limits", moves, () => panels.limits(motion)],
+    ["Lines", moves, () => panels.costly(motion, go)],
+    ["Stops", moves, () => panels.stops(motion, go)],
+    ["Events", report.events.length + report.operated.length > 0, () => panels.events(motion, go)],
+    ["Layers", rising.length > 0, () => panels.layerTable(rising, go)],
 ];
-const tabs = pages.map(([name], i) => el("button", { role: "tab", click: () => open(i) }, name));
+const pages = contents.filter(([, there]) => there).map(([name, , make]) => ({ name, make, page: el("div", { class: "page" }) }));
+const tabs = pages.map(({ name }, i) => el("button", { role: "tab", click: () => open(i) }, name));
+/** Tables are made when they are asked for: the page opens sooner. */
+function fill(i: number): void {
+    if (!pages[i].page.firstChild) pages[i].page.append(pages[i].make());
+}
 function open(chosen: number): void {
-    pages.forEach(([, page], i) => page.classList.toggle("open", i === chosen));
+    fill(chosen);
+    pages.forEach(({ page }, i) => page.classList.toggle("open", i === chosen));
     tabs.forEach((tab, i) => tab.setAttribute("aria-selected", String(i === chosen)));
     listing.draw();
 }
-for (const [, page] of pages) page.classList.add("page");
 
 document.title = `${report.program} - splinefeed report`;
 document.getElementById("app")!.append(
@@ -171,9 +173,9 @@ document.getElementById("app")!.append(
         player.element,
         el("section", { class: "curves" }, strips.element, stripTools),
     ),
-    el("aside", {}, readout.element, el("nav", { role: "tablist" }, ...tabs), el("div", { class: "pages" }, ...pages.map(([, page]) => page))),
+    el("aside", {}, readout.element, el("nav", { role: "tablist" }, ...tabs), el("div", { class: "pages" }, ...pages.map(({ page }) => page))),
 );
-open(report.lines.text.length ? 0 : 1);
+open(report.lines.text.length || !moves ? 0 : 1);
 dress();
 space.look(space.flat ? "top" : "free");
 player.go(report.stopped ? motion.end : 0);
@@ -194,6 +196,7 @@ const keys: Record<string, () => void> = {
     "4": () => space.look("side"),
     d: () => ((dark = !dark), dress()),
 };
+addEventListener("beforeprint", () => pages.forEach((_, i) => fill(i)));
 addEventListener("keydown", (event) => {
     const tag = (event.target as HTMLElement).tagName;
     if (event.ctrlKey || event.metaKey || event.altKey || tag === "SELECT" || (tag === "INPUT" && event.key.startsWith("Arrow"))) return;

@@ -45,7 +45,7 @@ export class Motion {
     length(t: number): number {
         const { strips } = this.report;
         const i = this.bin(t);
-        const next = i + 1 < strips.count ? strips.length[i + 1] : this.report.summary.length_mm;
+        const next = i + 1 < strips.count ? strips.length[i + 1] : strips.whole;
         const begin = i * strips.bin;
         const end = Math.min(begin + strips.bin, this.end);
         const share = end > begin ? Math.min(Math.max((t - begin) / (end - begin), 0), 1) : 0;
@@ -83,32 +83,65 @@ export class Motion {
         return this.space.map((k) => (k >= 0 ? position[k] : 0)) as [number, number, number];
     }
 
-    line(t: number): number {
-        return this.report.path.count ? this.report.path.line[this.piece(t)] : 0;
+    /** The lines at a time, from the first to the last: a piece of the path may be of several that were thinned away. */
+    lines(t: number): [number, number] {
+        const { path, lines } = this.report;
+        if (!path.count) return [0, 0];
+        const piece = this.piece(t);
+        const last = path.line[piece];
+        const first = Math.min((path.line[piece - 1] ?? last) + 1, last);
+        for (let line = last; line > first && lines.start[last] >= 0; --line) {
+            if (lines.start[line] >= 0 && lines.start[line] <= t + 1e-6) return [line, line];
+        }
+        return lines.start[last] >= 0 ? [first, first] : [first, last];
+    }
+
+    /** Whether the pieces of the path are shorter than the bins of the strips there. */
+    private finer(piece: number): boolean {
+        const { time } = this.report.path;
+        return piece > 0 && time[piece] - time[piece - 1] < this.report.strips.bin;
+    }
+
+    /** The code of the limit that binds at a time. */
+    limit(t: number): number {
+        const { path, strips } = this.report;
+        const piece = this.piece(t);
+        return (this.finer(piece) ? path.limit[piece] : strips.limit[this.bin(t)]) ?? 0;
     }
 
     /** When a line begins; nothing: it has no motion. */
     start(line: number): number | undefined {
         const { lines, path } = this.report;
-        const i = path.line.indexOf(line); // as exact as the path; lines that were thinned away have their own time
-        if (i > 0) return path.time[i - 1];
-        return line < lines.start.length && lines.start[line] >= 0 ? lines.start[line] : undefined;
+        if (line < lines.start.length) return lines.start[line] >= 0 ? lines.start[line] : undefined;
+        const i = path.line.indexOf(line); // of lines that are not here: as exact as the path
+        return i > 0 ? path.time[i - 1] : undefined;
     }
 
     /** The time of the next change of the line, or of the last one. */
     step(t: number, direction: 1 | -1): number {
-        const { line, time, count } = this.report.path;
-        let i = this.piece(t + 1e-9);
-        const now = line[i];
+        const { path, lines } = this.report;
+        const { line, time, count } = path;
+        // Where a piece is of several lines, those whose times are known.
+        const between = (piece: number) => {
+            const found = [time[piece - 1]];
+            for (let n = (line[piece - 1] ?? 0) + 1; n < line[piece] && n < lines.start.length; ++n) {
+                const start = lines.start[n + 1];
+                if (start > time[piece - 1] && start < time[piece]) found.push(start);
+            }
+            return found;
+        };
         if (direction > 0) {
-            while (i + 1 < count && line[i] === now) ++i;
-            return line[i] === now ? this.end : time[i - 1];
+            for (let i = this.piece(t + 1e-6); i < count; ++i) {
+                const next = (line[i] === line[i - 1] ? [] : between(i)).find((start) => start > t + 1e-6);
+                if (next !== undefined) return next;
+            }
+            return this.end;
         }
-        while (i > 1 && line[i - 1] === now) --i; // its first piece
-        if (t > time[i - 1] + 1e-9) return time[i - 1];
-        const last = line[i - 1];
-        for (--i; i > 1 && line[i - 1] === last; ) --i;
-        return i >= 1 ? time[i - 1] : 0;
+        for (let i = this.piece(t - 1e-6); i > 0; --i) {
+            const last = (line[i] === line[i - 1] ? [] : between(i)).reverse().find((start) => start < t - 1e-6);
+            if (last !== undefined) return last;
+        }
+        return 0;
     }
 
     /** What holds at a time of what the program ordered: tool, spindle, coolant. */

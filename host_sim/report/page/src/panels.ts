@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: MIT
 // The tables beside the pictures.
 import { axisColour, css, duration, limitColour, number } from "./colour";
-import type { Json } from "./data";
+import type { Json, Layer } from "./data";
 import { el, table } from "./dom";
-import type { Layer } from "./layers";
 import type { Motion } from "./motion";
 import { span, type Strips } from "./strips";
 
 type Go = (t: number) => void;
+const most_rows = 500; // of a table
 type Row = { cells: (string | Node)[]; go?: () => void; id?: string };
 
 function percent(share: number, digits = 1): string {
     return `${(100 * share).toFixed(digits)} %`;
 }
 
-function bar(share: number, colour: string, whole = 1): HTMLElement {
+function meter(share: number, colour: string, text: string): HTMLElement {
     const fill = el("i");
-    fill.style.width = `${Math.min((100 * share) / whole, 100)}%`;
+    fill.style.width = `${Math.min(100 * share, 100)}%`;
     fill.style.background = colour;
-    return el("span", { class: "meter" }, fill, el("em", {}, percent(share)));
+    return el("span", { class: "meter" }, fill, el("em", {}, text));
+}
+
+function bar(share: number, colour: string, whole = 1): HTMLElement {
+    return meter(share / whole, colour, percent(share));
 }
 
 export function chip(code: number, name: string): HTMLElement {
@@ -57,7 +61,6 @@ export class Readout {
         if (!this.motion.report.path.count) return;
         const { report } = this.motion;
         const position = this.motion.position(t);
-        const bin = this.motion.bin(t);
         report.machine.axes.forEach((axis, k) => {
             const share = (channel: number, limit: number, unit: string) => {
                 const [low, high] = this.strips.value(channel + 3 * k, t);
@@ -76,15 +79,15 @@ export class Readout {
             ];
             texts.forEach((text, i) => (this.cells[k][i + 1].textContent = text));
         });
-        const line = this.motion.line(t);
+        const [first, last] = this.motion.lines(t);
         const [low, high] = this.strips.value(0, t);
-        const code = report.strips.limit[bin] ?? 0;
+        const code = this.motion.limit(t);
         const fact = (name: string, value: string | Node) => el("span", {}, el("small", {}, name), value);
         this.head.replaceChildren(
             fact("time", `${t.toFixed(3)} s`),
-            fact(report.lines.unit, line > 0 ? String(line) : "-"),
+            fact(report.lines.unit, last > first ? `${first} to ${last}` : last > 0 ? String(last) : "-"),
             fact("speed", `${span(low, high)} mm/s`),
-            fact("limit that binds", chip(code, report.limits[code] ?? "-")),
+            fact("limit that binds", chip(code, report.limits[code]?.name ?? "-")),
         );
         this.modal.replaceChildren(...this.motion.modal(t).map((text) => el("span", {}, text)));
     }
@@ -194,7 +197,7 @@ export function costly(motion: Motion, go: Go): HTMLElement {
             String(line.line),
             `${number(line.time_s, 4)} s`,
             percent(line.time_s / (of.cycle_time_s || 1)),
-            chip(line.limit, limits[line.limit] ?? "-"),
+            chip(line.limit, limits[line.limit]?.name ?? "-"),
             el("code", {}, (lines.text[line.line - 1] ?? lines.picked[line.line] ?? "").trim().slice(0, 60)),
         ],
         go: () => go(motion.start(line.line) ?? line.start_s),
@@ -218,7 +221,7 @@ export function why(motion: Motion, stop: Motion["report"]["stops"][number]): st
 
 export function stops(motion: Motion, go: Go): HTMLElement {
     const { stops: all, stopCount, lines, machine } = motion.report;
-    const shown = all.slice(0, 500);
+    const shown = all.slice(0, most_rows);
     const rows = shown.map((stop) => ({
         cells: [
             `${stop.t.toFixed(3)} s`,
@@ -234,33 +237,30 @@ export function stops(motion: Motion, go: Go): HTMLElement {
 }
 
 export function events(motion: Motion, go: Go): HTMLElement {
-    const { events: all, operated, summary: s } = motion.report;
+    const { events: all, eventCount, operated } = motion.report;
+    const shown = all.slice(0, most_rows);
     const rows = [
-        ...all.map((e) => ({ t: e.t, cells: [`${e.t.toFixed(3)} s`, e.line ? `line ${e.line}` : "", e.what.replaceAll("_", " "), [e.number, e.value ? number(e.value, 5) : "", e.text].filter(Boolean).join(" ")] })),
+        ...shown.map((e) => ({ t: e.t, cells: [`${e.t.toFixed(3)} s`, e.line ? `line ${e.line}` : "", e.what.replaceAll("_", " "), [e.number, e.value ? number(e.value, 5) : "", e.text].filter(Boolean).join(" ")] })),
         ...operated.map((o) => ({ t: o.t, cells: [`${o.t.toFixed(3)} s`, "operator", o.what, o.what === "override" ? `${Math.round(100 * o.value)} %` : ""] })),
     ].sort((a, b) => a.t - b.t);
-    const more = (s.program?.events ?? 0) > all.length ? el("p", { class: "note" }, `The first ${all.length} of ${s.program.events} events of the program.`) : "";
+    const more = eventCount > shown.length ? el("p", { class: "note" }, `The first ${shown.length} of ${eventCount} events of the program.`) : "";
     return el("div", {}, el("h3", {}, "Events"), table(["time", "", "what", ""], rows.map((row) => ({ cells: row.cells, go: () => go(row.t) }))), more);
 }
 
 /** Time by tool, where there is more than one. */
 export function tools(motion: Motion): HTMLElement | "" {
-    const changes = motion.report.events.filter((e) => e.what === "change_tool" || e.what === "set_tool");
-    if (!changes.length) return "";
-    const seconds = new Map<number, number>();
-    let [from, tool] = [0, 0];
-    for (const change of [...changes, { t: motion.end, number: -1 }]) {
-        seconds.set(tool, (seconds.get(tool) ?? 0) + change.t - from);
-        [from, tool] = [change.t, change.number ?? 0];
-    }
-    const rows = [...seconds].filter(([, time]) => time > 0).map(([number, time]) => ({ cells: [number > 0 ? `tool ${number}` : "no tool", duration(time), percent(time / (motion.end || 1))] }));
+    const { tools: all } = motion.report;
+    if (all.length < 2 && !all[0]?.number) return "";
+    const rows = all.map(({ number, time_s }) => ({ cells: [number > 0 ? `tool ${number}` : "no tool", duration(time_s), percent(time_s / (motion.end || 1))] }));
     return el("div", {}, el("h3", {}, "Time by tool"), table(["", "time", ""], rows));
 }
 
 export function layerTable(all: Layer[], go: Go): HTMLElement {
-    const rows = all.slice(0, 2000).map((layer, i) => ({
-        cells: [String(i + 1), `${number(layer.z, 5)} mm`, duration(layer.seconds)],
+    const longest = all.reduce((a, layer) => Math.max(a, layer.seconds), 1e-9);
+    const rows = all.slice(0, 10000).map((layer, i) => ({
+        cells: [String(i + 1), `${number(layer.z, 5)} mm`, meter(layer.seconds / longest, "#2a788e", duration(layer.seconds))],
         go: () => go(layer.start),
     }));
-    return el("div", {}, el("h3", {}, `${all.length} layers`), table(["layer", "z", "time"], rows));
+    const title = `${all.length} layers${rows.length < all.length ? `, the first ${rows.length}` : ""}`;
+    return el("div", {}, el("h3", {}, title), table(["layer", "z", "time"], rows));
 }

@@ -45,6 +45,15 @@ export function divide(motion: Motion): Pieces {
     return { count, xyz, time: Float64Array.from(times), knot: Uint32Array.from(knots.slice(1)), drawn };
 }
 
+/** How far the path is from the program on the way to a point: of each row the most. */
+function deviation(motion: Motion, knot: number): number {
+    const { path, deviation: { rows, mm } } = motion.report;
+    const last = path.row[knot];
+    let most = 0;
+    for (let row = Math.min((path.row[knot - 1] ?? last) + 1, last); row <= last; row += rows) most = Math.max(most, mm[Math.floor(row / rows)] ?? 0);
+    return Math.max(most, mm[Math.floor(last / rows)] ?? 0);
+}
+
 /** The value of a quantity on a piece: a code for limits, else in its unit. */
 export function value(motion: Motion, pieces: Pieces, quantity: Quantity, i: number): number {
     const { path, strips } = motion.report;
@@ -52,15 +61,11 @@ export function value(motion: Motion, pieces: Pieces, quantity: Quantity, i: num
     const knot = pieces.knot[i];
     const coarse = to - from < 0.7 * strips.bin; // the report's own piece knows more than the strips
     const bin = motion.bin((from + to) / 2);
-    const { rows, mm } = motion.report.deviation;
-    if (quantity === "deviation") return mm[Math.floor(path.row[knot] / rows)] ?? 0;
+    if (quantity === "deviation") return deviation(motion, knot);
     if (quantity === "limit") return coarse ? path.limit[knot] : strips.limit[bin];
     if (quantity === "speed" || quantity === "feed") {
-        let speed = (strips.low[0][bin] + strips.high[0][bin]) / 2;
-        if (coarse && to > from) {
-            const way = Math.hypot(...[0, 1, 2].map((k) => pieces.xyz[3 * i + 3 + k] - pieces.xyz[3 * i + k]));
-            speed = way > 0 ? way / (to - from) : speed;
-        }
+        if (coarse) return quantity === "speed" ? path.speed[knot] : 100 * path.reached[knot];
+        const speed = (strips.low[0][bin] + strips.high[0][bin]) / 2;
         return quantity === "speed" ? speed : strips.feed[bin] > 0 ? (100 * speed) / strips.feed[bin] : 0;
     }
     if (coarse) return 100 * (quantity === "jerk" ? path.jerk[knot] : path.acceleration[knot]);
@@ -84,27 +89,21 @@ export const units: Record<Quantity, string> = {
 };
 
 export interface Colouring {
-    colours: Float32Array; // one colour a piece
+    table: Rgb[];
+    of: Uint16Array; // the colour of each piece, in the table
     top: number; // the value of the end of the ramp
-    share: Map<number, number>; // of limits: their part of the time
 }
 
 export function colouring(motion: Motion, pieces: Pieces, quantity: Quantity, dark: boolean): Colouring {
-    const values = Float32Array.from({ length: pieces.count }, (_, i) => value(motion, pieces, quantity, i));
+    const { totals, deviation: { mm } } = motion.report;
     let top = 100;
-    if (quantity === "speed" || quantity === "deviation") { // of what is coloured: rapids are not
-        const { kind } = motion.report.path;
-        top = values.reduce((a, b, i) => (pieces.drawn[i] && kind[pieces.knot[i]] === Kind.feed ? Math.max(a, b) : a), 0);
-    }
+    if (quantity === "speed") top = totals.feed.max_speed_mm_s; // of what is coloured: rapids are not
+    if (quantity === "deviation") top = mm.reduce((a, b) => Math.max(a, b), 0);
     if (!(top > 0)) top = 1;
-    const colours = new Float32Array(3 * pieces.count);
-    const share = new Map<number, number>();
-    values.forEach((v, i) => {
-        const colour: Rgb = quantity === "limit" ? limitColour(v) : ramp(v / top, dark);
-        colours.set(colour, 3 * i);
-        if (quantity === "limit" && pieces.drawn[i]) {
-            share.set(v, (share.get(v) ?? 0) + pieces.time[i + 1] - pieces.time[i]);
-        }
-    });
-    return { colours, top, share };
+    const steps = quantity === "limit" ? 64 : 256;
+    const table = Array.from({ length: steps }, (_, n) => (quantity === "limit" ? limitColour(n) : ramp(n / (steps - 1), dark)));
+    const factor = quantity === "limit" ? 1 : (steps - 1) / top;
+    const of = new Uint16Array(pieces.count);
+    for (let i = 0; i < pieces.count; ++i) of[i] = Math.min(Math.round(factor * value(motion, pieces, quantity, i)), steps - 1);
+    return { table, of, top };
 }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The path in space: drawn by three, turned by the mouse, picked by a click.
 import {
-    BufferAttribute, BufferGeometry, CanvasTexture, Color, Group, Line, LineBasicMaterial, LineSegments, Material, Object3D,
+    BufferAttribute, BufferGeometry, CanvasTexture, Color, Group, Line, LineBasicMaterial, Material, Object3D,
     OrthographicCamera, Plane, Points, Scene, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { Kind, type Motion } from "./motion";
 import { colouring, divide, type Colouring, type Pieces, type Quantity } from "./pieces";
 import { el } from "./dom";
 import { grid, travelBox, type Tick } from "./ground";
+import { coloured, dashed } from "./lines";
 import { arrows, mark, points } from "./marks";
 
 export type View = "free" | "top" | "front" | "side";
@@ -21,7 +21,7 @@ const directions: Record<View, [number, number, number]> = {
     front: [0, -1, 0],
     side: [1, 0, 0],
 };
-const most_wide = 60000; // pieces that are drawn as wide lines
+const pause_ms = 150; // without a move: all are drawn
 
 export class Space {
     readonly element = el("div", { class: "space" });
@@ -37,12 +37,16 @@ export class Space {
     private readonly camera = new OrthographicCamera();
     private readonly controls: OrbitControls;
     private readonly labels = el("div", { class: "labels" });
+    private readonly tool = el("i", { class: "tool" });
+    private readonly ghost = el("i", { class: "ghost" });
+    private readonly places = { tool: new Vector3(), ghost: new Vector3() };
     private readonly low = new Vector3(Infinity, Infinity, Infinity);
     private readonly high = new Vector3(-Infinity, -Infinity, -Infinity);
     private readonly groups: Record<string, Group> = {};
     private readonly planes = [new Plane(new Vector3(0, 0, 1), 1e9), new Plane(new Vector3(0, 0, -1), 1e9)];
-    private tool!: Points;
-    private ghost!: Points;
+    private all!: Object3D; // of the path
+    private some?: Object3D; // if the pieces are too many to move all of them
+    private rest = 0; // a timer, while the picture moves
     private ticks: Tick[] = [];
     private dark = false;
     private asked = false;
@@ -59,11 +63,13 @@ export class Space {
         this.measure();
         this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
         this.renderer.localClippingEnabled = true;
-        this.element.append(this.renderer.domElement, this.labels);
+        this.renderer.debug.checkShaderErrors = false; // the page would wait
+        this.element.append(this.renderer.domElement, this.labels, el("div", { class: "labels" }, this.ghost, this.tool));
+        this.hover(-1);
         this.camera.up.set(0, 0, 1);
         this.controls = new OrbitControls(this.camera, this.renderer.domElement);
         this.controls.zoomToCursor = true;
-        this.controls.addEventListener("change", () => this.draw());
+        this.controls.addEventListener("change", () => this.moves());
         for (const name of ["ground", "travel", "programmed", "rapids", "path", "arrows", "points", "stops", "marks"]) {
             this.scene.add((this.groups[name] = new Group()));
         }
@@ -102,32 +108,16 @@ export class Space {
     paint(quantity: Quantity): void {
         this.quantity = quantity;
         this.coloured = colouring(this.motion, this.pieces, quantity, this.dark);
-        const group = this.groups.path;
-        group.clear();
         const { kind } = this.motion.report.path;
         const chosen: number[] = [];
         for (let i = 0; i < this.pieces.count; ++i) {
             if (this.pieces.drawn[i] && kind[this.pieces.knot[i]] !== Kind.rapid) chosen.push(i);
         }
-        const ends = new Float32Array(6 * chosen.length);
-        const colours = new Float32Array(6 * chosen.length);
-        chosen.forEach((i, n) => {
-            ends.set(this.pieces.xyz.subarray(3 * i, 3 * i + 6), 6 * n);
-            for (const half of [0, 3]) colours.set(this.coloured.colours.subarray(3 * i, 3 * i + 3), 6 * n + half);
-        });
-        const linear = colours.map((c) => (c < 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)); // as three blends them
-        if (chosen.length <= most_wide) {
-            const geometry = new LineSegmentsGeometry();
-            geometry.setPositions(ends);
-            geometry.setColors(linear);
-            group.add(new LineSegments2(geometry, this.material(new LineMaterial({ vertexColors: true, linewidth: 2.6 }))));
-        } else {
-            const geometry = new BufferGeometry();
-            geometry.setAttribute("position", new BufferAttribute(ends, 3));
-            geometry.setAttribute("color", new BufferAttribute(linear, 3));
-            group.add(new LineSegments(geometry, this.material(new LineBasicMaterial({ vertexColors: true }))));
-        }
-        this.draw();
+        [this.all, this.some] = coloured(this.pieces, this.coloured, chosen, (material) => this.material(material));
+        this.groups.path.clear();
+        this.groups.path.add(this.all);
+        if (this.some) this.groups.path.add(this.some);
+        this.moves();
     }
 
     show(name: string, visible: boolean): void {
@@ -154,13 +144,30 @@ export class Space {
     }
 
     moveTo(t: number): void {
-        this.place(this.tool, t);
+        this.places.tool.set(...this.motion.place(this.motion.position(t)));
+        this.drawCursors();
     }
 
     /** Where the pointer is in a strip; below 0: in none. */
     hover(t: number): void {
-        this.ghost.visible = t >= 0;
-        if (t >= 0) this.place(this.ghost, t);
+        this.ghost.hidden = t < 0;
+        if (t >= 0) this.places.ghost.set(...this.motion.place(this.motion.position(t)));
+        this.drawCursors();
+    }
+
+    /** The picture moves: if it is large, some of it is drawn until it rests. */
+    private moves(): void {
+        if (this.some) {
+            clearTimeout(this.rest);
+            this.rest = window.setTimeout(() => this.thin(false), pause_ms);
+        }
+        this.thin(this.some !== undefined);
+    }
+
+    private thin(thin: boolean): void {
+        this.all.visible = !thin;
+        if (this.some) this.some.visible = thin;
+        this.element.dataset.drawn = thin ? "some" : "all";
         this.draw();
     }
 
@@ -172,13 +179,6 @@ export class Space {
         const made = points(places, texture, size * this.renderer.getPixelRatio());
         this.add(group, made);
         return made;
-    }
-
-    private place(points: Points, t: number): void {
-        const at = points.geometry.getAttribute("position") as BufferAttribute;
-        at.setXYZ(0, ...this.motion.place(this.motion.position(t)));
-        at.needsUpdate = true;
-        this.draw();
     }
 
     private material<M extends Material>(material: M): M {
@@ -251,10 +251,16 @@ export class Space {
             this.asked = false;
             this.renderer.render(this.scene, this.camera);
             this.drawLabels();
-            const at = this.tool.geometry.getAttribute("position");
-            const [x, y] = this.onScreen(new Vector3().fromBufferAttribute(at, 0));
-            this.element.dataset.tool = `${x.toFixed(1)} ${y.toFixed(1)}`;
+            this.drawCursors();
         });
+    }
+
+    private drawCursors(): void {
+        for (const name of ["ghost", "tool"] as const) {
+            const [x, y] = this.onScreen(this.places[name]);
+            this[name].style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+            this.element.dataset[name] = `${x.toFixed(1)} ${y.toFixed(1)}`;
+        }
     }
 
     private drawProgrammed(colour: string): void {
@@ -276,23 +282,7 @@ export class Space {
                 ends.push(...this.pieces.xyz.subarray(3 * i, 3 * i + 6));
             }
         }
-        if (!ends.length) return;
-        const geometry = new LineSegmentsGeometry().setPositions(ends);
-        const dash = this.size / 110;
-        const material = this.material(
-            new LineMaterial({ color: colour, linewidth: 1.4, dashed: true, dashSize: dash, gapSize: dash }),
-        );
-        const lines = new LineSegments2(geometry, material);
-        // The dashes run on from piece to piece.
-        lines.computeLineDistances();
-        const distance = geometry.getAttribute("instanceDistanceStart") as unknown as { data: { array: Float32Array } };
-        let way = 0;
-        for (let i = 0; i < ends.length; i += 6) {
-            distance.data.array[i / 3] = way;
-            way += Math.hypot(ends[i + 3] - ends[i], ends[i + 4] - ends[i + 1], ends[i + 5] - ends[i + 2]);
-            distance.data.array[i / 3 + 1] = way;
-        }
-        this.groups.rapids.add(lines);
+        if (ends.length) this.add("rapids", dashed(ends, this.size / 110, this.material(new LineMaterial({ color: colour, linewidth: 1.4, dashed: true }))));
     }
 
     private drawMarks(ink: string, ground: string): void {
@@ -311,9 +301,6 @@ export class Space {
         }
         const heads = arrows(this.pieces, this.size);
         if (heads) this.add("arrows", new LineSegments2(heads, this.material(new LineMaterial({ color: ink, linewidth: 1.3 }))));
-        this.ghost = this.marks("marks", [at(0)], mark("ring", ink, ground), 15);
-        this.ghost.visible = false;
-        this.tool = this.marks("marks", [at(0)], mark("disc", this.dark ? "#ffffff" : "#111111", "#e69f00"), 19);
     }
 
     private readonly projected = new Vector3();

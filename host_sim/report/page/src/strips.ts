@@ -49,7 +49,7 @@ export class Strips {
 
     moveTo(t: number): void {
         this.cursor = t;
-        for (const plot of this.plots) plot.redraw(false, false);
+        this.plots.forEach((plot) => this.drawCursor(plot));
     }
 
     whole(): void {
@@ -106,6 +106,7 @@ export class Strips {
             this.element.append(holder);
             const plot = new uPlot({ ...options, title: undefined }, data, holder);
             this.steer(plot);
+            plot.over.append(el("i", { class: "now-line" }));
             return plot;
         });
         this.resize();
@@ -224,17 +225,11 @@ export class Strips {
     }
 
     private drawCursor(plot: uPlot): void {
-        const x = Math.round(plot.valToPos(this.x(this.cursor), "x", true)) + 0.5;
-        if (x < plot.bbox.left || x > plot.bbox.left + plot.bbox.width) return;
-        const draw = plot.ctx;
-        draw.save();
-        draw.strokeStyle = this.dark ? "#ffffff" : "#000000";
-        draw.lineWidth = 1.5 * devicePixelRatio;
-        draw.beginPath();
-        draw.moveTo(x, plot.bbox.top);
-        draw.lineTo(x, plot.bbox.top + plot.bbox.height);
-        draw.stroke();
-        draw.restore();
+        const line = plot.over.querySelector<HTMLElement>(".now-line");
+        if (!line) return;
+        const x = plot.valToPos(this.x(this.cursor), "x");
+        line.hidden = !(x >= 0 && x <= plot.over.clientWidth);
+        line.style.transform = `translateX(${x.toFixed(1)}px)`;
     }
 
     private timeAt(plot: uPlot, left: number): number {
