@@ -31,13 +31,20 @@ inline MachineSettings machine_of(int axes, double velocity, double acceleration
     return machine;
 }
 
-/// Time for the front cell. One between two stops is accelerated over half of its length and braked over the other.
+/// Travels the front cell, in all its profile segments, and returns the time that it takes.
 template <Scalar S>
-Real seconds_in_front(const FeedPlan<S>& plan) {
-    const PlannedCell<S>& c = plan.front();
-    const Real sum = std::sqrt(exact(c.entry_sq)) + std::sqrt(exact(c.exit_sq));
-    const Real length = 2.0L * exact(c.cell.length_mm);
-    return length / (sum > 0.0L ? sum : std::sqrt(exact(plan.profile_segment().exit_sq)));
+Real travel_front(FeedPlan<S>& plan) {
+    Real seconds = 0.0L;
+    for (;;) {
+        const ProfileSegment<S> part = plan.profile_segment();
+        const Real sum = std::sqrt(exact(part.entry_sq)) + std::sqrt(exact(part.exit_sq));
+        seconds += 2.0L * exact(plan.front().cell.length_mm) * exact(part.stretch.length()) / sum;
+        plan.advance();
+        if (part.stretch.to == from_integer<S>(1)) {
+            return seconds;
+        }
+        REQUIRE(plan.prepare() == Pull::item);
+    }
 }
 
 /// What the plan of a whole path was, and how it came about.
@@ -76,8 +83,7 @@ Planned<S> plan_of(CurveSource<S>& source, const MotionLimits<S>& limits, std::s
             continue;
         }
         planned.cells.push_back(plan.front());
-        planned.cell_seconds.push_back(seconds_in_front(plan));
-        plan.pop();
+        planned.cell_seconds.push_back(travel_front(plan));
     }
     planned.limited = plan.window_limited();
     return planned;
