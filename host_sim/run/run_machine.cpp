@@ -48,10 +48,6 @@ PathMachine RunMachine::path() const {
     for (unsigned k = 0; k < axes.size(); ++k) {
         out.rotary_axes |= machine.settings.axis[k].rotary ? std::uint32_t{1} << k : 0U;
     }
-    // Without a jerk limit a jump of the curvature costs nothing: exact paths stay as they are.
-    if (!(axis_totals(machine.settings).smoothest > 0.0)) {
-        out.tolerances.joint_mm = 0.0;
-    }
     return out;
 }
 

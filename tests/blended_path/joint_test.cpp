@@ -34,10 +34,12 @@ std::array<PathMove<S>, 2> moves_of(const MoveProgram& program) {
 }
 
 template <Scalar S>
-Joint<S> joint_of(const MoveProgram& program, PathMode mode = PathMode::continuous) {
+Joint<S> joint_of(const MoveProgram& program, PathMode mode = PathMode::continuous, double exact_mm = 0.001,
+                  bool curvature = true) {
     const auto moves = moves_of<S>(program);
     const S tolerance = from_double<S>(program.moves[0].tolerance_mm * 4096.0);
-    return decide_joint<S>(moves[0], moves[1], mode, {tolerance, from_double<S>(4.096), {}}, program.axes);
+    return decide_joint<S>(moves[0], moves[1], mode, {tolerance, from_double<S>(exact_mm * 4096.0), {}, curvature},
+                           program.axes);
 }
 
 } // namespace
@@ -99,6 +101,16 @@ TEMPLATE_TEST_CASE("what becomes of a joint depends on geometry and mode", "[ble
     CHECK(joint_of<S>(corner(30.0L, 1.0L, 1.0L, 0.01), PathMode::exact_stop).kind == JointKind::stop);
     CHECK(joint_of<S>(corner(0.0L, 1.0L, 1.0L, 0.01), PathMode::exact_path).kind == JointKind::through);
     CHECK(joint_of<S>(corner(0.0L, 1.0L, 1.0L, 0.01), PathMode::exact_stop).kind == JointKind::stop);
+    // Below a degree an exact path is rounded within its own tolerance, and not where that is 0.
+    for (const Real degrees : {0.9L, 0.01L, 1e-4L}) {
+        const MoveProgram kink = corner(degrees, 1.0L, 1.0L, 0.01);
+        const Joint<S> joint = joint_of<S>(kink, PathMode::exact_path);
+        CHECK(joint.kind == JointKind::blend);
+        CHECK(std::fabs(exact(joint.tolerance) / 4096.0L - 0.001L) < 1e-6L);
+        CHECK(joint_of<S>(kink, PathMode::exact_path, 0.0).kind == JointKind::through);
+        CHECK(joint_of<S>(kink, PathMode::exact_stop).kind == JointKind::stop);
+    }
+    CHECK(joint_of<S>(corner(1.1L, 1.0L, 1.0L, 0.01), PathMode::exact_path).kind == JointKind::stop);
     // The curvature jumps: a blend within the tolerance of tangents, also in exact_path mode
     MoveProgram program;
     program.start = {-20.0L, 0.0L, 0.0L};
@@ -112,6 +124,9 @@ TEMPLATE_TEST_CASE("what becomes of a joint depends on geometry and mode", "[ble
         // a = sqrt(e / (0.011 |K1 - K0|))
         CHECK(std::fabs(exact(joint.way) / 4096.0L / std::sqrt(tolerance / (0.011L * 0.1L)) - 1.0L) < 1e-4L);
     }
+    // but where such a jump costs nothing an exact path stays
+    CHECK(joint_of<S>(program, PathMode::exact_path, 0.001, false).kind == JointKind::through);
+    CHECK(joint_of<S>(program, PathMode::continuous, 0.001, false).kind == JointKind::blend);
 }
 
 TEMPLATE_TEST_CASE("a corner whose blend would be too sharp is a stop", "[blended_path]", double, float, Fixed) {

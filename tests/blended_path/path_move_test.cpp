@@ -166,3 +166,36 @@ TEMPLATE_TEST_CASE("moves that are none are refused", "[blended_path]", double, 
     CHECK(move.set({}, element, 3).ok());
     CHECK(move.length() == S{});
 }
+
+TEMPLATE_TEST_CASE("a place of a short arc is the same from both of its ends", "[blended_path]", double, float, Fixed) {
+    using S = TestType;
+    Random random(4);
+    for (int round = 0; round < rounds(200, 2000); ++round) {
+        MoveProgram program;
+        const Real radius = real_decades(random, 0.1, 100.0);
+        program.start = {radius, 0.0L};
+        ProgrammedMove& arc = program.arc(0.0L, 0.0L, real_between(random, 0.05, 0.9), radius * 0.01L);
+        const Real wider = 1.0L + real_between(random, -1e-3, 1e-3); // as four decimals leave it, and more
+        arc.to[0] *= wider;
+        arc.to[1] *= wider;
+        const PathMove<S> move = move_of<S>(arc, 3);
+        // Half of the length, as two blends share it, and a place where only one of them wants so much
+        const S length = move.length();
+        for (const S way : {scale2(length, -1), smaller(move.longest_way(), literal<S>(0.8) * length)}) {
+            if (move.longest_way() < way || move.longest_way() < length - way) {
+                continue;
+            }
+            PathState<S> behind;
+            PathState<S> before;
+            move.behind_start(way, behind);
+            move.before_end(length - way, before);
+            const Real digits = std::same_as<S, float> ? 1e-6L : 1e-9L;
+            for (unsigned k = 0; k < 3; ++k) {
+                CAPTURE(round, k, exact(way / length), exact(behind.tangent[k]) - exact(before.tangent[k]));
+                CHECK(std::fabs(exact(behind.tangent[k]) - exact(before.tangent[k])) < digits);
+                CHECK(std::fabs((exact(behind.offset[k]) - exact(before.offset[k])) / unit -
+                                (arc.to[k] - arc.from[k])) < radius * (digits + 1e-9L));
+            }
+        }
+    }
+}

@@ -95,8 +95,7 @@ def measured(path, samples, slack, chord):
 def judged(elements, machine, trace, names):
     """What the head of this file says, as a dict."""
     axes = {axis["name"]: axis for axis in machine["axis"]}
-    has_jerk = any("max_jerk_mm_s3" in axis for axis in machine["axis"])
-    joint = machine.get("path", {}).get("joint_tolerance_mm", JOINT_MM) if has_jerk else 0.0
+    joint = machine.get("path", {}).get("joint_tolerance_mm", JOINT_MM)
     acceleration = np.linalg.norm([max(axes[n]["max_acceleration_mm_s2"], axes[n].get("max_braking_mm_s2", 0.0)) for n in names])
     bend = trace.period**2 * float(acceleration)
     slack = CHORD_MM + 1e-6 + bend / 6.0

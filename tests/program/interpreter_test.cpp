@@ -70,13 +70,16 @@ TEST_CASE("path modes", "[program][interpreter]") {
     run.run("F600 G1 X0");
     CHECK(move("X1").element.mode == PathMode::continuous);
     CHECK(move("X2").element.tolerance_mm == Approx(0.01)); // the machine's
+    CHECK(move("X2.5").element.chain_tolerance_mm == Approx(0.0075));
     CHECK(move("G61 X3").element.mode == PathMode::exact_path);
     CHECK(move("X4").element.tolerance_mm == 0.0);
     CHECK(move("G61.1 X5").element.mode == PathMode::exact_stop);
     CHECK(move("G64 P0.05 X6").element.tolerance_mm == Approx(0.05));
-    CHECK(move("X7").element.chain_tolerance_mm == Approx(0.05));
+    CHECK(move("X7").element.chain_tolerance_mm == Approx(0.0375));
     CHECK(move("G64 P0.05 Q0.02 X8").element.chain_tolerance_mm == Approx(0.02));
+    CHECK(move("G64 P0.05 Q0.07 X8.5").element.chain_tolerance_mm == Approx(0.07)); // counts as P
     CHECK(move("G64 X9").element.tolerance_mm == Approx(0.01));
+    CHECK(move("X9.5").element.chain_tolerance_mm == Approx(0.0075));
     CHECK(move("G64 P0 X10").element.mode == PathMode::exact_path);
     CHECK(move("G20 G64 P0.01 X1").element.tolerance_mm == Approx(0.254));
     CHECK(move("G0 X2").element.tolerance_mm == Approx(0.1)); // between rapids

@@ -31,31 +31,46 @@ inline MachineSettings machine_of(int axes, double velocity, double acceleration
     return machine;
 }
 
-/// Time for the front cell. One between two stops is accelerated over half of its length and braked over the other.
+/// A profile segment of a planned cell, and the time that it takes.
 template <Scalar S>
-Real seconds_in_front(const FeedPlan<S>& plan) {
-    const PlannedCell<S>& c = plan.front();
-    const Real sum = std::sqrt(exact(c.entry_sq)) + std::sqrt(exact(c.exit_sq));
-    const Real length = 2.0L * exact(c.cell.length_mm);
-    return length / (sum > 0.0L ? sum : std::sqrt(exact(plan.profile_segment().exit_sq)));
-}
+struct PlannedPart {
+    std::size_t cell = 0;
+    ProfileSegment<S> profile{};
+    Real seconds = 0.0L;
+};
 
 /// What the plan of a whole path was, and how it came about.
 template <Scalar S>
 struct Planned {
     std::vector<PlannedCell<S>> cells;
-    std::vector<Real> cell_seconds;
+    std::vector<PlannedPart<S>> parts;
     std::uint64_t limited = 0; ///< FeedPlan::window_limited
     std::size_t passes = 0;    ///< calls that took cells in, each followed by one pass over the window
     std::size_t starvations = 0;
     [[nodiscard]] double seconds() const {
         double sum = 0.0;
-        for (const Real cell_s : cell_seconds) {
-            sum += static_cast<double>(cell_s);
+        for (const PlannedPart<S>& part : parts) {
+            sum += static_cast<double>(part.seconds);
         }
         return sum;
     }
 };
+
+/// Travels the front cell, in all its profile segments.
+template <Scalar S>
+void travel_front(FeedPlan<S>& plan, Planned<S>& planned) {
+    const std::size_t cell = planned.cells.size();
+    planned.cells.push_back(plan.front());
+    for (bool at_end = false; !at_end;) {
+        const ProfileSegment<S> part = plan.profile_segment();
+        const Real sum = std::sqrt(exact(part.entry_sq)) + std::sqrt(exact(part.exit_sq));
+        const Real seconds = 2.0L * exact(plan.front().cell.length_mm) * exact(part.stretch.length()) / sum;
+        planned.parts.push_back({cell, part, seconds});
+        at_end = part.stretch.to == from_integer<S>(1);
+        plan.advance();
+        REQUIRE((at_end || plan.prepare() == Pull::item));
+    }
+}
 
 template <Scalar S>
 Planned<S> plan_of(CurveSource<S>& source, const MotionLimits<S>& limits, std::size_t window_size,
@@ -75,9 +90,7 @@ Planned<S> plan_of(CurveSource<S>& source, const MotionLimits<S>& limits, std::s
             ++planned.starvations;
             continue;
         }
-        planned.cells.push_back(plan.front());
-        planned.cell_seconds.push_back(seconds_in_front(plan));
-        plan.pop();
+        travel_front(plan, planned);
     }
     planned.limited = plan.window_limited();
     return planned;

@@ -10,13 +10,19 @@ namespace {
 constexpr std::int64_t least_feed = 60 * Decimal::one / 1000; // 0.001 mm/s in mm/min
 constexpr std::int64_t most_feed = 600'000 * Decimal::one;    // 10000 mm/s
 
+// Q where a program states none.
+constexpr Decimal usual_chain_tolerance(Decimal tolerance_mm, const ProgramSettings& settings) noexcept {
+    return {tolerance_mm.raw / 4 * settings.chain_quarters};
+}
+
 } // namespace
 
 ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
     ModalState state;
     state.motion = rules_of(settings.dialect).first_motion;
     state.feed = rules_of(settings.dialect).first_feed;
-    state.tolerance_mm = state.chain_tolerance_mm = settings.default_tolerance_mm;
+    state.tolerance_mm = settings.default_tolerance_mm;
+    state.chain_tolerance_mm = usual_chain_tolerance(state.tolerance_mm, settings);
     return state;
 }
 
@@ -117,7 +123,7 @@ BlockStatus ModalState::apply_path_mode(const Block& block, const ProgramSetting
     }
     constexpr Decimal most = Decimal::from_integer(100);
     tolerance_mm = block.has('p') ? in_mm(block.value('p')) : settings.default_tolerance_mm;
-    chain_tolerance_mm = block.has('q') ? in_mm(block.value('q')) : tolerance_mm;
+    chain_tolerance_mm = block.has('q') ? in_mm(block.value('q')) : usual_chain_tolerance(tolerance_mm, settings);
     for (const char letter : {'p', 'q'}) {
         if (code == 640 && block.has(letter) && (block.value(letter).raw < 0 || in_mm(block.value(letter)) > most)) {
             return block.at(ProgramError::tolerance_out_of_range, letter);

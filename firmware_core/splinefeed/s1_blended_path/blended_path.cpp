@@ -11,6 +11,8 @@ constexpr std::int64_t farthest_raw = std::int64_t{1} << (Position::fraction_bit
 constexpr double most_tolerance_mm = 100.0;
 constexpr double least_corner = 1e-4; // sin(phi/2): a smaller change of direction is none
 constexpr double sliver = 0.25;       // 6e-5 mm: what is left of a move between two blends is more, or nothing
+// What a blend leaves of the last move before a stop, as a part of it: its end is off by 2^-32 of the length.
+constexpr int least_rest_log2 = -7;
 
 // What one end of a move gets of its length, where it and the other end wish so much.
 template <Scalar S>
@@ -153,7 +155,7 @@ void BlendedPath<S>::decide(std::uint64_t i) noexcept {
     }
     const S tolerance = smaller(before.tolerance_at_end, after.tolerance) - before.left_out;
     before.joint = decide_joint(before.move, after.move, before.mode,
-                                {larger(S{}, tolerance), joint_tolerance_, sharpest_}, axes_);
+                                {larger(S{}, tolerance), joint_tolerance_, sharpest_, rounds_curvature_}, axes_);
 }
 
 // What the joint at the end of move i wishes to take of the moves beside it.
@@ -177,8 +179,9 @@ void BlendedPath<S>::fit_joint() noexcept {
         const S here = smaller(share(wished, before_wish_, move.length()), move.length() - before_);
         const S wished_behind = wish(next_ + 1);
         S there = share(wished, wished_behind, behind.length());
-        if (!(wished_behind > literal<S>(sliver))) { // its end stays
-            there = smaller(there, behind.length() - literal<S>(sliver));
+        if (!(wished_behind > literal<S>(sliver))) { // its end stays, and the rest has digits for its direction
+            const S rest = larger(literal<S>(sliver), scale2(behind.length(), least_rest_log2));
+            there = smaller(there, behind.length() - rest);
         }
         S room = smaller(here, there);
         // Between two blends there is something like a move, or nothing: what rounding leaves goes to the blend behind.

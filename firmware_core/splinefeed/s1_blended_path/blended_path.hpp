@@ -25,12 +25,16 @@ struct JointCounts {
 template <Scalar S>
 class BlendedPath final : public CurveSource<S> {
 public:
-    /// @param joint_tolerance_mm  where only the curvature jumps, also in exact_path mode; 0: such joints stay
-    explicit BlendedPath(int axes, S joint_tolerance_mm, SharpestBlend<S> sharpest = {}) noexcept
-        : axes_(axes), joint_tolerance_(scale2(joint_tolerance_mm, -chord_unit_log2)),
+    /// @param joint_tolerance_mm  of exact paths, where they turn by less than a degree or only their curvature jumps;
+    /// 0: such joints stay
+    /// @param rounds_curvature  false: the latter stay. Without a jerk limit they cost nothing
+    explicit BlendedPath(int axes, S joint_tolerance_mm, SharpestBlend<S> sharpest = {},
+                         bool rounds_curvature = true) noexcept
+        : axes_(axes), rounds_curvature_(rounds_curvature),
+          joint_tolerance_(scale2(joint_tolerance_mm, -chord_unit_log2)),
           sharpest_{
               scale2(smaller(sharpest.curvature_1_mm, from_integer<S>(most_sharpest)), bend_log2 + chord_unit_log2),
-              sharpest.fading} {}
+              sharpest.fading, sharpest.half_sine} {}
 
     /// Where the first move begins. Call it once, before push(). Errors: position_out_of_range.
     Status start(const PerAxis<Position>& position) noexcept;
@@ -88,6 +92,7 @@ private:
     void leave(CurveSegment<S>& out) noexcept;
 
     int axes_;
+    bool rounds_curvature_;
     S joint_tolerance_;         // chord units
     SharpestBlend<S> sharpest_; // in units of 2^-bend_log2 per chord unit
     std::array<Entry, capacity> ring_{};

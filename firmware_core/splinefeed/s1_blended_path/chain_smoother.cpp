@@ -109,9 +109,8 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
         tolerance_of(element) != tolerance_ || !(length < literal<S>(longest_line))) {
         return false;
     }
-    const bool same_feed = element.feed_mm_s == end_.feed_mm_s && element.max_feed_mm_s == end_.max_feed_mm_s;
     const S before = points_[points_.last()].chord;
-    if (too_short(length) && element.passes_end() && same_feed) {
+    if (too_short(length) && element.passes_end() && element.has_feed_of(end_)) {
         return true;
     }
     const S longer = larger(length, before);
@@ -119,7 +118,7 @@ bool ChainSmoother<S>::goes_on(const PathElement<S>& element) const noexcept {
         direction[k] = direction[k] - direction_[k];
     }
     const S turn = norm(direction, points_.axes());
-    if (turn > literal<S>(sharpest_turn)) {
+    if (turn > literal<S>(sharpest_turn) || (most_turn_ > S{} && turn > most_turn_)) {
         return false;
     }
     const S per_tolerance = quotient_or_max(longer, tolerance_); // the product of length and turn may leave the range
@@ -152,7 +151,7 @@ bool ChainSmoother<S>::may_leave_out(const PathElement<S>& element) const noexce
     for (const unsigned k : indices(points_.axes())) {
         out[k] = out[k] - along * direction[k];
     }
-    return element.shape == MoveShape::line && !too_short(length) &&
+    return element.shape == MoveShape::line && element.has_feed_of(end_) && !too_short(length) &&
            norm(out, points_.axes()) < literal<S>(left_out) * tolerance_;
 }
 

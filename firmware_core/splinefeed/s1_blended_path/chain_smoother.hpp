@@ -28,7 +28,8 @@ struct IndexedMove {
 template <Scalar S>
 class ChainSmoother {
 public:
-    explicit ChainSmoother(int axes) noexcept : points_(axes) {}
+    /// @param half_sine  SharpestBlend::half_sine: with more of phi/2 two lines are no chain; 0: with 20 degrees
+    ChainSmoother(int axes, S half_sine) noexcept : points_(axes), most_turn_(scale2(half_sine, 1)) {}
 
     /// Where the first move begins. Call it once, before push().
     void start(const PerAxis<Position>& position) noexcept { start_ = position; }
@@ -68,6 +69,7 @@ private:
     [[nodiscard]] bool pass_piece(PathElement<S>& out) noexcept;
 
     ChainPoints<S> points_;
+    S most_turn_; // 2 sin(phi/2) of lines of a chain; 0: that of 40 degrees
     PerAxis<Position> start_{};
     PerAxis<S> direction_{};   // of the last line of the chain
     PathState<S> state_{};     // where the chain was passed on to

@@ -16,9 +16,9 @@ namespace splinefeed {
 namespace {
 
 constexpr double reversal_half_cosine = 0.00436; // cos(179.5 degrees / 2)
-constexpr double corner_jump = 0.0175;           // of the direction: one degree. exact_path passes smaller ones
-constexpr double tangent_jump = 1e-4;            // a smaller one is no corner: the tolerance is that of tangents
-constexpr double least_way = 0.04;               // 1e-5 mm: a shorter blend is no faster than a stop
+constexpr double corner_jump = 0.0174; // of the direction: just below a degree. An exact path rounds smaller ones
+constexpr double tangent_jump = 1e-4;  // a smaller one is no corner: the tolerance is that of tangents
+constexpr double least_way = 0.04;     // 1e-5 mm: a shorter blend is no faster than a stop
 constexpr double curvature_share = 0.011;
 constexpr double bent_share = 0.88; // of the way where a bent move may turn as the corner does
 constexpr int measured_places = 11;
@@ -128,19 +128,21 @@ Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathM
         return joint;
     }
     const bool lines = before.straight() && after.straight();
-    joint.tolerance = exact ? tolerances.tangent : tolerances.corner;
+    joint.tolerance = exact ? tolerances.exact : tolerances.corner;
     if (!lines && jump < literal<S>(tangent_jump)) {
         joint.tolerance = smaller(joint.tolerance, literal<S>(0.01 * 4096.0));
     }
     const S bend = distance_between(in.bend, out.bend, axes);
-    if (!(joint.tolerance > S{}) || (jump < no_jump<S> && (lines || !(bend > S{})))) {
+    const bool bends = !lines && bend > S{} && (tolerances.curvature || !exact);
+    if (!(joint.tolerance > S{}) || (jump < no_jump<S> && !bends)) {
         joint.kind = JointKind::through;
         return joint;
     }
     joint.kind = JointKind::blend;
     const S fades = from_integer<S>(1) - tolerances.sharpest.fading * (joint.half_sine * joint.half_sine);
-    joint.sharpest =
-        fades < literal<S>(0.15) ? S{} : quotient_or_max(tolerances.sharpest.curvature_1_mm, fades * fades);
+    joint.sharpest = fades < literal<S>(0.15) || joint.half_sine < tolerances.sharpest.half_sine
+                         ? S{}
+                         : quotient_or_max(tolerances.sharpest.curvature_1_mm, fades * fades);
     joint.way = quotient_or_max(scale2(joint.tolerance, 2), joint.half_sine);
     if (!lines) {
         // |K1 - K0| is in units of 2^-bend_log2.

@@ -23,23 +23,26 @@ struct Joint {
 
 /// Corners that are stops because a plan would take longer for their blend. Their blend bends more than
 /// curvature_1_mm / (1 - fading sin^2(phi/2))^2, with the angle phi between the moves. Where the root is below 1/4,
-/// none is.
+/// none is; nor is one where sin(phi/2) is below half_sine. Above half_sine two lines are no chain either.
 template <Scalar S>
 struct SharpestBlend {
     S curvature_1_mm{}; ///< 0: no corner is a stop for that
     S fading{};         ///< 0: the same for all angles
+    S half_sine{};
 };
 
 /// What a joint may be, in chord units.
 template <Scalar S>
 struct JointTolerances {
     S corner{};                  ///< 0: the path is exact
-    S tangent{};                 ///< where only the curvature jumps
+    S exact{};                   ///< of an exact path, where it turns by less than a degree
     SharpestBlend<S> sharpest{}; ///< its curvature in units of 2^-20 per chord unit
+    bool curvature = true;       ///< an exact path is rounded where only its curvature jumps, too
 };
 
-/// Decides by the geometry of two moves alone, so the path does not depend on feed or override. A joint whose direction
-/// jumps is a stop in exact_path mode and at a reversal (within half a degree).
+/// Decides by the geometry of two moves alone, so the path does not depend on feed or override. A joint is a stop at a
+/// reversal (within half a degree). In exact_path mode it is one where the direction jumps by more than a degree. Where
+/// the tolerance of exact paths is 0, smaller jumps stay, and a plan stops there.
 template <Scalar S>
 [[nodiscard]] Joint<S> decide_joint(const PathMove<S>& before, const PathMove<S>& after, PathMode mode,
                                     const JointTolerances<S>& tolerances, int axes) noexcept;

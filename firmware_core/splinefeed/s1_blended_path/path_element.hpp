@@ -47,6 +47,9 @@ struct PathElement {
     S feed_mm_s{};     ///< programmed feed; 0: the machine's
     S max_feed_mm_s{}; ///< upper limit for every feed override; 0: none
 
+    [[nodiscard]] bool has_feed_of(const PathElement& other) const noexcept {
+        return feed_mm_s == other.feed_mm_s && max_feed_mm_s == other.max_feed_mm_s;
+    }
     /// Whether its end may be rounded.
     [[nodiscard]] bool passes_end() const noexcept { return mode == PathMode::continuous && !stop_at_end; }
 };

@@ -3,7 +3,8 @@
 // An arc with the frames (x, y) at one of its ends - x from the axis to the path, y along the path - is at an angle d
 // from that end at r (x cos d + y sin d) from the axis. Near an end only the difference is computed,
 //     r (-x versine(d) + y sin(d)),
-// so its error is one of the way and not of the radius.
+// so its error is one of the way and not of the radius. Angle and radius are those of the whole arc at that way: where
+// two blends meet in an arc, both have the same state, though its radii differ.
 #include "splinefeed/s1_blended_path/path_move.hpp"
 
 #include "splinefeed/number/angle.hpp"
@@ -21,6 +22,7 @@ constexpr double longest_move = 0x1p28; // 65 m
 constexpr double two_pi = 6.28318530717958647692;
 constexpr double most_of_piece = 0.4; // [rad]
 constexpr std::int32_t most_turns = 10000;
+constexpr double first_share = 0.49; // of an arc is seen from its start; blends that share it hardly meet just there
 
 // floor(x) for 0 <= x < 2^20.
 template <Scalar S>
@@ -189,23 +191,39 @@ void PathMove<S>::turned(const Frame& frame, S cosine, S sine, S radius, PathSta
 
 // The state at a way from an end of an arc, negative: before it; the offset is from that end.
 template <Scalar S>
-void PathMove<S>::near(const Frame& frame, S radius, S way, PathState<S>& out) const noexcept {
-    const S angle = way * in_plane_ / radius;
+void PathMove<S>::near(bool at_end, S way, PathState<S>& out) const noexcept {
+    const Frame& frame = at_end ? end_ : start_;
+    const S angle = way * in_plane_ / mean_radius(); // as a share of the sweep it would lose digits
     const S sine = small_sine(angle);
     const S versine = small_versine(angle);
+    const S wider = (radius_end_ - radius_start_) * (way / length_);
+    const S radius = (at_end ? radius_end_ : radius_start_) + wider;
     turned(frame, from_integer<S>(1) - versine, sine, radius, out);
     for (const unsigned k : indices(axes_)) {
         out.offset[k] = way * along_[k];
     }
     for (unsigned k = 0; k < in_plane(); ++k) {
-        out.offset[k] += radius * (sine * frame.along[k] - versine * frame.radial[k]);
+        out.offset[k] += radius * (sine * frame.along[k] - versine * frame.radial[k]) + wider * frame.radial[k];
+    }
+}
+
+// From the nearer end, with one place between them: what is a way from one end is the same where it is seen from the
+// other one.
+template <Scalar S>
+void PathMove<S>::on_arc(bool at_end, S way, PathState<S>& out) const noexcept {
+    const S from_start = at_end ? length_ - way : way;
+    const bool from_end = from_start > literal<S>(first_share) * length_;
+    near(from_end, !from_end ? from_start : at_end ? -way : way - length_, out);
+    for (unsigned k = 0; from_end != at_end && k < static_cast<unsigned>(axes_); ++k) {
+        const S chord = distance<S>(from_[k], to_[k], chord_unit_log2);
+        out.offset[k] = at_end ? out.offset[k] - chord : out.offset[k] + chord;
     }
 }
 
 template <Scalar S>
 void PathMove<S>::behind_start(S way, PathState<S>& out) const noexcept {
     if (shape_ == MoveShape::arc) {
-        near(start_, radius_start_, way, out);
+        on_arc(false, way, out);
         return;
     }
     if (shape_ == MoveShape::bezier) {
@@ -224,7 +242,7 @@ void PathMove<S>::before_end(S way, PathState<S>& out) const noexcept {
     if (shape_ == MoveShape::line) {
         behind_start(-way, out);
     } else if (shape_ == MoveShape::arc) {
-        near(end_, radius_end_, -way, out);
+        on_arc(true, way, out);
     } else {
         bezier_.state(from_integer<S>(1) - way / length_, true, out);
     }
@@ -240,14 +258,13 @@ S PathMove<S>::distance_near(bool at_end, const PerAxis<S>& point) const noexcep
         way = dot(point, along_, axes_);
     } else {
         const Frame& frame = at_end ? end_ : start_;
-        const S radius = at_end ? radius_end_ : radius_start_;
-        S across = radius;
+        S across = at_end ? radius_end_ : radius_start_;
         S along{};
         for (unsigned k = 0; k < in_plane(); ++k) {
             across += point[k] * frame.radial[k];
             along += point[k] * frame.along[k];
         }
-        way = angle_of(across, along) * radius * in_plane_; // and how far it has risen
+        way = angle_of(across, along) * mean_radius() * in_plane_; // and how far it has risen
         for (const unsigned k : indices(axes_)) {
             way += point[k] * along_[k];
         }

@@ -53,8 +53,10 @@ private:
     [[nodiscard]] Status set_arc(const ArcShape<S>& arc) noexcept;
     [[nodiscard]] Status set_bezier(const BezierShape<S>& bezier, const PerAxis<S>& to) noexcept;
     [[nodiscard]] S frame_at(const PerAxis<Position>& place, const ArcShape<S>& arc, Frame& out) const noexcept;
-    void near(const Frame& frame, S radius, S way, PathState<S>& out) const noexcept;
+    void near(bool at_end, S way, PathState<S>& out) const noexcept;
+    void on_arc(bool at_end, S way, PathState<S>& out) const noexcept;
     void turned(const Frame& frame, S cosine, S sine, S radius, PathState<S>& out) const noexcept;
+    [[nodiscard]] S mean_radius() const noexcept { return scale2(radius_start_ + radius_end_, -1); }
     [[nodiscard]] unsigned in_plane() const noexcept { return static_cast<unsigned>(smaller(axes_, 3)); }
 
     int axes_ = 0;

@@ -24,9 +24,13 @@ struct PathCounts {
 template <Scalar S>
 class TolerancePath final : public CurveSource<S> {
 public:
-    /// @param joint_tolerance_mm  where only the curvature jumps, also in exact_path mode; 0: such joints stay
-    explicit TolerancePath(int axes, S joint_tolerance_mm, SharpestBlend<S> sharpest = {}) noexcept
-        : axes_(axes), chains_(axes), blended_(axes, joint_tolerance_mm, sharpest) {}
+    /// @param joint_tolerance_mm  of exact paths, where they turn by less than a degree or only their curvature jumps;
+    /// 0: such joints stay
+    /// @param rounds_curvature  false: the latter stay. Without a jerk limit they cost nothing
+    explicit TolerancePath(int axes, S joint_tolerance_mm, SharpestBlend<S> sharpest = {},
+                           bool rounds_curvature = true) noexcept
+        : axes_(axes), chains_(axes, sharpest.half_sine),
+          blended_(axes, joint_tolerance_mm, sharpest, rounds_curvature) {}
 
     /// Where the first move begins. Call it once, before push(). Errors: position_out_of_range.
     Status start(const PerAxis<Position>& position) noexcept;

@@ -58,13 +58,20 @@ bool ArcLength<S>::leaves_open_travel(const Piece<S>& piece) const noexcept {
 
 // The speed changes near joints, and most near stops. Halving makes cells grow geometrically with the distance from a
 // stop. If nothing stops, three halvings are enough; otherwise a slow feed would cut every segment into degenerate
-// cells. Between two stops there are at least eight cells: room to start and to brake even in the shortest move.
+// cells. Between two stops there are at least eight cells: room to start and to brake even in the shortest move. A line
+// needs none of it where the plan speeds up and brakes within a cell.
 template <Scalar S>
 bool ArcLength<S>::too_long(const Piece<S>& piece) const noexcept {
-    if (m_.length_mm > refinement_.longest_mm || (stop_before_ && stop_after_ && piece.level < 3)) {
+    if (m_.length_mm > refinement_.longest_mm) {
         return true;
     }
     if (refinement_.end_piece_mm > S{} && m_.length_mm > refinement_.end_piece_mm && leaves_open_travel(piece)) {
+        return true;
+    }
+    if (refinement_.whole_lines && current().degree == 1) {
+        return false;
+    }
+    if (stop_before_ && stop_after_ && piece.level < 3) {
         return true;
     }
     if (m_.length_mm > grade_mm_ && (piece.at_start || piece.at_end) && piece.level < 3) {

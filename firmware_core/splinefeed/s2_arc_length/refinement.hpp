@@ -21,9 +21,10 @@ struct Refinement {
     S longest_mm{};        ///< longest cell (limited by the resolution of the parameter w in Fixed and float)
     S max_feed_mm_s{};     ///< feed of segments without a programmed feed
     S grade_per_feed_sq{}; ///< a cell next to a joint is at most feed^2 times this: a fraction of the braking distance
-    int finest_grade_log2 = 0;          ///< next to a stop it is 2^-this of that length: jerk-limited motion starts
-                                        ///< slowly
-    int axes = 0;                       ///< number of axes that a segment must have; 0: any
+    int finest_grade_log2 = 0; ///< next to a stop it is 2^-this of that length: jerk-limited motion starts
+                               ///< slowly
+    bool whole_lines = false;  ///< a line is cut only where it must be: the plan speeds up and brakes within a cell
+    int axes = 0;              ///< number of axes that a segment must have; 0: any
     PerAxis<PositionRange> countable{}; ///< range in which the control points of a segment must be
     PerAxis<PositionRange> open{};      ///< range in which an axis may move at full speed; outside it is near the ends
                                         ///< of its travel

@@ -180,6 +180,30 @@ S AccelerationBound<S>::smallest_exit(S entry_sq, S at_least, S at_most) const n
     return at_least < S{} && best > S{} ? lifted(entry_sq, S{}, larger(at_most, S{})) : best;
 }
 
+// With |q'| <= t, 2 L |q''| <= c and b <= ends + change: t change + (c + 2 e) (ends + change) <= 2 L A. On a part x of
+// the cell L, c, e and the change are x times as large. On a line the sign of q' tells which of the limits it is.
+template <Scalar S>
+S AccelerationBound<S>::change(bool faster, S ends_sq, S at_most) const noexcept {
+    S change = at_most;
+    for (unsigned k = 0; k < static_cast<unsigned>(cell_.axes); ++k) {
+        const AxisRows axis = rows_of(k);
+        const std::array<R, 3>& bend = cell_.shape[k].bend;
+        const R bent = larger(absolute(bend[1]), larger(absolute(bend[0]), absolute(bend[2])));
+        if (axis.e > literal<R>(0.2) || bent > literal<R>(0.3)) {
+            return S{};
+        }
+        const R by_speed = bent + axis.e + axis.e;
+        const R divisor = cell_.tangent_max[k] + by_speed;
+        if (divisor > R{}) {
+            const bool forward = (axis.exit[0] > R{}) == faster;
+            const S limit = bent > R{} ? smaller(axis.limit[0], axis.limit[1]) : axis.limit[forward ? 0 : 1];
+            const S room = larger(limit - quarter_product(ends_sq, by_speed), S{});
+            change = smaller(change, quotient_by_quarter(room, divisor));
+        }
+    }
+    return change;
+}
+
 template <Scalar S>
 S AccelerationBound<S>::reach_from_standstill(S at_most) const noexcept {
     S reach = at_most;

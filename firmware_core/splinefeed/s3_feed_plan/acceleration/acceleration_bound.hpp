@@ -39,6 +39,9 @@ public:
     [[nodiscard]] S smallest_exit(S entry_sq, S at_least, S at_most) const noexcept;
     /// Largest entry_sq up to at_most. @pre exit_sq < peak().smallest_exit_sq
     [[nodiscard]] S largest_entry(S exit_sq, S at_most) const noexcept;
+    /// By how much v^2 may grow along the whole cell if it is `faster`, else fall, up to at_most. A part of the cell
+    /// allows its share of that, wherever it lies. At both ends v^2 is at most ends_sq. @pre not a stretch
+    [[nodiscard]] S change(bool faster, S ends_sq, S at_most) const noexcept;
     /// Every exit_sq up to this value, at most at_most, can be reached from standstill.
     [[nodiscard]] S reach_from_standstill(S at_most) const noexcept;
     /// The largest possible entry_sq if neither end is faster than cap_sq, with its exits.

@@ -86,20 +86,19 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
     PlannedCell<S>& here = window_.at(0);
     const S one = from_integer<S>(1);
     chosen_ = true;
+    const S fastest_entry = here.entry_sq;
     if (at_ == S{}) {
         here.entry_sq = speed_sq_;
     }
     if (rest_to_rest_) {
         rest_to_rest_ = false;
         profile_segment_ = {{at_}, speed_sq_, {}, here.cell.stop_at_end};
+    } else if (may_peak(fastest_entry)) {
+        choose_peaked(known_sq);
     } else if (steered_ || at_ > S{}) {
         choose_steered(known_sq);
     } else {
-        const S exit =
-            known_sq < wanted_exit_
-                ? larger(AccelerationBound<S>(here.cell, limits_).largest_exit(speed_sq_, wanted_exit_), known_sq)
-                : wanted_exit_;
-        profile_segment_ = {{}, speed_sq_, exit, false};
+        profile_segment_ = {{}, speed_sq_, exit_from_start(known_sq), false};
     }
     CellInterval<S>& stretch = profile_segment_.stretch;
     const bool to_end = stretch.to == one;
@@ -116,6 +115,46 @@ void FeedPlan<S>::forward_step(S known_sq) noexcept {
     } else if (to_end && !(profile_segment_.exit_sq > S{})) {
         profile_segment_.stops = profile_segment_.stops || here.cell.stop_at_end || window_.size() == 1;
     }
+}
+
+// The exit nearest to the wanted one from the start of the front cell.
+template <Scalar S>
+S FeedPlan<S>::exit_from_start(S known_sq) const noexcept {
+    return known_sq < wanted_exit_
+               ? larger(AccelerationBound<S>(cell(), limits_).largest_exit(speed_sq_, wanted_exit_), known_sq)
+               : wanted_exit_;
+}
+
+// On a line always. Elsewhere only where that gains: the machine is slow at an end, and not because it brakes.
+template <Scalar S>
+bool FeedPlan<S>::may_peak(S fastest_entry) const noexcept {
+    if (leads_ || steering_.stops() || !has_parts(cell()) || speed_sq_ > wanted_sq()) {
+        return false;
+    }
+    return peaks_ || cell().degree == 1 ||
+           (!steered_ && at_ == S{} && speed_sq_ < fastest_entry &&
+            scale2(smaller(speed_sq_, wanted_exit_), 1) < wanted_sq());
+}
+
+// The speed within the cell need not be between those at its ends.
+template <Scalar S>
+void FeedPlan<S>::choose_peaked(S known_sq) noexcept {
+    S exit = wanted_exit_;
+    if (steered_) {
+        const AccelerationBound<S> bound(cell(), limits_, {at_});
+        exit = bound.smallest_exit(speed_sq_, wanted_exit_, larger(wanted_exit_, reachable_exit()));
+        exit = exit > wanted_exit_ ? exit : bound.largest_exit(speed_sq_, wanted_exit_);
+        steered_ = !(exit == wanted_exit_);
+    } else if (at_ == S{}) {
+        wanted_exit_ = exit_from_start(known_sq);
+        if (wanted_exit_ < exit) { // it speeds up all the way
+            profile_segment_ = {{}, speed_sq_, wanted_exit_, false};
+            return;
+        }
+    }
+    profile_segment_ = peaked_segment(
+        cell(), limits_, PeakTarget<S>{.from = at_, .entry_sq = speed_sq_, .most_sq = wanted_sq(), .exit_sq = exit});
+    peaks_ = profile_segment_.stretch.to < from_integer<S>(1);
 }
 
 template <Scalar S>
@@ -286,7 +325,7 @@ bool FeedPlan<S>::steer(const PlanState<S>& place) noexcept {
     const S known = whole_path ? profile_segment_.exit_sq : from_integer<S>(-1);
     at_ = place.fraction;
     speed_sq_ = place.speed_sq;
-    rest_to_rest_ = chosen_ = false;
+    rest_to_rest_ = peaks_ = chosen_ = false;
     if (speed_sq_ > S{} || !steering_.stops()) {
         forward_step(known);
     }
@@ -310,7 +349,7 @@ void FeedPlan<S>::rest_at(S fraction) noexcept {
     SPLINEFEED_ASSERT(fraction < profile_segment_.stretch.to);
     at_ = fraction;
     speed_sq_ = S{};
-    chosen_ = false;
+    peaks_ = chosen_ = false;
 }
 
 template <Scalar S>
@@ -318,7 +357,7 @@ void FeedPlan<S>::pop() noexcept {
     SPLINEFEED_ASSERT(committed_ > 0 && chosen_);
     speed_sq_ = front().exit_sq;
     at_ = S{};
-    chosen_ = rest_to_rest_ = false;
+    chosen_ = rest_to_rest_ = peaks_ = false;
     window_.pop();
     --committed_;
 }
@@ -337,7 +376,7 @@ void FeedPlan<S>::forget() noexcept {
     pass_.cancel();
     turning_.clear();
     at_ = speed_sq_ = S{};
-    steered_ = planned_ = open_ = chosen_ = rest_to_rest_ = false;
+    steered_ = planned_ = open_ = chosen_ = rest_to_rest_ = peaks_ = false;
 }
 
 template class FeedPlan<double>;

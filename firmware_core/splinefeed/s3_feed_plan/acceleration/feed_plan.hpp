@@ -15,7 +15,9 @@
 #include "splinefeed/s2_arc_length/arc_length.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/backward_pass.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/cell_window.hpp"
+#include "splinefeed/s3_feed_plan/acceleration/peaked_segment.hpp"
 #include "splinefeed/s3_feed_plan/acceleration/steered_segment.hpp"
+
 #include "splinefeed/s3_feed_plan/acceleration/turning.hpp"
 #include "splinefeed/s3_feed_plan/steering/steering.hpp"
 
@@ -80,6 +82,9 @@ private:
     void commit() noexcept;
     [[nodiscard]] S reachable_exit() const noexcept;
     void forward_step(S known_sq) noexcept;
+    [[nodiscard]] S exit_from_start(S known_sq) const noexcept;
+    [[nodiscard]] bool may_peak(S fastest_entry) const noexcept;
+    void choose_peaked(S known_sq) noexcept;
     void choose_steered(S known_sq) noexcept;
     [[nodiscard]] S known_exit() const noexcept;
 
@@ -102,6 +107,7 @@ private:
     bool leads_ = false;        // another plan refines this one
     bool chosen_ = false;       // profile_segment_ belongs to the front cell
     bool rest_to_rest_ = false; // profile_segment_ is the first half of a move from standstill to standstill
+    bool peaks_ = false;        // the machine is in a cell where its speed has a peak
     bool steered_ = false;      // not yet back on the plan that the steering asks for
 };
 

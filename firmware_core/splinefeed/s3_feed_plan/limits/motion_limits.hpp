@@ -357,6 +357,7 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     // Cells next to a stop: 1/7.3 of the braking distance feed^2 / (2 A).
     refinement.grade_per_feed_sq = from_double<S>(1.0 / (7.3 * 2.0 * softest));
     refinement.sharpest = from_double<S>(detail::sharpest_curvature(softest, smoothest));
+    refinement.whole_lines = !(smoothest > 0.0);
     if (smoothest > 0.0) {
         refinement.finest_grade_log2 = settings.jerk_tier == JerkTier::optimal ? 5 : 1;
         refinement.metric_error = scale2(refinement.metric_error, -3); // the jerk sees the third derivative of errors

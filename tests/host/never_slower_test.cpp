@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+//
+// A tolerance never costs time: within it a program is not slower than with a stop at the end of every move. What is
+// emitted is compared.
+#include "host_sim/config/path_tolerances.hpp"
+#include "splinefeed/s1_blended_path/tolerance_path.hpp"
+
+#include "support/emitted.hpp"
+#include "support/pipeline.hpp"
+#include "support/random_moves.hpp"
+#include "support/rounds.hpp"
+
+namespace splinefeed::host {
+
+using namespace splinefeed_test;
+
+namespace {
+
+constexpr std::uint64_t seed = 20261127;
+
+struct Emitted {
+    std::vector<FeedSegment> segments;
+    bool endless = false;
+};
+
+template <Scalar S>
+Emitted run_of(const MoveProgram& program, const MachineSettings& machine, bool exact_stops) {
+    const SharpestCorner corner = sharpest_corner(machine);
+    TolerancePath<S> path(
+        program.axes, from_double<S>(program.joint_tolerance_mm),
+        {from_double<S>(corner.curvature_1_mm), from_double<S>(corner.fading), from_double<S>(corner.half_sine)},
+        false);
+    REQUIRE(path.start(position_of<S>(program.start)).ok());
+    const auto limits = MotionLimits<S>::make(machine).value();
+    AnyTrajectory<S> trajectory(path, limits, 512);
+    Emitted out;
+    FeedSegment segment;
+    for (std::size_t next = 0;;) {
+        const Pull pull = trajectory.trajectory().next(segment);
+        if (pull == Pull::item) {
+            out.segments.push_back(segment);
+        } else if (pull == Pull::finished) {
+            return out;
+        } else if (next < program.moves.size()) {
+            auto element = element_of<S>(program.moves[next++], program.axes);
+            element.mode = exact_stops ? PathMode::exact_stop : element.mode;
+            REQUIRE(path.push(element).ok());
+        } else {
+            REQUIRE(path.finish().ok());
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("a tolerance makes no program slower than exact stops", "[never_slower]") {
+    for (int round = static_cast<int>(first_round()), count = rounds(60, 3000); round < count; ++round) {
+        Random random(seed + static_cast<std::uint64_t>(round));
+        const MoveProgram program = random_moves(random, 200.0L);
+        MachineSettings machine = machine_of(program.axes, 100.0, 1000.0, 100.0, random.chance(0.5) ? 1000 : 250);
+        if (random.chance(0.3)) {
+            machine.centripetal_mm_s2 = random.decades(10.0, 1e4);
+        }
+        CAPTURE(round, program.moves.size(), machine.centripetal_mm_s2, machine.sample_period_us);
+        const Emitted within = run_of<double>(program, machine, false);
+        const Emitted stops = run_of<double>(program, machine, true);
+        require_limits(within, machine);
+        const double least = static_cast<double>(stops.segments.size());
+        CHECK(static_cast<double>(within.segments.size()) <= 1.001 * least + 2.0);
+    }
+}
+
+TEST_CASE("corners are stops where a limit across the path makes their blend slower", "[never_slower]") {
+    MachineSettings machine = machine_of(2, 100.0, 1000.0, 100.0);
+    CHECK(sharpest_corner(machine).curvature_1_mm == 0.0);
+    machine.centripetal_mm_s2 = 2000.0;
+    CHECK(sharpest_corner(machine).curvature_1_mm == 0.0);
+    machine.centripetal_mm_s2 = 100.0;
+    CHECK(sharpest_corner(machine).curvature_1_mm == Approx(100.0 / 2500.0));
+    CHECK(sharpest_corner(machine).half_sine == Approx(0.15));
+    machine.centripetal_mm_s2 = 0.0;
+    machine.chord_error_mm = 1e-5; // 8 e / T^2 = 80 mm/s^2
+    CHECK(sharpest_corner(machine).half_sine == Approx(0.12));
+    machine.chord_error_mm = 0.0;
+    machine.centripetal_mm_s2 = 100.0;
+    MoveProgram corners;
+    corners.axes = 2;
+    for (int i = 1; i <= 10; ++i) {
+        corners.line({static_cast<Real>(5 * ((i + 1) / 2)), static_cast<Real>(5 * (i / 2))}).tolerance_mm = 0.05;
+    }
+    const Emitted within = run_of<double>(corners, machine, false);
+    const Emitted stops = run_of<double>(corners, machine, true);
+    require_limits(within, machine);
+    CHECK(within.segments.size() == stops.segments.size());
+}
+
+} // namespace splinefeed::host
