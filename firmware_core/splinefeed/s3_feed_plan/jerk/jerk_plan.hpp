@@ -10,9 +10,9 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_change.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/profile_state.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/straight_leg.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_change.hpp"
+#include "splinefeed/s3_feed_plan/jerk/profile_state.hpp"
+#include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
 
 namespace splinefeed {
 
@@ -23,7 +23,7 @@ class JerkPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 16;
 
-    /// @pre storage has at least smallest_window cells and nodes_for() nodes; this also holds for all other functions
+    /// @pre storage has at least smallest_window cells, and is enough(); this also holds for all other functions
     JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
     using MotionPlan<S>::prepare;
@@ -52,8 +52,9 @@ private:
     bool change_curve(double from, const SpeedState& state) noexcept;
     void follow_steering() noexcept;
     void plan(bool ended) noexcept;
+    bool plan_curve(std::size_t first, std::size_t end) noexcept;
+    [[nodiscard]] std::size_t final_cells(std::size_t cells) const noexcept;
     std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
-    void expect_again() noexcept;
     void forward_step() noexcept;
     void forward_step_on_line() noexcept;
 

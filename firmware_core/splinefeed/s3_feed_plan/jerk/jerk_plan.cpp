@@ -3,14 +3,12 @@
 // The window is planned leg by leg, from a stop (or from where the machine will be) to the next stop (or to standstill
 // at the end of the known path). A leg that ends at a stop is final; of a leg that ends with the window, the first half
 // is committed. The rest is planned again when more of the path is known. Its old plan is kept. If no new one is found
-// from the state at the end of the committed part (this can happen, because the sets of states are reduced to few
-// corners), the old one is travelled to its end, which is a standstill.
+// from the state at the end of the committed part, the old one is travelled to its end, which is a standstill.
 //
 // A straight leg is one move in closed form (s_curve_profile.cpp).
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/leg_attempts.hpp"
 
 namespace splinefeed {
 
@@ -48,6 +46,7 @@ Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
 
 template <Scalar S>
 Pull JerkPlan<S>::fill(UnderrunPolicy underrun) noexcept {
+    window_.forget_travelled();
     Pull pull = Pull::item;
     while (!window_.full() && pull == Pull::item) {
         pull = take(underrun);
@@ -55,31 +54,74 @@ Pull JerkPlan<S>::fill(UnderrunPolicy underrun) noexcept {
     return pull;
 }
 
-// The second half of the old plan brakes only for the end of the known path.
-template <Scalar S>
-void JerkPlan<S>::expect_again() noexcept {
-    window_.forget_travelled();
-    for (std::size_t i = (window_.size() + 1) / 2; i < window_.size(); ++i) {
-        JerkNode& node = window_.node(i);
-        node.expected_sq = smaller(node.at_most_sq, node.cell.cap_sq);
-    }
-}
-
 // From stop to stop through every cell: for degenerate cells between cusps, and for a few cells if there is no better
 // plan; after them there may be one. Returns its end.
 template <Scalar S>
 std::size_t JerkPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
     planned_ = end;
-    if (end - first > JerkLeg::fewest_cells) {
+    if (end - first >= LegPlan::fewest_cells) {
         slow_legs_ += hops_ == 1 ? 1U : 0U;
         planned_ = smaller(end, first + hops_);
         hops_ = smaller(2 * hops_, window_.size());
     }
     for (std::size_t i = first; i < planned_; ++i) {
         window_.node(i).travel = Travel::rest_to_rest;
-        window_.node(i + 1).state = {0.0, 0.0};
+        window_.node(i + 1).b = 0.0;
     }
     return planned_;
+}
+
+// Plans cells `first` to `end` as one motion to standstill there. false: none was found; the plan is as before.
+template <Scalar S>
+bool JerkPlan<S>::plan_curve(std::size_t first, std::size_t end) noexcept {
+    if (end - first < LegPlan::fewest_cells) {
+        return false;
+    }
+    LegPlan leg = window_.leg();
+    const bool rests = !(window_.node(first).b > 0.0);
+    leg.begin(window_.state(first));
+    for (std::size_t i = first; i < end; ++i) {
+        leg.add(window_.limits_of(i), window_.node(i).cap_sq, window_.node(i + 1).at_most_sq);
+        if (!rests && i < planned_) {
+            leg.know(window_.node(i).middle_sq);
+        }
+    }
+    if (!leg.fastest()) {
+        ++slow_legs_;
+        if (!rests || !leg.slow()) {
+            return false;
+        }
+    }
+    for (std::size_t i = first; i < end; ++i) {
+        JerkNode& node = window_.node(i);
+        node.b = leg.node(i - first).b;
+        node.middle_sq = leg.node(i - first).middle_sq;
+        node.travel = Travel::curve;
+    }
+    window_.node(end).b = 0.0;
+    return true;
+}
+
+// How much of a leg that ends with the window is final: to about the middle, where it brakes least.
+template <Scalar S>
+std::size_t JerkPlan<S>::final_cells(std::size_t cells) const noexcept {
+    const auto part = [cells](unsigned per_cent) {
+        return larger<std::size_t>(1, cells * per_cent / 100U);
+    };
+    std::size_t best = part(50);
+    auto least = largest<double>();
+    for (std::size_t i = part(60); i >= part(35); --i) {
+        const SpeedState state = window_.state(i);
+        const double braking = -state.slope / square_root(state.b);
+        if (braking < least) {
+            least = braking;
+            best = i;
+        }
+        if (!(braking > 0.0)) {
+            break;
+        }
+    }
+    return smaller(best, cells - 3);
 }
 
 template <Scalar S>
@@ -95,27 +137,24 @@ void JerkPlan<S>::plan(bool ended) noexcept {
         if (!stops && at > 0) {
             break;
         }
-        const std::size_t committed = stops ? end : half;
-        const bool rests = !(window_.node(at).state.b > 0.0);
-        if (stops && rests && StraightLeg<S>::is_straight(window_.nodes(at, end))) {
+        const bool rests = !(window_.node(at).b > 0.0);
+        if (stops && rests && StraightLeg<S>::is_straight(window_, at, end)) {
             for (std::size_t i = at; i < end; ++i) {
                 window_.node(i).travel = Travel::line;
             }
-            window_.node(end).state = {0.0, 0.0};
+            window_.node(end).b = 0.0;
             planned_ = end;
             at = end;
             hops_ = 1;
-        } else if (plan_leg(window_.nodes(at, end), rests ? 0 : planned_)) {
-            for (std::size_t i = at; i < end; ++i) {
-                window_.node(i).travel = Travel::curve;
-            }
+        } else if (plan_curve(at, end)) {
             planned_ = end;
-            at = committed;
+            at = stops ? end : final_cells(end);
             hops_ = 1;
-        } else if (!rests) { // the old plan again, to its end
+        } else if (!rests) { // the old plan goes on, and from a little farther there may be another
             SPLINEFEED_ASSERT(at == 0 && planned_ > 0);
-            ++slow_legs_;
-            at = planned_;
+            committed_ = larger<std::size_t>(1, planned_ / 8);
+            planned_all_ = false;
+            return;
         } else {
             at = rest_to_rest(at, end);
         }
@@ -127,7 +166,7 @@ void JerkPlan<S>::plan(bool ended) noexcept {
 // The next profile segment of a straight move, as far as it lies in the front cell.
 template <Scalar S>
 void JerkPlan<S>::forward_step_on_line() noexcept {
-    const double length = window_.node(0).cell.length_mm;
+    const double length = window_.node(0).length_mm;
     const double per_length = 1.0 / length;
     const JerkNode& node = window_.node(0);
     const bool last = node.travel == Travel::rest_to_rest || cell().stop_at_end; // the move ends in this cell
@@ -170,20 +209,19 @@ void JerkPlan<S>::forward_step() noexcept {
     const auto scalar = [](double x) {
         return from_double<S>(x);
     };
-    profile_segment_.entry_sq = scalar(from.state.b);
-    profile_segment_.exit_sq = scalar(to.state.b);
+    profile_segment_.entry_sq = scalar(from.b);
+    profile_segment_.exit_sq = scalar(to.b);
     const bool starts = !(profile_segment_.entry_sq > S{});
     const bool stops = !(profile_segment_.exit_sq > S{});
     profile_segment_.stops = stops;
     if (starts || stops) { // constant jerk, t = 3 L / v
         profile_segment_.shape = SpeedShape::cubic;
-        profile_segment_.duration_ms =
-            scalar(3e3 * from.cell.length_mm / square_root(starts ? to.state.b : from.state.b));
+        profile_segment_.duration_ms = scalar(3e3 * from.length_mm / square_root(starts ? to.b : from.b));
         profile_segment_.linear = from_integer<S>(starts ? 0 : 3);
         profile_segment_.quadratic = from_integer<S>(starts ? 0 : -3);
     } else {
         profile_segment_.shape = SpeedShape::parabola;
-        profile_segment_.middle_sq = scalar(from.state.b + 0.5 * from.state.slope * from.cell.length_mm);
+        profile_segment_.middle_sq = scalar(from.middle_sq);
     }
 }
 
@@ -204,7 +242,7 @@ bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
     }
     line_ = LineTravel(leg.move());
     planned_ = committed_ = leg.cells();
-    window_.node(planned_).state = {0.0, 0.0}; // an earlier plan may have been moving at its end inside the leg
+    window_.node(planned_).b = 0.0; // an earlier plan may have been moving at its end inside the leg
     return true;
 }
 
@@ -234,7 +272,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     }
     const bool stops = steering_.stops();
     const bool on_line = !line_.done();
-    const double travelled_mm = from * window_.node(0).cell.length_mm;
+    const double travelled_mm = from * window_.node(0).length_mm;
     const bool found = on_line ? change_line(from, state) : change_curve(from, state);
     unanswered_ = !found;
     if (!found) {
@@ -246,7 +284,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     }
     // Except on a straight move, the rest of the front cell becomes a cell of its own.
     on_line_mm_ = on_line ? travelled_mm : 0.0;
-    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).cell.length_mm);
+    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).length_mm);
     halt_ = 0;
     if (stops) {
         committed_ = planned_;
@@ -264,10 +302,10 @@ template <Scalar S>
 bool JerkPlan<S>::steer(const PlanState<S>& place) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
-    if (line_.done() && (left < least_part || left * window_.node(0).cell.length_mm < JerkWindow<S>::shortest_mm)) {
+    if (line_.done() && (left < least_part || left * window_.node(0).length_mm < JerkWindow<S>::shortest_mm)) {
         return false; // it is tried again with the next profile segment
     }
-    if (!answer(from, state_on(profile_segment_, window_.node(0).cell.length_mm, from, to_double(place.time_share)))) {
+    if (!answer(from, state_on(profile_segment_, window_.node(0).length_mm, from, to_double(place.time_share)))) {
         return false;
     }
     chosen_ = false;
@@ -282,13 +320,12 @@ void JerkPlan<S>::follow_steering() noexcept {
         want();
         for (std::size_t i = 0; i < window_.size(); ++i) {
             JerkNode& node = window_.node(i);
-            node.cell.cap_sq = node.wanted_sq;
-            node.expected_sq = smaller(node.at_most_sq, node.wanted_sq);
+            node.cap_sq = node.wanted_sq;
         }
         committed_ = planned_ = 0;
         planned_all_ = false;
     } else if (line_.done()) {
-        const SpeedState state = window_.node(0).state; // the node moves
+        const SpeedState state = window_.state(0); // the node moves
         static_cast<void>(answer(0.0, state));
     } else {
         const MoveState& state = line_.reached();
@@ -316,7 +353,6 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcep
         committed_ = planned_;
     }
     if (committed_ == 0) {
-        expect_again();
         const Pull pull = fill(underrun);
         if (window_.size() == 0 || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
             return pull;
@@ -358,7 +394,7 @@ void JerkPlan<S>::rest_at(S /*fraction*/) noexcept {
 
 template <Scalar S>
 bool JerkPlan<S>::standing() const noexcept {
-    return !chosen_ && line_.done() && !(window_.node(0).state.b > 0.0);
+    return !chosen_ && line_.done() && !(window_.node(0).b > 0.0);
 }
 
 template <Scalar S>
