@@ -28,7 +28,8 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 
 template <Scalar S>
 JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
-    : source_(source, limits, longest_part<S>(storage.cells.size())), limits_(&limits), window_(limits, storage) {}
+    : source_(source, limits, longest_part<S>(storage.cells.size())), limits_(&limits), window_(limits, storage),
+      leg_(storage.scratch) {}
 
 template <Scalar S>
 double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {
@@ -36,8 +37,8 @@ double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcep
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
-    return source_.next(underrun, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
+Pull JerkPlan<S>::take(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    return source_.next(underrun, work, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
         const double most_sq = to_double(cap_sq);
         window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(exit_sq));
         planned_all_ = false;
@@ -45,11 +46,11 @@ Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::fill(UnderrunPolicy underrun) noexcept {
+Pull JerkPlan<S>::fill(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     window_.forget_travelled();
     Pull pull = Pull::item;
     while (!window_.full() && pull == Pull::item) {
-        pull = take(underrun);
+        pull = take(underrun, work);
     }
     return pull;
 }
@@ -71,35 +72,47 @@ std::size_t JerkPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexce
     return planned_;
 }
 
-// Plans cells `first` to `end` as one motion to standstill there. false: none was found; the plan is as before.
+// Begins to plan cells `first` to `end` as one motion to standstill there.
 template <Scalar S>
-bool JerkPlan<S>::plan_curve(std::size_t first, std::size_t end) noexcept {
-    if (end - first < LegPlan::fewest_cells) {
-        return false;
-    }
-    LegPlan leg = window_.leg();
-    const bool rests = !(window_.node(first).b > 0.0);
-    leg.begin(window_.state(first));
+void JerkPlan<S>::begin_leg(std::size_t first, std::size_t end) noexcept {
+    leg_first_ = first;
+    leg_end_ = end;
+    leg_.begin(window_.state(first));
     for (std::size_t i = first; i < end; ++i) {
-        leg.add(window_.limits_of(i), window_.node(i).cap_sq, window_.node(i + 1).at_most_sq);
-        if (!rests && i < planned_) {
-            leg.know(window_.node(i).middle_sq);
+        leg_.add(window_.limits_of(i), window_.node(i).cap_sq, window_.node(i + 1).at_most_sq);
+        if (i < planned_ && window_.node(first).b > 0.0) {
+            leg_.know(window_.node(i).middle_sq);
         }
     }
-    if (!leg.fastest()) {
+    leg_.search();
+    searching_ = true;
+}
+
+// `none`: the plan is as before.
+template <Scalar S>
+Search JerkPlan<S>::search_leg(WorkBudget& work) noexcept {
+    Search search = Search::running;
+    while (search == Search::running) {
+        if (!work.take(static_cast<unsigned>(leg_.cells()))) {
+            return Search::running;
+        }
+        search = leg_.step();
+    }
+    searching_ = false;
+    if (search == Search::none) {
         ++slow_legs_;
-        if (!rests || !leg.slow()) {
-            return false;
+        if (window_.node(leg_first_).b > 0.0 || !leg_.slow()) {
+            return Search::none;
         }
     }
-    for (std::size_t i = first; i < end; ++i) {
+    for (std::size_t i = leg_first_; i < leg_end_; ++i) {
         JerkNode& node = window_.node(i);
-        node.b = leg.node(i - first).b;
-        node.middle_sq = leg.node(i - first).middle_sq;
+        node.b = leg_.node(i - leg_first_).b;
+        node.middle_sq = leg_.node(i - leg_first_).middle_sq;
         node.travel = Travel::curve;
     }
-    window_.node(end).b = 0.0;
-    return true;
+    window_.node(leg_end_).b = 0.0;
+    return Search::found;
 }
 
 // How much of a leg that ends with the window is final: to about the middle, where it brakes least.
@@ -124,43 +137,53 @@ std::size_t JerkPlan<S>::final_cells(std::size_t cells) const noexcept {
     return smaller(best, cells - 3);
 }
 
+// Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
 template <Scalar S>
-void JerkPlan<S>::plan(bool ended) noexcept {
+bool JerkPlan<S>::plan(WorkBudget& work) noexcept {
     const std::size_t half = (window_.size() + 1) / 2;
-    std::size_t at = 0;
-    while (at < window_.size() && (at == 0 || at < half)) {
-        std::size_t end = at + 1;
+    planned_all_ = true;
+    while (at_ < window_.size() && (at_ == 0 || at_ < half)) {
+        std::size_t end = at_ + 1;
         while (end < window_.size() && !window_.cell(end - 1).stop_at_end) {
             ++end;
         }
-        const bool stops = window_.cell(end - 1).stop_at_end || (ended && end == window_.size());
-        if (!stops && at > 0) {
+        const bool stops = window_.cell(end - 1).stop_at_end || (ended_ && end == window_.size());
+        if (!stops && at_ > 0) {
             break;
         }
-        const bool rests = !(window_.node(at).b > 0.0);
-        if (stops && rests && StraightLeg<S>::is_straight(window_, at, end)) {
-            for (std::size_t i = at; i < end; ++i) {
+        const bool rests = !(window_.node(at_).b > 0.0);
+        if (!searching_ && stops && rests && StraightLeg<S>::is_straight(window_, at_, end)) {
+            for (std::size_t i = at_; i < end; ++i) {
                 window_.node(i).travel = Travel::line;
             }
             window_.node(end).b = 0.0;
-            planned_ = end;
-            at = end;
+            at_ = planned_ = end;
             hops_ = 1;
-        } else if (plan_curve(at, end)) {
+            continue;
+        }
+        if (!searching_ && end - at_ >= LegPlan::fewest_cells) {
+            begin_leg(at_, end);
+        }
+        const Search search = searching_ ? search_leg(work) : Search::none;
+        if (search == Search::running) {
+            return false;
+        }
+        if (search == Search::found) {
             planned_ = end;
-            at = stops ? end : final_cells(end);
+            at_ = stops ? end : final_cells(end);
             hops_ = 1;
-        } else if (!rests) { // the old plan goes on, and from a little farther there may be another
-            SPLINEFEED_ASSERT(at == 0 && planned_ > 0);
-            committed_ = larger<std::size_t>(1, planned_ / 8);
+        } else if (rests) {
+            at_ = rest_to_rest(at_, end);
+        } else { // the old plan goes on, and from a little farther there may be another
+            SPLINEFEED_ASSERT(at_ == 0 && planned_ > 0);
+            at_ = larger<std::size_t>(1, planned_ / 8);
             planned_all_ = false;
-            return;
-        } else {
-            at = rest_to_rest(at, end);
+            break;
         }
     }
-    committed_ = at;
-    planned_all_ = true;
+    committed_ = at_;
+    planning_ = false;
+    return true;
 }
 
 // The next profile segment of a straight move, as far as it lies in the front cell.
@@ -315,6 +338,7 @@ bool JerkPlan<S>::steer(const PlanState<S>& place) noexcept {
 // Called before a profile segment is chosen.
 template <Scalar S>
 void JerkPlan<S>::follow_steering() noexcept {
+    planning_ = searching_ = false;
     if (standing()) {
         unanswered_ = false;
         want();
@@ -335,7 +359,7 @@ void JerkPlan<S>::follow_steering() noexcept {
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcept {
+Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     if (chosen_) {
         return Pull::item;
     }
@@ -343,18 +367,18 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcep
         if (steering_.aborts()) {
             return Pull::finished;
         }
-        const Pull pull = window_.size() == 0 ? fill(underrun) : Pull::item;
+        const Pull pull = window_.size() == 0 ? fill(underrun, work) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
-    if (steering_.pending() || unanswered_) {
+    if (steering_.pending() || (unanswered_ && !planning_)) {
         follow_steering();
     }
     if (committed_ == 0 && steering_.stops()) {
         committed_ = planned_;
     }
-    if (committed_ == 0) {
-        const Pull pull = fill(underrun);
-        if (window_.size() == 0 || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
+    if (committed_ == 0 && !planning_) {
+        const Pull pull = fill(underrun, work);
+        if (window_.size() == 0 || pull == Pull::busy || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
             return pull;
         }
         if (planned_all_ && planned_ > 0) {
@@ -363,8 +387,13 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcep
                 pull == Pull::starved && !steering_.stops() && line_.done() && window_.node(0).travel == Travel::curve;
             committed_ = in_part ? 1 : planned_;
         } else {
-            plan(pull == Pull::finished);
+            planning_ = true;
+            ended_ = pull == Pull::finished;
+            at_ = 0;
         }
+    }
+    if (planning_ && !plan(work)) {
+        return Pull::busy;
     }
     forward_step();
     chosen_ = true;
@@ -406,7 +435,7 @@ void JerkPlan<S>::clear() noexcept {
     hops_ = 1;
     on_line_mm_ = 0.0;
     profile_segment_ = {};
-    planned_all_ = unanswered_ = false;
+    planned_all_ = unanswered_ = planning_ = searching_ = false;
     steering_.start();
 }
 

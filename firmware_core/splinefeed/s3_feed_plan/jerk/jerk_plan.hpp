@@ -16,8 +16,9 @@
 
 namespace splinefeed {
 
-/// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (JerkLeg::plan). A
-/// change of the steering while the machine moves plans the path ahead about twelve times (JerkChange).
+/// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (LegPlan). In parts:
+/// a step of the search is as many steps of the budget as the leg has cells. A change of the steering while the machine
+/// moves plans the path ahead about twenty times, at once (JerkChange).
 template <Scalar S>
 class JerkPlan final : public MotionPlan<S> {
 public:
@@ -43,16 +44,17 @@ private:
     using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
-    Pull fill(UnderrunPolicy underrun) noexcept;
-    Pull take(UnderrunPolicy underrun) noexcept;
+    Pull fill(UnderrunPolicy underrun, WorkBudget& work) noexcept;
+    Pull take(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] double wanted_sq(const Cell<S>& cell, double most_sq) const noexcept;
     void want() noexcept;
     bool answer(double from, const SpeedState& state) noexcept;
     bool change_line(double from, const SpeedState& state) noexcept;
     bool change_curve(double from, const SpeedState& state) noexcept;
     void follow_steering() noexcept;
-    void plan(bool ended) noexcept;
-    bool plan_curve(std::size_t first, std::size_t end) noexcept;
+    bool plan(WorkBudget& work) noexcept;
+    void begin_leg(std::size_t first, std::size_t end) noexcept;
+    Search search_leg(WorkBudget& work) noexcept;
     [[nodiscard]] std::size_t final_cells(std::size_t cells) const noexcept;
     std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
     void forward_step() noexcept;
@@ -61,6 +63,13 @@ private:
     GradedFeed<S> source_;
     const MotionLimits<S>* limits_;
     JerkWindow<S> window_;
+    LegPlan leg_;               // that is planned now
+    std::size_t leg_first_ = 0; // its cells
+    std::size_t leg_end_ = 0;
+    std::size_t at_ = 0; // so many cells are planned anew
+    bool planning_ = false;
+    bool searching_ = false;    // in leg_
+    bool ended_ = false;        // no cell comes behind the window
     LineTravel line_{};         // used while a straight leg is travelled
     MoveLimits line_limits_{};  // limits of that leg
     std::size_t committed_ = 0; // cells from the front on

@@ -9,8 +9,10 @@
 #include "splinefeed/s3_feed_plan/jerk/leg_plan.hpp"
 
 #include "splinefeed/number/scalar.hpp"
+
 #include "splinefeed/s3_feed_plan/jerk/cell_use.hpp"
 #include "splinefeed/s3_feed_plan/jerk/leg_guess.hpp"
+#include <iterator>
 
 namespace splinefeed {
 
@@ -25,10 +27,10 @@ constexpr R fine = 5e-4;
 constexpr R from_rest = 0.1;
 constexpr R in_motion = 0.02;
 constexpr R margin = 0.1;
-constexpr R margin_again = 0.003;
-constexpr R almost = 0.999;   // of a limit: the first time less is asked for already here
+constexpr R margin_again = 0.001;
+constexpr R almost = 0.9995;   // of a limit: the first time less is asked for already here
 constexpr R per_excess = 1.5; // by how much the share is reduced
-constexpr R at_least = 0.002; // and this at least
+constexpr R at_least = 0.0005; // and this at least
 constexpr R most_use = 1.25;  // a larger one comes from the bounds and falls faster
 constexpr R leads[] = {0.3, 0.6, 0.85};
 constexpr int most_scalings = 12;
@@ -113,61 +115,92 @@ LegPlan::Proof LegPlan::prove(R from, bool tighten) noexcept {
     return proof;
 }
 
-bool LegPlan::attempt(LegSolver<R>& solver, R lead) noexcept {
+void LegPlan::join() noexcept {
+    solver_ = LegSolver<R>(leg(), limits_, rests_);
+    solver_.join(first_most_sq_, last_most_sq_);
+}
+
+void LegPlan::guess() noexcept {
     for (LegNode<R>& node : leg()) {
         node.jerk_share = node.acceleration_share = 1.0;
     }
     guess_leg<R>(leg(), limits_, rests_);
     if (!rests_ && known_ > 1) {
-        lead_over<R>(leg(), known_, lead);
+        lead_over<R>(leg(), known_, leads[lead_]);
     }
-    if (!solver.solve({steps_of_a_leg, rests_ ? from_rest : in_motion, rough, margin})) {
-        return false;
-    }
-    prove(almost, true);
-    R start = rough * 0.6;
-    for (int pass = 0; pass < most_passes; ++pass) {
-        if (!solver.solve({steps_again, start, fine, margin_again, true}) &&
-            !solver.solve({steps_of_a_leg, in_motion, fine, margin_again})) {
-            return false;
-        }
+    solver_.begin({steps_of_a_leg, rests_ ? from_rest : in_motion, rough, margin});
+}
+
+void LegPlan::search() noexcept {
+    join();
+    stage_ = Stage::guess;
+    lead_ = 0;
+}
+
+// Another attempt, if there is one.
+Search LegPlan::fail() noexcept {
+    stage_ = Stage::guess;
+    return rests_ || known_ < 2 || ++lead_ == std::size(leads) ? Search::none : Search::running;
+}
+
+Search LegPlan::step() noexcept {
+    switch (stage_) {
+    case Stage::guess:
+        guess();
+        stage_ = Stage::first;
+        return Search::running;
+    case Stage::prove_first:
+        prove(almost, true);
+        solver_.begin({steps_again, rough * 0.6, fine, margin_again, true});
+        stage_ = Stage::again;
+        passes_ = 0;
+        return Search::running;
+    case Stage::prove:
         if (prove(1.0, true).kept) {
-            return true;
+            seconds_ = solver_.seconds();
+            return Search::found;
         }
-        start = fine * 2.0;
+        solver_.begin({steps_again, fine * 2.0, fine, margin_again, true});
+        stage_ = Stage::again;
+        return ++passes_ == most_passes ? fail() : Search::running;
+    case Stage::first:
+    case Stage::again:
+    case Stage::anew: break;
     }
-    return false;
+    const Search solved = solver_.step();
+    if (solved == Search::found) {
+        stage_ = stage_ == Stage::first ? Stage::prove_first : Stage::prove;
+    } else if (solved == Search::none && stage_ == Stage::again) {
+        solver_.begin({steps_of_a_leg, in_motion, fine, margin_again});
+        stage_ = Stage::anew;
+    } else if (solved == Search::none) {
+        return fail();
+    }
+    return Search::running;
 }
 
 bool LegPlan::fastest() noexcept {
-    LegSolver<R> solver(leg(), limits_, rests_);
-    solver.join(first_most_sq_, last_most_sq_);
-    for (const R lead : leads) {
-        if (attempt(solver, lead)) {
-            seconds_ = solver.seconds();
-            return true;
-        }
-        if (rests_ || known_ < 2) {
-            break;
-        }
+    search();
+    Search found = Search::running;
+    while (found == Search::running) {
+        found = step();
     }
-    return false;
+    return found == Search::found;
 }
 
 // Scaled by kappa, the parts of the limits that a motion uses scale with kappa (acceleration) and kappa^(3/2).
 bool LegPlan::slow() noexcept {
-    LegSolver<R> solver(leg(), limits_, rests_);
-    solver.join(first_most_sq_, last_most_sq_);
+    join();
     guess_leg<R>(leg(), limits_, rests_);
     R kappa = 0.9;
     for (int i = 0; i < most_scalings; ++i) {
         for (LegNode<R>& node : leg()) {
             node.middle_sq *= kappa;
         }
-        solver.evaluate();
+        solver_.evaluate();
         const Proof proof = prove(1.0, false);
         if (proof.kept) {
-            seconds_ = solver.seconds();
+            seconds_ = solver_.seconds();
             return true;
         }
         kappa = 0.99 * power_two_thirds(1.0 / smaller(proof.most, 1e4));

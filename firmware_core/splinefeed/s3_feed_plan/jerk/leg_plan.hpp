@@ -8,7 +8,7 @@
 
 namespace splinefeed {
 
-/// Works in nodes of the caller. Build a leg by begin() and add(), then plan it.
+/// Works in nodes of the caller. Build a leg by begin() and add(), then plan it: at once, or in steps.
 class LegPlan {
 public:
     using R = double;
@@ -26,8 +26,12 @@ public:
     void know(R middle_sq) noexcept;
     [[nodiscard]] std::size_t cells() const noexcept { return cells_; }
 
-    /// false: none was found. Cost: ten to twenty steps of LegSolver, and as many again for each attempt that fails.
-    /// @pre fewest_cells or more
+    /// Begins the search for the fastest motion. @pre fewest_cells or more
+    void search() noexcept;
+    /// A step of it, which visits every node about once. `none`: the nodes are not changed for the caller. Cost in all:
+    /// ten to twenty steps of LegSolver, and as many again for each attempt that fails.
+    Search step() noexcept;
+    /// All of it. Whether one was found.
     bool fastest() noexcept;
     /// From standstill: a motion that is possible and not fast. false: none within the range of numbers.
     bool slow() noexcept;
@@ -37,16 +41,27 @@ public:
     [[nodiscard]] R seconds() const noexcept { return seconds_; }
 
 private:
+    enum class Stage : std::uint8_t {
+        guess, ///< a first motion
+        first, ///< solved as it is
+        prove_first,
+        again, ///< solved with smaller shares of the limits, from where it is
+        anew,  ///< the same with new multipliers
+        prove
+    };
     struct Proof {
         bool kept = true; ///< every limit in every cell
         R most{};
     };
 
     [[nodiscard]] std::span<LegNode<R>> leg() const noexcept { return nodes_.first(cells_ + 1); }
+    void join() noexcept;
+    void guess() noexcept;
+    Search fail() noexcept;
     Proof prove(R from, bool tighten) noexcept;
-    bool attempt(LegSolver<R>& solver, R lead) noexcept;
 
     std::span<LegNode<R>> nodes_;
+    LegSolver<R> solver_;
     std::size_t cells_ = 0;
     std::size_t known_ = 0;
     bool rests_ = true;
@@ -54,6 +69,9 @@ private:
     R first_most_sq_{};
     R last_most_sq_{};
     R seconds_{};
+    Stage stage_ = Stage::guess;
+    std::size_t lead_ = 0; // number of the attempt
+    int passes_ = 0;       // of solving again
 };
 
 } // namespace splinefeed

@@ -461,7 +461,8 @@ R LegSolver<R>::forward() noexcept {
 }
 
 template <Floating R>
-bool LegSolver<R>::solve(const LegEffort<R>& effort) noexcept {
+void LegSolver<R>::begin(const LegEffort<R>& effort) noexcept {
+    effort_ = effort;
     goal_ = effort.goal;
     braking_rate_ = goal_ == LegGoal::braking ? R(1) / std::sqrt(node_[0].b) : R(0);
     for (std::size_t i = 1; i + 1 < cells_; ++i) {
@@ -473,36 +474,42 @@ bool LegSolver<R>::solve(const LegEffort<R>& effort) noexcept {
         forget_multipliers();
     }
     barrier_ = effort.start_accuracy;
-    R step{};
-    int stuck = 0;
-    for (int i = 0; i < effort.steps; ++i) {
-        move(step);
-        backward();
-        const R inverse = forward();
-        if (!(gap_ > R(0)) || !(inverse < R(1e8))) {
-            return false;
-        }
-        stuck = inverse > R(1.0 / stuck_step) ? stuck + 1 : 0;
-        if (stuck > most_stuck) {
-            return false;
-        }
-        step = R(1) / inverse;
-        infeasibility_ *= R(1) - step;
-        infeasibility_ = infeasibility_ < R(no_excess) ? R(0) : infeasibility_;
-        if (barrier_ <= effort.accuracy * R(1.001) && step > R(good_step) && !(infeasibility_ > R(0))) {
-            break;
-        }
-        const R rest = R(1) - step;
-        const R next = barrier_ * (gap_ / nominal_gap_) * larger(R(least_shrink), rest * rest);
-        barrier_ = larger(effort.accuracy, smaller(barrier_, next));
+    step_ = R(0);
+    steps_ = stuck_ = 0;
+}
+
+template <Floating R>
+Search LegSolver<R>::step() noexcept {
+    move(step_);
+    backward();
+    const R inverse = forward();
+    stuck_ = inverse > R(1.0 / stuck_step) ? stuck_ + 1 : 0;
+    if (!(gap_ > R(0)) || !(inverse < R(1e8)) || stuck_ > most_stuck) {
+        return Search::none;
     }
-    move(step);
+    step_ = R(1) / inverse;
+    infeasibility_ *= R(1) - step_;
+    infeasibility_ = infeasibility_ < R(no_excess) ? R(0) : infeasibility_;
+    const bool close = barrier_ <= effort_.accuracy * R(1.001) && step_ > R(good_step) && !(infeasibility_ > R(0));
+    if (close || ++steps_ == effort_.steps) {
+        return finish();
+    }
+    const R rest = R(1) - step_;
+    const R next = barrier_ * (gap_ / nominal_gap_) * larger(R(least_shrink), rest * rest);
+    barrier_ = larger(effort_.accuracy, smaller(barrier_, next));
+    return Search::running;
+}
+
+// Whether what is left of the first excess is small at every node.
+template <Floating R>
+Search LegSolver<R>::finish() noexcept {
+    move(step_);
     for (std::size_t i = first_; i < cells_; ++i) {
         if (infeasibility_ * node_[i].excess > R(small_excess)) {
-            return false;
+            return Search::none;
         }
     }
-    return true;
+    return Search::found;
 }
 
 template <Floating R>

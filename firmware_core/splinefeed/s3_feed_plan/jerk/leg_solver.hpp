@@ -21,6 +21,9 @@ enum class LegGoal : std::uint8_t {
     braking  ///< as slow as possible, as early as possible
 };
 
+/// How a search stands.
+enum class Search : std::uint8_t { running, found, none };
+
 /// How far the solver goes. `accuracy` is a share of the time by which a motion exceeds the least time, about.
 template <Floating R>
 struct LegEffort {
@@ -38,6 +41,7 @@ class LegSolver {
 public:
     static constexpr std::size_t fewest_cells = 3;
 
+    LegSolver() noexcept = default;
     /// @param nodes  one more than cells; their geometry, guess and shares are set
     /// @param rests  the leg begins at standstill; otherwise b, slope and middle_sq of the first node are its start
     /// @pre fewest_cells or more
@@ -50,9 +54,11 @@ public:
     /// Before the first solve(): what b is made of at each node. Largest b at the moving ends of the first cell (if it
     /// begins at standstill) and of the last one.
     void join(R first_most_sq, R last_most_sq) noexcept;
-    /// From middle_sq, which may exceed limits, on. Leaves b, slope and curvature of the nodes. Whether the limits are
-    /// kept at every node. Cost of a step: about 500 operations a node of three axes.
-    bool solve(const LegEffort<R>& effort) noexcept;
+    /// From middle_sq, which may exceed limits, on.
+    void begin(const LegEffort<R>& effort) noexcept;
+    /// One step. `found`: the limits are kept at every node, which have their b, slope and curvature. Cost: about 500
+    /// operations a node of three axes. @pre begin()
+    Search step() noexcept;
     /// b, slope and curvature from middle_sq.
     void evaluate() noexcept { move(R{0}); }
     /// Duration of the motion [s], by Simpson's rule.
@@ -63,6 +69,7 @@ private:
     struct Terms;
     struct Value;
 
+    Search finish() noexcept;
     [[nodiscard]] Row row_at(std::size_t i) const noexcept;
     R measure_excess(R margin) noexcept;
     void forget_multipliers() noexcept;
@@ -75,9 +82,9 @@ private:
     R forward() noexcept;
 
     std::span<LegNode<R>> node_;
-    std::size_t cells_;
-    std::size_t first_; // node that the start is told by
-    AxisLimits<R> limits_;
+    std::size_t cells_ = 0;
+    std::size_t first_ = 0; // node that the start is told by
+    AxisLimits<R> limits_{};
     LegGoal goal_ = LegGoal::fastest;
     R braking_rate_{};  // of LegGoal::braking: 1 / sqrt(b) of the start
     R barrier_{};       // mu: weight of the barrier
@@ -85,6 +92,10 @@ private:
     R gap_{};           // duality gap
     R nominal_gap_{};   // what it would be on the central path
     R first_step_{};    // of b at the first node, from standstill
+    LegEffort<R> effort_{};
+    R step_{}; // part of step_sq that is taken next
+    int steps_ = 0;
+    int stuck_ = 0;
 };
 
 } // namespace splinefeed
