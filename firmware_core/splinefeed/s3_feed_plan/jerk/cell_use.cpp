@@ -14,8 +14,6 @@
 
 #include "splinefeed/number/scalar.hpp"
 
-#include <cmath>
-
 namespace splinefeed {
 
 namespace {
@@ -50,8 +48,8 @@ template <Floating R>
 R jerk_use(const Passage<R>& p, const Inner<R>& in, R slope0, R slope1, R jerk) noexcept {
     constexpr R third = R(1.0 / 3.0);
     const R half_u = R(0.5) * (slope1 - slope0) / p.length;
-    const R r0 = R(1) / std::sqrt(p.b0);
-    const R r1 = R(1) / std::sqrt(p.b1);
+    const R r0 = R(1) / detail::hardware_square_root(p.b0);
+    const R r1 = R(1) / detail::hardware_square_root(p.b1);
     // J (3/2 r - 1/2 r^3 b) less s3 b: products of linear functions with b
     const R by0 = R(0.5) * r0 * r0 * r0 * jerk + p.third_spread;
     const R by1 = R(0.5) * r1 * r1 * r1 * jerk + p.third_spread;
@@ -153,7 +151,6 @@ CellUse<R> cell_use(const LegNode<R>& node, const LegNode<R>& next, const AxisLi
     return most;
 }
 
-template CellUse<float> cell_use(const LegNode<float>&, const LegNode<float>&, const AxisLimits<float>&) noexcept;
 template CellUse<double> cell_use(const LegNode<double>&, const LegNode<double>&, const AxisLimits<double>&) noexcept;
 
 } // namespace splinefeed

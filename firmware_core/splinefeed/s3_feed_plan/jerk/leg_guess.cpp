@@ -13,8 +13,7 @@
 #include "splinefeed/s3_feed_plan/jerk/leg_guess.hpp"
 
 #include "splinefeed/number/scalar.hpp"
-
-#include <cmath>
+#include "splinefeed/s3_feed_plan/jerk/s_curve_profile.hpp"
 
 namespace splinefeed {
 
@@ -53,7 +52,7 @@ R curvature_bound(const LegNode<R>& node, const AxisLimits<R>& limits, R b) noex
     for (const unsigned k : indices(static_cast<int>(limits.axes))) {
         most = larger(most, larger(absolute(node.axis[k].first), R(least_tangent)) / limits.jerk_mm_s3[k]);
     }
-    return R(of_curvature) / (most * std::sqrt(b));
+    return R(of_curvature) / (most * detail::hardware_square_root(b));
 }
 
 template <Floating R>
@@ -64,11 +63,10 @@ R speed_bound(const LegNode<R>& node, const LegNode<R>& next, const AxisLimits<R
         const R most = larger(absolute(R(node.axis[k].third[1])), absolute(R(next.axis[k].third[0])));
         third = larger(third, most / limits.jerk_mm_s3[k]);
     }
-    if (!(third * g * std::sqrt(g) > R(of_bend))) {
+    if (!(third * g * detail::hardware_square_root(g) > R(of_bend))) {
         return g;
     }
-    const R root = std::cbrt(R(of_bend) / third);
-    return root * root;
+    return power_two_thirds(R(of_bend) / third);
 }
 
 template <Floating R>
@@ -81,8 +79,7 @@ void measure(const Envelope<R>& e, std::size_t n, const AxisLimits<R>& limits, b
     for (std::size_t i = 0; i < n; ++i) {
         total += e.node[i].length_mm;
     }
-    const R root = std::cbrt(R(4.5) * jerk);
-    const R rest = R(of_rest) * root * root;
+    const R rest = R(of_rest) * power_two_thirds(R(4.5) * jerk);
     R s{};
     R wave{};
     R slope{};
@@ -90,7 +87,8 @@ void measure(const Envelope<R>& e, std::size_t n, const AxisLimits<R>& limits, b
         const R half = R(0.5) * e.node[i].length_mm;
         const R place = s + half;
         const R end = rests ? smaller(place, total - place) : total - place;
-        const R g = smaller(speed_bound(e.node[i], e.node[i + 1], limits), rest * end * std::cbrt(end));
+        const R way = power_two_thirds(end);
+        const R g = smaller(speed_bound(e.node[i], e.node[i + 1], limits), rest * way * way);
         const R c = curvature_bound(e.node[i], limits, g);
         const auto half_on = [&] {
             wave += slope * half + R(0.5) * c * half * half;
@@ -251,9 +249,7 @@ void lead_over(std::span<LegNode<R>> nodes, std::size_t known, R from) noexcept 
     }
 }
 
-template void guess_leg(std::span<LegNode<float>>, const AxisLimits<float>&, bool) noexcept;
 template void guess_leg(std::span<LegNode<double>>, const AxisLimits<double>&, bool) noexcept;
-template void lead_over(std::span<LegNode<float>>, std::size_t, float) noexcept;
 template void lead_over(std::span<LegNode<double>>, std::size_t, double) noexcept;
 
 } // namespace splinefeed

@@ -29,9 +29,9 @@ constexpr R in_motion = 0.02;
 constexpr R margin = 0.1;
 constexpr R margin_again = 0.001;
 constexpr R almost = 0.9995;   // of a limit: the first time less is asked for already here
-constexpr R per_excess = 1.5; // by how much the share is reduced
+constexpr R per_excess = 1.5;  // by how much the share is reduced
 constexpr R at_least = 0.0005; // and this at least
-constexpr R most_use = 1.25;  // a larger one comes from the bounds and falls faster
+constexpr R most_use = 1.25;   // a larger one comes from the bounds and falls faster
 constexpr R leads[] = {0.3, 0.6, 0.85};
 constexpr int most_scalings = 12;
 

@@ -29,9 +29,7 @@
 // steps.
 #include "splinefeed/s3_feed_plan/jerk/leg_solver.hpp"
 
-#include "splinefeed/number/scalar.hpp"
-
-#include <cmath>
+#include "splinefeed/s3_feed_plan/jerk/leg_rows.hpp"
 
 namespace splinefeed {
 
@@ -39,44 +37,17 @@ namespace {
 
 template <Floating R>
 constexpr R no_row = R(1e15);            // share of a limit beside the first and the last cell: there is no row
-constexpr double to_boundary = 0.9;      // part of the way to the next limit that a step goes
 constexpr double least_left = 0.2;       // of middle_sq, after a step
-constexpr double most_multiplier = 20.0; // of its value on the central path
-constexpr double least_multiplier = 0.1; // of its last value
 constexpr double least_curvature = 0.05; // of the time's own
 constexpr double least_shrink = 0.1;     // of the gap in a step
 constexpr double stuck_step = 0.02;      // a step below is one that leads nowhere
 constexpr int most_stuck = 3;
 constexpr double good_step = 0.5; // the last step reaches so far, at least
+
 constexpr double no_excess = 1e-5;
 constexpr double small_excess = 1e-4;
 
 } // namespace
-
-/// What the rows of a node depend on.
-template <Floating R>
-struct LegSolver<R>::Row {
-    R b;
-    R slope;
-    R root; // b^(-1/2)
-    R per_b;
-    R pull;   // mu tau
-    R excess; // phi r
-    R wider;  // 1 + phi r
-    R acceleration_share;
-    Pair<R> share; // of the jerk, in the cell before and behind
-    Pair<R> curvature;
-};
-
-/// Second and first derivatives of the model by db, dslope and du of the cells before and behind.
-template <Floating R>
-struct LegSolver<R>::Terms {
-    R bb{}, bs{}, ss{}, b{}, s{};                                   // of the acceleration
-    Pair<R> jbb{}, jbs{}, jss{}, jb{}, js{}, ub{}, us{}, uu{}, u{}; // of the jerk
-    Pair<R> limit_curvature{};
-    R gap{};
-    Pair<R> jerk_gap{};
-};
 
 /// Cost of the rest of the way: second and first derivatives by the state at a node, and by u of the cell before it.
 template <Floating R>
@@ -147,9 +118,9 @@ typename LegSolver<R>::Row LegSolver<R>::row_at(std::size_t i) const noexcept {
     Row row;
     row.b = node.b;
     row.slope = node.slope;
-    row.root = R(1) / std::sqrt(node.b);
+    row.root = R(1) / detail::hardware_square_root(node.b);
     row.per_b = row.root * row.root;
-    row.pull = barrier_ * node.weight_mm * (goal_ == LegGoal::braking ? braking_rate_ : row.root);
+    row.pull = barrier_ * node.weight_mm * row.root;
     row.excess = infeasibility_ * node.excess;
     row.wider = R(1) + row.excess;
     row.acceleration_share =
@@ -170,18 +141,8 @@ R LegSolver<R>::measure_excess(R margin) noexcept {
         const Row row = row_at(i);
         R most{};
         for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
-            const LegAxis<R>& axis = node.axis[k];
-            const R by_slope = R(1.5) * axis.second;
-            const R by_curvature = R(0.5) * axis.first;
-            if (i > 0) {
-                most = larger(most, absolute(axis.second * row.b + by_curvature * row.slope) /
-                                        (limits_.acceleration_mm_s2[k] * row.acceleration_share -
-                                         larger_of<R>(axis.second_spread) * row.b));
-            }
-            const Pair<R> limit = limits_.jerk_mm_s3[k] * row.root - axis.third_spread * row.b;
-            const Pair<R> use =
-                (axis.third * row.b + by_slope * row.slope + by_curvature * row.curvature) / (limit * row.share);
-            most = larger(most, larger(absolute(R(use[0])), absolute(R(use[1]))));
+            most = larger(most, detail::use_of_node(node.axis[k], limits_.acceleration_mm_s2[k], limits_.jerk_mm_s3[k],
+                                                    row, i > 0));
         }
         const R free = i == 0 ? R(1e-3) : margin; // nothing can change the state of the first node
         node.excess = most > R(1) - free ? most - R(1) + free : R(0);
@@ -201,95 +162,19 @@ void LegSolver<R>::forget_multipliers() noexcept {
     }
 }
 
-template <Floating R>
-inline void LegSolver<R>::add_acceleration(LegAxis<R>& axis, unsigned k, const Row& row, Terms& terms) noexcept {
-    const R by_slope = R(0.5) * axis.first;
-    const R p = axis.second * row.b + by_slope * row.slope;
-    const R spread = larger_of<R>(axis.second_spread);
-    const R limit = limits_.acceleration_mm_s2[k] * row.acceleration_share - spread * row.b;
-    const R wide = row.wider * limit;
-    const R size = absolute(p);
-    const R near = wide - size;
-    const R far = wide + size;
-    const R inverse = R(1) / (near * far);
-    const R per_near = far * inverse;
-    const R per_far = near * inverse;
-    const R central = row.pull * per_near;
-    R multiplier = axis.acceleration_multiplier * p > R(0) ? absolute(axis.acceleration_multiplier) : central;
-    multiplier = smaller(multiplier, R(most_multiplier) * central);
-    axis.acceleration_multiplier = std::copysign(multiplier, p);
-    axis.per_acceleration_slack = per_near;
-    terms.gap += near * multiplier;
-    const R stiff = multiplier * per_near;
-    const R second = stiff + row.pull * per_far * per_far;
-    const R first = std::copysign(absolute(row.pull * (per_near - per_far) + stiff * row.excess * limit), p);
-    const R by_b = axis.second + std::copysign(row.wider * spread, p);
-    const R of_b = second * by_b;
-    const R of_slope = second * by_slope;
-    terms.bb += of_b * by_b;
-    terms.bs += of_b * by_slope;
-    terms.ss += of_slope * by_slope;
-    terms.b += first * by_b;
-    terms.s += first * by_slope;
-}
-
-template <Floating R>
-inline void LegSolver<R>::add_jerk(LegAxis<R>& axis, unsigned k, const Row& row, Terms& terms) noexcept {
-    const R by_slope = R(1.5) * axis.second;
-    const R by_u = R(0.5) * axis.first;
-    const R at_root = limits_.jerk_mm_s3[k] * row.root;
-    const Pair<R> limit = at_root - axis.third_spread * row.b;
-    const Pair<R> fall = R(0.5) * at_root * row.per_b + axis.third_spread; // -dh/db
-    const Pair<R> p = axis.third * row.b + by_slope * row.slope + by_u * row.curvature;
-    const Pair<R> share = row.share * row.wider;
-    const Pair<R> wide = limit * share;
-    const Pair<R> size = magnitude_of<R>(p);
-    const Pair<R> near = wide - size;
-    const Pair<R> far = wide + size;
-    const Pair<R> inverse = R(1) / (near * far);
-    const Pair<R> per_near = far * inverse;
-    const Pair<R> per_far = near * inverse;
-    const Pair<R> central = row.pull * per_near;
-    Pair<R> multiplier = axis.jerk_multiplier * p > R(0) ? magnitude_of<R>(axis.jerk_multiplier) : central;
-    const Pair<R> most = R(most_multiplier) * central;
-    multiplier = multiplier < most ? multiplier : most;
-    axis.jerk_multiplier = with_sign_of<R>(multiplier, p);
-    axis.per_jerk_slack = per_near;
-    terms.jerk_gap += near * multiplier;
-    const Pair<R> own_limit = limit * row.share;
-    terms.limit_curvature += multiplier * own_limit;
-    const Pair<R> stiff = multiplier * per_near;
-    const Pair<R> second = stiff + row.pull * per_far * per_far;
-    const Pair<R> first = with_sign_of<R>(row.pull * (per_near - per_far) + stiff * (row.excess * own_limit), p);
-    const Pair<R> by_b = axis.third + with_sign_of<R>(fall * share, p);
-    const Pair<R> of_b = second * by_b;
-    const Pair<R> of_slope = second * by_slope;
-    const Pair<R> of_u = second * by_u;
-    terms.jbb += of_b * by_b;
-    terms.jbs += of_b * by_slope;
-    terms.jss += of_slope * by_slope;
-    terms.jb += first * by_b;
-    terms.js += first * by_slope;
-    terms.ub += of_u * by_b;
-    terms.us += of_u * by_slope;
-    terms.uu += of_u * by_u;
-    terms.u += first * by_u;
-}
-
 // The cap of the middle of the cell behind a node, b + b' L / 2.
 template <Floating R>
 inline void LegSolver<R>::add_cap(LegNode<R>& node, const Row& row, Value& value) noexcept {
     const R slack = R(1) / (node.cap_sq - node.middle_sq);
     const R central = row.pull * slack;
     R multiplier = node.cap_multiplier > R(0) ? node.cap_multiplier : central;
-    multiplier = smaller(multiplier, R(most_multiplier) * central);
+    multiplier = smaller(multiplier, R(detail::most_multiplier) * central);
     node.cap_multiplier = multiplier;
     node.per_cap_slack = slack;
     gap_ += (node.cap_sq - node.middle_sq) * multiplier;
     nominal_gap_ += row.pull;
-    const R from_zero = goal_ == LegGoal::braking ? row.pull / node.middle_sq : R(0);
-    const R second = multiplier * slack + from_zero / node.middle_sq * (goal_ == LegGoal::braking ? R(1) : R(0));
-    const R first = central - from_zero;
+    const R second = multiplier * slack;
+    const R first = central;
     const R half = R(0.5) * node.length_mm;
     value.bb += second;
     value.bs += second * half;
@@ -348,24 +233,20 @@ void LegSolver<R>::backward() noexcept {
         const Row row = row_at(i);
         Terms terms;
         for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
-            add_acceleration(node.axis[k], k, row, terms);
-            add_jerk(node.axis[k], k, row, terms);
+            detail::add_acceleration(node.axis[k], limits_.acceleration_mm_s2[k], row, terms);
+            detail::add_jerk(node.axis[k], limits_.jerk_mm_s3[k], row, terms);
         }
         gap_ += terms.gap + sum_of<R>(terms.jerk_gap);
         nominal_gap_ += row.pull * static_cast<R>(3U * limits_.axes);
         R bb = terms.bb + sum_of<R>(terms.jbb);
         R first = terms.b + sum_of<R>(terms.jb);
-        if (goal_ == LegGoal::braking) {
-            first += node.weight_mm * braking_rate_ * braking_rate_ * braking_rate_;
-        } else {
-            const R slowness = node.weight_mm * row.root * row.per_b;
-            const R own = R(0.75) * slowness * row.per_b;
-            const R of_limits = R(0.75) * row.per_b * row.per_b *
-                                ((i > first_ ? R(terms.limit_curvature[0]) : R(0)) +
-                                 (i + 1 < cells_ ? R(terms.limit_curvature[1]) : R(0)));
-            bb += larger(R(least_curvature) * own, own - of_limits);
-            first -= R(0.5) * slowness;
-        }
+        const R slowness = node.weight_mm * row.root * row.per_b;
+        const R own = R(0.75) * slowness * row.per_b;
+        const R of_limits =
+            R(0.75) * row.per_b * row.per_b *
+            ((i > first_ ? R(terms.limit_curvature[0]) : R(0)) + (i + 1 < cells_ ? R(terms.limit_curvature[1]) : R(0)));
+        bb += larger(R(least_curvature) * own, own - of_limits);
+        first -= R(0.5) * slowness;
         if (i + 1 < cells_) {
             pass_cell(i, terms, value);
             if (i > 0) {
@@ -389,8 +270,6 @@ void LegSolver<R>::backward() noexcept {
 // The step of every node and multiplier. Returns the inverse of the part of it that stays within all limits.
 template <Floating R>
 R LegSolver<R>::forward() noexcept {
-    constexpr R per_way = R(1.0 / to_boundary);
-    constexpr R least = R(least_multiplier);
     R most{1};
     Pair<R> most_jerk{R(1), R(1)};
     R db = rests() ? first_step_ : R(0);
@@ -404,67 +283,28 @@ R LegSolver<R>::forward() noexcept {
         const R du = right ? node.gain[0] + node.gain[1] * db + node.gain[2] * ds : R(0);
         const R next_slope = ds + du * node.length_mm;
         const R next_b = db + R(0.5) * (ds + next_slope) * node.length_mm;
-        const Pair<R> both{du_before, du};
+        const detail::LegStep<R> step{db, ds, Pair<R>{du_before, du}};
         for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
-            LegAxis<R>& axis = node.axis[k];
-            const R by_u = R(0.5) * axis.first;
-            {
-                const R spread = larger_of<R>(axis.second_spread);
-                const R limit = limits_.acceleration_mm_s2[k] * row.acceleration_share - spread * row.b;
-                const R along = axis.second * db + by_u * ds;
-                const R outward = axis.acceleration_multiplier < R(0) ? -along : along;
-                const R change = -spread * db;
-                const R dh = (change > R(0) ? R(1) : row.wider) * change - row.excess * limit;
-                const R dz = dh - outward;
-                const R size = absolute(axis.acceleration_multiplier);
-                most = larger(most, -dz * axis.per_acceleration_slack * per_way);
-                const R far = -(dh + outward) * per_way;
-                if (far > most * row.wider * limit) {
-                    most = larger(most, far / (R(2) * row.wider * limit - R(1) / axis.per_acceleration_slack));
-                }
-                axis.acceleration_multiplier =
-                    std::copysign(larger(least * size, (row.pull - size * dz) * axis.per_acceleration_slack),
-                                  axis.acceleration_multiplier);
-            }
-            const R at_root = limits_.jerk_mm_s3[k] * row.root;
-            const Pair<R> change = -(R(0.5) * at_root * row.per_b + axis.third_spread) * db * row.share;
-            const Pair<R> limit = (at_root - axis.third_spread * row.b) * row.share;
-            const Pair<R> along = axis.third * db + R(1.5) * axis.second * ds + by_u * both;
-            const Pair<R> outward = with_sign_of<R>(along, axis.jerk_multiplier);
-            const Pair<R> dh = (change > R(0) ? change : row.wider * change) - row.excess * limit;
-            const Pair<R> dz = dh - outward;
-            const Pair<R> size = magnitude_of<R>(axis.jerk_multiplier);
-            const Pair<R> part = -dz * axis.per_jerk_slack * per_way;
-            most_jerk = part > most_jerk ? part : most_jerk;
-            const Pair<R> far = -(dh + outward) * per_way;
-            const Pair<R> wide = row.wider * limit;
-            if (far[0] > most_jerk[0] * wide[0] || far[1] > most_jerk[1] * wide[1]) {
-                const Pair<R> other = far / (R(2) * wide - R(1) / axis.per_jerk_slack);
-                most_jerk = other > most_jerk ? other : most_jerk;
-            }
-            const Pair<R> next = (row.pull - size * dz) * axis.per_jerk_slack;
-            const Pair<R> lowest = least * size;
-            axis.jerk_multiplier = with_sign_of<R>(next > lowest ? next : lowest, axis.jerk_multiplier);
+            detail::follow_acceleration(node.axis[k], limits_.acceleration_mm_s2[k], row, step, most);
+            detail::follow_jerk(node.axis[k], limits_.jerk_mm_s3[k], row, step, most_jerk);
         }
         if (i > 0 && right) {
             node.step_sq = db + R(0.5) * node.length_mm * ds;
-            most = larger(most, node.step_sq * node.per_cap_slack * per_way);
+            most = larger(most, node.step_sq * node.per_cap_slack * R(detail::per_way));
             most = larger(most, -node.step_sq * R(1.0 / (1.0 - least_left)) / node.middle_sq);
-            node.cap_multiplier = larger(least * node.cap_multiplier,
+            node.cap_multiplier = larger(R(detail::least_multiplier) * node.cap_multiplier,
                                          (row.pull + node.cap_multiplier * node.step_sq) * node.per_cap_slack);
         }
         db = next_b;
         ds = next_slope;
         du_before = du;
     }
-    return larger(most, larger(R(most_jerk[0]), R(most_jerk[1])));
+    return larger(most, larger_of<R>(most_jerk));
 }
 
 template <Floating R>
 void LegSolver<R>::begin(const LegEffort<R>& effort) noexcept {
     effort_ = effort;
-    goal_ = effort.goal;
-    braking_rate_ = goal_ == LegGoal::braking ? R(1) / std::sqrt(node_[0].b) : R(0);
     for (std::size_t i = 1; i + 1 < cells_; ++i) {
         node_[i].middle_sq = smaller(node_[i].middle_sq, R(0.9999) * node_[i].cap_sq);
     }
@@ -519,18 +359,18 @@ R LegSolver<R>::seconds() const noexcept {
         const LegNode<R>& node = node_[i];
         const bool from_rest = i == 0 && rests();
         if (from_rest || i + 1 == cells_) {
-            sum += R(3) * node.length_mm / std::sqrt(from_rest ? node_[1].b : node.b);
+            sum += R(3) * node.length_mm / detail::hardware_square_root(from_rest ? node_[1].b : node.b);
             continue;
         }
         const R next = node_[i + 1].b;
         const R middle = R(0.25) * (node.b + next + R(2) * node.middle_sq);
         sum += node.length_mm * R(1.0 / 6.0) *
-               (R(1) / std::sqrt(node.b) + R(4) / std::sqrt(middle) + R(1) / std::sqrt(next));
+               (R(1) / detail::hardware_square_root(node.b) + R(4) / detail::hardware_square_root(middle) +
+                R(1) / detail::hardware_square_root(next));
     }
     return sum;
 }
 
-template class LegSolver<float>;
 template class LegSolver<double>;
 
 } // namespace splinefeed

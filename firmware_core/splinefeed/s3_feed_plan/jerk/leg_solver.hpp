@@ -9,17 +9,11 @@
 //        +--|------|-----|----|--> s
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk/leg_node.hpp"
+#include "splinefeed/s3_feed_plan/jerk/leg_rows.hpp"
 
 #include <span>
 
 namespace splinefeed {
-
-/// What a motion is to be.
-enum class LegGoal : std::uint8_t {
-    fastest, ///< of the least time
-    braking  ///< as slow as possible, as early as possible
-};
 
 /// How a search stands.
 enum class Search : std::uint8_t { running, found, none };
@@ -32,7 +26,6 @@ struct LegEffort {
     R accuracy{};
     R margin{};         ///< of the limits, that the first motion leaves free at least
     bool again = false; ///< the multipliers of the last solution serve
-    LegGoal goal = LegGoal::fastest;
 };
 
 /// The nodes are the caller's: node i and the cell after it; the last one is the end, at standstill.
@@ -65,8 +58,8 @@ public:
     [[nodiscard]] R seconds() const noexcept;
 
 private:
-    struct Row;
-    struct Terms;
+    using Row = detail::LegRow<R>;
+    using Terms = detail::LegTerms<R>;
     struct Value;
 
     Search finish() noexcept;
@@ -74,8 +67,6 @@ private:
     R measure_excess(R margin) noexcept;
     void forget_multipliers() noexcept;
     void move(R step) noexcept;
-    void add_acceleration(LegAxis<R>& axis, unsigned k, const Row& row, Terms& terms) noexcept;
-    void add_jerk(LegAxis<R>& axis, unsigned k, const Row& row, Terms& terms) noexcept;
     void add_cap(LegNode<R>& node, const Row& row, Value& value) noexcept;
     void pass_cell(std::size_t i, const Terms& terms, Value& value) noexcept;
     void backward() noexcept;
@@ -85,8 +76,6 @@ private:
     std::size_t cells_ = 0;
     std::size_t first_ = 0; // node that the start is told by
     AxisLimits<R> limits_{};
-    LegGoal goal_ = LegGoal::fastest;
-    R braking_rate_{};  // of LegGoal::braking: 1 / sqrt(b) of the start
     R barrier_{};       // mu: weight of the barrier
     R infeasibility_{}; // phi: share of the first excess that is left
     R gap_{};           // duality gap
