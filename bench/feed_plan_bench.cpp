@@ -7,8 +7,8 @@
 // on the machine count only by the caches that they use.
 #include "looped_curve.hpp"
 
+#include "splinefeed/s3_feed_plan/jerk/jerk_plan.hpp"
 #include "splinefeed/s3_feed_plan/jerk_filtered/smooth_plan.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -59,11 +59,12 @@ struct Stages {
 
 struct JerkStages : Stages<double> {
     JerkStages(std::int64_t waypoints, const MotionLimits<double>& machine)
-        : Stages<double>(waypoints, machine), cells(jerk_cells), nodes(JerkStorage<double>::nodes_for(jerk_cells)),
-          plan(feed_plan, machine, JerkStorage<double>{cells, nodes}) {}
+        : Stages<double>(waypoints, machine), cells(jerk_cells), nodes(jerk_cells + 1), scratch(jerk_cells + 1),
+          plan(feed_plan, machine, JerkStorage<double>{cells, nodes, scratch}) {}
 
     std::vector<Cell<double>> cells;
     std::vector<JerkNode> nodes;
+    std::vector<LegNode<double>> scratch;
     JerkPlan<double> plan;
 };
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "splinefeed/planner.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_plan.hpp"
 #include "splinefeed/s4_segment_stream/profile_sampler.hpp"
 
 namespace splinefeed {
@@ -13,7 +13,7 @@ template <Scalar S>
 class OptimalPlanner final : public Planner<S> {
 public:
     /// @param window   window of the acceleration-limited plan that it refines
-    /// @param storage  at least JerkPlan::smallest_window cells, and JerkStorage::nodes_for() as many nodes
+    /// @param storage  at least JerkPlan::smallest_window cells
     OptimalPlanner(std::span<PlannedCell<S>> window, const JerkStorage<S>& storage) noexcept
         : Planner<S>(window), storage_(storage) {}
 
@@ -30,8 +30,7 @@ private:
         if (storage_.cells.size() < JerkPlan<S>::smallest_window) {
             return Error::window_too_small;
         }
-        return storage_.nodes.size() < JerkStorage<S>::nodes_for(storage_.cells.size()) ? Error::storage_too_small
-                                                                                        : Error::none;
+        return storage_.enough() ? Error::none : Error::storage_too_small;
     }
     [[nodiscard]] Stages build(FeedPlan<S>& speeds, const MotionLimits<S>& limits) noexcept override {
         JerkPlan<S>& plan = plan_.build(speeds, limits, storage_);

@@ -32,9 +32,10 @@ public:
         } else {
             const std::size_t cells = std::max(window_cells / cells_an_optimal_cell, JerkPlan<S>::smallest_window);
             cells_.resize(cells + std::min(cells / 3, JerkWindow<S>::most_spare)); // a quarter of all is kept free
-            nodes_.resize(JerkStorage<S>::nodes_for(cells_.size()));
-            trajectory_ =
-                *Trajectory<S>::make(curve, limits, optimal_.emplace(window_, JerkStorage<S>{cells_, nodes_}));
+            nodes_.resize(cells_.size() + 1);
+            scratch_.resize(nodes_.size());
+            trajectory_ = *Trajectory<S>::make(curve, limits,
+                                               optimal_.emplace(window_, JerkStorage<S>{cells_, nodes_, scratch_}));
         }
     }
     PlannedTrajectory(const PlannedTrajectory&) = delete;
@@ -51,7 +52,7 @@ public:
                               : sizeof *optimal_) -
                sizeof(SegmentStream<S>) + window_.size() * sizeof(PlannedCell<S>) +
                smooth_cells_.size() * sizeof(SmoothCell<S>) + places_.size() * sizeof(PathPosition) +
-               cells_.size() * sizeof(Cell<S>) + nodes_.size() * sizeof(JerkNode);
+               cells_.size() * sizeof(Cell<S>) + nodes_.size() * (sizeof(JerkNode) + sizeof(LegNode<double>));
     }
 
 private:
@@ -64,6 +65,7 @@ private:
     std::vector<PlannedCell<S>> window_;
     std::vector<Cell<S>> cells_;
     std::vector<JerkNode> nodes_;
+    std::vector<LegNode<double>> scratch_;
     std::vector<SmoothCell<S>> smooth_cells_;
     std::vector<PathPosition> places_;
     std::optional<AccelerationPlanner<S>> acceleration_; // one of the three

@@ -112,8 +112,9 @@ void run_planners() {
         }
         {
             std::array<Cell<S>, cells> known;
-            std::array<JerkNode, JerkStorage<S>::nodes_for(cells)> nodes;
-            OptimalPlanner<S> planner(window, {known, nodes});
+            std::array<JerkNode, cells + 1> nodes;
+            std::array<LegNode<double>, cells + 1> scratch;
+            OptimalPlanner<S> planner(window, {known, nodes, scratch});
             run_planner<S>("planner optimal", "planner optimal, steered", *jerk_limits<S, JerkTier::optimal>, planner,
                            little);
         }

@@ -29,7 +29,8 @@ struct Graded {
     }
     /// The next part; false: there is none.
     bool next(Cell<S>& part) {
-        return feed.next(UnderrunPolicy::wait,
+        WorkBudget unlimited;
+        return feed.next(UnderrunPolicy::wait, unlimited,
                          [&](const Cell<S>& cell, S /*cap_sq*/, S /*exit_sq*/) { part = cell; }) == Pull::item;
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Cells that begin or end at rest, against the jerk along them in long double.
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_cell.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_cell.hpp"
 
 #include "support/catch.hpp"
 #include "support/jerk_reference.hpp"

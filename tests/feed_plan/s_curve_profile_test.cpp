@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Straight moves with limited jerk: where they end, that they keep their limits, and that none is faster.
-#include "splinefeed/s3_feed_plan/jerk_optimal/line_travel.hpp"
+#include "splinefeed/s3_feed_plan/jerk/line_travel.hpp"
 
 #include "support/bezier_paths.hpp"
 #include "support/catch.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A straight leg in motion: where it rests, and what it cuts for that.
-#include "splinefeed/s3_feed_plan/jerk_optimal/straight_leg.hpp"
+#include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
 
 #include "support/catch.hpp"
 #include "support/pipeline.hpp"
@@ -21,14 +21,15 @@ struct Line {
         ListSource<double> source(BezierPath(8, line_shape(1, 3, {0.5})));
         planned = plan_of<double>(source, limits, 256);
         cells.resize(planned.cells.size() + spare);
-        nodes.resize(JerkStorage<double>::nodes_for(cells.size()));
-        window.emplace(limits, JerkStorage<double>{cells, nodes});
+        nodes.resize(cells.size() + 1);
+        scratch.resize(nodes.size());
+        window.emplace(limits, JerkStorage<double>{cells, nodes, scratch});
         for (const PlannedCell<double>& c : planned.cells) {
             window->append(c.cell, c.cap_sq, c.cap_sq, c.exit_sq);
         }
         for (std::size_t i = 0; i < window->size(); ++i) {
             window->node(i).travel = Travel::line;
-            end_mm.push_back((i > 0 ? end_mm.back() : 0.0) + window->node(i).cell.length_mm);
+            end_mm.push_back((i > 0 ? end_mm.back() : 0.0) + window->node(i).length_mm);
         }
     }
 
@@ -37,6 +38,7 @@ struct Line {
     Planned<double> planned;
     std::vector<Cell<double>> cells;
     std::vector<JerkNode> nodes;
+    std::vector<LegNode<double>> scratch;
     std::optional<JerkWindow<double>> window;
     std::vector<double> end_mm; ///< of each cell
 };
@@ -96,8 +98,8 @@ TEST_CASE("a straight leg rests as near as it can, and cuts the cell there", "[f
                 CHECK(leg.cells() == i + 1);
                 CHECK(leg.move().length_mm() == Approx(way).epsilon(1e-6));
                 CHECK(line.window->size() == size + 1);
-                CHECK(line.window->node(i).cell.length_mm == Approx(0.7 * cell).epsilon(1e-4));
-                CHECK(line.window->node(i + 1).cell.length_mm == Approx(0.3 * cell).epsilon(1e-4));
+                CHECK(line.window->node(i).length_mm == Approx(0.7 * cell).epsilon(1e-4));
+                CHECK(line.window->node(i + 1).length_mm == Approx(0.3 * cell).epsilon(1e-4));
             }
         }
     }

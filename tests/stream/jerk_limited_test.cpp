@@ -65,6 +65,36 @@ TEMPLATE_TEST_CASE("jerk-limited machines and Bezier segments", "[stream][jerk]"
     });
 }
 
+TEMPLATE_TEST_CASE("a jerk limit that no sampled motion reaches is kept without a plan for it", "[stream][jerk]",
+                   double, Fixed) {
+    using S = TestType;
+    int runs = 0;
+    for (std::uint64_t seed = 6500; seed < 6500 + static_cast<std::uint64_t>(rounds(40)); ++seed) {
+        Random random(seed);
+        MachineSettings machine = random_machine(random, random.integer(1, max_axes));
+        const auto plain = MotionLimits<S>::make(machine);
+        if (!plain.has_value()) {
+            continue;
+        }
+        const double segment_s = 1.0 / to_double(plain->segments_per_s);
+        MachineSettings limited = machine;
+        for (AxisSettings& axis : limited.axis) {
+            axis.max_jerk_mm_s3 = 1.0001 * (axis.max_acceleration_mm_s2 + axis.braking_mm_s2()) / segment_s;
+        }
+        const auto limits = MotionLimits<S>::make(limited);
+        if (!limits.has_value()) { // beyond the range of a jerk limit
+            continue;
+        }
+        CAPTURE(seed);
+        REQUIRE_FALSE(limits->jerk_limited);
+        require_limits(stream_of<S>(random_program(random, machine.axes), limited, 64), limited);
+        limited.axis[0].max_jerk_mm_s3 *= 0.99;
+        REQUIRE(MotionLimits<S>::make(limited)->jerk_limited);
+        ++runs;
+    }
+    CHECK(runs > 0);
+}
+
 TEST_CASE("a straight move takes the time of the S-curve", "[stream][jerk]") {
     for (const JerkTier tier : {JerkTier::bounded, JerkTier::optimal}) {
         for (const double length : {0.1, 1.0, 10.0, 100.0}) {

@@ -66,11 +66,12 @@ TEST_CASE("a planner that the limits do not ask for is refused", "[stream][refus
     const auto bounded = limits_of<S>(jerk_machine(JerkTier::bounded));
     std::vector<PlannedCell<S>> window(64);
     std::vector<Cell<S>> cells(64);
-    std::vector<JerkNode> nodes(JerkStorage<S>::nodes_for(64));
+    std::vector<JerkNode> nodes(65);
+    std::vector<LegNode<double>> scratch(65);
     std::vector<SmoothCell<S>> smooth_cells(64);
     std::vector<PathPosition> places(SmoothSampler<S>::places_for(bounded));
     AccelerationPlanner<S> acceleration_planner(window);
-    OptimalPlanner<S> optimal_planner(window, {cells, nodes});
+    OptimalPlanner<S> optimal_planner(window, {cells, nodes, scratch});
     BoundedPlanner<S> bounded_planner(window, {smooth_cells, places});
     const std::array<Planner<S>*, 3> planners{&acceleration_planner, &optimal_planner, &bounded_planner};
     const std::array limits{plain, optimal, bounded};
@@ -92,7 +93,8 @@ TEST_CASE("storage that is too small is refused and not written to", "[stream][r
     const auto bounded = limits_of<S>(jerk_machine(JerkTier::bounded));
     std::vector<PlannedCell<S>> window(64);
     std::vector<Cell<S>> cells(16);
-    std::vector<JerkNode> nodes(JerkStorage<S>::nodes_for(16));
+    std::vector<JerkNode> nodes(17);
+    std::vector<LegNode<double>> scratch(17);
     std::vector<SmoothCell<S>> smooth_cells(12);
     std::vector<PathPosition> places(SmoothSampler<S>::places_for(bounded));
     const auto first = [](auto& storage, std::size_t n) {
@@ -105,11 +107,13 @@ TEST_CASE("storage that is too small is refused and not written to", "[stream][r
         CHECK(refusal<S>(source, bounded, other) == Error::window_too_small);
     }
     for (const std::size_t size : {0U, 15U}) {
-        OptimalPlanner<S> planner(window, {first(cells, size), nodes});
+        OptimalPlanner<S> planner(window, {first(cells, size), nodes, scratch});
         CHECK(refusal<S>(source, optimal, planner) == Error::window_too_small);
     }
     for (const std::size_t size : {std::size_t{0}, nodes.size() - 1}) {
-        OptimalPlanner<S> planner(window, {cells, first(nodes, size)});
+        OptimalPlanner<S> planner(window, {cells, first(nodes, size), scratch});
+        OptimalPlanner<S> other(window, {cells, nodes, first(scratch, size)});
+        CHECK(refusal<S>(source, optimal, other) == Error::storage_too_small);
         CHECK(refusal<S>(source, optimal, planner) == Error::storage_too_small);
     }
     for (const std::size_t size : {0U, 11U}) {

@@ -8,7 +8,7 @@
 #include "support/random_steering.hpp"
 #include "support/rounds.hpp"
 
-#include "splinefeed/s3_feed_plan/jerk_optimal/s_curve_profile.hpp"
+#include "splinefeed/s3_feed_plan/jerk/s_curve_profile.hpp"
 
 #include <optional>
 

@@ -27,7 +27,7 @@ Round random_round(Random& random) {
     const int axes = random.integer(1, max_axes);
     do {
         round.machine = random_quick_machine(random, axes);
-        if (random.chance(0.25)) {
+        if (random.chance(0.4)) {
             limit_jerk(random, round.machine);
         }
         if (random.chance(0.3)) { // two limits: the way that an axis goes is found out later (Turning)

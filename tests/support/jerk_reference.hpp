@@ -3,7 +3,7 @@
 // Cells along a curve whose direction is known everywhere, and what a motion asks of them, in long double.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_cell.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_cell.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +53,11 @@ struct Wave {
             cell.end[0][k] = end(k, s, limits);
             cell.end[1][k] = end(k, s + length, limits);
             cell.jerk_mm_s3[k] = limits.jerk;
+            // q' is the cubic through its values and slopes at the ends.
+            auto& [from, to] = cell.end;
+            const double mid = 3.0 * (to[k].first - from[k].first) / length - (from[k].second + to[k].second);
+            from[k].third = 2.0 * (mid - from[k].second) / length;
+            to[k].third = 2.0 * (to[k].second - mid) / length;
         }
         return cell;
     }

@@ -117,7 +117,7 @@ class AnyTrajectory {
 public:
     AnyTrajectory(CurveSource<S>& curve, const MotionLimits<S>& limits, std::size_t window_size,
                   unsigned char left_over = 0)
-        : window_(window_size), cells_(window_size), nodes_(JerkStorage<S>::nodes_for(window_size)),
+        : window_(window_size), cells_(window_size), nodes_(window_size + 1), scratch_(window_size + 1),
           smooth_cells_(window_size), places_(SmoothSampler<S>::places_for(limits)) {
         if (left_over != 0) {
             fill_bytes(window_, left_over);
@@ -132,7 +132,8 @@ public:
                     .value();
         } else if (limits.jerk_limited) {
             trajectory_ =
-                Trajectory<S>::make(curve, limits, optimal_.emplace(window_, JerkStorage<S>{cells_, nodes_})).value();
+                Trajectory<S>::make(curve, limits, optimal_.emplace(window_, JerkStorage<S>{cells_, nodes_, scratch_}))
+                    .value();
         } else {
             trajectory_ = Trajectory<S>::make(curve, limits, acceleration_.emplace(window_)).value();
         }
@@ -148,6 +149,7 @@ private:
     std::vector<PlannedCell<S>> window_;
     std::vector<Cell<S>> cells_;
     std::vector<JerkNode> nodes_;
+    std::vector<LegNode<double>> scratch_;
     std::vector<SmoothCell<S>> smooth_cells_;
     std::vector<PathPosition> places_;
     std::optional<AccelerationPlanner<S>> acceleration_;

@@ -19,13 +19,12 @@ constexpr double least_share = 0x1p-8; // of the cell: a smaller part is not cut
 
 // The front cell of the plan, with its profile segment to the end.
 template <Scalar S>
-Pull GradedFeed<S>::prepare(UnderrunPolicy underrun) noexcept {
-    WorkBudget unlimited;
-    Pull pull = source_->prepare(underrun, unlimited);
+Pull GradedFeed<S>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    Pull pull = source_->prepare(underrun, work);
     while (pull == Pull::item && !(source_->profile_segment().stretch.to == from_integer<S>(1))) {
         source_->advance(); // the first half of a degenerate cell
-        pull = source_->prepare(underrun, unlimited);
-        SPLINEFEED_ASSERT(pull == Pull::item);
+        pull = source_->prepare(underrun, work);
+        SPLINEFEED_ASSERT(pull == Pull::item || pull == Pull::busy);
     }
     return pull;
 }

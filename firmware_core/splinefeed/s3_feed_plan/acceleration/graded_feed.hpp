@@ -21,10 +21,11 @@ public:
     }
 
     /// Calls `take(cell, cap_sq, exit_sq)` with the next part of the path if there is one. `cap_sq` is the largest v^2
-    /// anywhere in the part that the machine allows, `exit_sq` the acceleration-limited v^2 at its end.
+    /// anywhere in the part that the machine allows, `exit_sq` the acceleration-limited v^2 at its end. `busy`: the
+    /// budget is spent.
     template <class Take>
-    Pull next(UnderrunPolicy underrun, Take&& take) noexcept {
-        if (const Pull pull = prepare(underrun); pull != Pull::item) {
+    Pull next(UnderrunPolicy underrun, WorkBudget& work, Take&& take) noexcept {
+        if (const Pull pull = prepare(underrun, work); pull != Pull::item) {
             return pull;
         }
         const Cell<S>& cell = source_->cell();
@@ -52,7 +53,7 @@ private:
     [[gnu::noinline]] void take_part(const Cell<S>& cell, const CellInterval<S>& part, S exit_sq, Take& take) noexcept {
         take(part_of(cell, part), source_->cap_sq(), exit_sq);
     }
-    Pull prepare(UnderrunPolicy underrun) noexcept;
+    Pull prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] CellInterval<S> next_part(const Cell<S>& cell) const noexcept;
     [[nodiscard]] S longest_of(const CellInterval<S>& part, S jerk) const noexcept;
     [[nodiscard]] S speed_sq_at(S fraction) const noexcept;

@@ -54,7 +54,8 @@ SmoothPlan<S>::SmoothPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, st
 
 template <Scalar S>
 Pull SmoothPlan<S>::take(UnderrunPolicy underrun) noexcept {
-    return source_.next(underrun, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
+    WorkBudget unlimited;
+    return source_.next(underrun, unlimited, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
         window_.append(cell, cap_sq, SpeedCaps<S>(*limits_).programmed_sq(cell), exit_sq);
     });
 }

@@ -29,7 +29,8 @@ struct MotionLimits {
     PerAxis<S> end_velocity_mm_s{}; ///< of an axis outside Refinement::open; 0: no such limit
     bool mixed = false;             ///< some axes are rotary and some are not
     PerAxis<S> jerk_mm_s3{};        ///< meaningful where jerk_limited
-    bool jerk_limited = false;      ///< some axis has a jerk limit: the motion needs a JerkPlan or a SmoothPlan
+    bool jerk_limited = false;      ///< some axis has a jerk limit that binds: the motion needs a JerkPlan or a
+                                    ///< SmoothPlan
     JerkTier jerk_tier = JerkTier::optimal;
     std::uint32_t smoothing_q8 = 0;      ///< JerkTier::bounded: time of the moving average, in 1/256 of a segment
     std::uint32_t most_smoothing_q8 = 0; ///< the longest time that a straight move may ask for
@@ -97,6 +98,13 @@ constexpr double smoothing_s(double rise_s) noexcept {
 constexpr std::uint32_t smoothing_q8(double time_s, double segment_s) noexcept {
     const double q8 = 256.0 * time_s / segment_s + 0.5;
     return q8 < 256.0 ? 256U : q8 > 256.0 * most_smoothing ? 256U * most_smoothing : static_cast<std::uint32_t>(q8);
+}
+
+/// The largest jerk that the emitted motion can have, whatever is planned: it goes from one acceleration to the
+/// opposite one within a segment at least (feed.md, step 7 of the proof). A jerk limit above it does not bind.
+constexpr double sampled_jerk(const AxisSettings& axis, double segment_s) noexcept {
+    const double jerk = (axis.max_acceleration_mm_s2 + axis.braking_mm_s2()) / segment_s;
+    return jerk < 1073741824.0 ? jerk : 1073741824.0; // above every limit, and in the range of a Fixed
 }
 
 /// Rounding of a position by e becomes the acceleration 4 e / T^2 in the second difference of control points.
@@ -270,7 +278,6 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     }
     const AxisTotals totals = axis_totals(settings);
     const double softest = totals.softest;
-    const double smoothest = totals.smoothest;
     double rise_s = 0.0; // longest time in which an axis reaches its acceleration
     limits.mixed = totals.rotary > 0 && totals.rotary < settings.axes;
     const double path =
@@ -279,6 +286,14 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
     const int n = settings.segments_per_sample > 0 ? settings.segments_per_sample
                                                    : detail::segments_per_sample(period_s, totals.acceleration_sq);
     const double segment_s = period_s / n;
+    double smoothest = 0.0; // smallest jerk limit that binds
+    for (const unsigned k : indices(settings.axes)) {
+        if (const double jerk = settings.axis[k].max_jerk_mm_s3;
+            jerk > 0.0 && jerk < detail::sampled_jerk(settings.axis[k], segment_s)) {
+            smoothest = smoothest > 0.0 && smoothest < jerk ? smoothest : jerk;
+        }
+    }
+    limits.jerk_limited = smoothest > 0.0;
     constexpr double usable = 1.0 - detail::usable_margin<S>;
     double feed_noise = 0.0;
     const double longest = detail::longest_cell_mm(detail::parameter_error<S>, detail::rounding_share<S>, softest,
@@ -321,21 +336,21 @@ constexpr Result<MotionLimits<S>, LimitError> MotionLimits<S>::make(const Machin
         limits.braking_mm_s2[k] = planned(axis.braking_mm_s2());
         limits.rotary[k] = axis.rotary;
         limits.refinement.countable[k] = detail::countable(axis);
-        if (axis.max_jerk_mm_s3 > 0.0) {
-            const double jerk_noise = detail::jerk_noise(error_mm, segment_s);
-            if (jerk_noise > 0.25 * axis.max_jerk_mm_s3) {
-                return LimitError::period_too_short;
-            }
-            limits.jerk_limited = true;
+        const double sampled = detail::sampled_jerk(axis, segment_s);
+        const bool binds = axis.max_jerk_mm_s3 > 0.0 && axis.max_jerk_mm_s3 < sampled;
+        const double jerk = binds ? axis.max_jerk_mm_s3 : sampled;
+        const double jerk_noise = detail::jerk_noise(error_mm, segment_s);
+        if (limits.jerk_limited && jerk_noise > 0.25 * jerk) {
+            return LimitError::period_too_short;
+        }
+        if (binds) {
             // The axis with the smallest acceleration limits the others to about this value.
             const double acceleration =
                 axis.smaller_acceleration_mm_s2() < 2.0 * softest ? axis.smaller_acceleration_mm_s2() : 2.0 * softest;
-            const double rise = acceleration / axis.max_jerk_mm_s3;
+            const double rise = acceleration / jerk;
             rise_s = rise > rise_s ? rise : rise_s;
-            limits.jerk_mm_s3[k] = from_double<S>(axis.max_jerk_mm_s3 * (usable - detail::jerk_reserve) - jerk_noise);
-        } else {
-            limits.jerk_mm_s3[k] = from_integer<S>(1 << 30); // no limit in practice
         }
+        limits.jerk_mm_s3[k] = from_double<S>(jerk * (usable - detail::jerk_reserve) - jerk_noise);
         limits.steps_per_mm_q32[k] = static_cast<std::uint64_t>(axis.steps_per_mm * 4294967296.0);
     }
     limits.jerk_tier = settings.jerk_tier;

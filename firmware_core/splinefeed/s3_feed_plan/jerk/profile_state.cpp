@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // For a parabola, b and db/ds by de Casteljau's construction; for a cubic s(t), b = (ds/dt)^2 and db/ds = 2 d2s/dt2.
-#include "splinefeed/s3_feed_plan/jerk_optimal/profile_state.hpp"
+#include "splinefeed/s3_feed_plan/jerk/profile_state.hpp"
 
 namespace splinefeed {
 

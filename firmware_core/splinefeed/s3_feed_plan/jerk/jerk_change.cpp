@@ -9,7 +9,7 @@
 // ends at standstill, as far beyond that place as braking from the wanted speed takes, so that a leg exists for the
 // rest of the path, too. Before that place the caps stay as they were. For a higher speed the place is where the
 // machine is.
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_change.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_change.hpp"
 
 #include "splinefeed/s2_arc_length/cell_part.hpp"
 
@@ -37,13 +37,13 @@ template <Scalar S>
 JerkChange<S>::JerkChange(JerkWindow<S>& window, const MotionLimits<S>& limits, double from, const SpeedState& state,
                           std::size_t planned) noexcept
     : window_(&window), limits_(&limits), from_(from), state_(state), old_planned_(planned),
-      along_(window.node(0).cell.move_limits(
-          smaller(window.node(0).cell.cap_sq, larger(state.b, window.node(0).wanted_sq)))) {
+      along_(
+          window.limits_of(0).move_limits(smaller(window.node(0).cap_sq, larger(state.b, window.node(0).wanted_sq)))) {
     if (state.slope > 0.0) {
         start_mm_ = 4.0 / 3.0 * state.b / state.slope;
     }
     for (std::size_t i = 0; i < window.size(); ++i) {
-        known_mm_ += window.node(i).cell.length_mm * (i == 0 ? 1.0 - from : 1.0);
+        known_mm_ += window.node(i).length_mm * (i == 0 ? 1.0 - from : 1.0);
         if (window.cell(i).stop_at_end) {
             break;
         }
@@ -64,17 +64,17 @@ double JerkChange<S>::ramp_mm(double from_mm_s, double to_mm_s) const noexcept {
 template <Scalar S>
 bool JerkChange<S>::knows(std::size_t cell) const noexcept {
     return cell < old_planned_ && window_->node(cell).travel == Travel::curve &&
-           (cell == 0 || window_->node(cell).state.b > 0.0) && window_->node(cell + 1).state.b > 0.0;
+           (cell == 0 || window_->node(cell).b > 0.0) && window_->node(cell + 1).b > 0.0;
 }
 
 // The state on that parabola. The state at the start of the front cell is not that of its node, but the machine's is
 // known.
 template <Scalar S>
 SpeedState JerkChange<S>::known_state(std::size_t cell, double fraction) const noexcept {
-    const double length = window_->node(cell).cell.length_mm;
-    const SpeedState& end = window_->node(cell + 1).state;
+    const double length = window_->node(cell).length_mm;
+    const SpeedState end = window_->state(cell + 1);
     const double start = cell == 0 ? from_ : 0.0;
-    const SpeedState& from = cell == 0 ? state_ : window_->node(cell).state;
+    const SpeedState from = cell == 0 ? state_ : window_->state(cell);
     const double s = (fraction - start) * length;
     const double u = (end.slope - from.slope) / ((1.0 - start) * length);
     return {from.b + (from.slope + 0.5 * u * s) * s, from.slope + u * s};
@@ -125,7 +125,7 @@ void JerkChange<S>::each_piece(const Cuts& cuts, std::size_t first, Visit&& visi
     const double least = least_mm(cuts);
     double at_mm = 0.0;
     for (std::size_t i = 0; i + first < window_->size(); ++i) {
-        const double length = window_->node(i + first).cell.length_mm;
+        const double length = window_->node(i + first).length_mm;
         if (!concerns(cuts, at_mm, length)) {
             return;
         }
@@ -157,13 +157,13 @@ template <Scalar S>
 bool JerkChange<S>::fit(Cuts& cuts) noexcept {
     for (int step = 0; step < most_steps; ++step) {
         pieces_ = cells_ = 0;
-        const std::size_t most = window_->scratch().size() + window_->size();
+        const std::size_t most = window_->longest_leg() + window_->size();
         each_piece(cuts, 0, [&](std::size_t i, double, double, double) {
             ++pieces_;
             cells_ = i + 1;
             return pieces_ < most;
         });
-        if (pieces_ <= cells_ + window_->room() && pieces_ < window_->scratch().size()) {
+        if (pieces_ <= cells_ + window_->room() && pieces_ <= window_->longest_leg()) {
             return true;
         }
         cuts.coarsest_mm *= longer;
@@ -172,51 +172,37 @@ bool JerkChange<S>::fit(Cuts& cuts) noexcept {
     return false;
 }
 
-// Plans the leg to cuts.end_mm, in the scratch nodes.
+// Plans the leg to cuts.end_mm.
 template <Scalar S>
 bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
-    const std::span<JerkNode> nodes = window_->scratch();
+    LegPlan leg = window_->leg();
     const double least = least_mm(cuts);
-    const bool to_rest = cuts.graded();
-    const double gain = 2.0 * along_.acceleration_mm_s2;
-    std::size_t n = 0;
     std::size_t changed = 0;
-    std::size_t known = 0; // pieces from the first on for which the old plan has states
+    bool known = true; // up to here the old plan has a motion
+    leg.begin(state_);
     each_piece(cuts, 0, [&](std::size_t i, double from, double to, double at_mm) {
         if (at_mm >= cuts.end_mm - least) {
             return false;
         }
         const JerkNode& whole = window_->node(i);
-        const double at_end = window_->node(i + 1).at_most_sq;
         const bool before = at_mm < cuts.change_mm - least;
-        JerkNode& node = nodes[n++];
-        node.cell = jerk_cell_of(part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)}),
-                                 *limits_, before ? whole.cell.cap_sq : whole.wanted_sq);
-        const double fastest = whole.at_most_sq + from * (at_end - whole.at_most_sq);
-        node.at_most_sq = to_rest ? smaller(fastest, roomy * peak_sq_) : fastest;
-        const double rising = state_.b + (to_rest ? larger(state_.slope, 0.0) : gain) * at_mm;
-        double expected = to_rest ? smaller(rising, braking_sq(cuts.end_mm - at_mm)) : rising;
-        if (known + 1 == n && (before || to_rest) && knows(i)) {
-            node.state = known_state(i, from);
-            expected = smaller(expected, node.state.b);
-            known = n;
+        const double cap = before ? whole.cap_sq : whole.wanted_sq;
+        const Cell<S> part = part_of(window_->cell(i), CellInterval<S>{from_double<S>(from), from_double<S>(to)});
+        leg.add(jerk_cell_of(part, *limits_, cap), cap,
+                whole.at_most_sq + to * (window_->node(i + 1).at_most_sq - whole.at_most_sq));
+        known = known && knows(i);
+        if (known) {
+            const SpeedState state = known_state(i, from);
+            leg.know(state.b + 0.5 * state.slope * (to - from) * whole.length_mm);
         }
-        node.expected_sq = smaller(expected, smaller(node.at_most_sq, node.cell.cap_sq));
         changed += before ? 1U : 0U;
         return true;
     });
-    if (n < JerkLeg::fewest_cells) {
+    if (leg.cells() < LegPlan::fewest_cells || !leg.fastest()) {
         return false;
     }
-    JerkNode& end = nodes[n];
-    end.at_most_sq = end.expected_sq = 0.0;
-    JerkLeg leg(nodes.first(n + 1), &state_, known);
-    if (!leg.plan()) {
-        return false;
-    }
-    end.state = {0.0, 0.0};
     seconds_ = leg.seconds();
-    planned_ = n;
+    planned_ = leg.cells();
     changed_ = changed > 0 ? changed : 1;
     return true;
 }
@@ -224,7 +210,7 @@ bool JerkChange<S>::attempt(const Cuts& cuts) noexcept {
 // Splits the cells of the window, and gives them the motion of the last attempt.
 template <Scalar S>
 void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
-    const std::span<JerkNode> tried = window_->scratch();
+    const LegPlan tried = window_->leg();
     const double least = least_mm(cuts);
     const std::size_t more = pieces_ - cells_;
     window_->open(0, more); // no piece comes after the present place of its cell
@@ -235,27 +221,27 @@ void JerkChange<S>::adopt(const Cuts& cuts) noexcept {
     each_piece(cuts, more, [&](std::size_t i, double from, double to, double at_mm) {
         if (n == 0 || from == 0.0) {
             whole = window_->cell(i + more);
-            start.take(window_->node(i + more));
+            start = window_->node(i + more);
             at_end = window_->node(i + more + 1).at_most_sq;
         }
         window_->cell(n) = part_of(whole, CellInterval<S>{from_double<S>(from), from_double<S>(to)});
         JerkNode& node = window_->node(n);
-        node.take(start);
-        const bool before = at_mm < cuts.change_mm - least;
-        node.cell = jerk_cell_of(window_->cell(n), *limits_, before ? start.cell.cap_sq : start.wanted_sq);
+        node = start;
+        node.length_mm = to_double(window_->cell(n).length_mm);
+        node.cap_sq = at_mm < cuts.change_mm - least ? start.cap_sq : start.wanted_sq;
         node.at_most_sq = start.at_most_sq + from * (at_end - start.at_most_sq);
-        node.expected_sq = n < planned_ ? tried[n].expected_sq : smaller(node.at_most_sq, node.cell.cap_sq);
-        node.state = n <= planned_ ? tried[n].state : node.state;
+        if (n < planned_) {
+            node.b = tried.node(n).b;
+            node.middle_sq = tried.node(n).middle_sq;
+        }
         node.travel = Travel::curve;
         ++n;
         return true;
     });
-    window_->node(0).state = state_;
-    window_->node(planned_).state = {0.0, 0.0};
+    window_->node(planned_).b = 0.0;
     for (std::size_t i = n; i < window_->size(); ++i) {
         JerkNode& node = window_->node(i);
-        node.cell.cap_sq = cuts.change_mm < known_mm_ ? node.wanted_sq : node.cell.cap_sq;
-        node.expected_sq = smaller(node.at_most_sq, node.cell.cap_sq);
+        node.cap_sq = cuts.change_mm < known_mm_ ? node.wanted_sq : node.cap_sq;
     }
 }
 

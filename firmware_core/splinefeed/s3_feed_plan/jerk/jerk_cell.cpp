@@ -10,7 +10,7 @@
 // proportional to s^(4/3). At the moving end v = j t^2 / 2, t = 3 L / v, j = 2 v^3 / (9 L^2), a = 2 v^2 / (3 L), b' = 4
 // b / (3 L). The jerk of an axis is then j (q' + 9 q'' s + 9/2 q''' s^2), a cubic of s: its Bezier points bound it. Its
 // acceleration is j t (q' + 3/2 q'' s), at most that of the moving end times the largest value of another cubic.
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_cell.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_cell.hpp"
 
 #include "splinefeed/number/scalar.hpp"
 

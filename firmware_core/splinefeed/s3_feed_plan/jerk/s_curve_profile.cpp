@@ -10,7 +10,7 @@
 // to a peak p and back to zero, which changes the speed by (2 p^2 - b^2) / (2 j); p = sqrt(j d + b^2 / 2), or the
 // limit, which then stays for a while. The distance of a move to standstill grows with its peak speed, which is found
 // by bisection.
-#include "splinefeed/s3_feed_plan/jerk_optimal/s_curve_profile.hpp"
+#include "splinefeed/s3_feed_plan/jerk/s_curve_profile.hpp"
 
 #include "splinefeed/number/scalar.hpp"
 

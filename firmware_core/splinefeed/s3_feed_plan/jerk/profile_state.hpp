@@ -2,7 +2,7 @@
 // profile_state: speed and acceleration at a place on a profile segment with limited jerk.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk_optimal/state_polygon.hpp"
+#include "splinefeed/s3_feed_plan/jerk/speed_state.hpp"
 #include "splinefeed/s3_feed_plan/motion_plan.hpp"
 
 namespace splinefeed {

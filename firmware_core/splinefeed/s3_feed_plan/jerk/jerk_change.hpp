@@ -8,7 +8,7 @@
 //        now        nearest standstill     now      nearest possible change
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_window.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_window.hpp"
 
 namespace splinefeed {
 

@@ -10,20 +10,21 @@
 #pragma once
 
 #include "splinefeed/s3_feed_plan/acceleration/graded_feed.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_change.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/profile_state.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/straight_leg.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_change.hpp"
+#include "splinefeed/s3_feed_plan/jerk/profile_state.hpp"
+#include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
 
 namespace splinefeed {
 
-/// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (JerkLeg::plan). A
-/// change of the steering while the machine moves plans the path ahead about twelve times (JerkChange).
+/// Stage 3b. The plan in the window always ends at standstill. Cost: a cell is planned about twice (LegPlan). In parts:
+/// a step of the search is as many steps of the budget as the leg has cells. A change of the steering while the machine
+/// moves plans the path ahead about twenty times, at once (JerkChange).
 template <Scalar S>
 class JerkPlan final : public MotionPlan<S> {
 public:
     static constexpr std::size_t smallest_window = 16;
 
-    /// @pre storage has at least smallest_window cells and nodes_for() nodes; this also holds for all other functions
+    /// @pre storage has at least smallest_window cells, and is enough(); this also holds for all other functions
     JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
     using MotionPlan<S>::prepare;
@@ -43,23 +44,32 @@ private:
     using MotionPlan<S>::profile_segment_;
     using MotionPlan<S>::steering_;
 
-    Pull fill(UnderrunPolicy underrun) noexcept;
-    Pull take(UnderrunPolicy underrun) noexcept;
+    Pull fill(UnderrunPolicy underrun, WorkBudget& work) noexcept;
+    Pull take(UnderrunPolicy underrun, WorkBudget& work) noexcept;
     [[nodiscard]] double wanted_sq(const Cell<S>& cell, double most_sq) const noexcept;
     void want() noexcept;
     bool answer(double from, const SpeedState& state) noexcept;
     bool change_line(double from, const SpeedState& state) noexcept;
     bool change_curve(double from, const SpeedState& state) noexcept;
     void follow_steering() noexcept;
-    void plan(bool ended) noexcept;
+    bool plan(WorkBudget& work) noexcept;
+    void begin_leg(std::size_t first, std::size_t end) noexcept;
+    Search search_leg(WorkBudget& work) noexcept;
+    [[nodiscard]] std::size_t final_cells(std::size_t cells) const noexcept;
     std::size_t rest_to_rest(std::size_t first, std::size_t end) noexcept;
-    void expect_again() noexcept;
     void forward_step() noexcept;
     void forward_step_on_line() noexcept;
 
     GradedFeed<S> source_;
     const MotionLimits<S>* limits_;
     JerkWindow<S> window_;
+    LegPlan leg_;               // that is planned now
+    std::size_t leg_first_ = 0; // its cells
+    std::size_t leg_end_ = 0;
+    std::size_t at_ = 0; // so many cells are planned anew
+    bool planning_ = false;
+    bool searching_ = false;    // in leg_
+    bool ended_ = false;        // no cell comes behind the window
     LineTravel line_{};         // used while a straight leg is travelled
     MoveLimits line_limits_{};  // limits of that leg
     std::size_t committed_ = 0; // cells from the front on

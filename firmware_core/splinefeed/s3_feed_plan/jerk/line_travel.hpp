@@ -2,7 +2,7 @@
 // LineTravel: travels a straight move piece by piece. A piece ends where a phase of constant jerk or a cell ends.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk_optimal/s_curve_profile.hpp"
+#include "splinefeed/s3_feed_plan/jerk/s_curve_profile.hpp"
 
 namespace splinefeed {
 

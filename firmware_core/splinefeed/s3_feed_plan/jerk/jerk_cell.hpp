@@ -3,8 +3,8 @@
 #pragma once
 
 #include "splinefeed/base/capacity.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/s_curve_profile.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/state_polygon.hpp"
+#include "splinefeed/s3_feed_plan/jerk/s_curve_profile.hpp"
+#include "splinefeed/s3_feed_plan/jerk/speed_state.hpp"
 
 namespace splinefeed {
 

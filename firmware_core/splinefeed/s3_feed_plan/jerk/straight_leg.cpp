@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/s3_feed_plan/jerk_optimal/straight_leg.hpp"
+#include "splinefeed/s3_feed_plan/jerk/straight_leg.hpp"
 
 namespace splinefeed {
 
 namespace {
 
 constexpr double same_cap = 1e-9;
-constexpr double end = 1e-6; // of a cell: a move that ends this near ends with the cell
+constexpr double end_part = 1e-6; // of a cell: a move that ends this near ends with the cell
 
 /// Largest v^2 of the acceleration-limited plan in the cell after a node, with the largest override.
 double fastest_sq(const JerkNode& node, const JerkNode& next) noexcept {
     return smaller(node.most_sq, larger(node.at_most_sq, next.at_most_sq));
-}
-
-/// Limits that keep those of all cells of a straight leg.
-MoveLimits limits_of(std::span<const JerkNode> nodes) noexcept {
-    MoveLimits least{square_root(nodes.front().most_sq), largest<double>(), largest<double>()};
-    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-        const MoveLimits limits = nodes[i].cell.move_limits(fastest_sq(nodes[i], nodes[i + 1]));
-        least.acceleration_mm_s2 = smaller(least.acceleration_mm_s2, limits.acceleration_mm_s2);
-        least.jerk_mm_s3 = smaller(least.jerk_mm_s3, limits.jerk_mm_s3);
-    }
-    return least;
 }
 
 MoveState state_of(const SpeedState& state) noexcept {
@@ -31,11 +20,11 @@ MoveState state_of(const SpeedState& state) noexcept {
 } // namespace
 
 template <Scalar S>
-bool StraightLeg<S>::is_straight(std::span<const JerkNode> nodes) noexcept {
-    const double cap = nodes.front().cell.cap_sq;
-    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-        const JerkCell& cell = nodes[i].cell;
-        if (!cell.straight(fastest_sq(nodes[i], nodes[i + 1])) || absolute(cell.cap_sq - cap) > same_cap * cap) {
+bool StraightLeg<S>::is_straight(const JerkWindow<S>& window, std::size_t first, std::size_t end) noexcept {
+    const double cap = window.node(first).cap_sq;
+    for (std::size_t i = first; i < end; ++i) {
+        if (absolute(window.node(i).cap_sq - cap) > same_cap * cap ||
+            !window.limits_of(i).straight(fastest_sq(window.node(i), window.node(i + 1)))) {
             return false;
         }
     }
@@ -46,8 +35,16 @@ template <Scalar S>
 StraightLeg<S>::StraightLeg(JerkWindow<S>& window) noexcept : window_(&window) {
     find_cells();
     const JerkNode& front = window.node(0);
-    limits_ = front.travel == Travel::rest_to_rest ? front.cell.move_limits(front.most_sq)
-                                                   : limits_of(window.nodes(0, cells_));
+    if (front.travel == Travel::rest_to_rest) {
+        limits_ = window.limits_of(0).move_limits(front.most_sq);
+        return;
+    }
+    limits_ = {square_root(front.most_sq), largest<double>(), largest<double>()};
+    for (std::size_t i = 0; i < cells_; ++i) {
+        const MoveLimits of_cell = window.limits_of(i).move_limits(fastest_sq(window.node(i), window.node(i + 1)));
+        limits_.acceleration_mm_s2 = smaller(limits_.acceleration_mm_s2, of_cell.acceleration_mm_s2);
+        limits_.jerk_mm_s3 = smaller(limits_.jerk_mm_s3, of_cell.jerk_mm_s3);
+    }
 }
 
 template <Scalar S>
@@ -68,7 +65,7 @@ template <Scalar S>
 MoveLimits StraightLeg<S>::capped() const noexcept {
     MoveLimits limits = limits_;
     for (std::size_t i = 0; i < cells_; ++i) {
-        limits.speed_mm_s = smaller(limits.speed_mm_s, square_root(window_->node(i).cell.cap_sq));
+        limits.speed_mm_s = smaller(limits.speed_mm_s, square_root(window_->node(i).cap_sq));
     }
     return limits;
 }
@@ -77,7 +74,7 @@ template <Scalar S>
 double StraightLeg<S>::length_mm() const noexcept {
     double length = 0.0;
     for (std::size_t i = 0; i < cells_; ++i) {
-        length += window_->node(i).cell.length_mm;
+        length += window_->node(i).length_mm;
     }
     return length;
 }
@@ -90,10 +87,10 @@ SCurveProfile StraightLeg<S>::from_rest() const noexcept {
 template <Scalar S>
 bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
     move_ = SCurveProfile::to_rest(state_of(state), limits_);
-    double left = from * window_->node(0).cell.length_mm + move_.length_mm();
+    double left = from * window_->node(0).length_mm + move_.length_mm();
     std::size_t i = 0;
-    while (i < cells_ && left > window_->node(i).cell.length_mm) {
-        left -= window_->node(i).cell.length_mm;
+    while (i < cells_ && left > window_->node(i).length_mm) {
+        left -= window_->node(i).length_mm;
         ++i;
     }
     if (i == cells_) {
@@ -101,7 +98,7 @@ bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
     }
     // A part of almost zero length is not split off: the move goes a little farther, or to the end of the cell.
     constexpr double least = JerkWindow<S>::shortest_mm;
-    const double length = window_->node(i).cell.length_mm;
+    const double length = window_->node(i).length_mm;
     const bool whole = larger(left, least) > length - least;
     const double more = (whole ? length : larger(left, least)) - left;
     if (whole ? i + 1 == cells_ : window_->room() == 0) {
@@ -119,17 +116,17 @@ bool StraightLeg<S>::to_rest(double from, const SpeedState& state) noexcept {
 
 template <Scalar S>
 bool StraightLeg<S>::to_end(double from, const SpeedState& state) noexcept {
-    const double left = length_mm() - from * window_->node(0).cell.length_mm;
+    const double left = length_mm() - from * window_->node(0).length_mm;
     MoveLimits wanted = limits_;
     for (std::size_t i = 0; i < cells_; ++i) {
         wanted.speed_mm_s = smaller(wanted.speed_mm_s, square_root(window_->node(i).wanted_sq));
     }
     move_ = SCurveProfile::to_length(state_of(state), left, wanted);
-    if (!(move_.length_mm() <= left * (1.0 + end))) {
+    if (!(move_.length_mm() <= left * (1.0 + end_part))) {
         return false;
     }
     for (std::size_t i = 0; i < cells_; ++i) {
-        window_->node(i).cell.cap_sq = window_->node(i).wanted_sq;
+        window_->node(i).cap_sq = window_->node(i).wanted_sq;
     }
     return true;
 }

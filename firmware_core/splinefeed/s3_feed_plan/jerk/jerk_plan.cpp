@@ -3,14 +3,12 @@
 // The window is planned leg by leg, from a stop (or from where the machine will be) to the next stop (or to standstill
 // at the end of the known path). A leg that ends at a stop is final; of a leg that ends with the window, the first half
 // is committed. The rest is planned again when more of the path is known. Its old plan is kept. If no new one is found
-// from the state at the end of the committed part (this can happen, because the sets of states are reduced to few
-// corners), the old one is travelled to its end, which is a standstill.
+// from the state at the end of the committed part, the old one is travelled to its end, which is a standstill.
 //
 // A straight leg is one move in closed form (s_curve_profile.cpp).
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_plan.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_plan.hpp"
 
 #include "splinefeed/base/assertion.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/leg_attempts.hpp"
 
 namespace splinefeed {
 
@@ -30,7 +28,8 @@ constexpr int last_digit_log2 = std::same_as<S, Fixed> ? -32 : -52; // of fracti
 
 template <Scalar S>
 JerkPlan<S>::JerkPlan(FeedPlan<S>& source, const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept
-    : source_(source, limits, longest_part<S>(storage.cells.size())), limits_(&limits), window_(limits, storage) {}
+    : source_(source, limits, longest_part<S>(storage.cells.size())), limits_(&limits), window_(limits, storage),
+      leg_(storage.scratch) {}
 
 template <Scalar S>
 double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcept {
@@ -38,8 +37,8 @@ double JerkPlan<S>::wanted_sq(const Cell<S>& cell, double most_sq) const noexcep
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
-    return source_.next(underrun, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
+Pull JerkPlan<S>::take(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    return source_.next(underrun, work, [this](const Cell<S>& cell, S cap_sq, S exit_sq) {
         const double most_sq = to_double(cap_sq);
         window_.append(cell, most_sq, wanted_sq(cell, most_sq), to_double(exit_sq));
         planned_all_ = false;
@@ -47,22 +46,13 @@ Pull JerkPlan<S>::take(UnderrunPolicy underrun) noexcept {
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::fill(UnderrunPolicy underrun) noexcept {
+Pull JerkPlan<S>::fill(UnderrunPolicy underrun, WorkBudget& work) noexcept {
+    window_.forget_travelled();
     Pull pull = Pull::item;
     while (!window_.full() && pull == Pull::item) {
-        pull = take(underrun);
+        pull = take(underrun, work);
     }
     return pull;
-}
-
-// The second half of the old plan brakes only for the end of the known path.
-template <Scalar S>
-void JerkPlan<S>::expect_again() noexcept {
-    window_.forget_travelled();
-    for (std::size_t i = (window_.size() + 1) / 2; i < window_.size(); ++i) {
-        JerkNode& node = window_.node(i);
-        node.expected_sq = smaller(node.at_most_sq, node.cell.cap_sq);
-    }
 }
 
 // From stop to stop through every cell: for degenerate cells between cusps, and for a few cells if there is no better
@@ -70,64 +60,136 @@ void JerkPlan<S>::expect_again() noexcept {
 template <Scalar S>
 std::size_t JerkPlan<S>::rest_to_rest(std::size_t first, std::size_t end) noexcept {
     planned_ = end;
-    if (end - first > JerkLeg::fewest_cells) {
+    if (end - first >= LegPlan::fewest_cells) {
         slow_legs_ += hops_ == 1 ? 1U : 0U;
         planned_ = smaller(end, first + hops_);
         hops_ = smaller(2 * hops_, window_.size());
     }
     for (std::size_t i = first; i < planned_; ++i) {
         window_.node(i).travel = Travel::rest_to_rest;
-        window_.node(i + 1).state = {0.0, 0.0};
+        window_.node(i + 1).b = 0.0;
     }
     return planned_;
 }
 
+// Begins to plan cells `first` to `end` as one motion to standstill there.
 template <Scalar S>
-void JerkPlan<S>::plan(bool ended) noexcept {
+void JerkPlan<S>::begin_leg(std::size_t first, std::size_t end) noexcept {
+    leg_first_ = first;
+    leg_end_ = end;
+    leg_.begin(window_.state(first));
+    for (std::size_t i = first; i < end; ++i) {
+        leg_.add(window_.limits_of(i), window_.node(i).cap_sq, window_.node(i + 1).at_most_sq);
+        if (i < planned_ && window_.node(first).b > 0.0) {
+            leg_.know(window_.node(i).middle_sq);
+        }
+    }
+    leg_.search();
+    searching_ = true;
+}
+
+// `none`: the plan is as before.
+template <Scalar S>
+Search JerkPlan<S>::search_leg(WorkBudget& work) noexcept {
+    Search search = Search::running;
+    while (search == Search::running) {
+        if (!work.take(static_cast<unsigned>(leg_.cells()))) {
+            return Search::running;
+        }
+        search = leg_.step();
+    }
+    searching_ = false;
+    if (search == Search::none) {
+        ++slow_legs_;
+        if (window_.node(leg_first_).b > 0.0 || !leg_.slow()) {
+            return Search::none;
+        }
+    }
+    for (std::size_t i = leg_first_; i < leg_end_; ++i) {
+        JerkNode& node = window_.node(i);
+        node.b = leg_.node(i - leg_first_).b;
+        node.middle_sq = leg_.node(i - leg_first_).middle_sq;
+        node.travel = Travel::curve;
+    }
+    window_.node(leg_end_).b = 0.0;
+    return Search::found;
+}
+
+// How much of a leg that ends with the window is final: to about the middle, where it brakes least.
+template <Scalar S>
+std::size_t JerkPlan<S>::final_cells(std::size_t cells) const noexcept {
+    const auto part = [cells](unsigned per_cent) {
+        return larger<std::size_t>(1, cells * per_cent / 100U);
+    };
+    std::size_t best = part(50);
+    auto least = largest<double>();
+    for (std::size_t i = part(60); i >= part(35); --i) {
+        const SpeedState state = window_.state(i);
+        const double braking = -state.slope / square_root(state.b);
+        if (braking < least) {
+            least = braking;
+            best = i;
+        }
+        if (!(braking > 0.0)) {
+            break;
+        }
+    }
+    return smaller(best, cells - 3);
+}
+
+// Plans legs from the front on, up to the middle of the window at least. false: the budget is spent.
+template <Scalar S>
+bool JerkPlan<S>::plan(WorkBudget& work) noexcept {
     const std::size_t half = (window_.size() + 1) / 2;
-    std::size_t at = 0;
-    while (at < window_.size() && (at == 0 || at < half)) {
-        std::size_t end = at + 1;
+    planned_all_ = true;
+    while (at_ < window_.size() && (at_ == 0 || at_ < half)) {
+        std::size_t end = at_ + 1;
         while (end < window_.size() && !window_.cell(end - 1).stop_at_end) {
             ++end;
         }
-        const bool stops = window_.cell(end - 1).stop_at_end || (ended && end == window_.size());
-        if (!stops && at > 0) {
+        const bool stops = window_.cell(end - 1).stop_at_end || (ended_ && end == window_.size());
+        if (!stops && at_ > 0) {
             break;
         }
-        const std::size_t committed = stops ? end : half;
-        const bool rests = !(window_.node(at).state.b > 0.0);
-        if (stops && rests && StraightLeg<S>::is_straight(window_.nodes(at, end))) {
-            for (std::size_t i = at; i < end; ++i) {
+        const bool rests = !(window_.node(at_).b > 0.0);
+        if (!searching_ && stops && rests && StraightLeg<S>::is_straight(window_, at_, end)) {
+            for (std::size_t i = at_; i < end; ++i) {
                 window_.node(i).travel = Travel::line;
             }
-            window_.node(end).state = {0.0, 0.0};
-            planned_ = end;
-            at = end;
+            window_.node(end).b = 0.0;
+            at_ = planned_ = end;
             hops_ = 1;
-        } else if (plan_leg(window_.nodes(at, end), rests ? 0 : planned_)) {
-            for (std::size_t i = at; i < end; ++i) {
-                window_.node(i).travel = Travel::curve;
-            }
+            continue;
+        }
+        if (!searching_ && end - at_ >= LegPlan::fewest_cells) {
+            begin_leg(at_, end);
+        }
+        const Search search = searching_ ? search_leg(work) : Search::none;
+        if (search == Search::running) {
+            return false;
+        }
+        if (search == Search::found) {
             planned_ = end;
-            at = committed;
+            at_ = stops ? end : final_cells(end);
             hops_ = 1;
-        } else if (!rests) { // the old plan again, to its end
-            SPLINEFEED_ASSERT(at == 0 && planned_ > 0);
-            ++slow_legs_;
-            at = planned_;
-        } else {
-            at = rest_to_rest(at, end);
+        } else if (rests) {
+            at_ = rest_to_rest(at_, end);
+        } else { // the old plan goes on, and from a little farther there may be another
+            SPLINEFEED_ASSERT(at_ == 0 && planned_ > 0);
+            at_ = larger<std::size_t>(1, planned_ / 8);
+            planned_all_ = false;
+            break;
         }
     }
-    committed_ = at;
-    planned_all_ = true;
+    committed_ = at_;
+    planning_ = false;
+    return true;
 }
 
 // The next profile segment of a straight move, as far as it lies in the front cell.
 template <Scalar S>
 void JerkPlan<S>::forward_step_on_line() noexcept {
-    const double length = window_.node(0).cell.length_mm;
+    const double length = window_.node(0).length_mm;
     const double per_length = 1.0 / length;
     const JerkNode& node = window_.node(0);
     const bool last = node.travel == Travel::rest_to_rest || cell().stop_at_end; // the move ends in this cell
@@ -170,20 +232,19 @@ void JerkPlan<S>::forward_step() noexcept {
     const auto scalar = [](double x) {
         return from_double<S>(x);
     };
-    profile_segment_.entry_sq = scalar(from.state.b);
-    profile_segment_.exit_sq = scalar(to.state.b);
+    profile_segment_.entry_sq = scalar(from.b);
+    profile_segment_.exit_sq = scalar(to.b);
     const bool starts = !(profile_segment_.entry_sq > S{});
     const bool stops = !(profile_segment_.exit_sq > S{});
     profile_segment_.stops = stops;
     if (starts || stops) { // constant jerk, t = 3 L / v
         profile_segment_.shape = SpeedShape::cubic;
-        profile_segment_.duration_ms =
-            scalar(3e3 * from.cell.length_mm / square_root(starts ? to.state.b : from.state.b));
+        profile_segment_.duration_ms = scalar(3e3 * from.length_mm / square_root(starts ? to.b : from.b));
         profile_segment_.linear = from_integer<S>(starts ? 0 : 3);
         profile_segment_.quadratic = from_integer<S>(starts ? 0 : -3);
     } else {
         profile_segment_.shape = SpeedShape::parabola;
-        profile_segment_.middle_sq = scalar(from.state.b + 0.5 * from.state.slope * from.cell.length_mm);
+        profile_segment_.middle_sq = scalar(from.middle_sq);
     }
 }
 
@@ -204,7 +265,7 @@ bool JerkPlan<S>::change_line(double from, const SpeedState& state) noexcept {
     }
     line_ = LineTravel(leg.move());
     planned_ = committed_ = leg.cells();
-    window_.node(planned_).state = {0.0, 0.0}; // an earlier plan may have been moving at its end inside the leg
+    window_.node(planned_).b = 0.0; // an earlier plan may have been moving at its end inside the leg
     return true;
 }
 
@@ -234,7 +295,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     }
     const bool stops = steering_.stops();
     const bool on_line = !line_.done();
-    const double travelled_mm = from * window_.node(0).cell.length_mm;
+    const double travelled_mm = from * window_.node(0).length_mm;
     const bool found = on_line ? change_line(from, state) : change_curve(from, state);
     unanswered_ = !found;
     if (!found) {
@@ -246,7 +307,7 @@ bool JerkPlan<S>::answer(double from, const SpeedState& state) noexcept {
     }
     // Except on a straight move, the rest of the front cell becomes a cell of its own.
     on_line_mm_ = on_line ? travelled_mm : 0.0;
-    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).cell.length_mm);
+    profile_segment_.stretch.from = from_double<S>(on_line_mm_ / window_.node(0).length_mm);
     halt_ = 0;
     if (stops) {
         committed_ = planned_;
@@ -264,10 +325,10 @@ template <Scalar S>
 bool JerkPlan<S>::steer(const PlanState<S>& place) noexcept {
     const double from = to_double(place.fraction);
     const double left = 1.0 - from;
-    if (line_.done() && (left < least_part || left * window_.node(0).cell.length_mm < JerkWindow<S>::shortest_mm)) {
+    if (line_.done() && (left < least_part || left * window_.node(0).length_mm < JerkWindow<S>::shortest_mm)) {
         return false; // it is tried again with the next profile segment
     }
-    if (!answer(from, state_on(profile_segment_, window_.node(0).cell.length_mm, from, to_double(place.time_share)))) {
+    if (!answer(from, state_on(profile_segment_, window_.node(0).length_mm, from, to_double(place.time_share)))) {
         return false;
     }
     chosen_ = false;
@@ -277,18 +338,18 @@ bool JerkPlan<S>::steer(const PlanState<S>& place) noexcept {
 // Called before a profile segment is chosen.
 template <Scalar S>
 void JerkPlan<S>::follow_steering() noexcept {
+    planning_ = searching_ = false;
     if (standing()) {
         unanswered_ = false;
         want();
         for (std::size_t i = 0; i < window_.size(); ++i) {
             JerkNode& node = window_.node(i);
-            node.cell.cap_sq = node.wanted_sq;
-            node.expected_sq = smaller(node.at_most_sq, node.wanted_sq);
+            node.cap_sq = node.wanted_sq;
         }
         committed_ = planned_ = 0;
         planned_all_ = false;
     } else if (line_.done()) {
-        const SpeedState state = window_.node(0).state; // the node moves
+        const SpeedState state = window_.state(0); // the node moves
         static_cast<void>(answer(0.0, state));
     } else {
         const MoveState& state = line_.reached();
@@ -298,7 +359,7 @@ void JerkPlan<S>::follow_steering() noexcept {
 }
 
 template <Scalar S>
-Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcept {
+Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& work) noexcept {
     if (chosen_) {
         return Pull::item;
     }
@@ -306,19 +367,18 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcep
         if (steering_.aborts()) {
             return Pull::finished;
         }
-        const Pull pull = window_.size() == 0 ? fill(underrun) : Pull::item;
+        const Pull pull = window_.size() == 0 ? fill(underrun, work) : Pull::item;
         return window_.size() == 0 ? pull : Pull::held;
     }
-    if (steering_.pending() || unanswered_) {
+    if (steering_.pending() || (unanswered_ && !planning_)) {
         follow_steering();
     }
     if (committed_ == 0 && steering_.stops()) {
         committed_ = planned_;
     }
-    if (committed_ == 0) {
-        expect_again();
-        const Pull pull = fill(underrun);
-        if (window_.size() == 0 || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
+    if (committed_ == 0 && !planning_) {
+        const Pull pull = fill(underrun, work);
+        if (window_.size() == 0 || pull == Pull::busy || (pull == Pull::starved && underrun == UnderrunPolicy::wait)) {
             return pull;
         }
         if (planned_all_ && planned_ > 0) {
@@ -327,8 +387,13 @@ Pull JerkPlan<S>::prepare(UnderrunPolicy underrun, WorkBudget& /*work*/) noexcep
                 pull == Pull::starved && !steering_.stops() && line_.done() && window_.node(0).travel == Travel::curve;
             committed_ = in_part ? 1 : planned_;
         } else {
-            plan(pull == Pull::finished);
+            planning_ = true;
+            ended_ = pull == Pull::finished;
+            at_ = 0;
         }
+    }
+    if (planning_ && !plan(work)) {
+        return Pull::busy;
     }
     forward_step();
     chosen_ = true;
@@ -358,7 +423,7 @@ void JerkPlan<S>::rest_at(S /*fraction*/) noexcept {
 
 template <Scalar S>
 bool JerkPlan<S>::standing() const noexcept {
-    return !chosen_ && line_.done() && !(window_.node(0).state.b > 0.0);
+    return !chosen_ && line_.done() && !(window_.node(0).b > 0.0);
 }
 
 template <Scalar S>
@@ -370,7 +435,7 @@ void JerkPlan<S>::clear() noexcept {
     hops_ = 1;
     on_line_mm_ = 0.0;
     profile_segment_ = {};
-    planned_all_ = unanswered_ = false;
+    planned_all_ = unanswered_ = planning_ = searching_ = false;
     steering_.start();
 }
 

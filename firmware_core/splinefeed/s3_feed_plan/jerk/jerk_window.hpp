@@ -8,18 +8,40 @@
 
 #include "splinefeed/base/ring_index.hpp"
 #include "splinefeed/s2_arc_length/cell_interval.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_leg.hpp"
+#include "splinefeed/s3_feed_plan/jerk/leg_plan.hpp"
+#include "splinefeed/s3_feed_plan/limits/motion_limits.hpp"
+
+#include <cstdint>
 
 namespace splinefeed {
 
-/// Memory of a JerkPlan, owned by the caller: a window of cells, and nodes. The nodes are twice as many as cells plus
-/// one, because a change of the steering is tried beside the plan.
+/// How a cell is travelled.
+enum class Travel : std::uint8_t {
+    curve,       ///< with b as a parabola, or next to standstill with constant jerk
+    line,        ///< together with the other cells of its leg, as one straight move
+    rest_to_rest ///< from standstill to standstill, as a move of its own
+};
+
+/// A node of the window, and the plan of the cell after it.
+struct JerkNode {
+    double length_mm = 0.0;  ///< of the cell
+    double cap_sq = 0.0;     ///< largest v^2 anywhere in it
+    double most_sq = 0.0;    ///< at most its cap_sq, whatever the programmed feed
+    double wanted_sq = 0.0;  ///< its cap_sq with the present steering
+    double at_most_sq = 0.0; ///< upper bound of b at the node: that of the acceleration-limited plan
+    double b = 0.0;          ///< the plan: v^2 at the node
+    double middle_sq = 0.0;  ///< and the middle Bezier point of v^2 in the cell
+    Travel travel = Travel::curve;
+};
+
+/// Memory of a JerkPlan, owned by the caller: as many nodes and as much scratch as cells, and one more of each.
 template <Scalar S>
 struct JerkStorage {
     std::span<Cell<S>> cells;
     std::span<JerkNode> nodes;
+    std::span<LegNode<double>> scratch;
 
-    [[nodiscard]] static constexpr std::size_t nodes_for(std::size_t cells) noexcept { return 2 * (cells + 1); }
+    [[nodiscard]] bool enough() const noexcept { return nodes.size() > cells.size() && scratch.size() > cells.size(); }
 };
 
 /// The limits of a cell: the derivatives of its shape at both ends.
@@ -36,7 +58,7 @@ public:
                                                   ///< no digits for them
     static constexpr double slowest_sq = 4e-7;    ///< v^2 below which a motion is not changed: half of SpeedCaps'
 
-    /// Overwrites the storage. @pre at least nodes_for() the number of cells; this also holds for all other functions
+    /// Overwrites the storage. @pre storage.enough(); this also holds for all other functions
     JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& storage) noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -52,11 +74,15 @@ public:
     }
     [[nodiscard]] JerkNode& node(std::size_t i) noexcept { return storage_.nodes[travelled_ + i]; }
     [[nodiscard]] const JerkNode& node(std::size_t i) const noexcept { return storage_.nodes[travelled_ + i]; }
-    [[nodiscard]] std::span<JerkNode> nodes(std::size_t first, std::size_t end) noexcept {
-        return storage_.nodes.subspan(travelled_ + first, end - first + 1);
+    /// The motion at a node.
+    [[nodiscard]] SpeedState state(std::size_t i) const noexcept;
+    /// The limits of a cell of the window.
+    [[nodiscard]] JerkCell limits_of(std::size_t i) const noexcept {
+        return jerk_cell_of(cell(i), *limits_, node(i).cap_sq);
     }
-    /// The same number of nodes again, not used by the plan.
-    [[nodiscard]] std::span<JerkNode> scratch() noexcept { return storage_.nodes.subspan(storage_.cells.size() + 1); }
+    [[nodiscard]] LegPlan leg() const noexcept { return LegPlan(storage_.scratch); }
+    /// Cells that a leg can have.
+    [[nodiscard]] std::size_t longest_leg() const noexcept { return storage_.scratch.size() - 1; }
 
     /// Appends a cell, with a stop before it if q'' jumps there.
     /// @param most_sq  largest v^2 in it, whatever the programmed feed
@@ -76,7 +102,7 @@ public:
     void clear() noexcept;
 
 private:
-    [[nodiscard]] bool bend_jumps(const JerkNode& before, const JerkNode& after) const noexcept;
+    [[nodiscard]] bool bend_jumps(std::size_t cell) const noexcept;
 
     const MotionLimits<S>* limits_;
     JerkStorage<S> storage_;

@@ -2,8 +2,8 @@
 // StraightLeg: travels the straight leg at the front of a window as one move in closed form.
 #pragma once
 
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_window.hpp"
-#include "splinefeed/s3_feed_plan/jerk_optimal/line_travel.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_window.hpp"
+#include "splinefeed/s3_feed_plan/jerk/line_travel.hpp"
 
 namespace splinefeed {
 
@@ -11,8 +11,8 @@ namespace splinefeed {
 template <Scalar S>
 class StraightLeg {
 public:
-    /// Whether one move can travel them: no bend up to the largest override, and one cap.
-    [[nodiscard]] static bool is_straight(std::span<const JerkNode> nodes) noexcept;
+    /// Whether one move can travel cells `first` to `end`: no bend up to the largest override, and one cap.
+    [[nodiscard]] static bool is_straight(const JerkWindow<S>& window, std::size_t first, std::size_t end) noexcept;
 
     /// From standstill. @pre the front node's travel is not Travel::curve
     explicit StraightLeg(JerkWindow<S>& window) noexcept;

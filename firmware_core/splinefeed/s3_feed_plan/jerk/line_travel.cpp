@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/s3_feed_plan/jerk_optimal/line_travel.hpp"
+#include "splinefeed/s3_feed_plan/jerk/line_travel.hpp"
 
 #include "splinefeed/number/scalar.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "splinefeed/s3_feed_plan/jerk_optimal/jerk_window.hpp"
+#include "splinefeed/s3_feed_plan/jerk/jerk_window.hpp"
 
 #include "splinefeed/base/assertion.hpp"
 #include "splinefeed/s2_arc_length/cell_part.hpp"
@@ -49,16 +49,27 @@ JerkWindow<S>::JerkWindow(const MotionLimits<S>& limits, const JerkStorage<S>& s
     clear();
 }
 
+template <Scalar S>
+SpeedState JerkWindow<S>::state(std::size_t i) const noexcept {
+    const JerkNode& here = node(i);
+    if (i < size_ && here.b > 0.0 && !(node(i + 1).b > 0.0)) { // constant jerk to standstill
+        return {here.b, -4.0 / 3.0 * here.b / here.length_mm};
+    }
+    return {here.b, here.b > 0.0 ? 2.0 * (here.middle_sq - here.b) / here.length_mm : 0.0};
+}
+
 // Where q'' jumps by d, the acceleration jumps by d v^2, and a third difference over T^3 contains up to 3/4 of that
 // over T. A jump above the reserve of MotionLimits::make becomes a stop.
 template <Scalar S>
-bool JerkWindow<S>::bend_jumps(const JerkNode& before, const JerkNode& after) const noexcept {
+bool JerkWindow<S>::bend_jumps(std::size_t i) const noexcept {
     const double per_s = 0.75 * to_double(limits_->segments_per_s);
-    const double noise = bend_noise<S> / smaller(before.cell.length_mm, after.cell.length_mm);
-    for (const unsigned k : indices(after.cell.axes)) {
-        const double jump = absolute(after.cell.end[0][k].second - before.cell.end[1][k].second);
-        const double reserve = detail::jerk_reserve * after.cell.jerk_mm_s3[k];
-        if ((jump - noise) * smaller(after.at_most_sq, after.most_sq) * per_s > reserve) {
+    const JerkCell before = limits_of(i - 1);
+    const JerkCell after = limits_of(i);
+    const double noise = bend_noise<S> / smaller(before.length_mm, after.length_mm);
+    for (const unsigned k : indices(after.axes)) {
+        const double jump = absolute(after.end[0][k].second - before.end[1][k].second);
+        const double reserve = detail::jerk_reserve * after.jerk_mm_s3[k];
+        if ((jump - noise) * smaller(node(i).at_most_sq, node(i).most_sq) * per_s > reserve) {
             return true;
         }
     }
@@ -70,21 +81,16 @@ void JerkWindow<S>::append(const Cell<S>& added, double most_sq, double wanted_s
     SPLINEFEED_ASSERT(room() > 0);
     cell(size_) = added;
     JerkNode& here = node(size_);
-    here.cell = jerk_cell_of(added, *limits_, wanted_sq);
+    here.length_mm = to_double(added.length_mm);
+    here.cap_sq = here.wanted_sq = wanted_sq;
     here.most_sq = most_sq;
-    here.wanted_sq = wanted_sq;
-    // The expected speed under another override may be almost zero.
-    here.expected_sq = size_ > 0 ? smaller(here.at_most_sq, smaller(node(size_ - 1).wanted_sq, wanted_sq))
-                                 : smaller(here.expected_sq, wanted_sq);
     here.travel = Travel::curve;
-    if (size_ > 0 && bend_jumps(node(size_ - 1), here)) {
+    if (size_ > 0 && bend_jumps(size_)) {
         Cell<S>& before = cell(size_ - 1);
         before.stop_at_end = true;
         before.end = added.origin;
     }
-    JerkNode& next = node(size_ + 1);
-    next.at_most_sq = exit_at_most_sq;
-    next.expected_sq = smaller(exit_at_most_sq, wanted_sq);
+    node(size_ + 1).at_most_sq = exit_at_most_sq;
     ++size_;
 }
 
@@ -98,7 +104,7 @@ void JerkWindow<S>::pop() noexcept {
 template <Scalar S>
 void JerkWindow<S>::forget_travelled() noexcept {
     for (std::size_t i = 0; travelled_ > 0 && i <= size_; ++i) {
-        storage_.nodes[i].take(storage_.nodes[travelled_ + i]);
+        storage_.nodes[i] = storage_.nodes[travelled_ + i];
     }
     travelled_ = 0;
 }
@@ -110,7 +116,7 @@ void JerkWindow<S>::open(std::size_t first, std::size_t more) noexcept {
         if (i < size_) {
             cell(i + more) = cell(i);
         }
-        node(i + more).take(node(i));
+        node(i + more) = node(i);
     }
     size_ += more;
 }
@@ -124,12 +130,11 @@ void JerkWindow<S>::split(std::size_t i, double fraction) noexcept {
     cell(i + 1) = part_of(whole, CellInterval<S>{cut, from_integer<S>(1)});
     JerkNode& before = node(i);
     JerkNode& after = node(i + 1);
-    before.take(after);
+    before = after;
     after.at_most_sq += fraction * (node(i + 2).at_most_sq - after.at_most_sq);
-    after.expected_sq = smaller(after.at_most_sq, after.cell.cap_sq);
-    after.state = {0.0, 0.0};
+    after.b = 0.0;
     for (std::size_t k = i; k < i + 2; ++k) {
-        node(k).cell = jerk_cell_of(cell(k), *limits_, before.cell.cap_sq);
+        node(k).length_mm = to_double(cell(k).length_mm);
     }
 }
 

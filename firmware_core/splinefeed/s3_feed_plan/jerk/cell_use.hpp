@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// cell_use: how much of the limits a motion uses within a cell, proved.
+#pragma once
+
+#include "splinefeed/s3_feed_plan/jerk/leg_node.hpp"
+
+namespace splinefeed {
+
+/// Upper bounds of the use anywhere in a cell; up to 1 it is within the limits.
+template <Floating R>
+struct CellUse {
+    R acceleration{};
+    R jerk{};
+};
+
+/// The use of the cell between two nodes that are both in motion, from b and middle_sq. Where it is above 1, the cell
+/// is halved up to four times for a closer bound. Derivation: cell_use.cpp. Cost: about 100 operations an axis.
+template <Floating R>
+[[nodiscard]] CellUse<R> cell_use(const LegNode<R>& node, const LegNode<R>& next, const AxisLimits<R>& limits) noexcept;
+
+} // namespace splinefeed

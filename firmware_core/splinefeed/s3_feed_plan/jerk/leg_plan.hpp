@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// LegPlan: the fastest motion that is found along a leg, from a state or from standstill to the next standstill, with
+// every limit proved in every cell.
+#pragma once
+
+#include "splinefeed/s3_feed_plan/jerk/jerk_cell.hpp"
+#include "splinefeed/s3_feed_plan/jerk/leg_solver.hpp"
+
+namespace splinefeed {
+
+/// Works in nodes of the caller. Build a leg by begin() and add(), then plan it: at once, or in steps.
+class LegPlan {
+public:
+    using R = double;
+    static constexpr std::size_t fewest_cells = LegSolver<R>::fewest_cells;
+
+    /// @param nodes  scratch, one more than the cells of a leg
+    explicit LegPlan(std::span<LegNode<R>> nodes) noexcept : nodes_(nodes) {}
+
+    /// @param start  b > 0, or standstill
+    void begin(const SpeedState& start) noexcept;
+    /// Appends a cell. @pre fewer cells than nodes
+    /// @param at_most_sq  an upper bound of b at its end, about: that of an acceleration-limited plan; 0: not known
+    void add(const JerkCell& cell, R cap_sq, R at_most_sq) noexcept;
+    /// The middle of the last cell in a plan that is possible. @pre all cells before it are known
+    void know(R middle_sq) noexcept;
+    [[nodiscard]] std::size_t cells() const noexcept { return cells_; }
+
+    /// Begins the search for the fastest motion. @pre fewest_cells or more
+    void search() noexcept;
+    /// A step of it, which visits every node about once. `none`: the nodes are not changed for the caller. Cost in all:
+    /// ten to twenty steps of LegSolver, and as many again for each attempt that fails.
+    Search step() noexcept;
+    /// All of it. Whether one was found.
+    bool fastest() noexcept;
+    /// From standstill: a motion that is possible and not fast. false: none within the range of numbers.
+    bool slow() noexcept;
+
+    /// The result. @pre fastest() or slow() found one
+    [[nodiscard]] const LegNode<R>& node(std::size_t i) const noexcept { return nodes_[i]; }
+    [[nodiscard]] R seconds() const noexcept { return seconds_; }
+
+private:
+    enum class Stage : std::uint8_t {
+        guess, ///< a first motion
+        first, ///< solved as it is
+        prove_first,
+        again, ///< solved with smaller shares of the limits, from where it is
+        anew,  ///< the same with new multipliers
+        prove
+    };
+    struct Proof {
+        bool kept = true; ///< every limit in every cell
+        R most{};
+    };
+
+    [[nodiscard]] std::span<LegNode<R>> leg() const noexcept { return nodes_.first(cells_ + 1); }
+    void join() noexcept;
+    void guess() noexcept;
+    Search fail() noexcept;
+    Proof prove(R from, bool tighten) noexcept;
+
+    std::span<LegNode<R>> nodes_;
+    LegSolver<R> solver_;
+    std::size_t cells_ = 0;
+    std::size_t known_ = 0;
+    bool rests_ = true;
+    AxisLimits<R> limits_{};
+    R first_most_sq_{};
+    R last_most_sq_{};
+    R seconds_{};
+    Stage stage_ = Stage::guess;
+    std::size_t lead_ = 0; // number of the attempt
+    int passes_ = 0;       // of solving again
+};
+
+} // namespace splinefeed

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+//
+// The unknowns are the middle Bezier points m_i of b = v^2 in the cells (lengths L_i): control points of a C1 quadratic
+// spline, so
+//
+//   b_i = (L_i m_{i-1} + L_{i-1} m_i) / (L_{i-1} + L_i),  b'_i = 2 (m_i - m_{i-1}) / (L_{i-1} + L_i),
+//   u_i = (b'_{i+1} - b'_i) / L_i.
+//
+// A cell next to standstill has constant jerk along the path: b' = 4 b / (3 L) at its moving end (jerk_cell.cpp).
+//
+// Rows |p| <= h at every node, for each axis:
+//
+//   acceleration  p = q'' b + q' b' / 2                    h = A - s2 b
+//   jerk          p = q''' b + 3/2 q'' b' + q' u / 2       h = J b^(-1/2) - s3 b, with u of the cell before and behind
+//
+// and m <= cap. Objective: the time, the sum of w b^(-1/2).
+//
+// Primal-dual interior-point method (Mehrotra 1992; Rao, Wright, Rawlings 1998 for the recursion): each step minimises
+// a quadratic model of the time and of the barrier over db, db', du. State x = (b, b') and input u make a linear system
+// along the path, so the model is solved by a Riccati recursion: from the last node to the first the cost of the rest
+// of the way, then from the first to the last the step. Two multipliers a row would be one for each sign of p: only the
+// nearer side has one, the far side is a primal barrier. The weight of a row's barrier is mu tau, tau = w b^(-1/2): so
+// mu is a share of the time, however uneven the cells are.
+//
+// h is concave or convex in b: its curvature, weighted by the multipliers, is taken from that of the time, as far as
+// the model stays convex.
+//
+// A first motion may exceed the limits: those of node i are widened by phi times its excess, and phi goes to 0 with the
+// steps.
+#include "splinefeed/s3_feed_plan/jerk/leg_solver.hpp"
+
+#include "splinefeed/s3_feed_plan/jerk/leg_rows.hpp"
+
+namespace splinefeed {
+
+namespace {
+
+template <Floating R>
+constexpr R no_row = R(1e15);            // share of a limit beside the first and the last cell: there is no row
+constexpr double least_left = 0.2;       // of middle_sq, after a step
+constexpr double least_curvature = 0.05; // of the time's own
+constexpr double least_shrink = 0.1;     // of the gap in a step
+constexpr double stuck_step = 0.02;      // a step below is one that leads nowhere
+constexpr int most_stuck = 3;
+constexpr double good_step = 0.5; // the last step reaches so far, at least
+
+constexpr double no_excess = 1e-5;
+constexpr double small_excess = 1e-4;
+
+} // namespace
+
+/// Cost of the rest of the way: second and first derivatives by the state at a node, and by u of the cell before it.
+template <Floating R>
+struct LegSolver<R>::Value {
+    R bb{}, bs{}, ss{}, b{}, s{};
+    R ub{}, us{}, uu{}, u{};
+};
+
+template <Floating R>
+void LegSolver<R>::join(R first_most_sq, R last_most_sq) noexcept {
+    const std::size_t n = cells_;
+    const auto own_share = [this](std::size_t moving, R other_mm, R rest_mm) { // beside a cell next to standstill
+        const R share = R(1) / (R(1) + R(2) * other_mm / (R(3) * rest_mm));
+        LegNode<R>& node = node_[moving];
+        node.of_before = node.of_own = node.slope_of_before = node.slope_of_own = R(0);
+        return share;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        node_[i].per_length = R(1) / node_[i].length_mm;
+        node_[i].weight_mm = R(0.5) * ((i > 0 ? node_[i - 1].length_mm : R(0)) + node_[i].length_mm);
+    }
+    for (std::size_t i = 1; i < n; ++i) {
+        LegNode<R>& node = node_[i];
+        const R before = node_[i - 1].length_mm;
+        const R sum = R(1) / (before + node.length_mm);
+        node.of_before = node.length_mm * sum;
+        node.of_own = before * sum;
+        node.slope_of_own = R(2) * sum;
+        node.slope_of_before = -node.slope_of_own;
+    }
+    constexpr R rise = R(4.0 / 3.0);
+    if (rests()) {
+        LegNode<R>& node = node_[1];
+        const R share = own_share(1, node.length_mm, node_[0].length_mm);
+        node.of_own = share;
+        node.slope_of_own = share * rise * node_[0].per_length;
+        node.weight_mm += R(2.5) * node_[0].length_mm; // t = 3 L / v
+        node.cap_sq = smaller(node.cap_sq, first_most_sq / share);
+    }
+    LegNode<R>& last = node_[n - 1];
+    const R share = own_share(n - 1, node_[n - 2].length_mm, last.length_mm);
+    last.of_before = share;
+    last.slope_of_before = -share * rise * last.per_length;
+    last.weight_mm += R(2.5) * last.length_mm;
+    node_[n - 2].cap_sq = smaller(node_[n - 2].cap_sq, last_most_sq / share);
+    node_[n - 1].curvature = R(0);
+    node_[n].b = node_[n].slope = R(0);
+    node_[n].of_before = node_[n].of_own = node_[n].slope_of_before = node_[n].slope_of_own = R(0);
+}
+
+template <Floating R>
+void LegSolver<R>::move(R step) noexcept {
+    for (std::size_t i = 1; i < cells_; ++i) {
+        LegNode<R>& before = node_[i - 1];
+        LegNode<R>& node = node_[i];
+        node.middle_sq += step * node.step_sq;
+        node.b = node.of_before * before.middle_sq + node.of_own * node.middle_sq;
+        node.slope = node.slope_of_before * before.middle_sq + node.slope_of_own * node.middle_sq;
+        before.curvature = (node.slope - before.slope) * before.per_length;
+    }
+}
+
+template <Floating R>
+typename LegSolver<R>::Row LegSolver<R>::row_at(std::size_t i) const noexcept {
+    const LegNode<R>& node = node_[i];
+    const bool left = i > first_;
+    const bool right = i + 1 < cells_;
+    Row row;
+    row.b = node.b;
+    row.slope = node.slope;
+    row.root = R(1) / detail::hardware_square_root(node.b);
+    row.per_b = row.root * row.root;
+    row.pull = barrier_ * node.weight_mm * row.root;
+    row.excess = infeasibility_ * node.excess;
+    row.wider = R(1) + row.excess;
+    row.acceleration_share =
+        i > 0 ? smaller(node_[i - 1].acceleration_share, node.acceleration_share) : node.acceleration_share;
+    // The state of a start in motion is given: less of a limit is asked for at the end of its cell alone.
+    row.share =
+        Pair<R>{left ? node_[i - 1].jerk_share : no_row<R>, right ? (i > 0 ? node.jerk_share : R(1)) : no_row<R>};
+    row.curvature = Pair<R>{i > 0 ? node_[i - 1].curvature : R(0), node.curvature};
+    return row;
+}
+
+// By how much the first motion exceeds the limits, less a margin. Returns 1 if it does anywhere.
+template <Floating R>
+R LegSolver<R>::measure_excess(R margin) noexcept {
+    R any{};
+    for (std::size_t i = first_; i < cells_; ++i) {
+        LegNode<R>& node = node_[i];
+        const Row row = row_at(i);
+        R most{};
+        for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
+            most = larger(most, detail::use_of_node(node.axis[k], limits_.acceleration_mm_s2[k], limits_.jerk_mm_s3[k],
+                                                    row, i > 0));
+        }
+        const R free = i == 0 ? R(1e-3) : margin; // nothing can change the state of the first node
+        node.excess = most > R(1) - free ? most - R(1) + free : R(0);
+        any = node.excess > R(0) ? R(1) : any;
+    }
+    return any;
+}
+
+template <Floating R>
+void LegSolver<R>::forget_multipliers() noexcept {
+    for (LegNode<R>& node : node_) {
+        node.cap_multiplier = R(0);
+        for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
+            node.axis[k].acceleration_multiplier = R(0);
+            node.axis[k].jerk_multiplier = Pair<R>{};
+        }
+    }
+}
+
+// The cap of the middle of the cell behind a node, b + b' L / 2.
+template <Floating R>
+inline void LegSolver<R>::add_cap(LegNode<R>& node, const Row& row, Value& value) noexcept {
+    const R slack = R(1) / (node.cap_sq - node.middle_sq);
+    const R central = row.pull * slack;
+    R multiplier = node.cap_multiplier > R(0) ? node.cap_multiplier : central;
+    multiplier = smaller(multiplier, R(detail::most_multiplier) * central);
+    node.cap_multiplier = multiplier;
+    node.per_cap_slack = slack;
+    gap_ += (node.cap_sq - node.middle_sq) * multiplier;
+    nominal_gap_ += row.pull;
+    const R second = multiplier * slack;
+    const R first = central;
+    const R half = R(0.5) * node.length_mm;
+    value.bb += second;
+    value.bs += second * half;
+    value.ss += second * half * half;
+    value.b += first;
+    value.s += first * half;
+}
+
+// Takes the cost of the rest of the way from the end of a cell to its start: y = A x + B u, A = [1 L; 0 1], B = (L^2/2,
+// L), and u as is best for it.
+template <Floating R>
+inline void LegSolver<R>::pass_cell(std::size_t i, const Terms& terms, Value& value) noexcept {
+    LegNode<R>& node = node_[i];
+    const R length = node.length_mm;
+    const R b0 = R(0.5) * length * length;
+    const R wb = value.bb * b0 + value.bs * length + value.ub;
+    const R ws = value.bs * b0 + value.ss * length + value.us;
+    const R uu = value.uu + terms.uu[1] + value.ub * b0 + value.us * length + wb * b0 + ws * length;
+    const R nb = wb + terms.ub[1];
+    const R ns = wb * length + ws + terms.us[1];
+    const R nu = value.u + terms.u[1] + value.b * b0 + value.s * length;
+    const R bb = value.bb;
+    const R bs = value.bb * length + value.bs;
+    const R ss = (value.bb * length + R(2) * value.bs) * length + value.ss;
+    const R s = value.b * length + value.s;
+    if (i + 2 == cells_) { // b' = -4 b / (3 L) at its end
+        const R per = R(-4.0 / 3.0) * node_[cells_ - 1].per_length;
+        const R inverse = R(1) / (length - per * b0);
+        const R kb = per * inverse;
+        const R ks = (per * length - R(1)) * inverse;
+        node.gain = {R(0), kb, ks};
+        value.bb = bb + R(2) * nb * kb + uu * kb * kb;
+        value.bs = bs + nb * ks + ns * kb + uu * kb * ks;
+        value.ss = ss + R(2) * ns * ks + uu * ks * ks;
+        value.b += kb * nu;
+        value.s = s + ks * nu;
+    } else {
+        const R inverse = R(1) / larger(uu, R(1e-30));
+        const R kb = -nb * inverse;
+        const R ks = -ns * inverse;
+        node.gain = {-nu * inverse, kb, ks};
+        value.bb = bb + nb * kb;
+        value.bs = bs + nb * ks;
+        value.ss = ss + ns * ks;
+        value.b += kb * nu;
+        value.s = s + ks * nu;
+    }
+}
+
+template <Floating R>
+void LegSolver<R>::backward() noexcept {
+    gap_ = nominal_gap_ = R(0);
+    Value value;
+    for (std::size_t i = cells_; i-- > first_;) {
+        LegNode<R>& node = node_[i];
+        const Row row = row_at(i);
+        Terms terms;
+        for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
+            detail::add_acceleration(node.axis[k], limits_.acceleration_mm_s2[k], row, terms);
+            detail::add_jerk(node.axis[k], limits_.jerk_mm_s3[k], row, terms);
+        }
+        gap_ += terms.gap + sum_of<R>(terms.jerk_gap);
+        nominal_gap_ += row.pull * static_cast<R>(3U * limits_.axes);
+        R bb = terms.bb + sum_of<R>(terms.jbb);
+        R first = terms.b + sum_of<R>(terms.jb);
+        const R slowness = node.weight_mm * row.root * row.per_b;
+        const R own = R(0.75) * slowness * row.per_b;
+        const R of_limits =
+            R(0.75) * row.per_b * row.per_b *
+            ((i > first_ ? R(terms.limit_curvature[0]) : R(0)) + (i + 1 < cells_ ? R(terms.limit_curvature[1]) : R(0)));
+        bb += larger(R(least_curvature) * own, own - of_limits);
+        first -= R(0.5) * slowness;
+        if (i + 1 < cells_) {
+            pass_cell(i, terms, value);
+            if (i > 0) {
+                add_cap(node, row, value);
+            }
+        }
+        value.bb = larger(value.bb + bb, R(0));
+        value.bs += terms.bs + sum_of<R>(terms.jbs);
+        value.ss = larger(value.ss + terms.ss + sum_of<R>(terms.jss), R(0));
+        value.b += first;
+        value.s += terms.s + sum_of<R>(terms.js);
+        value.ub = terms.ub[0];
+        value.us = terms.us[0];
+        value.uu = terms.uu[0];
+        value.u = terms.u[0];
+    }
+    const R rise = R(4.0 / 3.0) * node_[0].per_length;
+    first_step_ = -(value.b + rise * value.s) / (value.bb + R(2) * rise * value.bs + rise * rise * value.ss);
+}
+
+// The step of every node and multiplier. Returns the inverse of the part of it that stays within all limits.
+template <Floating R>
+R LegSolver<R>::forward() noexcept {
+    R most{1};
+    Pair<R> most_jerk{R(1), R(1)};
+    R db = rests() ? first_step_ : R(0);
+    R ds = rests() ? R(4.0 / 3.0) * node_[0].per_length * db : R(0);
+    R du_before{};
+    node_[0].step_sq = node_[cells_ - 1].step_sq = R(0);
+    for (std::size_t i = first_; i < cells_; ++i) {
+        LegNode<R>& node = node_[i];
+        const Row row = row_at(i);
+        const bool right = i + 1 < cells_;
+        const R du = right ? node.gain[0] + node.gain[1] * db + node.gain[2] * ds : R(0);
+        const R next_slope = ds + du * node.length_mm;
+        const R next_b = db + R(0.5) * (ds + next_slope) * node.length_mm;
+        const detail::LegStep<R> step{db, ds, Pair<R>{du_before, du}};
+        for (const unsigned k : indices(static_cast<int>(limits_.axes))) {
+            detail::follow_acceleration(node.axis[k], limits_.acceleration_mm_s2[k], row, step, most);
+            detail::follow_jerk(node.axis[k], limits_.jerk_mm_s3[k], row, step, most_jerk);
+        }
+        if (i > 0 && right) {
+            node.step_sq = db + R(0.5) * node.length_mm * ds;
+            most = larger(most, node.step_sq * node.per_cap_slack * R(detail::per_way));
+            most = larger(most, -node.step_sq * R(1.0 / (1.0 - least_left)) / node.middle_sq);
+            node.cap_multiplier = larger(R(detail::least_multiplier) * node.cap_multiplier,
+                                         (row.pull + node.cap_multiplier * node.step_sq) * node.per_cap_slack);
+        }
+        db = next_b;
+        ds = next_slope;
+        du_before = du;
+    }
+    return larger(most, larger_of<R>(most_jerk));
+}
+
+template <Floating R>
+void LegSolver<R>::begin(const LegEffort<R>& effort) noexcept {
+    effort_ = effort;
+    for (std::size_t i = 1; i + 1 < cells_; ++i) {
+        node_[i].middle_sq = smaller(node_[i].middle_sq, R(0.9999) * node_[i].cap_sq);
+    }
+    move(R(0));
+    infeasibility_ = measure_excess(effort.margin);
+    if (!effort.again) {
+        forget_multipliers();
+    }
+    barrier_ = effort.start_accuracy;
+    step_ = R(0);
+    steps_ = stuck_ = 0;
+}
+
+template <Floating R>
+Search LegSolver<R>::step() noexcept {
+    move(step_);
+    backward();
+    const R inverse = forward();
+    stuck_ = inverse > R(1.0 / stuck_step) ? stuck_ + 1 : 0;
+    if (!(gap_ > R(0)) || !(inverse < R(1e8)) || stuck_ > most_stuck) {
+        return Search::none;
+    }
+    step_ = R(1) / inverse;
+    infeasibility_ *= R(1) - step_;
+    infeasibility_ = infeasibility_ < R(no_excess) ? R(0) : infeasibility_;
+    const bool close = barrier_ <= effort_.accuracy * R(1.001) && step_ > R(good_step) && !(infeasibility_ > R(0));
+    if (close || ++steps_ == effort_.steps) {
+        return finish();
+    }
+    const R rest = R(1) - step_;
+    const R next = barrier_ * (gap_ / nominal_gap_) * larger(R(least_shrink), rest * rest);
+    barrier_ = larger(effort_.accuracy, smaller(barrier_, next));
+    return Search::running;
+}
+
+// Whether what is left of the first excess is small at every node.
+template <Floating R>
+Search LegSolver<R>::finish() noexcept {
+    move(step_);
+    for (std::size_t i = first_; i < cells_; ++i) {
+        if (infeasibility_ * node_[i].excess > R(small_excess)) {
+            return Search::none;
+        }
+    }
+    return Search::found;
+}
+
+template <Floating R>
+R LegSolver<R>::seconds() const noexcept {
+    R sum{};
+    for (std::size_t i = 0; i < cells_; ++i) {
+        const LegNode<R>& node = node_[i];
+        const bool from_rest = i == 0 && rests();
+        if (from_rest || i + 1 == cells_) {
+            sum += R(3) * node.length_mm / detail::hardware_square_root(from_rest ? node_[1].b : node.b);
+            continue;
+        }
+        const R next = node_[i + 1].b;
+        const R middle = R(0.25) * (node.b + next + R(2) * node.middle_sq);
+        sum += node.length_mm * R(1.0 / 6.0) *
+               (R(1) / detail::hardware_square_root(node.b) + R(4) / detail::hardware_square_root(middle) +
+                R(1) / detail::hardware_square_root(next));
+    }
+    return sum;
+}
+
+template class LegSolver<double>;
+
+} // namespace splinefeed

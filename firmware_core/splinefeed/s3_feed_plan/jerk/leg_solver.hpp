@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// LegSolver: the speeds along a leg that keep the limits at its nodes and take the least time, by an interior-point
+// method. Derivation: leg_solver.cpp.
+//
+//      b |      m1____m2            b = v^2: a parabola in each cell, with the middle Bezier point m;
+//        |    .'        '.          b and db/ds are continuous whatever the m are
+//        |  .'            '.m3
+//        |.'                '.      the first and the last cell next to standstill: constant jerk
+//        +--|------|-----|----|--> s
+#pragma once
+
+#include "splinefeed/s3_feed_plan/jerk/leg_rows.hpp"
+
+#include <span>
+
+namespace splinefeed {
+
+/// How a search stands.
+enum class Search : std::uint8_t { running, found, none };
+
+/// How far the solver goes. `accuracy` is a share of the time by which a motion exceeds the least time, about.
+template <Floating R>
+struct LegEffort {
+    int steps = 0;
+    R start_accuracy{};
+    R accuracy{};
+    R margin{};         ///< of the limits, that the first motion leaves free at least
+    bool again = false; ///< the multipliers of the last solution serve
+};
+
+/// The nodes are the caller's: node i and the cell after it; the last one is the end, at standstill.
+template <Floating R>
+class LegSolver {
+public:
+    static constexpr std::size_t fewest_cells = 3;
+
+    LegSolver() noexcept = default;
+    /// @param nodes  one more than cells; their geometry, guess and shares are set
+    /// @param rests  the leg begins at standstill; otherwise b, slope and middle_sq of the first node are its start
+    /// @pre fewest_cells or more
+    LegSolver(std::span<LegNode<R>> nodes, const AxisLimits<R>& limits, bool rests) noexcept
+        : node_(nodes), cells_(nodes.size() - 1), first_(rests ? 1U : 0U), limits_(limits) {}
+
+    [[nodiscard]] std::size_t cells() const noexcept { return cells_; }
+    [[nodiscard]] bool rests() const noexcept { return first_ == 1; }
+
+    /// Before the first solve(): what b is made of at each node. Largest b at the moving ends of the first cell (if it
+    /// begins at standstill) and of the last one.
+    void join(R first_most_sq, R last_most_sq) noexcept;
+    /// From middle_sq, which may exceed limits, on.
+    void begin(const LegEffort<R>& effort) noexcept;
+    /// One step. `found`: the limits are kept at every node, which have their b, slope and curvature. Cost: about 500
+    /// operations a node of three axes. @pre begin()
+    Search step() noexcept;
+    /// b, slope and curvature from middle_sq.
+    void evaluate() noexcept { move(R{0}); }
+    /// Duration of the motion [s], by Simpson's rule.
+    [[nodiscard]] R seconds() const noexcept;
+
+private:
+    using Row = detail::LegRow<R>;
+    using Terms = detail::LegTerms<R>;
+    struct Value;
+
+    Search finish() noexcept;
+    [[nodiscard]] Row row_at(std::size_t i) const noexcept;
+    R measure_excess(R margin) noexcept;
+    void forget_multipliers() noexcept;
+    void move(R step) noexcept;
+    void add_cap(LegNode<R>& node, const Row& row, Value& value) noexcept;
+    void pass_cell(std::size_t i, const Terms& terms, Value& value) noexcept;
+    void backward() noexcept;
+    R forward() noexcept;
+
+    std::span<LegNode<R>> node_;
+    std::size_t cells_ = 0;
+    std::size_t first_ = 0; // node that the start is told by
+    AxisLimits<R> limits_{};
+    R barrier_{};       // mu: weight of the barrier
+    R infeasibility_{}; // phi: share of the first excess that is left
+    R gap_{};           // duality gap
+    R nominal_gap_{};   // what it would be on the central path
+    R first_step_{};    // of b at the first node, from standstill
+    LegEffort<R> effort_{};
+    R step_{}; // part of step_sq that is taken next
+    int steps_ = 0;
+    int stuck_ = 0;
+};
+
+} // namespace splinefeed
