@@ -41,7 +41,17 @@ TEST_CASE("The summary counts each joint at which the machine stands, and no win
     const Tool tool;
     tool.write("kinks.ngc", "G21 G61 F600\nG0 X0 Y0\nG1 X10\nG1 X20 Y0.5\nG1 X30\nG1 X40 Y0.50001\nM2\n");
     const std::string run = "run kinks.ngc --quiet --summary json";
-    const json stands = summary_of(tool(run)); // at its last kink, too, of a millionth
+    const json rounded = summary_of(tool(run)); // its last kink, of a millionth
+    CHECK(rounded["stops"] == 2);
+    CHECK(rounded["tolerance"]["stopped"] == 3); // and at its end
+    CHECK(rounded["tolerance"]["blended"] == 1);
+    std::string exact = "[path]\nmax_feed_mm_s = 100\njoint_tolerance_mm = 0\n";
+    for (const char* axis : {"x", "y", "z"}) {
+        exact +=
+            "[[axis]]\nname = \"" + std::string(axis) + "\"\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 1000\n";
+    }
+    tool.write("exact.toml", exact);
+    const json stands = summary_of(tool(run + " -m exact.toml"));
     CHECK(stands["stops"] == 3);
     CHECK(stands["tolerance"]["stopped"] == 4); // and at its end
     CHECK(stands["tolerance"]["through"] == 0);
