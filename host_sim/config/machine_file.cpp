@@ -85,7 +85,7 @@ public:
         machine.lines = read_program_lines(check_, root, machine.spindle);
         axes(root, machine);
         machine.tolerances.sharpest = sharpest_corner(machine.settings);
-        machine.tolerances.rounds_curvature = axis_totals(machine.settings).smoothest > 0.0;
+        machine.tolerances.jerk_limited = axis_totals(machine.settings).smoothest > 0.0;
         for (unsigned k = 0; k < machine.tolerances.rotary.size(); ++k) {
             machine.tolerances.rotary[k] = machine.settings.axis[k].rotary;
         }

@@ -18,13 +18,13 @@ struct SharpestCorner {
 
 /// Keys of [path] in a machine file, in mm and degrees.
 struct PathTolerances {
-    double joint_mm = 0.001;       ///< of exact paths, where they turn by less than a degree or the curvature jumps
-    double programmed_mm = 0.01;   ///< elements that state no tolerance
-    double rapid_mm = 0.1;         ///< rapids
-    double rotary_deg = 100.0;     ///< of rotary axes, where a move's own number is larger
-    SharpestCorner sharpest{};     ///< no key: of the planner
-    bool rounds_curvature = false; ///< no key: the jerk is limited, so jumps of the curvature cost time
-    PerAxis<bool> rotary{};        ///< no key: of the machine
+    double joint_mm = 0.001;     ///< of exact paths, where they turn by less than a degree or the curvature jumps
+    double programmed_mm = 0.01; ///< elements that state no tolerance
+    double rapid_mm = 0.1;       ///< rapids
+    double rotary_deg = 100.0;   ///< of rotary axes, where a move's own number is larger
+    SharpestCorner sharpest{};   ///< no key: of the planner
+    bool jerk_limited = false;   ///< no key: of the machine; jumps of the curvature cost time then
+    PerAxis<bool> rotary{};      ///< no key: of the machine
 };
 
 /// The largest that a program or a machine file may state.

@@ -59,9 +59,8 @@ PathCurve<S>::PathCurve(const PathInput& input) : axes_(static_cast<int>(input.a
         source_ = &curve_.template emplace<TolerancePath<S>>(
             axes_, from_double<S>(tolerances.joint_mm),
             SharpestBlend<S>{from_double<S>(tolerances.sharpest.curvature_1_mm),
-                             from_double<S>(tolerances.sharpest.fading),
-                             from_double<S>(tolerances.sharpest.half_sine)},
-            tolerances.rounds_curvature);
+                             from_double<S>(tolerances.sharpest.fading), from_double<S>(tolerances.sharpest.half_sine)},
+            tolerances.jerk_limited);
         return;
     }
     Seam seam = choice.closed ? Seam::repeated : Seam::open;

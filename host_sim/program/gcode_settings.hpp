@@ -44,6 +44,7 @@ struct GcodeSettings {
     const SpindleDescription* spindle = nullptr; ///< of the machine; null: its file says nothing of one
     const ProgramLines* lines = nullptr;         ///< coolant and outputs of the machine; null: it has none
     double tolerance_mm = 0.01;                  ///< of G64 without P
+    int chain_quarters = 3;                      ///< of P, for the chains of G64 without Q
     double rapid_tolerance_mm = 0.1;             ///< between rapids
     double max_feed_mm_s = 0.0;                  ///< of moves with a feed, along the linear axes; 0: none
     std::uint32_t rotary_axes = 0;               ///< bit k: axis k of the machine is rotary

@@ -281,26 +281,31 @@ TEST_CASE("A real target without an inverter refuses a spindle before anything m
 
 TEST_CASE("Q of G64 bounds the chains of short moves, also by way of --elements") {
     const Tool tool;
+    std::string machine; // the default one
     const auto run = [&](const std::string& mode) {
         std::string program = "G1 F3000 " + mode + "\n";
         for (int i = 1; i <= 200; ++i) {
             program += "X" + std::to_string(0.1 * i) + " Y" + std::to_string(0.3 * std::sin(0.25 * i)) + "\n";
         }
         tool.write("part.ngc", program + "M2\n");
-        const json summary = summary_of(tool("run part.ngc --quiet --summary json --elements e.json"));
-        const json again = summary_of(tool("run e.json --quiet --summary json"));
+        const json summary = summary_of(tool("run part.ngc --quiet --summary json --elements e.json" + machine));
+        const json again = summary_of(tool("run e.json --quiet --summary json" + machine));
         CHECK(again["tolerance"]["deviation_mm"]["distance"] == summary["tolerance"]["deviation_mm"]["distance"]);
         CHECK(again["tolerance"]["pieces"] == summary["tolerance"]["pieces"]);
         return summary["tolerance"];
     };
-    const json wide = run("G64 P0.02");
-    CHECK(run("G64 P0.02 Q0.02") == wide);
+    const json usual = run("G64 P0.02");
+    CHECK(run("G64 P0.02 Q0.015") == usual);
+    const json wide = run("G64 P0.02 Q0.02");
     CHECK(run("G64 P0.02 Q0.5") == wide);
+    CHECK(usual["deviation_mm"]["distance"].get<double>() < 0.015);
     CHECK(wide["deviation_mm"]["distance"].get<double>() > 0.006);
     const json fine = run("G64 P0.02 Q0.003");
     CHECK(fine["chains"].get<int>() > 0);
     CHECK(fine["deviation_mm"]["distance"].get<double>() <= 0.003);
     CHECK(run("G64 P0.02 Q0")["chains"] == 0);
+    machine = " -m " + examples + "jerk_limited.toml'";
+    CHECK(run("G64 P0.02") == run("G64 P0.02 Q0.02"));
 }
 
 TEST_CASE("A real target refuses probe moves and homing within a program, before anything moves") {

@@ -9,10 +9,9 @@ namespace {
 
 constexpr std::int64_t least_feed = 60 * Decimal::one / 1000; // 0.001 mm/s in mm/min
 
-// Q where a program states none. The joints at the ends of a chain have the rest of P. They cost more time than what a
-// chain gains with all of it.
-constexpr Decimal usual_chain_tolerance(Decimal tolerance_mm) noexcept {
-    return {tolerance_mm.raw / 4 * 3};
+// Q where a program states none.
+constexpr Decimal usual_chain_tolerance(Decimal tolerance_mm, const ProgramSettings& settings) noexcept {
+    return {tolerance_mm.raw / 4 * settings.chain_quarters};
 }
 
 } // namespace
@@ -22,7 +21,7 @@ ModalState ModalState::at_start(const ProgramSettings& settings) noexcept {
     state.motion = rules_of(settings.dialect).first_motion;
     state.feed = rules_of(settings.dialect).first_feed;
     state.tolerance_mm = settings.default_tolerance_mm;
-    state.chain_tolerance_mm = usual_chain_tolerance(state.tolerance_mm);
+    state.chain_tolerance_mm = usual_chain_tolerance(state.tolerance_mm, settings);
     return state;
 }
 
@@ -113,7 +112,7 @@ BlockStatus ModalState::apply_path_mode(const Block& block, const ProgramSetting
     }
     constexpr Decimal most = Decimal::from_integer(100);
     tolerance_mm = block.has('p') ? in_mm(block.value('p')) : settings.default_tolerance_mm;
-    chain_tolerance_mm = block.has('q') ? in_mm(block.value('q')) : usual_chain_tolerance(tolerance_mm);
+    chain_tolerance_mm = block.has('q') ? in_mm(block.value('q')) : usual_chain_tolerance(tolerance_mm, settings);
     for (const char letter : {'p', 'q'}) {
         if (code == 640 && block.has(letter) && (block.value(letter).raw < 0 || in_mm(block.value(letter)) > most)) {
             return block.at(ProgramError::tolerance_out_of_range, letter);

@@ -69,6 +69,7 @@ struct ProgramSettings {
     bool block_delete = false;                        ///< lines that begin with / are left out
     bool optional_pause = true;                       ///< M1 pauses
     Decimal default_tolerance_mm{Decimal::one / 100}; ///< of G64 without P, and before the first of G61, G61.1, G64
+    int chain_quarters = 3;                           ///< quarters of P that are Q of G64 where a program states none
     Decimal rapid_tolerance_mm{Decimal::one / 10};    ///< between two rapids in G64
     const IgnoredWord* ignored = nullptr;
     std::size_t ignored_count = 0;

@@ -19,6 +19,7 @@ ProgramSettings core_settings(const GcodeSettings& from, const MachineTools* too
     out.block_delete = from.block_delete;
     out.optional_pause = from.optional_stop;
     out.default_tolerance_mm = decimal_of(from.tolerance_mm);
+    out.chain_quarters = from.chain_quarters;
     out.rapid_tolerance_mm = decimal_of(from.rapid_tolerance_mm);
     out.ignored = from.ignored.data();
     out.ignored_count = from.ignored.size();
