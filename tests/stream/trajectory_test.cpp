@@ -33,25 +33,24 @@ bool left_early(const Stream& stream, std::size_t i, int axes) {
     return std::fabs(second) < 3.4L * std::fabs(first);
 }
 
-/// Where the plan is at a time, found from the planned cells: time passes at constant acceleration in each. It stands
+/// Where the plan is at a time, found from the planned parts: time passes at constant acceleration in each. It stands
 /// where the stream does; that this is not later than it has to be is checked.
 template <class S>
 class Clock {
 public:
-    Clock(const Planned<S>& planned, const Stream& stream, Real segment_s)
-        : cells_(&planned.cells), seconds_(planned.cell_seconds) {
+    Clock(const Planned<S>& planned, const Stream& stream, Real segment_s) : planned_(&planned) {
         Real now = 0.0L;
         std::size_t joint = 0; // at (joint - 1) segments
         bool leaves = true;
-        for (std::size_t i = 0; i < seconds_.size(); ++i) {
-            const int axes = planned.cells[i].cell.axes;
-            if (leaves && seconds_[i] > (2.0L + head_start) * segment_s && left_early(stream, joint, axes)) {
+        for (const PlannedPart<S>& part : planned.parts) {
+            const int axes = planned.cells[part.cell].cell.axes;
+            if (leaves && part.seconds > (2.0L + head_start) * segment_s && left_early(stream, joint, axes)) {
                 now -= head_start * segment_s;
             }
             start_.push_back(now);
-            now += seconds_[i];
-            leaves = planned.cells[i].cell.stop_at_end;
-            if (leaves && i + 1 < seconds_.size()) {
+            now += part.seconds;
+            leaves = part.profile.stops;
+            if (leaves && part.cell + 1 < planned.cells.size()) {
                 joint = static_cast<std::size_t>(std::max(0.0L, now / segment_s)) + 1;
                 while (joint < stream.segments.size() && !rests(stream.segments[joint], axes)) {
                     ++joint;
@@ -69,27 +68,27 @@ public:
         while (now_ + 1 < start_.size() && start_[now_ + 1] <= time) {
             ++now_;
         }
-        const PlannedCell<S>& c = (*cells_)[now_];
-        const Real v0 = std::sqrt(exact(c.entry_sq));
-        const Real v1 = std::sqrt(exact(c.exit_sq));
+        const PlannedPart<S>& part = planned_->parts[now_];
+        const Cell<S>& cell = planned_->cells[part.cell].cell;
+        const Real v0 = std::sqrt(exact(part.profile.entry_sq));
+        const Real v1 = std::sqrt(exact(part.profile.exit_sq));
         const Real t = time - start_[now_];
-        if (t > seconds_[now_] || v0 + v1 == 0.0L) {
+        if (t > part.seconds || v0 + v1 == 0.0L) {
             return false;
         }
-        speed = v0 + (v1 - v0) * t / seconds_[now_];
-        const Real x = (v0 + speed) / 2.0L * t / exact(c.cell.length_mm);
+        speed = v0 + (v1 - v0) * t / part.seconds;
+        const Real x = exact(part.profile.stretch.from) + (v0 + speed) / 2.0L * t / exact(cell.length_mm);
         Real unused = 0.0L;
-        const Jet jet = evaluate(c.cell, inverse_at(c.cell, std::min(x, 1.0L), unused));
-        for (const unsigned k : splinefeed::indices(c.cell.axes)) {
-            position[k] = exact_mm(c.cell.origin[k]) + jet.r[k];
+        const Jet jet = evaluate(cell, inverse_at(cell, std::min(x, 1.0L), unused));
+        for (const unsigned k : splinefeed::indices(cell.axes)) {
+            position[k] = exact_mm(cell.origin[k]) + jet.r[k];
         }
         return true;
     }
 
 private:
-    const std::vector<PlannedCell<S>>* cells_;
+    const Planned<S>* planned_;
     std::vector<Real> start_;
-    std::vector<Real> seconds_;
     std::size_t now_ = 0;
 };
 

@@ -31,38 +31,46 @@ inline MachineSettings machine_of(int axes, double velocity, double acceleration
     return machine;
 }
 
-/// Travels the front cell, in all its profile segments, and returns the time that it takes.
+/// A profile segment of a planned cell, and the time that it takes.
 template <Scalar S>
-Real travel_front(FeedPlan<S>& plan) {
+struct PlannedPart {
+    std::size_t cell = 0;
+    ProfileSegment<S> profile{};
     Real seconds = 0.0L;
-    for (;;) {
-        const ProfileSegment<S> part = plan.profile_segment();
-        const Real sum = std::sqrt(exact(part.entry_sq)) + std::sqrt(exact(part.exit_sq));
-        seconds += 2.0L * exact(plan.front().cell.length_mm) * exact(part.stretch.length()) / sum;
-        plan.advance();
-        if (part.stretch.to == from_integer<S>(1)) {
-            return seconds;
-        }
-        REQUIRE(plan.prepare() == Pull::item);
-    }
-}
+};
 
 /// What the plan of a whole path was, and how it came about.
 template <Scalar S>
 struct Planned {
     std::vector<PlannedCell<S>> cells;
-    std::vector<Real> cell_seconds;
+    std::vector<PlannedPart<S>> parts;
     std::uint64_t limited = 0; ///< FeedPlan::window_limited
     std::size_t passes = 0;    ///< calls that took cells in, each followed by one pass over the window
     std::size_t starvations = 0;
     [[nodiscard]] double seconds() const {
         double sum = 0.0;
-        for (const Real cell_s : cell_seconds) {
-            sum += static_cast<double>(cell_s);
+        for (const PlannedPart<S>& part : parts) {
+            sum += static_cast<double>(part.seconds);
         }
         return sum;
     }
 };
+
+/// Travels the front cell, in all its profile segments.
+template <Scalar S>
+void travel_front(FeedPlan<S>& plan, Planned<S>& planned) {
+    const std::size_t cell = planned.cells.size();
+    planned.cells.push_back(plan.front());
+    for (bool at_end = false; !at_end;) {
+        const ProfileSegment<S> part = plan.profile_segment();
+        const Real sum = std::sqrt(exact(part.entry_sq)) + std::sqrt(exact(part.exit_sq));
+        const Real seconds = 2.0L * exact(plan.front().cell.length_mm) * exact(part.stretch.length()) / sum;
+        planned.parts.push_back({cell, part, seconds});
+        at_end = part.stretch.to == from_integer<S>(1);
+        plan.advance();
+        REQUIRE((at_end || plan.prepare() == Pull::item));
+    }
+}
 
 template <Scalar S>
 Planned<S> plan_of(CurveSource<S>& source, const MotionLimits<S>& limits, std::size_t window_size,
@@ -82,8 +90,7 @@ Planned<S> plan_of(CurveSource<S>& source, const MotionLimits<S>& limits, std::s
             ++planned.starvations;
             continue;
         }
-        planned.cells.push_back(plan.front());
-        planned.cell_seconds.push_back(travel_front(plan));
+        travel_front(plan, planned);
     }
     planned.limited = plan.window_limited();
     return planned;
